@@ -5,6 +5,7 @@
 #include "core/base/random.h"
 #include "core/detect/added_echo.h"
 #include "core/detect/beam_optics.h"
+#include "core/detect/cover.h"
 #include "core/detect/fog_echo.h"
 #include "core/detect/lane_random.h"
 #include "core/detect/wind_velocity.h"
@@ -18,11 +19,6 @@ bool Reaches(const DetectTile& first, std::size_t beam, float range_m) {
   // The range of a missing surface is NaN, which fails the comparison: nothing is behind it.
   return first.outcome[beam] != static_cast<std::uint32_t>(Outcome::kEgo) &&
          !(range_m >= first.true_range_m[beam]);
-}
-
-FogDetection DetectionOf(const EffectSet& effects) {
-  if (!effects.detection) return FogDetection::kAlways;
-  return effects.detection_probability ? FogDetection::kSmooth : FogDetection::kHard;
 }
 
 }  // namespace
@@ -110,6 +106,10 @@ void Clutter::AddParticles(EchoTiles& echoes) const {
 
 void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
   if (!has_fog_echo()) return;
+  const EffectSet& effects = spec_.effects;
+  const bool is_noisy = effects.detection_probability || !effects.detection;
+  const double noise = is_noisy ? 1.0 / spec_.receiver.snr_at_threshold : 0.0;
+  const FogNoiseWeights weights = FogNoiseOf(spec_.beam, fog_.gate_m);
   const FogEchoParameters parameters{
       .seed = spec_.seed,
       .first_gate = static_cast<std::uint32_t>(fog_.first_gate),
@@ -117,14 +117,15 @@ void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
       .gate_m = static_cast<float>(fog_.gate_m),
       .mean_ratio = fog_.ratio.data(),
       .least_ratio = static_cast<float>(kLeastFogRatio),
-      .noise = static_cast<float>(1.0 / spec_.receiver.snr_at_threshold),
+      .noise_own = static_cast<float>(noise * weights.own),
+      .noise_beside = static_cast<float>(noise * weights.beside),
       .variation = static_cast<float>(spec_.weather.fog_variation),
       .range_min_m = static_cast<float>(spec_.range_min_m),
+      .merge_m = static_cast<float>(PulseLength_m(spec_.beam)),
       // A receiver that reports the strongest echo alone looks for the highest peak alone.
-      .num_peaks = spec_.receiver.return_mode == ReturnMode::kStrongest ? 1U : 2U,
-      .detection = DetectionOf(spec_.effects),
-      .snr_at_threshold = static_cast<float>(spec_.receiver.snr_at_threshold),
-      .first_echo = EchoTiles::kFirstFogEcho};
+      .num_peaks = spec_.receiver.return_mode == ReturnMode::kStrongest ? 1U : kNumFogEchoes,
+      .threshold = effects.detection ? 1.0F : 0.0F,
+      .is_behind_cover = effects.cover && HasCover(spec_)};
   FogPeaks peaks;
   const FogWaves waves = fog_patches_.WavesAt(air.world_from_window, air.time_s);
   find_fog_peaks_({air.rays, echoes.first, waves}, parameters, peaks);
@@ -137,8 +138,9 @@ void Clutter::AddFogEchoes(const AirView& air, EchoTiles& echoes) const {
       // As of a surface, the intensity is that before attenuation.
       const float intensity =
           ratio * power_min * r * r * baseline::Exp(2.0F * extinction_per_m_ * r);
-      AddEcho(beam, {spec_.clutter_labels.fog, EchoTiles::kFirstFogEcho + e, r, ratio, intensity},
-              echoes);
+      const auto [tile, lane] =
+          AddEcho(beam, {spec_.clutter_labels.fog, kFirstFogEcho + e, r, ratio, intensity}, echoes);
+      tile.cover[lane] = 1.0F;  // The light has come through the window already.
     }
   }
 }

@@ -10,6 +10,11 @@ namespace railcast {
 /// DetectTile::clutter of the echo of a surface.
 inline constexpr std::uint32_t kNoClutter = 0xFFFFFFFFU;
 
+/// The number of the first echo of fog within its firing, and how many there may be. The receiver
+/// has detected them with its noise (fog_echo.h).
+inline constexpr std::uint32_t kFirstFogEcho = 93;
+inline constexpr std::uint32_t kNumFogEchoes = 2;
+
 /// Up to kTileSize echoes in the process from hit to return. Each lane is an echo of one firing. A
 /// struct of arrays, so that every effect is a loop over lanes; all elements have 4 bytes, so that
 /// compilers vectorise the loops.

@@ -39,6 +39,9 @@ inline void ApplySunlight(DetectTile& tile, const SunlightParameters& parameters
 /// the amplitude:
 ///
 ///   P(detected) = Phi(SNR - SNR_t),  SNR = SNR_t x power ratio
+///
+/// The power ratio of fog's echoes contains the noise by which they were found, so that nothing is
+/// left to draw.
 template <bool kIsSmooth>
 inline void ApplyDetection(DetectTile& tile, const DetectionParameters& parameters) {
   const LaneKey key{parameters.seed, RandomUse::kDetection, tile.frame};
@@ -54,7 +57,8 @@ inline void ApplyDetection(DetectTile& tile, const DetectionParameters& paramete
       const float u = LaneUnit(LaneWords(key, tile.firing[i], tile.echo[i]).a);
       // Beyond 9 sigma, Phi rounds to 1 in float32.
       const float excess = p.snr_at_threshold * (ratio - 1.0F);
-      detected = u < NormalCdf(excess > 9.0F ? 9.0F : excess);
+      const bool is_fog = tile.echo[i] - kFirstFogEcho < kNumFogEchoes;
+      detected = is_fog ? detected : u < NormalCdf(excess > 9.0F ? 9.0F : excess);
     }
     const std::uint32_t before = tile.outcome[i];
     const bool answers = (before == kReturned) | (before == kClutter);

@@ -17,7 +17,7 @@ class EchoTiles {
   // Numbers of echoes within a firing, part of their random keys. Echoes of surfaces count from 0.
   static constexpr std::uint32_t kGhost = 91;
   static constexpr std::uint32_t kMirrorImage = 92;
-  static constexpr std::uint32_t kFirstFogEcho = 93;  ///< And 94.
+  // kFirstFogEcho is 93, and so is 94.
   static constexpr std::uint32_t kSprayCloud = 95;
   static constexpr std::uint32_t kHalo = 96;
   static constexpr std::uint32_t kForeignPulse = 97;

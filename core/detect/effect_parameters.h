@@ -59,7 +59,8 @@ struct FogBeams {
 /// The highest and the second highest peak of each beam's echo of fog.
 struct FogPeaks {
   float range_m[2][kTileSize];
-  float ratio[2][kTileSize];  ///< Power over the least detectable; 0 where there is no such peak.
+  /// Power, as the receiver measures it, over the least detectable; 0 where there is no such peak.
+  float ratio[2][kTileSize];
 };
 
 struct ResponseParameters {

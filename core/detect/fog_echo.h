@@ -25,59 +25,50 @@ struct FogGroup {
   std::size_t num_lanes;
   std::uint32_t firing[kFogGroup];
   float end_m[kFogGroup];  ///< FogEnd_m().
+  float cover[kFogGroup];  ///< Share of the power that the window lets through.
   /// The gates in which a peak can lie: [first_gate, end_gate).
   std::size_t first_gate, end_gate;
   alignas(64) float power[kFogGates][kFogGroup];      ///< Over the least detectable power.
-  alignas(64) float amplitude[kFogGates][kFogGroup];  ///< The same with the receiver's noise.
+  alignas(64) float draw[kFogGates + 8][kFogGroup];   ///< That of gate k is at k + 1.
+  alignas(64) float amplitude[kFogGates][kFogGroup];  ///< The power with the receiver's noise.
 };
 
-/// The highest local maxima of a group's beams.
+/// The highest local maxima of the amplitude of a group's beams; 0 where there is none.
 struct FogGroupPeaks {
-  alignas(64) float highest[2][kFogGroup];
+  alignas(64) float amplitude[2][kFogGroup];
   alignas(64) float range_m[2][kFogGroup];
-  alignas(64) float ratio[2][kFogGroup];
 };
 
-/// What a tile's beams can have at most, and the draws that decide whether they have it.
+/// What a tile's beams can have at most.
 struct FogChances {
   float end_m[kTileSize];       ///< FogEnd_m().
   float most_ratio[kTileSize];  ///< The highest power before it.
-  float draw[2][kTileSize];     ///< That of detection.h, by peak; of FogDetection::kSmooth alone.
 };
 
-/// Range from which on nothing of the fog is seen separately: a gate before the first surface, with
-/// whose echo it merges. 0 where the beam does not leave the vehicle, 1e9 m without a surface.
-inline float FogEnd_m(const DetectTile& tile, std::size_t lane, float gate_m) {
+/// Range from which on nothing of the fog is seen separately: `merge_m` before the first surface,
+/// with whose echo it merges. 0 where the beam does not leave the vehicle, 1e9 m without a surface.
+inline float FogEnd_m(const DetectTile& tile, std::size_t lane, float merge_m) {
   const float range_m = tile.true_range_m[lane];
   const bool is_ego = tile.outcome[lane] == static_cast<std::uint32_t>(Outcome::kEgo);
-  const float end_m = range_m - gate_m;
+  const float end_m = range_m - merge_m;
   // The comparison is false where there is no surface: its range is NaN.
   return is_ego ? 0.0F : range_m >= 0.0F ? end_m : 1e9F;
 }
 
-struct FogNoise {
+struct FogDraws {
   float a, b;
 };
 
-/// Two deviates of mean 0 and variance 1 from one word: sums of four of its digits to base 16. They
-/// are normal but for their tails (kurtosis 2.7, at most 3.25), which suffices to say where a broad
-/// peak is found, and costs a third of true ones.
-inline FogNoise FogNoiseOf(std::uint32_t word) {
-  const std::uint32_t pairs = (word & 0x0F0F0F0FU) + ((word >> 4U) & 0x0F0F0F0FU);
-  const std::uint32_t fours = (pairs & 0x00FF00FFU) + ((pairs >> 8U) & 0x00FF00FFU);
-  constexpr float kMean = 30.0F;
-  constexpr float kInverseSigma = 0.10846523F;  // The variance of a digit is (16^2 - 1) / 12.
-  return {(static_cast<float>(static_cast<std::int32_t>(fours & 0xFFFFU)) - kMean) * kInverseSigma,
-          (static_cast<float>(static_cast<std::int32_t>(fours >> 16U)) - kMean) * kInverseSigma};
-}
-
-/// Whether the receiver may detect an echo of this power: with the draw by which it decides, and no
-/// less power than it gets, since a dirty window only weakens echoes. NormalCdf rises but for its
-/// error of 4e-7, hence the margin.
-inline bool MayDetectFog(const FogEchoParameters& p, float ratio, float draw) {
-  constexpr float kMargin = 1e-6F;
-  const float excess = p.snr_at_threshold * (ratio - 1.0F);
-  return draw < NormalCdf(excess > 9.0F ? 9.0F : excess) + kMargin;
+/// Two standard normal deviates from one word (Box and Muller 1958). The uniform under the
+/// logarithm has 16 bits, so that no deviate is larger than 4.86.
+inline FogDraws FogDrawsOf(std::uint32_t word) {
+  const auto upper = static_cast<float>(static_cast<std::int32_t>(word >> 16U));
+  const auto lower = static_cast<float>(static_cast<std::int32_t>(word & 0xFFFFU));
+  const float size = std::sqrt(-2.0F * Log((upper + 0.5F) * 0x1p-16F));
+  float cosine{};
+  float sine{};
+  CosSinTurn(lower * 0x1p-16F, cosine, sine);
+  return {size * cosine, size * sine};
 }
 
 /// The number of gates in which a beam can have a peak that lies before end_m.
@@ -103,14 +94,10 @@ inline void FindFogChances(const DetectTile& tile,
     }
   }
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
-    const float end_m = FogEnd_m(tile, i, p.gate_m);
+    const float end_m = FogEnd_m(tile, i, p.merge_m);
     const std::size_t num_gates = NumFogGates(p, end_m);
     chances.end_m[i] = end_m;
     chances.most_ratio[i] = num_gates > 0 ? most[num_gates - 1][i / kFogPacket] : 0.0F;
-  }
-  if (p.detection != FogDetection::kSmooth) return;
-  for (std::uint32_t e = 0; e < p.num_peaks; ++e) {
-    DrawUniforms(tile, {p.seed, RandomUse::kDetection, p.first_echo + e}, chances.draw[e]);
   }
 }
 
@@ -119,22 +106,10 @@ inline std::size_t SelectFogLanes(const FogEchoParameters& p,
                                   std::size_t num_rays,
                                   const FogChances& chances,
                                   std::size_t* lanes) {
-  const float least =
-      p.detection == FogDetection::kHard && p.least_ratio < 1.0F ? 1.0F : p.least_ratio;
-  bool may_detect[kTileSize];
-  for (std::size_t i = 0; i < num_rays; ++i) may_detect[i] = chances.most_ratio[i] >= least;
-  if (p.detection == FogDetection::kSmooth) {
-    for (std::size_t i = 0; i < num_rays; ++i) {
-      // With the lower draw of two, either peak may be detected.
-      const float second = p.num_peaks > 1 ? chances.draw[1][i] : 1.0F;
-      const float draw = chances.draw[0][i] < second ? chances.draw[0][i] : second;
-      may_detect[i] = may_detect[i] & MayDetectFog(p, chances.most_ratio[i], draw);
-    }
-  }
   std::size_t num = 0;
   for (std::size_t i = 0; i < num_rays; ++i) {
     lanes[num] = i;
-    num += may_detect[i] ? 1 : 0;
+    num += chances.most_ratio[i] >= p.least_ratio ? 1 : 0;
   }
   return num;
 }
@@ -153,6 +128,7 @@ inline void GatherFogGroup(const DetectTile& tile,
     packet[i] = lane / kFogPacket;
     group.firing[i] = tile.firing[lane];
     group.end_m[i] = chances.end_m[lane];
+    group.cover[i] = p.is_behind_cover ? tile.cover[lane] : 1.0F;
     farthest_m = group.end_m[i] > farthest_m ? group.end_m[i] : farthest_m;
   }
   // Neighbouring beams are of one packet or of two. The selection between two rows is vectorised,
@@ -167,18 +143,20 @@ inline void GatherFogGroup(const DetectTile& tile,
   }
   group.first_gate = group.end_gate = 0;
   const std::size_t num_gates = NumFogGates(p, farthest_m);
-  for (std::size_t k = 0; k < (num_gates + 8) / 8 * 8; ++k) {
+  for (std::size_t k = 0; k <= num_gates; ++k) {
     float* const power = group.power[k];
-    const float* const row = field[k < p.num_gates ? k : 0];  // What is beyond is not read.
+    const float* const row = field[k];
     bool is_enough = false;
     if (are_two) {
       const float of_first = row[first];
       const float of_last = row[last];
-      for (std::size_t i = 0; i < kFogGroup; ++i) power[i] = is_last[i] > 0.0F ? of_last : of_first;
+      for (std::size_t i = 0; i < kFogGroup; ++i) {
+        power[i] = (is_last[i] > 0.0F ? of_last : of_first) * group.cover[i];
+      }
       is_enough = of_first >= p.least_ratio || of_last >= p.least_ratio;
     } else {
       for (std::size_t i = 0; i < kFogGroup; ++i) {
-        power[i] = row[packet[i]];
+        power[i] = row[packet[i]] * group.cover[i];
         is_enough = is_enough | (power[i] >= p.least_ratio);
       }
     }
@@ -188,31 +166,48 @@ inline void GatherFogGroup(const DetectTile& tile,
   }
 }
 
-/// Adds the receiver's noise in the gates of a group and their neighbours.
-inline void FillFogAmplitude(const LaneKey& key, float noise, FogGroup& group) {
-  const std::size_t before_first = group.first_gate > 0 ? group.first_gate - 1 : 0;
-  for (std::size_t block = before_first / 8; block <= group.end_gate / 8; ++block) {
-    const float(*const power)[kFogGroup] = group.power + 8 * block;
-    float(*const gates)[kFogGroup] = group.amplitude + 8 * block;
+/// Draws for the gates of a group and those beside them.
+inline void DrawFogNoise(const LaneKey& key, FogGroup& group) {
+  const std::size_t first = group.first_gate > 0 ? group.first_gate - 1 : 0;
+  for (std::size_t block = first / 8; block <= (group.end_gate + 2) / 8; ++block) {
+    float(*const draws)[kFogGroup] = group.draw + 8 * block;
     for (std::size_t i = 0; i < kFogGroup; ++i) {
       const Words w = LaneWords(key, group.firing[i], static_cast<std::uint32_t>(block));
-      const FogNoise n0 = FogNoiseOf(w.a);
-      const FogNoise n1 = FogNoiseOf(w.b);
-      const FogNoise n2 = FogNoiseOf(w.c);
-      const FogNoise n3 = FogNoiseOf(w.d);
-      gates[0][i] = noise * n0.a + power[0][i];
-      gates[1][i] = noise * n0.b + power[1][i];
-      gates[2][i] = noise * n1.a + power[2][i];
-      gates[3][i] = noise * n1.b + power[3][i];
-      gates[4][i] = noise * n2.a + power[4][i];
-      gates[5][i] = noise * n2.b + power[5][i];
-      gates[6][i] = noise * n3.a + power[6][i];
-      gates[7][i] = noise * n3.b + power[7][i];
+      const FogDraws n0 = FogDrawsOf(w.a);
+      const FogDraws n1 = FogDrawsOf(w.b);
+      const FogDraws n2 = FogDrawsOf(w.c);
+      const FogDraws n3 = FogDrawsOf(w.d);
+      draws[0][i] = n0.a;
+      draws[1][i] = n0.b;
+      draws[2][i] = n1.a;
+      draws[3][i] = n1.b;
+      draws[4][i] = n2.a;
+      draws[5][i] = n2.b;
+      draws[6][i] = n3.a;
+      draws[7][i] = n3.b;
     }
   }
 }
 
-/// The highest local maximum of the amplitude, or the two highest.
+/// Adds the receiver's noise to the power in the gates of a group and their neighbours.
+inline void FillFogAmplitude(const FogEchoParameters& p, FogGroup& group) {
+  const float own = p.noise_own;
+  const float beside = p.noise_beside;
+  const std::size_t first = group.first_gate > 0 ? group.first_gate - 1 : 0;
+  for (std::size_t k = first; k <= group.end_gate; ++k) {
+    const float* const power = group.power[k];
+    const float* const before = group.draw[k];
+    const float* const here = group.draw[k + 1];
+    const float* const after = group.draw[k + 2];
+    float* const amplitude = group.amplitude[k];
+    for (std::size_t i = 0; i < kFogGroup; ++i) {
+      amplitude[i] = power[i] + (own * here[i] + beside * (before[i] + after[i]));
+    }
+  }
+}
+
+/// The highest local maximum of the amplitude, or the two highest that are a pulse apart, as far as
+/// they are detected.
 template <std::size_t kNumPeaks>
 inline void PickFogPeaks(const FogEchoParameters& p, const FogGroup& group, FogGroupPeaks& peaks) {
   alignas(64) const float zero[kFogGroup] = {};
@@ -228,65 +223,61 @@ inline void PickFogPeaks(const FogEchoParameters& p, const FogGroup& group, FogG
       const float a = here[i];
       const float n = after[i];
       // The vertex of the parabola through three gates.
-      const float r = (gate + 0.5F * (b - n) / (b - 2.0F * a + n)) * p.gate_m;
+      const float offset = 0.5F * (b - n) / (b - 2.0F * a + n);
+      const float r = (gate + offset) * p.gate_m;
+      const float top = a - 0.25F * (b - n) * offset;
       // Bitwise operators, unlike branches, allow the loop to be vectorised.
       const bool is_peak = (a > b) & (a >= n) & (value >= p.least_ratio) & (r < group.end_m[i]) &
-                           (r >= p.range_min_m);
+                           (r >= p.range_min_m) & (top >= p.threshold);
       // Reading all before writing any lets the compiler use plain stores instead of masked ones.
-      const float a0 = peaks.highest[0][i];
+      const float a0 = peaks.amplitude[0][i];
       const float r0 = peaks.range_m[0][i];
-      const float v0 = peaks.ratio[0][i];
-      const bool is_first = is_peak & (a > a0);
+      const bool is_first = is_peak & (top > a0);
       if constexpr (kNumPeaks > 1) {
-        const float a1 = peaks.highest[1][i];
+        // Of two peaks nearer to each other than a pulse, the higher one alone is seen. All peaks
+        // so far are nearer to the sensor than this one.
+        const float a1 = peaks.amplitude[1][i];
         const float r1 = peaks.range_m[1][i];
-        const float v1 = peaks.ratio[1][i];
-        const bool is_second = is_peak & (a > a1);
-        const float second_a = is_second ? a : a1;
-        const float second_r = is_second ? r : r1;
-        const float second_v = is_second ? value : v1;
-        peaks.highest[1][i] = is_first ? a0 : second_a;
-        peaks.range_m[1][i] = is_first ? r0 : second_r;
-        peaks.ratio[1][i] = is_first ? v0 : second_v;
+        const bool is_apart = r - r0 >= p.merge_m;
+        const bool is_second = is_peak & is_apart & (top > a1);
+        const float lower_a = is_first ? a0 : top;
+        const float lower_r = is_first ? r0 : r;
+        peaks.amplitude[1][i] = is_second ? lower_a : a1;
+        peaks.range_m[1][i] = is_second ? lower_r : r1;
       }
-      peaks.highest[0][i] = is_first ? a : a0;
+      peaks.amplitude[0][i] = is_first ? top : a0;
       peaks.range_m[0][i] = is_first ? r : r0;
-      peaks.ratio[0][i] = is_first ? value : v0;
     }
   }
 }
 
-/// Stores a group's peaks, but for those that the receiver will not detect.
+/// Stores a group's peaks.
 inline void StoreFogPeaks(const FogEchoParameters& p,
                           const FogGroup& group,
-                          const FogChances& chances,
                           const FogGroupPeaks& found,
                           FogPeaks& peaks) {
   for (std::size_t e = 0; e < p.num_peaks; ++e) {
     for (std::size_t i = 0; i < group.num_lanes; ++i) {
-      const std::size_t lane = group.lane[i];
-      const float ratio = found.ratio[e][i];
-      const bool may_detect = p.detection == FogDetection::kAlways ? true
-                              : p.detection == FogDetection::kHard
-                                  ? ratio >= 1.0F
-                                  : MayDetectFog(p, ratio, chances.draw[e][lane]);
-      peaks.range_m[e][lane] = found.range_m[e][i];
-      peaks.ratio[e][lane] = may_detect ? ratio : 0.0F;
+      peaks.range_m[e][group.lane[i]] = found.range_m[e][i];
+      peaks.ratio[e][group.lane[i]] = found.amplitude[e][i];
     }
   }
 }
 
-/// Effect `fog_echo`: the power that the droplets return is sampled in gates a pulse length apart,
+/// Effect `fog_echo`: the power that the droplets return is sampled in gates half a pulse length
+/// apart,
 ///
-///   power(k) = mean ratio(k) * density(place of gate k),   amplitude(k) = power(k) + n / SNR_t
+///   power(k) = mean ratio(k) * density(place of gate k),   amplitude(k) = power(k) + n(k) / SNR_t
 ///
 /// with the mean ratio of FogProfile and the density of FogPatches, taken where the middle beam of
-/// a packet of 16 neighbours is. A receiver that looks for the highest peak finds it where the
-/// amplitude with its noise is highest, so that the ranges scatter over the whole of the fog's
-/// broad echo. The two highest local maxima before the first surface become echoes, at the vertex
-/// of the parabola through three gates. Their power without noise goes on to the receiver, which
-/// draws anew whether it detects them (effect `detection_probability`). Echoes that this draw will
-/// not let through are left out at once, and so are beams that can have no other.
+/// a packet of 16 neighbours is. n is the receiver's noise, as long in range as its pulse
+/// (FogNoiseOf()). One noise decides both whether the fog is detected and where: the highest local
+/// maxima of the amplitude that reach the threshold, a pulse apart, become echoes, at the vertex of
+/// the parabola through three gates and with its height as their power. The ranges therefore
+/// scatter over the whole of the fog's broad echo, and the many places at which noise may lift it
+/// above the threshold make fog visible whose power alone would not be. Effect `detection` passes
+/// these echoes on as they are. Where `detection_probability` is off, the receiver has no noise;
+/// where `detection` is, no threshold.
 ///
 /// Parameters: visibility or fog density and `fog_variation` of the weather, `near_range_m`,
 /// `fog_gain` and `snr_at_threshold` of the receiver, the pulse. Validity: single scattering;
@@ -317,13 +308,14 @@ inline void FindFogPeaks(const FogBeams& beams,
     GatherFogGroup(tile, p, field, chances, group);
     if (group.end_gate == 0) continue;
     FogGroupPeaks found{};
-    FillFogAmplitude(key, p.noise, group);
+    DrawFogNoise(key, group);
+    FillFogAmplitude(p, group);
     if (p.num_peaks > 1) {
       PickFogPeaks<2>(p, group, found);
     } else {
       PickFogPeaks<1>(p, group, found);
     }
-    StoreFogPeaks(p, group, chances, found, peaks);
+    StoreFogPeaks(p, group, found, peaks);
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace railcast::RAILCAST_ISA {
 
-inline constexpr std::size_t kFogGates = 64;
+inline constexpr std::size_t kFogGates = 128;
 
 /// Neighbouring lanes that meet the same patches: those of a packet, which are neighbours in angle.
 inline constexpr std::size_t kFogPacket = 16;

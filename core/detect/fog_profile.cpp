@@ -51,9 +51,18 @@ double DensestPatch(const WeatherSpec& weather) {
   return std::exp(3.0 * sigma - 0.5 * sigma * sigma);
 }
 
+FogNoiseWeights FogNoiseOf(const BeamSpec& beam, double gate_m) {
+  const double sigmas = gate_m / (2.0 * PulseSigma_m(beam));
+  const double neighbours = std::exp(-sigmas * sigmas);
+  // own^2 + 2 beside^2 = 1 and 2 own beside = neighbours. At half a pulse length, the root is 0.
+  const double root = std::sqrt(std::max(1.0 - 2.0 * neighbours * neighbours, 0.0));
+  return {.own = std::sqrt(0.5 * (1.0 + root)), .beside = 0.5 * std::sqrt(1.0 - root)};
+}
+
 FogProfile FogProfileOf(const DetectorSpec& spec) {
   if (FogExtinction_per_m(spec.weather) <= 0.0 || spec.receiver.fog_gain <= 0.0) return {};
   const double pulse_m = PulseLength_m(spec.beam);
+  const double gate_m = 0.5 * pulse_m;
   const double least = kLeastFogRatio / DensestPatch(spec.weather);
   // Beyond the near range the echo falls faster than 1 / r^2, so that doubling finds its end.
   const auto is_seen = [&](double r) { return MeanFogRatio(spec, r) >= least; };
@@ -70,7 +79,7 @@ FogProfile FogProfileOf(const DetectorSpec& spec) {
   }
   if (reach_m < spec.range_min_m || reach_m <= 0.0) return {};
   FogProfile profile;
-  profile.gate_m = std::max(pulse_m, reach_m / static_cast<double>(kMostFogGates - 2));
+  profile.gate_m = std::max(gate_m, reach_m / static_cast<double>(kMostFogGates - 2));
   // One gate more on either side than is seen, with which the others are compared.
   const auto gate_at = [&](double r) { return static_cast<std::size_t>(r / profile.gate_m + 0.5); };
   profile.first_gate = gate_at(begin_m) - std::min<std::size_t>(gate_at(begin_m), 2);

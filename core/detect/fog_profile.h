@@ -25,13 +25,13 @@ namespace railcast {
 /// Greatest value that local patches of fog give the density at three standard deviations.
 [[nodiscard]] double DensestPatch(const WeatherSpec& weather);
 
-/// An echo with less than this share of the threshold is not looked for: with the default
-/// signal-to-noise ratio it is detected in 13 of 10,000 cases.
-inline constexpr double kLeastFogRatio = 0.4;
+/// Where fog answers with less than this share of the threshold it is not looked for: with the
+/// default signal-to-noise ratio, noise would lift it above the threshold once in 8 km of beam.
+inline constexpr double kLeastFogRatio = 0.2;
 
-/// The gates in which fog can be detected: gate k is at range (k + 1/2) gate_m. Gates are a pulse
-/// length (full width at half maximum) apart, so that their noise is independent; farther apart
-/// where it would take more than kMostFogGates of them.
+/// The gates in which fog can be detected: gate k is at range (k + 1/2) gate_m. Gates are half a
+/// pulse length (full width at half maximum) apart; farther apart where it would take more than
+/// kMostFogGates of them.
 struct FogProfile {
   double gate_m{};
   std::size_t first_gate{};  ///< Nothing is seen in the gates before it.
@@ -43,7 +43,20 @@ struct FogProfile {
 [[nodiscard]] inline double GateRange_m(const FogProfile& profile, std::size_t gate) {
   return (static_cast<double>(profile.first_gate + gate) + 0.5) * profile.gate_m;
 }
-inline constexpr std::size_t kMostFogGates = 64;
+inline constexpr std::size_t kMostFogGates = 128;
+
+/// The noise of a gate as a sum of independent standard normal deviates, of which every gate has
+/// one: its own and those of its two neighbours.
+struct FogNoiseWeights {
+  double own{}, beside{};
+};
+
+/// The weights of the receiver's noise in gates `gate_m` apart, with variance 1: white noise that
+/// the receiver answers as it answers a point, with the pulse p, so that the correlation over a
+/// range x is exp(-x^2 / 4 s^2). Half a pulse length apart, neighbours correlate by 1 / sqrt(2) and
+/// the next but one by 1 / 4, which weights of 1 / sqrt(2) and 1 / 2 give exactly; beyond, 0 stands
+/// for 0.04 and less.
+[[nodiscard]] FogNoiseWeights FogNoiseOf(const BeamSpec& beam, double gate_m);
 
 /// The gates up to the farthest at which the densest patch reaches kLeastFogRatio.
 [[nodiscard]] FogProfile FogProfileOf(const DetectorSpec& spec);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/detect/beam_optics.h"
-#include "core/detect/detection.h"
 #include "core/detect/fog_profile.h"
 #include "tests/core/detect/facing_beams.h"
 
@@ -72,54 +71,70 @@ TEST(FogEcho, OfUniformFogWithoutNoiseIsThePeakOfTheProfile) {
   for (const double seen : ratios) EXPECT_NEAR(seen / ratio, 1.0, 0.05);
 }
 
-// P(detected) = Phi(SNR (ratio - 1)) of every echo, as of a surface.
-TEST(FogEcho, IsDetectedWithTheProbabilityOfItsPower) {
-  double expected = 0.0;
-  double variance = 0.0;
-  for (const FacingEcho& echo : ClutterOf(DetectFacing(FogSpec(100.0), FarApart()))) {
-    const double snr = 5.0 * (static_cast<double>(echo.power_ratio) - 1.0);
-    const double p = 0.5 * std::erfc(-snr / std::sqrt(2.0));
-    expected += p;
-    variance += p * (1.0 - p);
+// One noise decides: whatever of the waveform reaches the threshold is detected, as strong as the
+// receiver measures it, and nothing is drawn anew.
+TEST(FogEcho, IsDetectedWhereItsNoisyPowerReachesTheThreshold) {
+  for (const ReturnMode mode : {ReturnMode::kStrongest, ReturnMode::kDual}) {
+    DetectorSpec spec = FogSpec(100.0);
+    spec.receiver.return_mode = mode;
+    FacingBeams beams = FarApart();
+    beams.range_m = [](std::uint32_t firing) { return firing % 3 == 0 ? 8.0 : 60.0; };
+    std::vector<FacingEcho> expected = ClutterOf(DetectFacing(spec, beams));
+    const std::size_t num_all = expected.size();
+    std::erase_if(expected, [](const FacingEcho& echo) { return echo.power_ratio < 1.0F; });
+    EXPECT_LT(expected.size(), num_all);
+    spec.effects.detection = spec.effects.detection_probability = true;
+    const std::vector<FacingEcho> detected = ClutterOf(DetectFacing(spec, beams));
+    EXPECT_GT(detected.size(), 1000U);
+    EXPECT_TRUE(detected == expected);
   }
-  double seen = 0.0;
-  for (const FacingEcho& echo : ClutterOf(DetectFacing(DetectedFog(100.0), FarApart()))) {
-    seen += echo.outcome == Outcome::kClutter ? 1.0 : 0.0;
-  }
-  EXPECT_GT(expected, 1000.0);
-  EXPECT_NEAR(seen, expected, 4.0 * std::sqrt(variance));
 }
 
-// What is left is what the receiver's own draws let through, echo by echo.
-TEST(FogEcho, LeavesOutWhatIsNotDetectedAndNothingElse) {
-  for (const ReturnMode mode : {ReturnMode::kStrongest, ReturnMode::kDual}) {
-    for (const bool is_smooth : {true, false}) {
-      DetectorSpec spec = FogSpec(100.0);
-      spec.receiver.return_mode = mode;
-      FacingBeams beams = FarApart();
-      beams.range_m = [](std::uint32_t firing) { return firing % 3 == 0 ? 8.0 : 60.0; };
-      std::vector<FacingEcho> expected;
-      auto tile = std::make_unique<DetectTile>();
-      for (const FacingEcho& echo : ClutterOf(DetectFacing(spec, beams))) {
-        tile->num_rays = 1;
-        tile->frame = beams.frame;
-        tile->firing[0] = echo.firing;
-        tile->echo[0] = echo.echo;
-        tile->power_ratio[0] = echo.power_ratio;
-        tile->outcome[0] = static_cast<std::uint32_t>(Outcome::kClutter);
-        const Kernels& kernels = AvailableKernels().back();
-        (is_smooth ? kernels.smooth_detection : kernels.detection)(*tile, {spec.seed, 5.0F});
-        if (static_cast<Outcome>(tile->outcome[0]) == Outcome::kClutter) expected.push_back(echo);
-      }
-      spec.effects.detection = true;
-      spec.effects.detection_probability = is_smooth;
-      std::vector<FacingEcho> detected = ClutterOf(DetectFacing(spec, beams));
-      std::erase_if(detected,
-                    [](const FacingEcho& echo) { return echo.outcome != Outcome::kClutter; });
-      EXPECT_GT(detected.size(), 1000U);
-      EXPECT_TRUE(detected == expected);
-    }
+// Without `detection_probability` the receiver has no noise: in uniform fog, all beams see the peak
+// of the profile, or none does.
+TEST(FogEcho, OfAReceiverWithoutNoiseIsSeenByAllBeamsOrByNone) {
+  DetectorSpec spec = FogSpec(100.0);
+  spec.effects.detection = true;
+  spec.weather.fog_variation = 0.0;
+  EXPECT_TRUE(ClutterOf(DetectFacing(spec, FarApart())).empty());
+  spec.weather.visibility_m = 50.0;
+  double range_m = 0.0;
+  const double ratio = PeakRatio(spec, range_m);
+  const auto fog = ClutterOf(DetectFacing(spec, FarApart()));
+  ASSERT_EQ(fog.size(), kFarthest);
+  for (const FacingEcho& echo : fog) {
+    ASSERT_EQ(echo.outcome, Outcome::kClutter);
+    // The vertex lies between gates 0.37 m apart on a peak that is metres wide.
+    ASSERT_NEAR(static_cast<double>(echo.power_ratio) / ratio, 1.0, 1e-3);
+    ASSERT_NEAR(static_cast<double>(echo.true_range_m), range_m, 0.19);
   }
+}
+
+// A window that lets half of the light through halves the fog's power, and not the noise.
+TEST(FogEcho, IsWeakenedByTheWindowAsItsPowerIs) {
+  DetectorSpec spec = FogSpec(50.0);
+  spec.weather.fog_variation = 0.0;
+  spec.receiver.snr_at_threshold = 1e9;
+  const Detector clean(spec);
+  spec.effects.cover = true;
+  spec.cover.dirt_coverage = 0.1;
+  const Detector dirty(spec);
+  FacingBeams beams{.num_firings = kTileSize};
+  EchoTiles echoes;
+  const auto rays = std::make_unique<RayTile>();
+  AimRays(beams, 0, *rays);
+  float ratios[2];
+  for (const bool is_dirty : {false, true}) {
+    FillHits(beams, 0, echoes);
+    std::fill_n(echoes.first.cover, kTileSize, 0.5F);
+    const Detector& detector = is_dirty ? dirty : clean;
+    detector.Respond(echoes.first);
+    detector.Detect({*rays, Transform::Identity(), 0.0}, echoes);
+    ASSERT_EQ(echoes.num_more(), kTileSize);
+    const auto [tile, lane] = echoes.more(7);
+    ratios[is_dirty ? 1 : 0] = tile.power_ratio[lane];
+  }
+  EXPECT_NEAR(ratios[1] / ratios[0], 0.5F, 1e-5F);
 }
 
 // Droplets fill metres of the beam, so that the noise decides where the peak is found.
@@ -144,15 +159,15 @@ TEST(FogEcho, ScattersOverMetresOfRange) {
   }
 }
 
-TEST(FogEcho, EndsAGateBeforeTheFirstSurface) {
+TEST(FogEcho, EndsAPulseBeforeTheFirstSurface) {
   const DetectorSpec spec = FogSpec(50.0);
   FacingBeams beams = FarApart();
   beams.range_m = [](std::uint32_t firing) { return 0.2 * (firing % 50); };
-  const double gate_m = PulseLength_m(spec.beam);
+  const double pulse_m = PulseLength_m(spec.beam);
   std::size_t count = 0;
   for (const FacingEcho& echo : ClutterOf(DetectFacing(spec, beams))) {
     ++count;
-    EXPECT_LT(static_cast<double>(echo.true_range_m), 0.2 * (echo.firing % 50) - gate_m + 1e-5);
+    EXPECT_LT(static_cast<double>(echo.true_range_m), 0.2 * (echo.firing % 50) - pulse_m + 1e-5);
     EXPECT_GE(static_cast<double>(echo.true_range_m), 0.5);
   }
   EXPECT_GT(count, 1000U);
@@ -189,7 +204,6 @@ TEST(FogEcho, MayComeTwiceFromOneBeamAtDifferentRanges) {
     ASSERT_LE(both.size(), 2U);
     if (both.size() < 2) continue;
     ++num_twice;
-    // Two local maxima have a gate between them; either vertex is within half a gate of its own.
     EXPECT_GE(std::abs(both[0] - both[1]), PulseLength_m(spec.beam) * (1.0 - 1e-5));
   }
   EXPECT_GT(num_twice, kFarthest / 50);

@@ -138,7 +138,7 @@ TEST(FogProfile, GrowsWithTheGainAndIsEmptyWithoutIt) {
   EXPECT_TRUE(FogProfileOf(spec).ratio.empty());
 }
 
-// Sensors from 10 to 500 m of range, in haze of 2 and 4 km: the densest patch stays below 0.4.
+// Sensors from 10 to 500 m of range, in haze of 2 and 4 km: the densest patch stays below 0.2.
 TEST(FogProfile, IsEmptyInHazeForSensorsOfAnyRange) {
   for (const double range_m : {10.0, 50.0, 90.0, 200.0, 220.0, 500.0}) {
     for (const double visibility_m : {2000.0, 4000.0, 1e6}) {
@@ -153,10 +153,10 @@ TEST(FogProfile, IsEmptyInHazeForSensorsOfAnyRange) {
   EXPECT_TRUE(FogProfileOf({}).ratio.empty());
 }
 
-TEST(FogProfile, HasItsGatesAPulseLengthApartUpToWhereTheDensestPatchFades) {
+TEST(FogProfile, HasItsGatesHalfAPulseApartUpToWhereTheDensestPatchFades) {
   const DetectorSpec spec = SpecInFog(50.0);
   const FogProfile profile = FogProfileOf(spec);
-  EXPECT_DOUBLE_EQ(profile.gate_m, PulseLength_m(spec.beam));
+  EXPECT_DOUBLE_EQ(profile.gate_m, 0.5 * PulseLength_m(spec.beam));
   const double densest = DensestPatch(spec.weather);
   const double end_m = GateRange_m(profile, profile.ratio.size() - 1);
   EXPECT_LT(densest * MeanFogRatio(spec, end_m), kLeastFogRatio);
@@ -167,6 +167,19 @@ TEST(FogProfile, HasItsGatesAPulseLengthApartUpToWhereTheDensestPatchFades) {
     const double r = GateRange_m(profile, k);
     EXPECT_EQ(profile.ratio[k], static_cast<float>(MeanFogRatio(spec, r)));
   }
+}
+
+// Noise of variance 1 that correlates over a distance x by exp(-x^2 / 4 s^2).
+TEST(FogProfile, HasNoiseAsLongAsThePulse) {
+  const BeamSpec beam;
+  const double half_m = 0.5 * PulseLength_m(beam);
+  for (const double gate_m : {half_m, 1.3 * half_m, 2.0 * half_m, 8.0 * half_m}) {
+    const FogNoiseWeights weights = FogNoiseOf(beam, gate_m);
+    EXPECT_NEAR(weights.own * weights.own + 2.0 * weights.beside * weights.beside, 1.0, 1e-12);
+    EXPECT_NEAR(2.0 * weights.own * weights.beside,
+                std::exp(-0.25 * std::pow(gate_m / PulseSigma_m(beam), 2)), 1e-6);
+  }
+  EXPECT_NEAR(std::pow(FogNoiseOf(beam, half_m).beside, 2), 0.25, 1e-6);
 }
 
 TEST(FogProfile, NeverHasMoreGatesThanItMay) {

@@ -118,10 +118,10 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.hit(tile, 0.5F);
   const std::vector<float> fog_ratio(20, 1.0F);
   const auto peaks = std::make_unique<FogPeaks>();
-  kernels.fog_peaks({rays, tile, FogPatches(7).WavesAt(Transform::Identity(), 3.0)},
-                    {7, 2, 20, 0.75F, fog_ratio.data(), 0.3F, 0.2F, 0.4F, 0.5F, 2,
-                     FogDetection::kSmooth, 5.0F, 93},
-                    *peaks);
+  kernels.fog_peaks(
+      {rays, tile, FogPatches(7).WavesAt(Transform::Identity(), 3.0)},
+      {7, 2, 20, 0.75F, fog_ratio.data(), 0.3F, 0.14F, 0.1F, 0.2F, 0.5F, 0.75F, 2, 1.0F, false},
+      *peaks);
   for (std::size_t e = 0; e < 2; ++e) {
     values.insert(values.end(), peaks->range_m[e], peaks->range_m[e] + kTileSize);
     values.insert(values.end(), peaks->ratio[e], peaks->ratio[e] + kTileSize);
