@@ -28,6 +28,15 @@ std::string PcdBytes(const ReceivedFrame& frame) {
   return bytes;
 }
 
+void PutPose(const Transform& pose, std::ostream& line) {
+  const Vector3 position_m = pose.translation();
+  const Eigen::Quaterniond q(pose.linear());
+  for (const double value :
+       {position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()}) {
+    line << ',' << value;
+  }
+}
+
 }  // namespace
 
 ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory_(directory) {
@@ -40,7 +49,9 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
   }
   lines_.open(index);
   lines_.precision(std::numeric_limits<double>::max_digits10);
-  lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points\n" << std::flush;
+  lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points,"
+            "end_time_ns,end_x,end_y,end_z,end_qx,end_qy,end_qz,end_qw\n"
+         << std::flush;
   if (!lines_) throw FileError(index, errno);
 }
 
@@ -49,15 +60,15 @@ void ReceivedFiles::Write(const ReceivedFrame& frame) {
   std::snprintf(name.data(), name.size(), "frames/%06u.pcd", num_files_++);
   WriteFileWhole(directory_ / name.data(), PcdBytes(frame));
   const StreamHeader& header = frame.header;
-  const Vector3 position_m = header.world_from_sensor.translation();
-  const Eigen::Quaterniond q(header.world_from_sensor.linear());
   lines_ << name.data() << ',' << header.run << ',' << header.frame << ',' << header.stamp_ns;
-  for (const double value :
-       {position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()}) {
-    lines_ << ',' << value;
+  PutPose(header.world_from_sensor, lines_);
+  lines_ << ',' << frame.num_points() << ',' << header.num_points - frame.num_points();
+  // In other axes, points have no motion of the sensor to be undone.
+  if (header.axes == StreamAxes::kSensor && !header.is_left_handed) {
+    lines_ << ',' << header.duration_ns;
+    PutPose(header.world_from_sensor_end, lines_);
   }
-  lines_ << ',' << frame.num_points() << ',' << header.num_points - frame.num_points() << '\n'
-         << std::flush;
+  lines_ << '\n' << std::flush;
   if (!lines_) throw FileError(directory_ / kIndexName, errno);
 }
 

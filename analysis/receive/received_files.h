@@ -10,7 +10,8 @@ namespace railcast {
 
 /// Records a stream: frames/000000.pcd, ... in the order of arrival with every field that was sent,
 /// and frames.csv with one line per file: file, run, frame, stamp_ns, the pose at the stamp (x y z
-/// in m, qx qy qz qw), points, lost_points.
+/// in m, qx qy qz qw), points, lost_points and, where points are in the sensor's axes, the time
+/// from the stamp to the last firing and the pose at that.
 class ReceivedFiles {
  public:
   /// @throws InputError if the directory cannot be made or already holds a recording.

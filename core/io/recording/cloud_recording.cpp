@@ -1,6 +1,7 @@
 #include "core/io/recording/recording_kinds.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -60,13 +61,18 @@ struct ReceivedLine {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
   Transform world_from_sensor = Transform::Identity();
+  /// At the last firing. In the lines of older programs, and of points in other axes, as at the
+  /// stamp.
+  std::uint32_t duration_ns{};
+  Transform world_from_sensor_end = Transform::Identity();
 };
 
 ReceivedLine ParseReceivedLine(const PlacedLine& line) {
-  constexpr std::size_t kNumWords = 13;  // file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost
+  constexpr std::size_t kNumWords = 13;    // file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost
+  constexpr std::size_t kNumWithEnd = 21;  // end_time_ns,x,y,z,qx,qy,qz,qw
   std::vector<std::string_view> words;
   std::string_view rest = line.text;
-  while (words.size() < kNumWords) {
+  while (words.size() <= kNumWithEnd) {
     const std::size_t end = rest.find(',');
     words.push_back(rest.substr(0, end));
     if (end == std::string_view::npos) break;
@@ -75,18 +81,28 @@ ReceivedLine ParseReceivedLine(const PlacedLine& line) {
   const auto fail = [&] {
     throw InputError(line.place + ": must be a line as railcast-analyze receive writes it");
   };
-  if (words.size() != kNumWords) fail();
+  const bool has_end = words.size() == kNumWithEnd;
+  if (words.size() != kNumWords && !has_end) fail();
+  const auto pose_from = [&](std::size_t first) {
+    std::vector<double> pose;
+    for (std::size_t i = first; i < first + 7; ++i) {
+      if (const auto number = ParseNumber<double>(words[i])) pose.push_back(*number);
+    }
+    if (pose.size() != 7) fail();
+    return MakePose(pose, line.place);
+  };
   const auto frame = ParseNumber<std::uint32_t>(words[2]);
   const auto stamp_ns = ParseNumber<std::int64_t>(words[3]);
-  std::vector<double> pose;
-  for (std::size_t i = 4; i < 11; ++i) {
-    if (const auto number = ParseNumber<double>(words[i])) pose.push_back(*number);
-  }
-  if (!frame || !stamp_ns || pose.size() != 7) fail();
+  const auto duration_ns =
+      has_end ? ParseNumber<std::uint32_t>(words[kNumWords]) : std::optional<std::uint32_t>(0);
+  if (!frame || !stamp_ns || !duration_ns) fail();
+  const Transform world_from_sensor = pose_from(4);
   return {.file = words[0],
           .frame = *frame,
           .stamp_ns = *stamp_ns,
-          .world_from_sensor = MakePose(pose, line.place)};
+          .world_from_sensor = world_from_sensor,
+          .duration_ns = *duration_ns,
+          .world_from_sensor_end = has_end ? pose_from(kNumWords + 1) : world_from_sensor};
 }
 
 RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const PlacedLine& line) {
@@ -94,9 +110,8 @@ RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const Pl
   RecordedFrame recorded = ReadCloudFrame(directory / parsed.file, parsed.frame);
   recorded.frame.stamp_ns = parsed.stamp_ns;
   recorded.frame.world_from_sensor = parsed.world_from_sensor;
-  // The stream does not carry the pose at the end of the scan, so that of the stamp stands in for
-  // it.
-  recorded.frame.world_from_sensor_end = parsed.world_from_sensor;
+  recorded.frame.duration_ns = parsed.duration_ns;
+  recorded.frame.world_from_sensor_end = parsed.world_from_sensor_end;
   recorded.has_pose = true;
   return recorded;
 }

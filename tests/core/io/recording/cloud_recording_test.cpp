@@ -264,6 +264,15 @@ TEST(CloudRecording, OfAReceivedStreamHasItsPoses) {
   EXPECT_EQ(frames[0].frame.index, 12U);
   EXPECT_EQ(frames[0].frame.stamp_ns, 1'200'000'000);
   EXPECT_EQ(frames[0].frame.world_from_sensor.translation(), Vector3(5.0, 6.0, 7.0));
+  EXPECT_EQ(frames[0].frame.world_from_sensor_end.translation(), Vector3(5.0, 6.0, 7.0));
+  WriteFileWhole(directory.path() / "frames.csv",
+                 header + "frames/000000.pcd,7,12,1200000000,5,6,7,0,0,1,0,54,0," +
+                     "99000000,8,6.5,7,0,0,0,1\n");
+  const Frame moving = ReadAll(directory.path()).at(0).frame;
+  EXPECT_EQ(moving.duration_ns, 99'000'000U);
+  EXPECT_EQ(moving.world_from_sensor.translation(), Vector3(5.0, 6.0, 7.0));
+  EXPECT_EQ(moving.world_from_sensor_end.translation(), Vector3(8.0, 6.5, 7.0));
+  EXPECT_EQ(moving.world_from_sensor_end.linear(), Eigen::Matrix3d::Identity());
   WriteFileWhole(directory.path() / "frames.csv", header + "frames/000000.pcd,7,12,x,5\n");
   EXPECT_EQ(MessageOf([&] { (void)ReadAll(directory.path()); }),
             directory.path().string() +
