@@ -11,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -26,6 +27,8 @@ namespace {
 constexpr char kDoneMark = 'd';
 constexpr char kFaultMark = 'f';
 constexpr char kMemoryMark = 'm';
+
+constexpr int kPipe = STDERR_FILENO + 1;
 
 /// The address space that this process may come to have, and whether that is all the system leaves
 /// it.
@@ -52,8 +55,9 @@ void SetLimit(__rlimit_resource resource, rlim_t most) {
   ::setrlimit(resource, &limit);
 }
 
-/// Of the new process: what it has of its parent's is taken away.
-void Enclose(const AddressSpace& space, std::uint64_t time_s) {
+/// Of the new process: what it has of its parent's is taken away, but for the pipe, which becomes
+/// kPipe.
+void Enclose(int pipe, const AddressSpace& space, std::uint64_t time_s) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // SIGABRT and those of faults, too: a host program may have handlers that write reports.
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGSEGV, SIGBUS, SIGABRT, SIGFPE,
@@ -63,8 +67,12 @@ void Enclose(const AddressSpace& space, std::uint64_t time_s) {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::dup2(pipe, kPipe);  // First: a host program may have given it the number of a stream.
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nothing, stream);
+  // Among the other files are the pipes of processes that other threads have started: these would
+  // not end for their readers before this process does.
+  ::close_range(kPipe + 1, std::numeric_limits<unsigned>::max(), 0);
   SetLimit(RLIMIT_CORE, 0);
   SetLimit(RLIMIT_AS, space.most_bytes);
   SetLimit(RLIMIT_CPU, time_s);
@@ -151,8 +159,8 @@ ProcessEnd RunLimited(const ProcessLimits& limits, const std::function<std::stri
     fail();
   }
   if (process == 0) {
-    Enclose(space, limits.time_s);
-    WorkAndEnd(ends[1], work);
+    Enclose(ends[1], space, limits.time_s);
+    WorkAndEnd(kPipe, work);
   }
   ::close(ends[1]);
   std::string received;
