@@ -33,7 +33,7 @@ LIBRARY_OWNERS = {
     "assimp": (r"assimp/", ("core/mesh",)),
     "pybind11": (r"pybind11/", ("generator/python",)),
     "nlohmann": (r"nlohmann/",
-                 ("core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
+                 ("core/mesh", "core/scenario", "core/fidelity", "core/io", "generator", "analysis")),
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
     "libpcap": (r"pcap/", ("core/io",)),
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),

@@ -7,11 +7,15 @@
 
 namespace railcast {
 
-/// A mesh or a firing table that a scenario names, as it was when it was read.
+/// A file that a run reads besides the scenario's JSON, as it was when it was read: a mesh, a
+/// firing table, a grid of heights, or a file that is read with a mesh.
 struct InputFile {
   std::string name;   ///< File name without its folder.
   std::string hash;   ///< ContentHash of its bytes.
   std::string bytes;  ///< The whole content.
+  /// Of a mesh that is read with others beside it, and of these: the one hash of them all. Empty =
+  /// the file's own.
+  std::string folder{};
 
   /// Returns the path under which a sequence directory keeps the file, relative to that directory:
   /// "inputs/0123456789abcdef/rock.obj".
@@ -20,12 +24,12 @@ struct InputFile {
   bool operator==(const InputFile&) const = default;
 };
 
-/// Identifies a scenario by what it states and by the content of the files that it names, wherever
-/// those files lie. Two scenarios are the same if their identities are equal.
+/// Identifies a scenario by what it states and by the content of all files that it is read with,
+/// wherever those files lie. Two scenarios are the same if their identities are equal.
 struct ScenarioIdentity {
   std::string scenario_json;  ///< Resolved, with files named by InputFile::CopyName().
   std::string scenario_hash;  ///< ContentHash of scenario_json.
-  /// Each file once, in the order in which the scenario first names it.
+  /// Each file once, in the order in which the scenario first names it, or the mesh that names it.
   std::vector<InputFile> inputs;
 
   bool operator==(const ScenarioIdentity&) const = default;

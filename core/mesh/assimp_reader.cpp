@@ -1,111 +1,83 @@
 #include "core/mesh/assimp_reader.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cmath>
 #include <cstring>
+#include <memory>
+#include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/face_colors.h"
+#include "core/mesh/dae_text.h"
+#include "core/mesh/gltf_buffers.h"
+#include "core/mesh/limited_process.h"
+#include "core/mesh/scene_gatherer.h"
+#include "core/mesh/soup_bytes.h"
 
 namespace railcast {
 namespace {
 
-Eigen::Affine3d Matrix(const aiMatrix4x4& m) {
-  Eigen::Matrix4d matrix;
-  matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
-      m.d3, m.d4;
-  return Eigen::Affine3d(matrix);
+/// By it assimp chooses its reader.
+std::string ExtensionOf(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kGltf:
+      return "gltf";
+    case MeshFormat::kGlb:
+      return "glb";
+    case MeshFormat::kFbx:
+      return "fbx";
+    case MeshFormat::kDae:
+      return "dae";
+    default:
+      return "3ds";
+  }
 }
 
-/// Gathers the meshes of a scene's nodes.
-class SceneGatherer {
+/// The files of a scene, and no others: what is read is what is recorded.
+class FilesInMemory final : public Assimp::IOSystem {
  public:
-  SceneGatherer(const aiScene& scene, const std::string& shown)
-      : scene_(scene), shown_(shown), materials_(soup_.materials), groups_(soup_.groups) {}
+  FilesInMemory(const SceneSource& source, std::string name)
+      : source_(source), name_(std::move(name)) {}
 
-  PolygonSoup Gather() {
-    if (scene_.mRootNode != nullptr) AddNode(*scene_.mRootNode, Eigen::Affine3d::Identity());
-    if (has_colors_) NameMaterialsByColor(colors_, soup_);
-    return std::move(soup_);
+  bool Exists(const char* file) const override { return Find(file) != nullptr; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char*) override {
+    const std::string* bytes = Find(file);
+    if (bytes == nullptr) return nullptr;
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes->data()),
+                                      bytes->size());
   }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  void AddNode(const aiNode& node, const Eigen::Affine3d& scene_from_parent) {
-    const Eigen::Affine3d scene_from_node = scene_from_parent * Matrix(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-      AddMesh(*scene_.mMeshes[node.mMeshes[i]], node.mName.C_Str(), scene_from_node);
+  [[nodiscard]] const std::string* Find(std::string_view file) const {
+    if (file.starts_with('/')) file.remove_prefix(1);  // Where it joins an empty folder's name.
+    if (file == name_) return &source_.bytes;
+    const std::string name = FileOfUri(std::string(file));
+    for (const FileBeside& beside : source_.beside) {
+      if (name == beside.name || name == "./" + beside.name) return &beside.bytes;
     }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) AddNode(*node.mChildren[i], scene_from_node);
+    return nullptr;
   }
 
-  void AddMesh(const aiMesh& mesh, const char* node, const Eigen::Affine3d& scene_from_node) {
-    const std::size_t first = soup_.points.size();
-    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D& v = mesh.mVertices[i];
-      const Vector3 point = scene_from_node * Vector3(v.x, v.y, v.z);
-      if (!point.allFinite()) {
-        throw InputError(shown_ + ": vertex " + std::to_string(i) + " of \"" + ShownText(node) +
-                         "\" must have three finite coordinates");
-      }
-      soup_.points.push_back(point);
-      colors_.push_back(ColorOf(mesh, i));
-    }
-    has_colors_ = has_colors_ || mesh.HasVertexColors(0);
-    const std::uint32_t group = groups_.Of(node);
-    const std::uint32_t material = materials_.Of(MaterialOf(mesh));
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-      const aiFace& face = mesh.mFaces[i];
-      std::vector<std::uint32_t> corners;  // Two of a line, one of a point.
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        if (face.mIndices[k] >= mesh.mNumVertices) {
-          throw InputError(shown_ + ": face " + std::to_string(i) + " of \"" + ShownText(node) +
-                           "\" must name one of its " + std::to_string(mesh.mNumVertices) +
-                           " vertices, counted from 0" + Got(face.mIndices[k]));
-        }
-        corners.push_back(static_cast<std::uint32_t>(first + face.mIndices[k]));
-      }
-      soup_.AddFace(std::move(corners), material, group);
-    }
-  }
-
-  /// assimp makes a material for what has none in the file: then the colours tell parts apart.
-  [[nodiscard]] std::string MaterialOf(const aiMesh& mesh) const {
-    if (mesh.mMaterialIndex >= scene_.mNumMaterials) return "";
-    const std::string name = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-    return mesh.HasVertexColors(0) && name == AI_DEFAULT_MATERIAL_NAME ? "" : name;
-  }
-
-  [[nodiscard]] static Rgb8 ColorOf(const aiMesh& mesh, unsigned vertex) {
-    constexpr Rgb8 kWhite = {255, 255, 255};
-    if (!mesh.HasVertexColors(0)) return kWhite;
-    const aiColor4D& color = mesh.mColors[0][vertex];
-    const auto byte_of = [](ai_real part) {
-      return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(part, 0.0F, 1.0F)));
-    };
-    return {byte_of(color.r), byte_of(color.g), byte_of(color.b)};
-  }
-
-  const aiScene& scene_;
-  const std::string& shown_;
-  PolygonSoup soup_;
-  std::vector<Rgb8> colors_;  ///< Of the points.
-  bool has_colors_ = false;   ///< Whether the file gives any of them.
-  NameIndices materials_;
-  NameIndices groups_;
+  const SceneSource& source_;
+  std::string name_;
 };
 
 /// FBX files say what their unit is, in centimetres, and which axis is up. assimp has turned and
-/// scaled the other formats to metres with y up.
-void TakeUnits(const aiScene& scene, const std::string& format, SceneMesh& mesh) {
-  if (format != "fbx") return;
+/// scaled glTF and DAE to metres with y up.
+void TakeUnits(const aiScene& scene, MeshFormat format, SceneMesh& mesh) {
+  if (format == MeshFormat::k3ds) mesh.y_up = false;
+  if (format != MeshFormat::kFbx) return;
   mesh.unit_m = 0.01;
   if (scene.mMetaData == nullptr) return;
   float unit_cm = 0.0F;
@@ -128,12 +100,52 @@ void CheckGlb(const std::string& bytes, const std::string& shown) {
     return number;
   };
   if (bytes.size() < kHeaderBytes) throw InputError(shown + ": ends within its header");
-  if (number_at(4) != 2)
-    throw InputError(shown + ": must be glTF of version 2" + Got(number_at(4)));
+  if (number_at(4) != 1 && number_at(4) != 2)
+    throw InputError(shown + ": must be glTF of version 1 or 2" + Got(number_at(4)));
   if (number_at(12) > bytes.size() - kHeaderBytes) {
     throw InputError(shown + ": ends within its first chunk of " + std::to_string(number_at(12)) +
                      " bytes");
   }
+}
+
+/// What assimp makes of a scene, in this process.
+SceneMesh ImportScene(const SceneSource& source,
+                      SceneGathering gathering,
+                      const std::string& extension) {
+  Assimp::Importer importer;
+  const std::string name = "mesh." + extension;
+  importer.SetIOHandler(new FilesInMemory(source, name));
+  // Everything but triangles' corners and what holds them only takes time.
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                  aiComponent_TEXCOORDS | aiComponent_ANIMATIONS |
+                                  aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
+  const aiScene* scene = importer.ReadFile(name, aiProcess_RemoveComponent);
+  if (scene == nullptr) {
+    const std::string said = importer.GetErrorString();
+    if (said.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    throw InputError(gathering.shown + ": cannot be read as " + extension + ": " + ShownText(said));
+  }
+  if (source.format == MeshFormat::k3ds) {
+    // assimp turns all of them from z up to y up, but their unit and upward axis are not known.
+    gathering.file_from_scene.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
+  }
+  SceneMesh mesh{.soup = GatherScene(*scene, gathering)};
+  TakeUnits(*scene, source.format, mesh);
+  return mesh;
+}
+
+/// Far more than real files take: assimp holds some ten times the bytes of a binary file, up to
+/// fifty of one in text.
+ProcessLimits LimitsOf(const SceneSource& source) {
+  constexpr std::uint64_t kLeastMemory_bytes = 600'000'000;
+  constexpr std::uint64_t kMemoryFactor = 100;
+  constexpr std::uint64_t kLeastTime_s = 60;
+  constexpr std::uint64_t kBytesPerS = 500'000;
+  std::uint64_t num_bytes = source.bytes.size();
+  for (const FileBeside& beside : source.beside) num_bytes += beside.bytes.size();
+  return {.memory_bytes = kLeastMemory_bytes + kMemoryFactor * num_bytes,
+          .time_s = kLeastTime_s + num_bytes / kBytesPerS};
 }
 
 }  // namespace
@@ -142,31 +154,33 @@ bool HasAssimp() {
   return true;
 }
 
-SceneMesh ReadScene(const std::string& bytes,
-                    const std::string& format,
-                    const std::filesystem::path& file,
-                    const std::string& shown) {
-  if (format == "glb") CheckGlb(bytes, shown);
-  Assimp::Importer importer;
-  // Everything but triangles' corners only takes time.
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
-                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                  aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
-                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES |
-                                  aiComponent_LIGHTS | aiComponent_CAMERAS);
-  const unsigned flags = aiProcess_RemoveComponent;
-  // A glTF file in JSON may name others beside it, which assimp finds by the file's own name.
-  const aiScene* scene =
-      format == "gltf" && file.extension() == ".gltf"
-          ? importer.ReadFile(file.string(), flags)
-          : importer.ReadFileFromMemory(bytes.data(), bytes.size(), flags, format.c_str());
-  if (scene == nullptr) {
-    throw InputError(shown + ": cannot be read as " + format + ": " +
-                     ShownText(importer.GetErrorString()));
+SceneMesh ReadScene(SceneSource source, const std::string& shown) {
+  const std::string extension = ExtensionOf(source.format);
+  if (source.format == MeshFormat::kGlb) CheckGlb(source.bytes, shown);
+  if (source.format == MeshFormat::kDae) source.bytes = PlainDae(std::move(source.bytes));
+  const SceneGathering gathering{.shown = shown};
+  const ProcessLimits limits = LimitsOf(source);
+  ProcessEnd end =
+      RunLimited(limits, [&] { return BytesOfScene(ImportScene(source, gathering, extension)); });
+  switch (end.kind) {
+    case ProcessEnd::Kind::kFault:
+      throw InputError(end.bytes);
+    case ProcessEnd::Kind::kLackMemory:
+      throw InputError(shown + ": must not take more than " +
+                       std::to_string(limits.memory_bytes / 1'000'000) + " MB of memory to read");
+    case ProcessEnd::Kind::kLackTime:
+      throw InputError(shown + ": must not take more than " + std::to_string(limits.time_s) +
+                       " s to read");
+    default:
+      break;
   }
-  SceneMesh mesh{.soup = SceneGatherer(*scene, shown).Gather()};
-  TakeUnits(*scene, format, mesh);
-  return mesh;
+  std::optional<SceneMesh> mesh;
+  if (end.kind == ProcessEnd::Kind::kDone) mesh = SceneOfBytes(end.bytes);
+  if (!mesh) {
+    throw InputError(shown + ": cannot be read as " + extension +
+                     ": it is damaged or nested too deeply, and assimp broke off");
+  }
+  return *std::move(mesh);
 }
 
 }  // namespace railcast

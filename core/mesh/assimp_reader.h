@@ -1,15 +1,23 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
+#include <vector>
 
+#include "core/mesh/mesh_format.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
 
 /// Whether railcast was built with assimp.
 [[nodiscard]] bool HasAssimp();
+
+/// A file that another one names.
+struct FileBeside {
+  std::string name;  ///< Without a folder: it lies beside the other.
+  std::string bytes;
+
+  bool operator==(const FileBeside&) const = default;
+};
 
 /// A scene file's polygons with its transforms applied.
 struct SceneMesh {
@@ -18,18 +26,17 @@ struct SceneMesh {
   bool y_up = true;
 };
 
-/// The extension of the scene format, of those that assimp reads for railcast, that `bytes` begin
-/// like: "glb", "gltf", "fbx", "dae" or "3ds".
-[[nodiscard]] std::optional<std::string> SceneFormatOf(const std::string& bytes);
+/// A scene file, whole in memory.
+struct SceneSource {
+  MeshFormat format{};
+  std::string bytes;
+  std::vector<FileBeside> beside;
+};
 
-/// Reads a glTF, FBX, DAE or 3DS file held in `bytes` by assimp, with the names of its materials
-/// and nodes. Animations are not played: everything is as in the file's rest pose.
-/// @param format As SceneFormatOf() has it.
-/// @param file Beside it other files that it names are looked for; empty = they are not read.
+/// Reads a glTF, FBX, DAE or 3DS file by assimp, with the names of its materials and nodes.
+/// Animations are not played: everything is as in the file's rest pose. assimp sees no other files
+/// than the source's, and works in a process of its own (RunLimited()).
 /// @throws InputError "shown: rule" if assimp cannot read it, or was not built in.
-[[nodiscard]] SceneMesh ReadScene(const std::string& bytes,
-                                  const std::string& format,
-                                  const std::filesystem::path& file,
-                                  const std::string& shown);
+[[nodiscard]] SceneMesh ReadScene(SceneSource source, const std::string& shown);
 
 }  // namespace railcast

@@ -1,19 +1,20 @@
 #include "core/mesh/mesh_import.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/mesh/assimp_reader.h"
+#include "core/mesh/gltf_buffers.h"
+#include "core/mesh/mesh_format.h"
+#include "core/mesh/mtl_reader.h"
 #include "core/mesh/obj_reader.h"
 #include "core/mesh/off_reader.h"
 #include "core/mesh/ply_mesh_reader.h"
@@ -22,71 +23,21 @@
 namespace railcast {
 namespace {
 
-enum class Format { kObj, kPly, kAsciiStl, kBinaryStl, kOff, kScene };
-
-struct KnownFormat {
-  Format format{};
-  std::string scene{};  ///< Of kScene: as SceneFormatOf() has it.
-};
-
-constexpr std::string_view kWordBreaks = " \t\r\n\v\f";
-
-/// The first `length` bytes.
-std::string_view Begin(std::string_view bytes, std::size_t length) {
-  return bytes.substr(0, std::min(length, bytes.size()));
-}
-
-std::string_view FirstWord(std::string_view bytes) {
-  bytes.remove_prefix(std::min(bytes.find_first_not_of(kWordBreaks), bytes.size()));
-  return bytes.substr(0, bytes.find_first_of(kWordBreaks));
-}
-
-/// Whether a line begins with a word.
-bool HasWord(std::string_view bytes, std::string_view word) {
-  for (std::size_t begin = bytes.find('\n'); begin != std::string_view::npos;
-       begin = bytes.find('\n', begin + 1)) {
-    if (FirstWord(bytes.substr(begin)) == word) return true;
-  }
-  return false;
-}
-
-/// Whether a line begins with one of the keywords of an OBJ file's geometry.
-bool HasObjLine(std::string_view bytes) {
-  std::size_t begin = 0;
-  while (begin < bytes.size()) {
-    const std::string_view line = bytes.substr(begin, bytes.find('\n', begin) - begin);
-    const std::string_view word = FirstWord(line);
-    if (word == "v" || word == "f") return true;
-    begin += line.size() + 1;
-  }
-  return false;
-}
-
-bool HasExtension(const std::filesystem::path& file, std::string_view lower) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return extension == lower;
-}
-
-std::optional<KnownFormat> FormatOf(const std::string& bytes, const std::filesystem::path& file) {
-  const std::string_view word = FirstWord(Begin(bytes, 1024));
-  const bool is_solid = word == "solid" || word == "SOLID";
-  if (IsBinaryStl(bytes)) return KnownFormat{Format::kBinaryStl};
-  if (word == "ply") return KnownFormat{Format::kPly};
-  if (is_solid &&
-      (HasWord(Begin(bytes, 65536), "facet") || HasWord(Begin(bytes, 65536), "FACET"))) {
-    return KnownFormat{Format::kAsciiStl};
-  }
-  if (IsOff(Begin(bytes, 4096))) return KnownFormat{Format::kOff};
-  if (const auto scene = SceneFormatOf(bytes)) return KnownFormat{Format::kScene, *scene};
-  if (HasExtension(file, ".obj") || HasObjLine(bytes)) return KnownFormat{Format::kObj};
-  if (is_solid) return KnownFormat{Format::kAsciiStl};
-  return std::nullopt;
-}
-
 std::string Readable() {
   return HasAssimp() ? "OBJ, PLY, STL, OFF, glTF, FBX, DAE and 3DS" : "OBJ, PLY, STL and OFF";
+}
+
+/// What is wrong with a file of no known format.
+std::string UnknownFormatText(const std::string& bytes, const std::filesystem::path& file) {
+  if (const auto stl = UnevenStlOf(bytes, file)) {
+    const bool is_cut = stl->num_bytes > bytes.size();
+    const std::size_t difference =
+        is_cut ? stl->num_bytes - bytes.size() : bytes.size() - stl->num_bytes;
+    return "is a binary STL file of " + std::to_string(stl->num_triangles) +
+           " triangles by its header and must have " + std::to_string(stl->num_bytes) + " bytes; " +
+           std::to_string(difference) + (is_cut ? " are missing" : " are too many");
+  }
+  return "is of no known format; " + Readable() + " files can be read";
 }
 
 /// STL files and assimp have coordinates in single precision, with steps of 1 mm from 8 km from the
@@ -102,72 +53,139 @@ void CheckPrecision(const std::string& shown, const PolygonSoup& soup, double un
   }
 }
 
-/// The bytes of a file and where they are from.
-struct MeshBytes {
+/// Cutting a face into triangles takes time as the square of its corners.
+void CheckCorners(const std::string& shown, const PolygonSoup& soup) {
+  for (std::size_t i = 0; i < soup.faces.size(); ++i) {
+    const std::size_t num_corners = soup.faces[i].corners.size();
+    if (num_corners <= kMostFaceCorners) continue;
+    throw InputError(shown + ": face " + std::to_string(i) + " must have at most " +
+                     std::to_string(kMostFaceCorners) + " corners" + Got(num_corners));
+  }
+}
+
+/// A mesh file, whole in memory.
+struct MeshSource {
   std::string bytes;
   std::filesystem::path file;
-  bool is_on_disk{};  ///< Whether other files that it names may be read, too.
+  std::vector<FileBeside> beside;
 };
 
+PolygonSoup ReadObjIn(MeshSource& source, const std::string& shown, double largest) {
+  std::map<std::string, double> luminances;
+  for (const FileBeside& library : source.beside) {
+    ReadMtl(ShownPath(source.file.parent_path() / library.name), library.bytes, luminances);
+  }
+  std::istringstream in(std::move(source.bytes));
+  PolygonSoup soup = ObjReader(shown, largest).Read(in);
+  for (const std::string& material : soup.materials) {
+    const auto known = luminances.find(material);
+    soup.luminances.push_back(known == luminances.end() ? std::nullopt
+                                                        : std::optional(known->second));
+  }
+  return soup;
+}
+
 /// Reads a scene by assimp and takes from it the units that are not given.
-PolygonSoup ReadSceneIn(const MeshBytes& source,
-                        const std::string& format,
+PolygonSoup ReadSceneIn(MeshSource source,
+                        MeshFormat format,
                         const std::string& shown,
                         MeshUnits& units) {
   // These assimp has turned and scaled as the file says.
-  const bool has_own_units = format == "dae" || format == "3ds";
-  if (has_own_units && (units.unit_m || units.y_up)) {
+  if (format == MeshFormat::kDae && (units.unit_m || units.y_up)) {
     throw InputError(shown + ": says itself what its unit and its upward axis are: leave out " +
                      "unit_m and up");
   }
-  SceneMesh scene = ReadScene(source.bytes, format,
-                              source.is_on_disk ? source.file : std::filesystem::path(), shown);
+  SceneMesh scene = ReadScene({format, std::move(source.bytes), std::move(source.beside)}, shown);
   if (!units.unit_m) units.unit_m = scene.unit_m;
   if (!units.y_up) units.y_up = scene.y_up;
   return std::move(scene.soup);
 }
 
-ImportedMesh ParseBytes(MeshBytes source, const MeshUnits& given) {
-  const std::string shown = ShownPath(source.file);
-  const std::optional<KnownFormat> known = FormatOf(source.bytes, source.file);
-  if (!known) {
-    throw InputError(shown + ": is of no known format; " + Readable() + " files can be read");
-  }
-  MeshUnits units = given;
+PolygonSoup ReadSoup(MeshSource source,
+                     MeshFormat format,
+                     const std::string& shown,
+                     MeshUnits& units) {
   const double largest = static_cast<double>(std::numeric_limits<float>::max()) /
                          std::max(1.0, units.unit_m.value_or(1.0));
-  PolygonSoup soup;
-  const Format format = known->format;
   switch (format) {
-    case Format::kObj: {
-      std::istringstream in(std::move(source.bytes));
-      soup = ObjReader(shown, largest).Read(in);
-      break;
-    }
-    case Format::kPly:
-      soup = ReadPlyMesh(shown, source.bytes, largest);
-      break;
-    case Format::kAsciiStl:
-      soup = ReadAsciiStl(shown, source.bytes);
-      break;
-    case Format::kBinaryStl:
-      soup = ReadBinaryStl(shown, source.bytes);
-      break;
-    case Format::kOff:
-      soup = ReadOff(shown, source.bytes, largest);
-      break;
-    case Format::kScene:
-      soup = ReadSceneIn(source, known->scene, shown, units);
-      break;
+    case MeshFormat::kObj:
+      return ReadObjIn(source, shown, largest);
+    case MeshFormat::kPly:
+      return ReadPlyMesh(shown, source.bytes, largest);
+    case MeshFormat::kAsciiStl:
+      return ReadAsciiStl(shown, source.bytes);
+    case MeshFormat::kBinaryStl:
+      return ReadBinaryStl(shown, source.bytes);
+    case MeshFormat::kOff:
+      return ReadOff(shown, source.bytes, largest);
+    default:
+      return ReadSceneIn(std::move(source), format, shown, units);
   }
+}
+
+ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
+  const std::string shown = ShownPath(source.file);
+  const std::optional<MeshFormat> format = MeshFormatOf(source.bytes, source.file);
+  if (!format) throw InputError(shown + ": " + UnknownFormatText(source.bytes, source.file));
+  MeshUnits units = given;
+  const PolygonSoup soup = ReadSoup(std::move(source), *format, shown, units);
   const double unit_m = units.unit_m.value_or(1.0);
   const bool is_single =
-      format == Format::kScene || format == Format::kAsciiStl || format == Format::kBinaryStl;
+      IsScene(*format) || *format == MeshFormat::kAsciiStl || *format == MeshFormat::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
+  CheckCorners(shown, soup);
   ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
-  mesh.has_own_up = format == Format::kScene;
+  mesh.has_own_up = IsScene(*format) && *format != MeshFormat::k3ds;
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");
   return mesh;
+}
+
+std::string WholeFile(const std::filesystem::path& file) {
+  std::ifstream in = OpenInput(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Whether a name is that of a file in the folder where it is looked for.
+bool IsNameBeside(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." &&
+         name.find_first_of(std::string_view("/\\\0", 3)) == std::string::npos;
+}
+
+std::string WithoutDot(const std::string& name) {
+  return name.starts_with("./") ? name.substr(2) : name;
+}
+
+std::vector<FileBeside> BuffersBeside(const std::string& bytes, const std::filesystem::path& file) {
+  const std::string shown = ShownPath(file);
+  std::vector<FileBeside> files;
+  for (const std::string& uri : BuffersOfGltf(bytes)) {
+    const std::string name = WithoutDot(FileOfUri(uri));
+    if (!IsNameBeside(name)) {
+      throw InputError(shown + ": must name files beside it only (got " + Quoted(uri) + ")");
+    }
+    const std::filesystem::path beside = file.parent_path() / name;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(beside, error)) {
+      throw InputError(shown + ": names " + Quoted(name) + ", which must be a file beside it");
+    }
+    files.push_back({name, WholeFile(beside)});
+  }
+  return files;
+}
+
+/// Materials have colours only where their library is there: many OBJ files come without.
+std::vector<FileBeside> LibrariesBeside(const std::string& bytes,
+                                        const std::filesystem::path& file) {
+  std::vector<FileBeside> files;
+  for (const std::string& given : MaterialLibrariesOf(bytes)) {
+    const std::string name = WithoutDot(given);
+    const auto is_same = [&](const FileBeside& other) { return other.name == name; };
+    if (!IsNameBeside(name) || std::ranges::any_of(files, is_same)) continue;
+    const std::filesystem::path beside = file.parent_path() / name;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(beside, error)) files.push_back({name, WholeFile(beside)});
+  }
+  return files;
 }
 
 }  // namespace
@@ -175,13 +193,21 @@ ImportedMesh ParseBytes(MeshBytes source, const MeshUnits& given) {
 ImportedMesh ParseMesh(std::string bytes,
                        const std::filesystem::path& file,
                        const MeshUnits& units) {
-  return ParseBytes({.bytes = std::move(bytes), .file = file, .is_on_disk = false}, units);
+  return ParseSource({.bytes = std::move(bytes), .file = file, .beside = {}}, units);
+}
+
+std::vector<FileBeside> FilesBesideMesh(const std::string& bytes,
+                                        const std::filesystem::path& file) {
+  const std::optional<MeshFormat> format = MeshFormatOf(bytes, file);
+  if (format == MeshFormat::kObj) return LibrariesBeside(bytes, file);
+  if (format == MeshFormat::kGltf || format == MeshFormat::kGlb) return BuffersBeside(bytes, file);
+  return {};
 }
 
 ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units) {
-  std::ifstream in = OpenInput(file);
-  std::string bytes(std::istreambuf_iterator<char>(in), {});
-  return ParseBytes({.bytes = std::move(bytes), .file = file, .is_on_disk = true}, units);
+  std::string bytes = WholeFile(file);
+  std::vector<FileBeside> beside = FilesBesideMesh(bytes, file);
+  return ParseSource({.bytes = std::move(bytes), .file = file, .beside = std::move(beside)}, units);
 }
 
 }  // namespace railcast

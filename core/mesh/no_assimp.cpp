@@ -7,10 +7,7 @@ bool HasAssimp() {
   return false;
 }
 
-SceneMesh ReadScene(const std::string&,
-                    const std::string&,
-                    const std::filesystem::path&,
-                    const std::string& shown) {
+SceneMesh ReadScene(SceneSource, const std::string& shown) {
   throw InputError(shown +
                    ": this build of railcast has no assimp and reads OBJ, PLY, STL and OFF " +
                    "files only");

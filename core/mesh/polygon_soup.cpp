@@ -84,8 +84,7 @@ Vector3 MiddleOf(const PolygonSoup& soup) {
 /// A part of the result with the vertices that its triangles use.
 class PartBuilder {
  public:
-  PartBuilder(std::string material, std::string group)
-      : part_{.material = std::move(material), .group = std::move(group), .mesh = {}} {}
+  explicit PartBuilder(NamedMesh part) : part_(std::move(part)) {}
 
   void Add(const std::array<std::uint32_t, 3>& triangle,
            const std::vector<Eigen::Vector3f>& positions) {
@@ -114,7 +113,12 @@ class PartBuilders {
   PartBuilder& Of(const PolygonSoup::Face& face) {
     const auto [it, is_new] = index_of_.try_emplace({face.material, face.group}, builders_.size());
     if (is_new) {
-      builders_.emplace_back(Name(soup_.materials, face.material), Name(soup_.groups, face.group));
+      const bool has_color = face.material < soup_.luminances.size();
+      builders_.emplace_back(
+          NamedMesh{.material = Name(soup_.materials, face.material),
+                    .group = Name(soup_.groups, face.group),
+                    .luminance = has_color ? soup_.luminances[face.material] : std::nullopt,
+                    .mesh = {}});
     }
     return builders_[it->second];
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -24,9 +25,12 @@ struct PolygonSoup {
 
   std::vector<Vector3> points;
   std::vector<Face> faces;
-  std::vector<std::string> materials;  ///< Their names in the file, each once.
-  std::vector<std::string> groups;     ///< Names of groups or objects, each once.
-  std::size_t num_cornerless{};        ///< Faces that AddFace() left out.
+  /// Their names in the file, each once, unless several of one name have different colours.
+  std::vector<std::string> materials;
+  /// Luminances of their base colours, 1 = white, if known; may be fewer.
+  std::vector<std::optional<double>> luminances;
+  std::vector<std::string> groups;  ///< Names of groups or objects, each once.
+  std::size_t num_cornerless{};     ///< Faces that AddFace() left out.
 
   /// Adds a face without corners equal to the one before, unless fewer than three are left.
   void AddFace(std::vector<std::uint32_t> corners,
@@ -49,9 +53,10 @@ class NameIndices {
 
 /// Triangles whose faces have the same names in their file.
 struct NamedMesh {
-  std::string material;  ///< Empty = none.
-  std::string group;     ///< Empty = none.
-  Mesh mesh;             ///< m, z up, relative to ImportedMesh::origin_m.
+  std::string material;               ///< Empty = none.
+  std::string group;                  ///< Empty = none.
+  std::optional<double> luminance{};  ///< Of the material's base colour; 1 = white.
+  Mesh mesh;                          ///< m, z up, relative to ImportedMesh::origin_m.
 };
 
 /// A mesh file as triangles in metres, z up.

@@ -90,15 +90,6 @@ class SoupImporter final : public OpenMesh::IO::BaseImporter {
   PolygonSoup soup_;
 };
 
-constexpr std::size_t kStlHeaderBytes = 84;
-constexpr std::size_t kStlTriangleBytes = 50;
-
-std::uint32_t NumBinaryTriangles(const std::string& bytes) {
-  std::uint32_t num = 0;
-  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&num, bytes.data() + 80, sizeof(num));
-  return num;
-}
-
 /// Whether a word is a keyword, which some programs write in capitals.
 bool IsStlWord(std::string_view word, std::string_view keyword) {
   return std::ranges::equal(word, keyword, {}, [](unsigned char letter) {
@@ -159,6 +150,12 @@ class AsciiStlReader {
 };
 
 }  // namespace
+
+std::uint32_t NumBinaryTriangles(const std::string& bytes) {
+  std::uint32_t num = 0;
+  if (bytes.size() >= kStlHeaderBytes) std::memcpy(&num, bytes.data() + 80, sizeof(num));
+  return num;
+}
 
 bool IsBinaryStl(const std::string& bytes) {
   return bytes.size() >= kStlHeaderBytes &&

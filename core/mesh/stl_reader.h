@@ -1,10 +1,16 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
+
+/// Lengths in binary STL files.
+inline constexpr std::size_t kStlHeaderBytes = 84;
+inline constexpr std::size_t kStlTriangleBytes = 50;
 
 /// Reads STL files held in `bytes`, binary ones by OpenMesh. Of text OpenMesh would pass over
 /// facets whose lines it does not expect.
@@ -16,5 +22,8 @@ namespace railcast {
 /// Whether `bytes` are a binary STL file: its length follows from its number of triangles. ASCII
 /// files begin with "solid", but so do some binary ones.
 [[nodiscard]] bool IsBinaryStl(const std::string& bytes);
+
+/// How many triangles a binary STL file has by its header; 0 if it ends within that.
+[[nodiscard]] std::uint32_t NumBinaryTriangles(const std::string& bytes);
 
 }  // namespace railcast

@@ -21,6 +21,9 @@ namespace fs = std::filesystem;
 std::string DatasetDifference(const std::string& key, const Json& found, const Json& ours) {
   if (key == "recipe_xxh3") return "holds a data set of another recipe;";
   if (key == "bases_xxh3") return "holds a data set of the same recipe with other bases;";
+  if (key == "files_xxh3") {
+    return "holds a data set of the same recipe with other contents of the files that it names;";
+  }
   if (key == "version") {
     return "must be continued by the railcast that began it, " + ShownText(found.dump()) +
            " (got " + ShownText(ours.dump()) + "); use that one, or";
@@ -59,6 +62,7 @@ Json DatasetJson(const DatasetSpec& spec) {
                {"format", spec.format},
                {"fields", spec.fields},
                {"merged", spec.is_merged}};
+  if (!spec.files_hash.empty()) json["files_xxh3"] = spec.files_hash;
   if (!spec.shard.is_whole()) {
     json["shard"] = ShardText(spec.shard);
   }

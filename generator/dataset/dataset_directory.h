@@ -21,6 +21,7 @@ struct DatasetSpec {
   std::string isa;             ///< IsaInUse() of the trace.
   std::string recipe;          ///< Its text.
   std::vector<std::string> base_hashes;
+  std::string files_hash;  ///< HashOfRecipeFiles().
   std::uint32_t num_scenarios{};
   std::string format;
   std::string fields;

@@ -41,6 +41,7 @@ GivenShard ReadShard(const fs::path& directory) {
                   .isa = json.at("isa"),
                   .recipe = ReadFileWhole(directory / kRecipeFile),
                   .base_hashes = json.at("bases_xxh3"),
+                  .files_hash = json.value("files_xxh3", ""),
                   .num_scenarios = json.at("num_scenarios"),
                   .format = json.at("format"),
                   .fields = json.at("fields"),

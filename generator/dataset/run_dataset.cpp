@@ -19,6 +19,7 @@
 #include "core/program/version.h"
 #include "core/trace/trace_program.h"
 #include "generator/dataset/dataset_files.h"
+#include "generator/dataset/recipe_files.h"
 #include "generator/run/commanded_run.h"
 #include "generator/run/stoppable_work.h"
 #include "generator/sequence/make_sequences.h"
@@ -40,6 +41,7 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
                    .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
                    .recipe = ReadFileWhole(recipe.file),
                    .base_hashes = {},
+                   .files_hash = HashOfRecipeFiles(recipe),
                    .num_scenarios = recipe.num_scenarios,
                    .format = choices.format,
                    .fields = choices.fields,

@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 Json RunObject(const SequenceSpec& spec) {
   Json inputs = Json::array();
   for (const InputFile& input : spec.identity.inputs) {
-    inputs.push_back({{"name", input.name}, {"xxh3", input.hash}});
+    Json& entry = inputs.emplace_back(Json{{"name", input.name}, {"xxh3", input.hash}});
+    // Left out where it is the file's own hash, as in the directories of older programs.
+    if (!input.folder.empty()) entry["folder"] = input.folder;
   }
   // Differences are looked for in this order, since a different seed or different content of a file
   // also changes the scenario's hash.
@@ -53,8 +55,14 @@ std::string ScenarioDifference(const Json& found, const Json& ours) {
                                        return theirs.is_object() &&
                                               Member(theirs, "name") == own.at("name");
                                      });
-  if (!has_same_names || found == ours) return "holds a run of another scenario";
-  const auto changed = std::mismatch(ours.begin(), ours.end(), found.begin()).first;
+  const auto changed = has_same_names
+                           ? std::mismatch(ours.begin(), ours.end(), found.begin(),
+                                           [](const Json& own, const Json& theirs) {
+                                             return Member(theirs, "xxh3") == own.at("xxh3");
+                                           })
+                                 .first
+                           : ours.end();
+  if (changed == ours.end()) return "holds a run of another scenario";
   return "holds a run with another content of " + changed->at("name").get<std::string>();
 }
 

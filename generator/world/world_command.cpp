@@ -22,7 +22,7 @@ constexpr NumberRule kChainage{-1e7, 1e7};  // In m.
 
 struct WorldOptions {
   std::filesystem::path scenario;
-  std::filesystem::path out;       ///< Path ending in .ply or .obj.
+  std::filesystem::path out;       ///< Path ending in .ply, .glb or .obj.
   std::optional<double> from_s_m;  ///< Chainage; both are given or neither.
   std::optional<double> to_s_m;
   bool is_verbose = false;
@@ -66,8 +66,8 @@ std::string SizeText(std::size_t num_bytes) {
 
 int RunWorld(const WorldOptions& options) {
   const std::string extension = options.out.extension().string();
-  if (extension != ".ply" && extension != ".obj") {
-    throw InputError("--out: must end in .ply or .obj (got " + ShownPath(options.out) + ")");
+  if (extension != ".ply" && extension != ".glb" && extension != ".obj") {
+    throw InputError("--out: must end in .ply, .glb or .obj (got " + ShownPath(options.out) + ")");
   }
   if (options.from_s_m.has_value() != options.to_s_m.has_value()) {
     const bool has_from = options.from_s_m.has_value();
@@ -96,9 +96,10 @@ int RunWorld(const WorldOptions& options) {
   line.End();
 
   const LabelTable labels(scenario.labels);
-  const std::string bytes =
-      extension == ".ply" ? EncodePlyMesh(exported, labels)
-                          : EncodeObjMesh(exported, labels, MaterialLibrary(scenario.materials));
+  const MaterialLibrary materials(scenario.materials);
+  const std::string bytes = extension == ".ply"   ? EncodePlyMesh(exported, labels)
+                            : extension == ".glb" ? EncodeGlbMesh(exported, labels, materials)
+                                                  : EncodeObjMesh(exported, labels, materials);
   if (options.is_verbose) SayTriangles(exported, labels);
   const std::size_t num_triangles = CountTriangles(exported);
   std::cerr << "writing " << num_triangles << " triangles, " << SizeText(bytes.size()) << "\n";
@@ -114,7 +115,7 @@ void AddWorld(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<WorldOptions>();
   CLI::App* world = app.add_subcommand("world", "Write the scene as a mesh of triangles");
   world->add_option("SCENARIO", options->scenario, "Scenario file")->required()->check(NonEmpty());
-  world->add_option("--out", options->out, "File to write, whose name ends in .ply or .obj")
+  world->add_option("--out", options->out, "File to write, whose name ends in .ply, .glb or .obj")
       ->required()
       ->check(NonEmpty());
   world

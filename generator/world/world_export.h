@@ -39,6 +39,15 @@ struct ExportedWorld {
 /// colour. A comment holds world_from_export by rows.
 [[nodiscard]] std::string EncodePlyMesh(const ExportedWorld& exported, const LabelTable& labels);
 
+/// Encodes binary glTF 2.0 with a node for each part, called as its label, and the label's colour
+/// on all its vertices (linear, as glTF has them; PLY has the same in sRGB). Materials have their
+/// names in the library. A node above turns z up to y up. world_from_export stands by rows in the
+/// asset's extras.
+/// @throws InputError if it would have 4 GiB or more, which the format cannot count.
+[[nodiscard]] std::string EncodeGlbMesh(const ExportedWorld& exported,
+                                        const LabelTable& labels,
+                                        const MaterialLibrary& materials);
+
 /// Encodes OBJ with an object for each label and `usemtl` for each material.
 [[nodiscard]] std::string EncodeObjMesh(const ExportedWorld& exported,
                                         const LabelTable& labels,

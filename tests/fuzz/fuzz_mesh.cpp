@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/assimp_reader.h"
+#include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_import.h"
 
 namespace railcast {
@@ -35,7 +35,8 @@ std::string ObjText(const Mesh& mesh) {
 }
 
 void ReadBytes(const std::string& bytes, const MeshUnits& units) {
-  if (SceneFormatOf(bytes)) return;  // That is for assimp.
+  const auto format = MeshFormatOf(bytes, "fuzz");
+  if (format && IsScene(*format)) return;  // That is for assimp.
   try {
     const ImportedMesh imported = ParseMesh(bytes, "fuzz", units);
     Mesh mesh;

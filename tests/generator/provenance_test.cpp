@@ -5,8 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/io/recording/sequence_check.h"
+#include "core/mesh/assimp_reader.h"
 #include "core/trace/trace_program.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/mesh/made_scenes.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
@@ -76,6 +80,86 @@ TEST(Provenance, OfTheBestInstructionSetIsTheSameWhetherForcedOrNot) {
   ASSERT_EQ(Generate(command + "narrow --isa sse4.2").status, 0);
   const auto narrow = Contents(directory.path() / "narrow");
   EXPECT_EQ(narrow.at("frames/000000.pcd") == made.at("frames/000000.pcd"), best == "sse4.2");
+}
+
+// A project whose rock is a glTF with its buffer in another file, 2 m to the left of the track.
+std::filesystem::path MakeProjectWithBuffer(const std::filesystem::path& folder) {
+  const std::filesystem::path scenario = MakeProject(folder);
+  std::string text = ReadFileWhole(scenario);
+  WriteFileWhole(scenario, text.replace(text.find("rock.obj"), 8, "rock.gltf"));
+  WriteFileWhole(folder / "rock.gltf", GltfNaming("rock.bin"));
+  WriteFileWhole(folder / "rock.bin", BytesOfFloats({0, 0, 0, 0, 0, 3, 0, 3, 0}));
+  return scenario;
+}
+
+class ProvenanceOfABuffer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+    ASSERT_EQ(Generate(Command()).status, 0);
+  }
+
+  [[nodiscard]] std::string Command() const {
+    return "sequence " + scenario_.string() + " --frames 2 --out " + out_.string();
+  }
+  void MoveAVertex() const {
+    WriteFileWhole(directory_.path() / "project/rock.bin",
+                   BytesOfFloats({0, 0, 0, 0, 0, 3, 3, 3, 0}));
+  }
+
+  const TemporaryDirectory directory_;
+  const std::filesystem::path scenario_ = MakeProjectWithBuffer(directory_.path() / "project");
+  const std::filesystem::path out_ = directory_.path() / "out";
+};
+
+// As after a kill: without manifest and the second frame.
+TEST_F(ProvenanceOfABuffer, IsNotMixedWithAnother) {
+  const auto made = Contents(out_);
+  std::filesystem::remove(out_ / "manifest.json");
+  std::filesystem::remove(out_ / "frames/000001.pcd");
+  MoveAVertex();
+  const Ended mixed = Generate(Command());
+  EXPECT_EQ(mixed.status, 1);
+  EXPECT_EQ(mixed.said, out_.string() +
+                            ": holds a run with another content of rock.bin; choose another "
+                            "--out\n");
+  const std::filesystem::path copies =
+      std::filesystem::path(Json::parse(ReadFileWhole(out_ / "scenario.resolved.json"))
+                                .at("world")
+                                .at("objects")
+                                .at(0)
+                                .at("file")
+                                .get<std::string>())
+          .parent_path();
+  WriteFileWhole(directory_.path() / "project/rock.bin", ReadFileWhole(out_ / copies / "rock.bin"));
+  EXPECT_EQ(Generate(Command()).status, 0);
+  EXPECT_EQ(Contents(out_), made);
+}
+
+TEST_F(ProvenanceOfABuffer, IsThereWhereverTheDirectoryIs) {
+  const std::filesystem::path moved = directory_.path() / "moved";
+  std::filesystem::rename(out_, moved);
+  std::filesystem::remove_all(directory_.path() / "project");
+  const std::string scenario = (moved / "scenario.resolved.json").string();
+  const Ended trace = Generate("trace " + scenario + " --firing 0");
+  EXPECT_EQ(trace.status, 0) << trace.said;
+  EXPECT_EQ(Generate("check " + scenario).status, 0);
+}
+
+// The same check is railcast-analyze verify's, with and without a manifest.
+TEST_F(ProvenanceOfABuffer, IsHeldByTheDirectorysHashes) {
+  EXPECT_NO_THROW(CheckKnownFiles(ReadSequenceSummary(out_)));
+  const Json run = Json::parse(ReadFileWhole(out_ / "run.json"));
+  const Json& buffer = run.at("inputs").at(2);
+  EXPECT_EQ(buffer.at("name"), "rock.bin");
+  const std::string copy = "inputs/" + buffer.at("folder").get<std::string>() + "/rock.bin";
+  WriteFileWhole(out_ / copy, BytesOfFloats({0, 0, 0, 0, 0, 3, 3, 3, 0}));
+  const auto complaint = [&] {
+    return MessageOf([&] { CheckKnownFiles(ReadSequenceSummary(out_)); });
+  };
+  EXPECT_THAT(complaint(), testing::HasSubstr(copy));
+  std::filesystem::remove(out_ / "manifest.json");
+  EXPECT_THAT(complaint(), testing::HasSubstr(copy));
 }
 
 TEST(Provenance, TakesNoOtherInstructionSet) {

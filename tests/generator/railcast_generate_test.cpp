@@ -118,7 +118,7 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
       "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)\n");
   const Ended world = Generate("world " + scenarios_folder + "minimal.json --out a.stl");
   EXPECT_EQ(world.status, 1);
-  EXPECT_EQ(world.said, "--out: must end in .ply or .obj (got a.stl)\n");
+  EXPECT_EQ(world.said, "--out: must end in .ply, .glb or .obj (got a.stl)\n");
   const Ended stretch =
       Generate("world " + scenarios_folder + "minimal.json --from-s 5 --to-s 1 --out a.ply");
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");

@@ -51,7 +51,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     run.isa = json.at("isa");
     run.files.push_back({std::string(kScenarioFile), run.scenario_hash, {}});
     for (const StrictOrderedJson& input : json.at("inputs")) {
-      const InputFile file{input.at("name"), input.at("xxh3"), {}};
+      const InputFile file{input.at("name"), input.at("xxh3"), {}, input.value("folder", "")};
       run.files.push_back({file.CopyName(), file.hash, {}});
     }
     if (run.has_commands) {

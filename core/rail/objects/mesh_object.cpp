@@ -149,6 +149,12 @@ MeshPartUse UseOf(const NamedMesh& part,
     if (named) choice.material = IndexOfMaterial(tables.materials, named->material);
     if (choice.material) choice.why_material = "by the word " + Quoted(named->word);
   }
+  if (!choice.material && !spec.material && part.luminance) {
+    choice.material = PaintOfLuminance(tables.materials, *part.luminance);
+    if (choice.material) {
+      choice.why_material = "by its colour, of luminance " + ShortText(*part.luminance);
+    }
+  }
   const auto otherwise = [](bool is_objects) { return is_objects ? "the object's" : "the type's"; };
   if (!choice.material) choice.why_material = otherwise(spec.material.has_value());
   if (!choice.label) choice.why_label = otherwise(spec.label.has_value());

@@ -50,7 +50,8 @@ struct MeshObject {
 /// The material of a part is, in this order: that of the entry in `spec.parts` that names its
 /// group; of the entry that names its material; the object's, if the spec gives one; the one that a
 /// word in the name of its material, or of its group if it has no material, stands for
-/// (MaterialOfName), if the library has it; and that of the object's type. Labels likewise, except
+/// (MaterialOfName), if the library has it; the paint for its colour (PaintOfLuminance), if the
+/// file gives one; and that of the object's type. Labels likewise, except
 /// that no word stands for one.
 ///
 /// With `spec.tolerance_mm`, the parts are simplified at their size in the world

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
+
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -94,6 +98,14 @@ bool HasWordOfTable(const std::vector<std::string>& words, std::string_view word
   });
 }
 
+/// Whether a material is called like `paint_25`.
+bool IsPaintOfColors(const Material& material) {
+  constexpr std::string_view kPrefix = "paint_";
+  const std::string_view name = material.name;
+  return name.starts_with(kPrefix) && name.size() == kPrefix.size() + 2 && IsDigit(name[6]) &&
+         IsDigit(name[7]) && material.reflectivity > 0.0;
+}
+
 }  // namespace
 
 std::optional<NamedMaterial> MaterialOfName(std::string_view name) {
@@ -103,6 +115,21 @@ std::optional<NamedMaterial> MaterialOfName(std::string_view name) {
   });
   if (row == kWordRows.end() || row->material.empty()) return std::nullopt;
   return NamedMaterial{.material = row->material, .word = row->word};
+}
+
+std::optional<std::uint16_t> PaintOfLuminance(const MaterialLibrary& library, double luminance) {
+  std::optional<std::uint16_t> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < library.materials().size(); ++i) {
+    const Material& material = library.materials()[i];
+    if (!IsPaintOfColors(material)) continue;
+    // Of black, the logarithm is as far from that of every paint.
+    const double distance = std::abs(std::log(material.reflectivity / std::max(luminance, 1e-6)));
+    if (distance >= least) continue;
+    least = distance;
+    best = static_cast<std::uint16_t>(i);
+  }
+  return best;
 }
 
 }  // namespace railcast

@@ -6,6 +6,7 @@
 #include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/mesh/made_scenes.h"
 #include "tests/generator/project_folder.h"
 
 namespace railcast {
@@ -98,6 +99,45 @@ TEST(ScenarioIdentity, NoticesAFileThatWasEditedBetweenTwoReadings) {
   WriteFileWhole(directory.path() / "rock.obj", std::string(kPyramidObj) + "f 1 2 3\n");
   EXPECT_EQ(MessageOf([&] { CheckSameFiles(scenario, identity); }),
             "rock.obj: was changed while the scenario was read; run it again");
+}
+
+// The project with the rock as a glTF whose buffer is another file.
+std::filesystem::path MakeGltfProject(const std::filesystem::path& folder) {
+  const std::filesystem::path scenario = MakeProject(folder);
+  std::string text = ReadFileWhole(scenario);
+  WriteFileWhole(scenario, text.replace(text.find("rock.obj"), 8, "rock.gltf"));
+  WriteFileWhole(folder / "rock.gltf", GltfNaming("rock.bin"));
+  WriteFileWhole(folder / "rock.bin", BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  return scenario;
+}
+
+TEST(ScenarioIdentity, HasTheFilesBesideAMeshInItsFolder) {
+  const TemporaryDirectory directory;
+  const ScenarioIdentity identity =
+      IdentityOf(ReadScenario(MakeGltfProject(directory.path() / "project")));
+  ASSERT_EQ(identity.inputs.size(), 3U);
+  const InputFile& mesh = identity.inputs[1];
+  const InputFile& buffer = identity.inputs[2];
+  EXPECT_EQ(buffer.name, "rock.bin");
+  EXPECT_EQ(buffer.hash, ContentHash(buffer.bytes));
+  const std::string folder =
+      "inputs/" + ContentHash("rock.gltf\n" + mesh.hash + "\nrock.bin\n" + buffer.hash + "\n");
+  EXPECT_EQ(mesh.CopyName(), folder + "/rock.gltf");
+  EXPECT_EQ(buffer.CopyName(), folder + "/rock.bin");
+  EXPECT_NE(identity.scenario_json.find(mesh.CopyName()), std::string::npos);
+  WriteCopies(identity, directory.path() / "copy");
+  std::filesystem::remove_all(directory.path() / "project");
+  EXPECT_EQ(IdentityOf(ReadScenario(directory.path() / "copy/scenario.resolved.json")), identity);
+}
+
+TEST(ScenarioIdentity, ChangesWithAFileBesideAMesh) {
+  const TemporaryDirectory directory;
+  const ScenarioSpec scenario = ReadScenario(MakeGltfProject(directory.path()));
+  const ScenarioIdentity before = IdentityOf(scenario);
+  WriteFileWhole(directory.path() / "rock.bin", BytesOfFloats({0, 0, 0, 4, 0, 0, 0, 1, 0}));
+  EXPECT_NE(IdentityOf(scenario).scenario_hash, before.scenario_hash);
+  EXPECT_EQ(MessageOf([&] { CheckSameFiles(scenario, before); }),
+            "rock.bin: was changed while the scenario was read; run it again");
 }
 
 TEST(ScenarioIdentity, SaysWhichFileIsMissing) {

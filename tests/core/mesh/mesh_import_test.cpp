@@ -148,7 +148,18 @@ TEST(ParseMesh, RefusesADamagedStl) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(bytes.data() + 84 + 50 + 12, &nan, sizeof(nan));
   EXPECT_EQ(Complaint(bytes), "a.mesh: triangle 1 must have finite coordinates (got nan)");
-  EXPECT_THAT(Complaint(BinaryStl().substr(0, 200)), testing::HasSubstr("of no known format"));
+}
+
+TEST(ParseMesh, SaysHowMuchOfABinaryStlIsMissing) {
+  const std::string whole = BinaryStl();  // 84 bytes and 4 times 50.
+  const std::string is_stl =
+      "is a binary STL file of 4 triangles by its header and must have 284 bytes; ";
+  EXPECT_EQ(Complaint(whole.substr(0, 200)), "a.mesh: " + is_stl + "84 are missing");
+  EXPECT_EQ(Complaint(whole.substr(0, 90), "a.STL"), "a.STL: " + is_stl + "194 are missing");
+  EXPECT_EQ(Complaint(whole + "12345", "a.stl"), "a.stl: " + is_stl + "5 are too many");
+  std::string named = whole.substr(0, 200);
+  named[5] = ' ';  // Begins like a text: "solid  facet".
+  EXPECT_EQ(Complaint(named), "a.mesh: " + is_stl + "84 are missing");
 }
 
 // OpenMesh takes "router" and "outer_ring" for loops, and the three lines after a loop's beginning
@@ -219,7 +230,8 @@ TEST(ParseMesh, SaysWhyASceneCannotBeRead) {
   const std::string header("glTF\2\0\0\0\x40\0\0\0\xF0\xFF\xFF\xFFJSON", 20);
   EXPECT_EQ(Complaint(header), "a.mesh: ends within its first chunk of 4294967280 bytes");
   EXPECT_EQ(Complaint(header.substr(0, 19)), "a.mesh: ends within its header");
-  EXPECT_EQ(Complaint("glTF\1" + header.substr(5)), "a.mesh: must be glTF of version 2 (got 1)");
+  EXPECT_EQ(Complaint("glTF\3" + header.substr(5)),
+            "a.mesh: must be glTF of version 1 or 2 (got 3)");
   EXPECT_THAT(Complaint(R"({"asset": {"version": "2.0"}})"),
               testing::AnyOf(testing::StartsWith("a.mesh: cannot be read as gltf"),
                              testing::EndsWith("holds no triangle")));

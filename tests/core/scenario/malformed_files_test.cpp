@@ -19,6 +19,21 @@ TEST_P(MalformedFile, GivesExactlyTheExpectedLines) {
   }
 }
 
+// Nothing that reads it may recurse as deep as it is nested.
+TEST(DeepScenario, Of200000LevelsIsRefused) {
+  const TemporaryFolder folder;
+  constexpr std::size_t kLevels = 200'000;
+  const std::string lists = std::string(kLevels, '[') + std::string(kLevels, ']');
+  std::string objects;
+  for (std::size_t i = 0; i < kLevels; ++i) objects += "{\"world\":";
+  for (const std::string& text :
+       {"{\"version\": 1, \"world\": " + lists + "}", objects + "1" + std::string(kLevels, '}')}) {
+    const auto file = folder.Write("deep.json", text);
+    EXPECT_EQ(CheckScenario(file),
+              std::vector<std::string>{file.string() + ": nested deeper than 64 levels"});
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenarios,
                          MalformedFile,
                          testing::ValuesIn(MalformedCases("read")),

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 
+#include "core/rail/objects/named_materials.h"
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
@@ -126,6 +127,51 @@ INSTANTIATE_TEST_SUITE_P(
         MeasuredMaterial{"wagon_paint", {{urban, "paint"}}},
         MeasuredMaterial{"grey_paint", {{urban, "paint"}}}),
     [](const auto& test) { return test.param.name; });
+
+// The luminance of a spectrum in light of equal energy. The eye's photopic sensitivity is taken to
+// be a Gaussian about 559 nm, as is usual.
+double LuminanceOfSpectrum(const float* spectrum) {
+  double sum = 0.0;
+  double whole = 0.0;
+  for (std::size_t band = 3; band <= 41; ++band) {  // 380 to 760 nm.
+    const double wavelength_um = 0.35 + 0.01 * static_cast<double>(band);
+    const double sensitivity = std::exp(-285.4 * std::pow(wavelength_um - 0.559, 2));
+    sum += sensitivity * static_cast<double>(spectrum[band]);
+    whole += sensitivity;
+  }
+  return sum / whole;
+}
+
+// What PaintOfLuminance() promises of its law, for roofs, roads, walls and paint.
+TEST(PaintsOfColours, AreNearerToMeasuredSurfacesThanGreyPaint) {
+  if (!exists(spectra_folder)) GTEST_SKIP() << spectra_folder << " is not there";
+  const MaterialLibrary library(Library());
+  const std::string bytes = TextOf(spectra_folder / (urban + ".sli"));
+  std::vector<float> spectra(bytes.size() / sizeof(float));
+  std::memcpy(spectra.data(), bytes.data(), spectra.size() * sizeof(float));
+  std::vector<double> ratios;
+  double of_paints = 0.0;
+  double of_grey = 0.0;
+  for (std::size_t i = 0; i < spectra.size() / kNumBands; ++i) {
+    const double reflectance = ReflectanceAt(spectra, i, 905.0);
+    const double luminance = LuminanceOfSpectrum(&spectra[i * kNumBands]);
+    ratios.push_back(reflectance / luminance);
+    const auto paint = PaintOfLuminance(library, luminance);
+    ASSERT_TRUE(paint.has_value());
+    const auto error_of = [&](std::size_t material) {
+      return std::pow(std::log(reflectance / library.materials()[material].reflectivity), 2);
+    };
+    of_paints += error_of(*paint);
+    of_grey += error_of(library.Index("grey_paint"));
+  }
+  const auto num = static_cast<double>(ratios.size());
+  EXPECT_EQ(num, 888.0);
+  EXPECT_NEAR(Quantile(ratios, 0.05), 0.97, 0.01);
+  EXPECT_NEAR(Quantile(ratios, 0.5), 1.20, 0.01);
+  EXPECT_NEAR(Quantile(ratios, 0.95), 2.22, 0.01);
+  EXPECT_NEAR(std::exp(std::sqrt(of_paints / num)), 1.43, 0.02);
+  EXPECT_NEAR(std::exp(std::sqrt(of_grey / num)), 2.42, 0.02);
+}
 
 // ---- Optical constants: lines of wavelength in micrometres, n, k; or a formula for n.
 

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "generator/dataset/merge_shards.h"
+#include "generator/dataset/recipe_files.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/recipe_project.h"
@@ -244,6 +245,50 @@ TEST_F(RunDatasetTest, NoticesAChangedBase) {
             }),
             Path("set").string() +
                 ": holds a data set of the same recipe with other bases; choose another --out");
+}
+
+// One of two weathers is drawn; nothing else names their files.
+TEST_F(RunDatasetTest, NoticesAChangedFileThatDrawsName) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["draws"] = {{"/weather", {{"type", "choice"}, {"values", {"wet.json", "dry.json"}}}}};
+  const fs::path project = directory_.path() / "project";
+  WriteFileWhole(project / "wet.json", R"({"version": 1, "wetness": 0.8})");
+  WriteFileWhole(project / "dry.json", R"({"version": 1, "wetness": 0})");
+  const Recipe drawn = ReadProjectRecipe(project, recipe);
+  (void)MakeDataset(drawn, Path("set"), {1, 2});
+  WriteFileWhole(project / "wet.json", R"({"version": 1, "wetness": 0.7})");
+  EXPECT_EQ(MessageOf([&] {
+              (void)MakeDataset(drawn, Path("set"), {1, 2});
+            }),
+            Path("set").string() +
+                ": holds a data set of the same recipe with other contents of the files that it "
+                "names; choose another --out");
+}
+
+// Parts of scenarios name files, too, and meshes are read with others.
+TEST_F(RunDatasetTest, FilesOfARecipeAreAllThatItsValuesLeadTo) {
+  nlohmann::json recipe = ProjectRecipe();
+  const fs::path project = directory_.path() / "project";
+  const auto hash = [&] { return HashOfRecipeFiles(ReadProjectRecipe(project, recipe)); };
+  EXPECT_EQ(hash(), "");
+  recipe["set"]["/lidar"] = "lidar.json";
+  recipe["objects"][0]["object"] = {{"type", "mesh"}, {"file", "rock.obj"}};
+  WriteFileWhole(project / "lidar.json", R"({"version": 1, "name": "beams", "range_max_m": 60,
+      "scan": {"rate_hz": 10, "pattern": {"type": "table", "file": "beams.csv"}}})");
+  WriteFileWhole(project / "rock.mtl", "newmtl stone\nKd 0.5 0.5 0.5\n");
+  const auto with_library = [&] {
+    const std::string file = WriteProjectRecipe(project, recipe).string();
+    WriteFileWhole(project / "rock.obj", "mtllib rock.mtl\n" + std::string(kPyramidObj));
+    return HashOfRecipeFiles(ReadRecipe(file));
+  };
+  const std::string before = with_library();
+  EXPECT_NE(before, "");
+  WriteFileWhole(project / "rock.mtl", "newmtl stone\nKd 0.4 0.5 0.5\n");
+  const std::string other_colour = with_library();
+  EXPECT_NE(other_colour, before);
+  recipe["set"]["/lidar"] = nlohmann::json::parse(ReadFileWhole(project / "lidar.json"));
+  recipe["set"]["/lidar"].erase("version");
+  EXPECT_NE(with_library(), other_colour);  // lidar.json is no longer named, beams.csv is.
 }
 
 TEST_F(RunDatasetTest, StrideAndWarmUpChooseTheFrames) {

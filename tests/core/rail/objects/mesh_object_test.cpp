@@ -82,6 +82,29 @@ TEST_F(MeshObjectOfAFile, TakesNoMaterialThatTheLibraryLacks) {
   EXPECT_EQ(Parts(), (TrianglesBySurface{{{"grey_paint", "object"}, 1}}));
 }
 
+TEST_F(MeshObjectOfAFile, HasThePaintNearestToItsColours) {
+  std::vector<Material> materials(materials_.materials().begin() + 1, materials_.materials().end());
+  for (const auto& [name, reflectivity] :
+       {std::pair{"paint_05", 0.05}, {"paint_25", 0.25}, {"paint_57", 0.57}}) {
+    materials.push_back({name, reflectivity});
+  }
+  materials_ = MaterialLibrary(materials);
+  // Nearest by ratio: 0.5 x 0.2126 + 0.3 x 0.7152 + 0 = 0.32 lies below sqrt(0.25 x 0.57) = 0.377.
+  std::ofstream(folder_.path() / "house.mtl") << "newmtl wall\nKd 0.5 0.3 0\nnewmtl DarkGlass\n"
+                                                 "Kd 1 1 1\nnewmtl soot\nKd 0 0 0\n";
+  Write("mtllib house.mtl\n" + std::string(kHouse) + "usemtl soot\nf 2 4 5\n");
+  EXPECT_EQ(Parts(), (TrianglesBySurface{{{"grey_paint", "object"}, 1},
+                                         {{"glass", "object"}, 2},
+                                         {{"paint_25", "object"}, 1},
+                                         {{"paint_05", "object"}, 1}}));
+  EXPECT_EQ(Make().parts[2].why_material, "by its colour, of luminance 0.3209");
+  spec_.parts = {{.of = "wall", .material = "concrete", .label = {}}};
+  EXPECT_EQ(Make().parts[2].why_material, "as parts/0 says");
+  spec_.parts.clear();
+  spec_.material = "wood";
+  EXPECT_EQ(Parts(), (TrianglesBySurface{{{"wood", "object"}, 5}}));
+}
+
 TEST_F(MeshObjectOfAFile, HasTheObjectsMaterialThroughoutIfItHasOne) {
   Write(kHouse);
   spec_.material = "wood";

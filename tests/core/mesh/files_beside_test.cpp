@@ -1,0 +1,131 @@
+// What a mesh is read with besides its own file.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/io/write_file.h"
+#include "core/mesh/gltf_buffers.h"
+#include "core/mesh/mtl_reader.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/core/mesh/imported_meshes.h"
+#include "tests/core/mesh/made_scenes.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FilesBeside : public testing::Test {
+ protected:
+  fs::path Write(const std::string& name, const std::string& bytes) const {
+    fs::create_directories((folder_.path() / name).parent_path());
+    WriteFileWhole(folder_.path() / name, bytes);
+    return folder_.path() / name;
+  }
+  [[nodiscard]] std::vector<std::string> NamesBeside(const fs::path& file) const {
+    std::vector<std::string> names;
+    for (const FileBeside& beside : FilesBesideMesh(ReadFileWhole(file), file)) {
+      names.push_back(beside.name);
+      EXPECT_EQ(beside.bytes, ReadFileWhole(folder_.path() / beside.name));
+    }
+    return names;
+  }
+
+  const TemporaryDirectory folder_;
+  const std::string triangle_ = BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0});
+};
+
+TEST_F(FilesBeside, AreTheBuffersOfAGltf) {
+  Write("rock 1.bin", triangle_);
+  for (const char* uri : {"rock 1.bin", "rock%201.bin", "./rock%201.bin"}) {
+    const fs::path file = Write("rock.gltf", GltfNaming(uri));
+    EXPECT_EQ(NamesBeside(file), std::vector<std::string>{"rock 1.bin"}) << uri;
+    if (!HasAssimp()) continue;
+    EXPECT_EQ(ReadMesh(file).num_triangles(), 1U) << uri;
+  }
+}
+
+TEST_F(FilesBeside, MustLieInTheFolderOfTheGltf) {
+  Write("rock.bin", triangle_);
+  Write("below/rock.bin", triangle_);
+  const std::string absolute = (folder_.path() / "rock.bin").string();
+  for (const std::string& uri : {std::string("../rock.bin"), std::string("%2E%2E%2Frock.bin"),
+                                 absolute, "file://" + absolute, std::string("..")}) {
+    const fs::path file = Write("below/rock.gltf", GltfNaming(uri));
+    const std::string message = file.string() + ": must name files beside it only (got " + "\"" +
+                                uri.substr(0, 60) + (uri.size() > 60 ? "..." : "") + "\")";
+    EXPECT_EQ(MessageOf([&] { (void)ReadMesh(file); }), message);
+  }
+}
+
+TEST_F(FilesBeside, MustBeThere) {
+  const fs::path file = Write("rock.gltf", GltfNaming("rock.bin"));
+  EXPECT_EQ(MessageOf([&] { (void)ReadMesh(file); }),
+            file.string() + ": names \"rock.bin\", which must be a file beside it");
+}
+
+// The buffer of a glTF that comes as bytes alone is no file of the folder that the program is in.
+TEST_F(FilesBeside, AreNotReadWithBytesAlone) {
+  if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+  const fs::path buffer = Write("rock.bin", triangle_);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_.path());
+  const std::string message =
+      MessageOf([&] { (void)ParseMesh(GltfNaming("rock.bin"), "rock.gltf"); });
+  fs::current_path(before);
+  EXPECT_THAT(message, testing::StartsWith("rock.gltf: cannot be read as gltf: "));
+}
+
+TEST_F(FilesBeside, AreTheMaterialsOfAnObjWhereTheyAreThere) {
+  Write("two words.mtl", "newmtl a\n");
+  Write("b.mtl", "newmtl b\n");
+  const fs::path file = Write("rock.obj",
+                              "mtllib two words.mtl\r\nmtllib ./b.mtl nonexistent.mtl b.mtl\n"
+                              "mtllib ../up.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(NamesBeside(file), (std::vector<std::string>{"two words.mtl", "b.mtl"}));
+  EXPECT_EQ(ReadMesh(file).num_triangles(), 1U);
+}
+
+TEST_F(FilesBeside, AreNoPictures) {
+  Write("rock.png", "a picture");
+  const std::string picture =
+      R"(, "images": [{"uri": "rock.png"}], "textures": [{"source": 0}], "materials": [
+         {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}])";
+  const fs::path file = Write("rock.gltf", TriangleGltf("{\"mesh\": 0}", picture));
+  EXPECT_TRUE(NamesBeside(file).empty());
+  if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+  EXPECT_EQ(ReadMesh(file).num_triangles(), 1U);
+}
+
+TEST_F(FilesBeside, OfOtherFormatsThereAreNone) {
+  EXPECT_TRUE(NamesBeside(Write("a.dae", TriangleDae("<node/>"))).empty());
+  EXPECT_TRUE(NamesBeside(Write("a.csv", "azimuth_deg,elevation_deg\n")).empty());
+}
+
+TEST(ReadMtl, TakesTheLuminanceOfColoursThatNoPictureChanges) {
+  std::map<std::string, double> found;
+  ReadMtl("a.mtl",
+          "# made by hand\nnewmtl red\nKd 1 0 0\nnewmtl dark grey \n\tKd .1 0.1 +1e-1\r\n"
+          "newmtl pictured\nKd 1 1 1\nmap_Kd wall.png\nnewmtl none\nKa 1 1 1\n"
+          "newmtl spectrum\nKd spectral a.rfl 1\nnewmtl one\nKd 0.5\n",
+          found);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_DOUBLE_EQ(found.at("red"), 0.2126);  // IEC 61966-2-1.
+  EXPECT_NEAR(found.at("dark grey"), 0.1, 1e-15);
+  EXPECT_NEAR(found.at("one"), 0.5, 1e-15);
+}
+
+TEST(ReadMtl, RefusesColoursThatAreNone) {
+  std::map<std::string, double> found;
+  EXPECT_EQ(MessageOf([&] { ReadMtl("a.mtl", "newmtl a\nKd 1 0\nKd 1 0 2\nKd 1 0 nan\n", found); }),
+            "a.mtl: line 2: Kd must be three numbers from 0 to 1 (got \"Kd 1 0\")\n"
+            "a.mtl: line 3: Kd must be three numbers from 0 to 1 (got \"Kd 1 0 2\")\n"
+            "a.mtl: line 4: Kd must be three numbers from 0 to 1 (got \"Kd 1 0 nan\")");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,215 @@
+// What scenes of modelling programs say, which assimp alone would not give.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <string_view>
+
+#include "core/io/write_file.h"
+#include "core/mesh/assimp_reader.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/core/mesh/imported_meshes.h"
+#include "tests/core/mesh/made_scenes.h"
+
+namespace railcast {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+/// In the file's axes, z up.
+Box BoxOf(const ImportedMesh& mesh) {
+  return Bounds(Merged(mesh)).translated(mesh.origin_m);
+}
+
+class SceneImport : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!HasAssimp()) GTEST_SKIP() << "built without assimp";
+  }
+};
+
+// The triangle lies in y up, so that it stands.
+const Box standing{Vector3(0, 0, 0), Vector3(1, 0, 1)};
+const Box lying{Vector3(0, 0, 0), Vector3(1, 1, 0)};
+
+std::string Number(std::size_t number) {
+  const auto word = static_cast<std::uint32_t>(number);
+  std::string bytes(sizeof(word), '\0');
+  std::memcpy(bytes.data(), &word, sizeof(word));
+  return bytes;
+}
+
+// Of version 1, whose header says how long the JSON is and that it is JSON; the rest is the buffer.
+TEST_F(SceneImport, ReadsBinaryGltfOfVersion1) {
+  std::string json =
+      R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
+      "nodes": {"n": {"meshes": ["m"]}},
+      "meshes": {"m": {"primitives": [{"attributes": {"POSITION": "a"}, "material": "t"}]}},
+      "materials": {"t": {"name": "Paint"}},
+      "accessors": {"a": {"bufferView": "b", "byteOffset": 0, "byteStride": 0,
+                          "componentType": 5126, "count": 3, "type": "VEC3"}},
+      "bufferViews": {"b": {"buffer": "binary_glTF", "byteOffset": 0, "byteLength": 36}},
+      "buffers": {"binary_glTF": {"byteLength": 36, "type": "arraybuffer", "uri": "data:,"}},
+      "extensionsUsed": ["KHR_binary_glTF"]})";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string buffer = BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const ImportedMesh mesh =
+      ParseMesh("glTF" + Number(1) + Number(20 + json.size() + buffer.size()) +
+                    Number(json.size()) + Number(0) + json + buffer,
+                "a.glb");
+  EXPECT_EQ(mesh.num_triangles(), 1U);
+  EXPECT_TRUE(BoxOf(mesh).isApprox(standing, 1e-6));
+}
+
+// Of a skinned mesh, "the transform of the node is ignored" (glTF 2.0, 3.7.3.3): exporters scale it
+// by 100. One vertex hangs on the first joint, one on the second, one on both.
+TEST_F(SceneImport, PutsASkinWhereItsBonesAre) {
+  const TemporaryDirectory folder;
+  const std::string joints(
+      "\0\0\0\0"
+      "\1\0\0\0"
+      "\0\1\0\0",
+      12);
+  std::string buffer = BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}) + joints;
+  buffer += BytesOfFloats({1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0});
+  for (int i = 0; i < 2; ++i) {
+    // Half as large, for the joints are twice as large as the mesh.
+    buffer += BytesOfFloats({0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, 1});
+  }
+  WriteFileWhole(folder.path() / "skin.bin", buffer);
+  WriteFileWhole(folder.path() / "skin.gltf",
+                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+    "nodes": [{"mesh": 0, "skin": 0, "name": "body", "scale": [100, 100, 100]},
+              {"name": "low", "scale": [2, 2, 2]},
+              {"name": "high", "scale": [2, 2, 2], "translation": [0, 4, 0]}],
+    "skins": [{"joints": [1, 2], "inverseBindMatrices": 3}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5121, "count": 3, "type": "VEC4"},
+                  {"bufferView": 2, "componentType": 5126, "count": 3, "type": "VEC4"},
+                  {"bufferView": 3, "componentType": 5126, "count": 2, "type": "MAT4"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36},
+                    {"buffer": 0, "byteOffset": 36, "byteLength": 12},
+                    {"buffer": 0, "byteOffset": 48, "byteLength": 48},
+                    {"buffer": 0, "byteOffset": 96, "byteLength": 128}],
+    "buffers": [{"byteLength": 224, "uri": "skin.bin"}]})");
+  const ImportedMesh mesh = ReadMesh(folder.path() / "skin.gltf");
+  // (0, 0, 0), (1, 4, 0) and (0, 1 + 4/2, 0), with y up.
+  EXPECT_TRUE(BoxOf(mesh).isApprox(Box(Vector3(0, 0, 0), Vector3(1, 0, 4)), 1e-6));
+  EXPECT_NEAR(mesh.area_m2, 1.5, 1e-6);
+}
+
+/// A part of a 3DS file: its kind, its length and what it holds.
+std::string Chunk(std::uint16_t kind, const std::string& content) {
+  std::string bytes(sizeof(kind), '\0');
+  std::memcpy(bytes.data(), &kind, sizeof(kind));
+  return bytes + Number(sizeof(kind) + 4 + content.size()) + content;
+}
+
+// A 3DS file does not say what its unit and its upward axis are.
+TEST_F(SceneImport, ScalesAndTurns3dsAsTold) {
+  using std::string_literals::operator""s;
+  const std::string vertices = "\3\0"s + BytesOfFloats({10, 20, 30, 11, 20, 30, 10, 22, 30});
+  const std::string faces = "\1\0\0\0\1\0\2\0\7\0"s;
+  const std::string bytes = Chunk(
+      0x4D4D, Chunk(0x3D3D, Chunk(0x4000, "it\0"s + Chunk(0x4100, Chunk(0x4110, vertices) +
+                                                                      Chunk(0x4120, faces)))));
+  const ImportedMesh plain = ParseMesh(bytes, "a.3ds");
+  EXPECT_TRUE(BoxOf(plain).isApprox(Box(Vector3(10, 20, 30), Vector3(11, 22, 30)), 1e-6));
+  EXPECT_FALSE(plain.has_own_up);
+  const Box scaled = BoxOf(ParseMesh(bytes, "a.3ds", {.unit_m = 0.01, .y_up = {}}));
+  EXPECT_TRUE(scaled.isApprox(Box(Vector3(0.1, 0.2, 0.3), Vector3(0.11, 0.22, 0.3)), 1e-6));
+  const Box turned = BoxOf(ParseMesh(bytes, "a.3ds", {.unit_m = {}, .y_up = true}));
+  EXPECT_TRUE(turned.isApprox(Box(Vector3(10, -30, 20), Vector3(11, -30, 22)), 1e-6));
+}
+
+const std::string triangle_dae = TriangleDae("<node><instance_geometry url=\"#g\"/></node>");
+
+std::string Replaced(std::string text, const std::string& part, const std::string& by) {
+  EXPECT_NE(text.find(part), std::string::npos) << part;
+  return text.replace(text.find(part), part.size(), by);
+}
+
+TEST_F(SceneImport, ReadsDaeWithBlanksRoundItsValues) {
+  EXPECT_TRUE(BoxOf(ParseMesh(triangle_dae, "a.dae")).isApprox(lying, 1e-6));
+  for (const auto& [part, by] : {std::pair{">Z_UP<", ">\n  Z_UP\n<"},
+                                 {"meter=\"1\"", "meter=\" 1 \""},
+                                 {">0 0 0 1 0 0 0 1 0<", ">\t0 0 0 1 0 0 0 1 0\r\n<"},
+                                 {"<p>0 1 2<", "<p> 0 1 2 <"},
+                                 {"source=\"#p\"", "source=\" #p \""},
+                                 {"semantic=\"VERTEX\"", "semantic=' VERTEX '"},
+                                 {"count=\"9\"", "count=\" 9 \""}}) {
+    const ImportedMesh mesh = ParseMesh(Replaced(triangle_dae, part, by), "a.dae");
+    EXPECT_TRUE(BoxOf(mesh).isApprox(lying, 1e-6)) << by;
+  }
+  const std::string centimetres = Replaced(triangle_dae, "meter=\"1\"", "meter=\" 0.01 \"");
+  EXPECT_NEAR(BoxOf(ParseMesh(centimetres, "a.dae")).max().x(), 0.01, 1e-8);
+}
+
+TEST_F(SceneImport, LeavesCommentsOfDaeAlone) {
+  const std::string text = Replaced(triangle_dae, "<library_geometries>",
+                                    "<!-- it's > \" here --><library_geometries><!-- -->");
+  EXPECT_EQ(ParseMesh(text, "a.dae").num_triangles(), 1U);
+}
+
+std::string AsUtf16(std::string_view ascii, bool is_big) {
+  std::string bytes;
+  for (const char letter : ascii) {
+    if (is_big) bytes += '\0';
+    bytes += letter;
+    if (!is_big) bytes += '\0';
+  }
+  return bytes;
+}
+
+TEST_F(SceneImport, ReadsDaeInUtf16) {
+  const std::string text = Replaced(triangle_dae, "utf-8", "utf-16");
+  for (const std::string& bytes : {"\xFF\xFE" + AsUtf16(text, false),
+                                   "\xFE\xFF" + AsUtf16(text, true), AsUtf16(text, false)}) {
+    EXPECT_TRUE(BoxOf(ParseMesh(bytes, "a.dae")).isApprox(lying, 1e-6));
+  }
+}
+
+TEST(AsUtf8, EncodesEveryLength) {
+  // "<", U+00E9, U+20AC, U+1F682 as two units, and half of such a pair.
+  const std::string utf16("<\0\xE9\0\xAC\x20\x3D\xD8\x82\xDE\x3D\xD8", 12);
+  EXPECT_EQ(AsUtf8(utf16), "<\xC3\xA9\xE2\x82\xAC\xF0\x9F\x9A\x82\xEF\xBF\xBD");
+  EXPECT_EQ(AsUtf8("<a"), "<a");
+}
+
+std::string GltfWithMaterials(const std::string& materials) {
+  return TriangleGltf("{\"mesh\": 0}", ", \"materials\": [" + materials + "]");
+}
+
+TEST_F(SceneImport, TakesTheLuminanceOfBaseColours) {
+  const auto luminance = [](const std::string& materials) {
+    return ParseMesh(GltfWithMaterials(materials), "a.gltf").parts.at(0).luminance;
+  };
+  const auto colour =
+      luminance(R"({"name": "a", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]}})");
+  ASSERT_TRUE(colour.has_value());
+  EXPECT_NEAR(*colour, 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722, 1e-6);
+  EXPECT_EQ(luminance(R"({"name": "white by default"})"), 1.0);
+  EXPECT_EQ(luminance(R"({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}})"), 0.0);
+  const std::string picture =
+      R"({"name": "a", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}], "textures":
+         [{"source": 0}], "images": [{"uri": "a.png"})";
+  EXPECT_EQ(luminance(picture), std::nullopt);
+  std::string none = GltfWithMaterials("{\"name\": \"a\"}");
+  none = Replaced(none, R"(, "material": 0)", "");
+  EXPECT_EQ(ParseMesh(none, "a.gltf").parts.at(0).luminance, std::nullopt);
+}
+
+TEST_F(SceneImport, RefusesBaseColoursThatAreNone) {
+  const std::string bytes = GltfWithMaterials(
+      R"({"name": "a", "pbrMetallicRoughness": {"baseColorFactor": [0.5, 2.5, 1, 1]}})");
+  EXPECT_EQ(MessageOf([&] { (void)ParseMesh(bytes, "a.gltf"); }),
+            "a.gltf: the base colour of \"a\" must have parts from 0 to 1 (got 2.5)");
+}
+
+}  // namespace
+}  // namespace railcast
