@@ -2,9 +2,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
 #include "generator/empty_folder.h"
+#include "generator/import/lines/contact_lines.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_cants.h"
 #include "generator/import/lines/line_files.h"
@@ -46,28 +49,46 @@ struct ImportCommandOptions {
   ImportOptions fit;
 };
 
-/// Fits all lines at once, and shows how far that is.
-std::vector<ImportedLine> ImportLines(const RailMap& map,
-                                      const std::vector<TrackLine>& tracks,
-                                      const ImportOptions& options) {
-  double all_m = 0.0;
-  for (const TrackLine& track : tracks) all_m += LengthOf_m(map, track);
+/// Works on all lines at once, and shows how far that is. Lines count by their lengths.
+/// @param what Such as "fitting", for the progress.
+/// @param work Does it for one line, and tells how much of it is done if it knows.
+void WorkOnLines(const RailMap& map,
+                 const std::vector<TrackLine>& tracks,
+                 const std::string& what,
+                 const std::function<void(std::size_t line, const TellShare& tell)>& work) {
+  std::vector<double> lengths_m;
+  for (const TrackLine& track : tracks) lengths_m.push_back(LengthOf_m(map, track));
+  const double all_m = std::reduce(lengths_m.begin(), lengths_m.end());
+  const std::string text =
+      what + " of " + std::to_string(tracks.size()) + (tracks.size() == 1 ? " line" : " lines");
   const ProgressLine progress;
   std::mutex mutex;
-  double done_m = 0.0;
-  std::vector<ImportedLine> lines(tracks.size());
+  std::vector<double> done_m(tracks.size());
+  progress.Show(text, 0.0);
+  const auto show = [&](std::size_t line, double share) {
+    const std::scoped_lock lock(mutex);
+    done_m[line] = share * lengths_m[line];
+    progress.Show(text, std::reduce(done_m.begin(), done_m.end()) / all_m);
+  };
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, tracks.size(), 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          lines[i] = ImportLine(map, tracks[i], options);
-          const std::scoped_lock lock(mutex);
-          done_m += LengthOf_m(map, tracks[i]);
-          progress.Show("fitting " + std::to_string(tracks.size()) + " lines", done_m / all_m);
+          work(i, [&](double share) { show(i, share); });
+          show(i, 1.0);
         }
       },
       tbb::simple_partitioner());
   progress.End();
+}
+
+std::vector<ImportedLine> ImportLines(const RailMap& map,
+                                      const std::vector<TrackLine>& tracks,
+                                      const ImportOptions& options) {
+  std::vector<ImportedLine> lines(tracks.size());
+  WorkOnLines(map, tracks, "fit", [&](std::size_t i, const TellShare& tell) {
+    lines[i] = ImportLine(map, tracks[i], options, tell);
+  });
   return lines;
 }
 
@@ -82,19 +103,14 @@ std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
                                     const std::vector<ImportedLine>& lines,
                                     const ImportCommandOptions& options) {
   std::vector<BuiltWorld> worlds(lines.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, lines.size(), 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
-          if (!options.is_main_only) {
-            worlds[i].beside =
-                AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
-          }
-          AddStructures(map, tracks[i], lines[i], worlds[i].world);
-        }
-      },
-      tbb::simple_partitioner());
+  WorkOnLines(map, tracks, "tracks and structures", [&](std::size_t i, const TellShare& /*tell*/) {
+    worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
+    if (!options.is_main_only) {
+      worlds[i].beside =
+          AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+    }
+    AddStructures(map, tracks[i], lines[i], worlds[i].world);
+  });
   return worlds;
 }
 
@@ -183,6 +199,7 @@ int RunImport(const ImportCommandOptions& options) {
   // Without --crs, it is the map that cannot be projected.
   const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
                                            [&] { return ProjectMap(options.crs, map); });
+  FillElectrified(map);
   const std::vector<TrackLine> tracks = FindLines(map, options.min_length_m);
   if (tracks.empty()) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
@@ -195,7 +212,10 @@ int RunImport(const ImportCommandOptions& options) {
   CheckCanWrite(options.out / "lines.csv");
   std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
   std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
+  const ProgressLine progress;
   for (std::size_t i = 0; i < lines.size(); ++i) {
+    progress.Show("clearing line " + std::to_string(i + 1) + " of " + std::to_string(lines.size()),
+                  static_cast<double>(i) / static_cast<double>(lines.size()));
     if (elevation) {
       SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
       WriteFileWhole(options.out / (lines[i].name + ".elevation.asc"),
@@ -207,6 +227,7 @@ int RunImport(const ImportCommandOptions& options) {
     ClearStructures(lines[i].alignment, worlds[i].world);
     WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
   }
+  progress.End();
   WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));
   WriteFileWhole(options.out / "tracks.csv", TracksCsv(lines, worlds));
   WriteFileWhole(options.out / "heights.csv", HeightsCsv(lines));
@@ -282,7 +303,7 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
       ->check(Number(kSigma));
   subcommand
       ->add_option("--speed", options->fit.otherwise_kmph,
-                   "Speed limit in km/h of lines for which the map has none")
+                   "Speed limit in km/h of running tracks for which the map has none")
       ->capture_default_str()
       ->check(Number(kSpeed));
   subcommand->add_flag("--main-only", options->is_main_only,

@@ -4,23 +4,8 @@
 #include <cmath>
 
 namespace railcast {
-namespace {
 
-using Eigen::Vector2d;
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Curvature of the circle through three points, left positive.
-double CurvatureThrough(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
-  const double product = (b - a).norm() * (c - a).norm() * (c - b).norm();
-  return product > 0.0 ? 2.0 * Cross(b - a, c - a) / product : 0.0;
-}
-
-}  // namespace
-
-LineDraft::LineDraft(std::span<const Vector2d> points_m, const LinePrior& prior)
+LineDraft::LineDraft(std::span<const Eigen::Vector2d> points_m, const LinePrior& prior)
     : points_m_(points_m), prior_(prior), along_m_{0.0} {
   for (std::size_t i = 1; i < points_m.size(); ++i) {
     along_m_.push_back(along_m_.back() + (points_m[i] - points_m[i - 1]).norm());
@@ -33,6 +18,7 @@ LineDraft::LineDraft(std::span<const Vector2d> points_m, const LinePrior& prior)
     const std::size_t last = num_plateaus() - 1;
     Part part = PartOf(last >= kNumRefitted ? last - kNumRefitted + 1 : 0, last);
     part.window.Fit();
+    num_feet_ += part.window.num_feet;
     Replace(part);
   }
 }
@@ -45,15 +31,15 @@ LineDraft::Arc LineDraft::LongestArc(std::size_t begin, double tolerance_m) cons
         std::lower_bound(along_m_.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
                          along_m_.begin() + static_cast<std::ptrdiff_t>(end) - 1, middle_m) -
         along_m_.begin();
-    const double curvature_per_m = CurvatureThrough(
+    const double curvature_per_m = CircleCurvature_per_m(
         points_m_[begin], points_m_[static_cast<std::size_t>(middle)], points_m_[end]);
-    const Vector2d chord_m = points_m_[end] - points_m_[begin];
+    const Eigen::Vector2d chord_m = points_m_[end] - points_m_[begin];
     const double chord_length_m = chord_m.norm();
     double before_m = 0.0;
     for (std::size_t i = begin + 1; i < end; ++i) {
-      const Vector2d to_point_m = points_m_[i] - points_m_[begin];
+      const Eigen::Vector2d to_point_m = points_m_[i] - points_m_[begin];
       const double x_m = to_point_m.dot(chord_m) / chord_length_m;
-      const double y_m = Cross(chord_m, to_point_m) / chord_length_m;
+      const double y_m = CrossProduct(chord_m, to_point_m) / chord_length_m;
       // A line that turns back is no arc, and an arc's points lie between its ends.
       if (!(x_m > before_m && x_m < chord_length_m)) return longest;
       before_m = x_m;
@@ -70,7 +56,7 @@ void LineDraft::Append(std::size_t begin, const Arc& arc) {
   constexpr double kShortest_m = 8.0;
   const double length_m = std::max(kShortest_m, along_m_[arc.end] - along_m_[begin]);
   if (plan_.plateaus.empty()) {
-    const Vector2d chord_m = points_m_[arc.end] - points_m_[begin];
+    const Eigen::Vector2d chord_m = points_m_[arc.end] - points_m_[begin];
     plan_.start = {
         .x_m = points_m_[begin].x(),
         .y_m = points_m_[begin].y(),
@@ -89,16 +75,13 @@ void LineDraft::Append(std::size_t begin, const Arc& arc) {
 }
 
 LineDraft::Part LineDraft::PartOf(std::size_t first, std::size_t last) const {
-  const auto middle_m = [&](std::size_t plateau) {
-    return plan_.ConstantBegin_m(plateau) + 0.5 * plan_.ConstantLength_m(plateau);
-  };
-  Part part{first, last, {}};
+  Part part{first, last, {}, {}};
   PlanWindow& window = part.window;
   window.begins_line = first == 0;
   window.ends_line = last + 1 == num_plateaus();
   window.sigma_m = prior_.sigma_m;
-  const double begin_m = window.begins_line ? 0.0 : middle_m(first);
-  const double end_m = window.ends_line ? plan_.length_m() : middle_m(last);
+  const double begin_m = window.begins_line ? 0.0 : MiddleOf_m(first);
+  const double end_m = window.ends_line ? plan_.length_m() : MiddleOf_m(last);
   const PlanCourse course = plan_.Course();
   window.plan.start = course.At(begin_m);
   window.end = course.At(end_m);
@@ -117,6 +100,7 @@ LineDraft::Part LineDraft::PartOf(std::size_t first, std::size_t last) const {
   for (std::size_t i = 0; i < feet_m_.size(); ++i) {
     if (!window.begins_line && feet_m_[i] < begin_m) continue;
     if (!window.ends_line && feet_m_[i] >= end_m) continue;
+    part.points.push_back(i);
     window.points_m.push_back(points_m_[i]);
     window.feet_m.push_back(feet_m_[i] - begin_m);
     speed_kmph += prior_.speed_kmph(along_m_[i]);
@@ -151,17 +135,22 @@ void LineDraft::Replace(const Part& part) {
     next.clothoids_m.insert(next.clothoids_m.end(), begin(plan_.clothoids_m) + last,
                             plan_.clothoids_m.end());
   }
+  const std::vector<double> before_m = feet_m_;
+  MoveFeet(part, next.length_m() - plan_.length_m());
   plan_ = std::move(next);
-  FindFeet();
+  const PlanCourse course = plan_.Course();
+  for (const std::size_t i : part.points) {
+    // As far from the foot of the point before as it was: the solver may have led feet astray.
+    const double guess_m = i == 0 ? 0.0 : feet_m_[i - 1] + before_m[i] - before_m[i - 1];
+    feet_m_[i] = FootOn(course, plan_.length_m(), points_m_[i], guess_m).s_m;
+  }
+  num_feet_ += part.points.size();
 }
 
-void LineDraft::FindFeet() {
-  const PlanCourse course = plan_.Course();
-  double before_m = 0.0;  // Of the point before, as it was.
-  for (std::size_t i = 0; i < feet_m_.size(); ++i) {
-    const double guess_m = i == 0 ? 0.0 : feet_m_[i - 1] + feet_m_[i] - before_m;
-    before_m = feet_m_[i];
-    feet_m_[i] = FootOn(course, plan_.length_m(), points_m_[i], guess_m).s_m;
+void LineDraft::MoveFeet(const Part& part, double longer_m) {
+  const double end_m = part.window.ends_line ? plan_.length_m() : MiddleOf_m(part.last);
+  for (double& foot_m : feet_m_) {
+    if (foot_m >= end_m) foot_m += longer_m;
   }
 }
 

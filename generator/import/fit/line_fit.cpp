@@ -20,11 +20,22 @@ constexpr double kPrice = 10.0;
 /// A changed plateau is fitted with this many on either side.
 constexpr std::size_t kReach = 2;
 
-double PriceOf(const PlanModel& plan) {
-  const auto num_arcs = std::ranges::count_if(
-      plan.plateaus, [](const Plateau& plateau) { return plateau.curvature_per_m != 0.0; });
-  return kPrice * static_cast<double>(plan.plateaus.size() + plan.clothoids_m.size() +
-                                      static_cast<std::size_t>(num_arcs));
+/// Arcs flatter than this are straights unless many points say otherwise.
+constexpr double kFlat_per_m = 1.0 / 20e3;
+/// The price of a radius so flat, once the line is found.
+constexpr double kPriceOfFlatArc = 40.0;
+
+bool IsFlatArc(const Plateau& plateau) {
+  return plateau.curvature_per_m != 0.0 && std::abs(plateau.curvature_per_m) < kFlat_per_m;
+}
+
+double PriceOf(const PlanModel& plan, double price_of_flat_arc) {
+  double price = kPrice * static_cast<double>(plan.plateaus.size() + plan.clothoids_m.size());
+  for (const Plateau& plateau : plan.plateaus) {
+    if (plateau.curvature_per_m == 0.0) continue;
+    price += IsFlatArc(plateau) ? price_of_flat_arc : kPrice;
+  }
+  return price;
 }
 
 template <typename Value>
@@ -86,11 +97,16 @@ struct Change {
 
 class ChangeSearch {
  public:
-  ChangeSearch(const LineDraft& line, std::size_t plateau)
-      : before_(line.PartOf(plateau >= kReach ? plateau - kReach : 0,
+  ChangeSearch(const LineDraft& line, std::size_t plateau, double price_of_flat_arc)
+      : price_of_flat_arc_(price_of_flat_arc),
+        before_(line.PartOf(plateau >= kReach ? plateau - kReach : 0,
                             std::min(line.num_plateaus() - 1, plateau + kReach))),
         at_(plateau - before_.first) {}
 
+  /// Whether an arc of the part is flat.
+  [[nodiscard]] bool HasFlatArc() const {
+    return std::ranges::any_of(before_.window.plan.plateaus, IsFlatArc);
+  }
   [[nodiscard]] Change Best();
 
  private:
@@ -102,12 +118,13 @@ class ChangeSearch {
   void Try(const Work& work) {
     LineDraft::Part part = before_;
     work(part.window);
-    const double cost = part.window.Fit() + PriceOf(part.window.plan);
+    const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
     const double gain = cost_ - cost;
     if (gain > best_.gain) best_ = {gain, std::move(part)};
   }
   void TryDivisions();
 
+  double price_of_flat_arc_;
   LineDraft::Part before_;
   std::size_t at_;
   double cost_{};
@@ -115,7 +132,7 @@ class ChangeSearch {
 };
 
 Change ChangeSearch::Best() {
-  cost_ = before_.window.Fit() + PriceOf(before_.window.plan);
+  cost_ = before_.window.Fit() + PriceOf(before_.window.plan, price_of_flat_arc_);
   const std::size_t num_plateaus = before_.window.plan.plateaus.size();
   if (!before_.window.has_fixed_curvature[at_]) {
     Try([&](PlanWindow& window) {
@@ -163,14 +180,24 @@ void ChangeSearch::TryDivisions() {
 constexpr double kLeastGain = 0.5;
 
 /// Makes changes until none gains. Each lowers the cost, but only of the part that it fits anew, so
-/// that a limit sees to the end.
-void Improve(LineDraft& line) {
+/// that a limit sees to the end. Where flat arcs have a price of their own, only what is near one
+/// is changed.
+void Improve(LineDraft& line, double price_of_flat_arc, const TellShare& tell) {
   std::vector<std::optional<Change>> changes(line.num_plateaus());
   const std::size_t most_changes = 10 * line.num_plateaus() + 100;
+  // Of the first arcs usually one in two is changed, and each change is followed by five searches.
+  const double usual_searches = 3.5 * static_cast<double>(line.num_plateaus());
+  double num_searches = 0.0;
+  const auto search = [&](std::size_t plateau) {
+    ChangeSearch about(line, plateau, price_of_flat_arc);
+    ++num_searches;
+    if (tell) tell(num_searches / std::max(usual_searches, num_searches + 1.0));
+    return price_of_flat_arc == kPrice || about.HasFlatArc() ? about.Best() : Change{};
+  };
   for (std::size_t num_changes = 0; num_changes < most_changes; ++num_changes) {
     std::size_t best = 0;
     for (std::size_t i = 0; i < changes.size(); ++i) {
-      if (!changes[i]) changes[i] = ChangeSearch(line, i).Best();
+      if (!changes[i]) changes[i] = search(i);
       if (changes[i]->gain > changes[best]->gain) best = i;
     }
     if (!(changes[best]->gain >= kLeastGain)) return;
@@ -209,10 +236,14 @@ LineFit MeasureFit(const PlanModel& plan,
   return fit;
 }
 
-LineFit FitLine(std::span<const Eigen::Vector2d> points_m, const LinePrior& prior) {
+LineFit FitLine(std::span<const Eigen::Vector2d> points_m,
+                const LinePrior& prior,
+                const TellShare& tell) {
   Check(points_m.size() >= 2, "a line has two points or more");
   LineDraft line(points_m, prior);
-  Improve(line);
+  Improve(line, kPrice, tell);
+  // Only now, since a line that is not found yet has flat arcs where it will have none.
+  Improve(line, kPriceOfFlatArc, {});
   return MeasureFit(line.plan(), points_m, line.feet_m());
 }
 

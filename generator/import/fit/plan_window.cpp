@@ -16,7 +16,11 @@ constexpr double kShareOfBalancingCant = 0.6;
 constexpr double kHighestCant_mm = 150.0;
 constexpr double kHighestDeficiency_mm = 130.0;
 constexpr double kShortestUsualClothoid_m = 15.0;
+constexpr double kShortestUsualClothoid_mPerKmph = 0.2;  // 0.7 s of running.
 constexpr double kShortestUsualPlateau_m = 20.0;
+/// The transition curves of faster lines are hardly shorter than this share of the usual length.
+constexpr double kFastLine_kmph = 160.0;
+constexpr double kLeastShareOfUsual = 0.5;
 
 constexpr double kHeadingUnit_rad = 1e-3;
 constexpr double kCurvatureUnit_per_m = 1e-4;
@@ -70,12 +74,13 @@ class Residuals {
   [[nodiscard]] Eigen::VectorXd Parameters() const;
   [[nodiscard]] PlanModel PlanOf(const Eigen::VectorXd& parameters) const;
   [[nodiscard]] const std::vector<double>& feet_m() const { return feet_m_; }
+  [[nodiscard]] std::size_t num_feet() const { return num_feet_; }
 
   // The interface of Eigen's solver.
   [[nodiscard]] Eigen::Index inputs() const { return num_inputs_; }
   [[nodiscard]] Eigen::Index values() const {
     const PlanModel& plan = window_->plan;
-    return static_cast<Eigen::Index>(window_->points_m.size() + plan.clothoids_m.size() +
+    return static_cast<Eigen::Index>(window_->points_m.size() + 2 * plan.clothoids_m.size() +
                                      2 * plan.plateaus.size() + kNumEndResiduals);
   }
   int operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& residuals) const;
@@ -87,6 +92,7 @@ class Residuals {
   double longest_m_;  ///< That the solver may try for an element.
   Eigen::Index num_inputs_;
   mutable std::vector<double> feet_m_;  ///< Of the last evaluation: guesses for the next one.
+  mutable std::size_t num_feet_ = 0;    ///< Sought so far.
 };
 
 Eigen::VectorXd Residuals::Parameters() const {
@@ -142,6 +148,7 @@ int Residuals::operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& re
   Eigen::Index next = 0;
   Foot first;
   Foot last;
+  num_feet_ += feet_m_.size();
   for (std::size_t i = 0; i < feet_m_.size(); ++i) {
     last = FootOn(course, length_m, window_->points_m[i], feet_m_[i]);
     feet_m_[i] = last.s_m;
@@ -152,6 +159,11 @@ int Residuals::operator()(const Eigen::VectorXd& parameters, Eigen::VectorXd& re
     const double usual_m = UsualClothoid_m(window_->speed_kmph, plan.plateaus[i].curvature_per_m,
                                            plan.plateaus[i + 1].curvature_per_m);
     residuals[next++] = 2.0 * std::log(plan.clothoids_m[i] / usual_m);
+    if (window_->speed_kmph > kFastLine_kmph) {
+      residuals[next] =
+          std::max(0.0, 5.0 * std::log(kLeastShareOfUsual * usual_m / plan.clothoids_m[i]));
+    }
+    ++next;
   }
   const double sharpest_per_m = SharpestCurvature_per_m(window_->speed_kmph);
   for (std::size_t i = 0; i < plan.plateaus.size(); ++i) {
@@ -200,7 +212,8 @@ double UsualClothoid_m(double speed_kmph, double from_per_m, double to_per_m) {
   const double cant_mm = std::min(kShareOfBalancingCant * kBalancingCant * speed_kmph * speed_kmph *
                                       std::abs(to_per_m - from_per_m),
                                   kHighestCant_mm);
-  return std::max(kShortestUsualClothoid_m, kCantSlope_mPerMmKmph * speed_kmph * cant_mm);
+  return std::max({kShortestUsualClothoid_m, kShortestUsualClothoid_mPerKmph * speed_kmph,
+                   kCantSlope_mPerMmKmph * speed_kmph * cant_mm});
 }
 
 double SharpestCurvature_per_m(double speed_kmph) {
@@ -219,6 +232,7 @@ double PlanWindow::Fit() {
   residuals(parameters, rest);
   plan = residuals.PlanOf(parameters);
   feet_m = residuals.feet_m();
+  num_feet += residuals.num_feet();
   return rest.squaredNorm();
 }
 

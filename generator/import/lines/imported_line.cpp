@@ -22,38 +22,29 @@ constexpr double kContradiction_m = 1.5;
 /// The points of a line with what belongs to them.
 struct LinePoints {
   std::vector<Eigen::Vector2d> places_m;
-  std::vector<std::size_t> nodes;
   std::vector<double> along_m;
-  std::vector<double> speeds_kmph;  ///< Behind each point.
+  std::vector<StepSpeed> speeds;  ///< Behind each point but the last one.
+  /// As many; where the map has none, no more than the curves allow.
+  std::vector<double> built_for_kmph;
 };
 
-LinePoints PointsOf(const RailMap& map, const TrackLine& line, double otherwise_kmph) {
-  const std::vector<double> speeds_kmph = SpeedsAlong_kmph(map, line, otherwise_kmph);
+LinePoints PointsOf(const RailMap& map, const TrackLine& line, double running_kmph) {
   LinePoints points;
-  for (std::size_t i = 0; i < line.nodes.size(); ++i) {
-    const Eigen::Vector2d& place_m = map.nodes[line.nodes[i]].place_m;
-    points.along_m.push_back(
-        i == 0 ? 0.0 : points.along_m.back() + (place_m - points.places_m.back()).norm());
+  for (const std::size_t node : line.nodes) {
+    const Eigen::Vector2d& place_m = map.nodes[node].place_m;
+    const double step_m = points.places_m.empty() ? 0.0 : (place_m - points.places_m.back()).norm();
+    points.along_m.push_back(points.along_m.empty() ? 0.0 : points.along_m.back() + step_m);
     points.places_m.push_back(place_m);
-    points.nodes.push_back(line.nodes[i]);
-    points.speeds_kmph.push_back(speeds_kmph[std::min(i, speeds_kmph.size() - 1)]);
+  }
+  points.speeds = SpeedsAlong(map, line, running_kmph);
+  points.built_for_kmph = SpeedsOfCurves_kmph(points.places_m, points.along_m);
+  for (std::size_t i = 0; i < points.speeds.size(); ++i) {
+    const StepSpeed& speed = points.speeds[i];
+    double& built_for_kmph = points.built_for_kmph[i];
+    built_for_kmph =
+        speed.is_mapped ? speed.speed_kmph : std::min(built_for_kmph, speed.speed_kmph);
   }
   return points;
-}
-
-std::vector<ChainageValue> SpeedLimitsOf(const LinePoints& points, const LineFit& fit) {
-  // Rounded chainages differ by 0.1 m at least, and the last one must lie before the end.
-  constexpr double kNearest_m = 0.05;
-  const double length_m = fit.plan.length_m();
-  std::vector<ChainageValue> limits;
-  for (std::size_t i = 0; i + 1 < points.nodes.size(); ++i) {
-    // An alignment's first entry begins at 0, wherever the first point's foot is.
-    const double s_m = limits.empty() ? 0.0 : std::round(fit.chainages_m[i] * 10.0) / 10.0;
-    if (!limits.empty() && limits.back().value == points.speeds_kmph[i]) continue;
-    if (!limits.empty() && !(s_m > limits.back().s_m && s_m < length_m - kNearest_m)) continue;
-    limits.push_back({s_m, points.speeds_kmph[i]});
-  }
-  return limits;
 }
 
 /// Counts how often a sequence of curvatures changes its sign; straights do not count.
@@ -70,10 +61,12 @@ class SignChanges {
   double last_ = 0.0;
 };
 
-/// The last of ascending values that is at most `value`; the first one if none is.
-std::size_t LastUpTo(const std::vector<double>& values, double value) {
+/// The last of ascending values, but not the very last one, that is at most `value`; the first one
+/// if none is.
+std::size_t StepAt(const std::vector<double>& values, double value) {
   const auto after = std::ranges::upper_bound(values, value);
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - values.begin() - 1, 0));
+  const auto last = static_cast<std::ptrdiff_t>(values.size()) - 2;
+  return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - values.begin() - 1, 0, last));
 }
 
 struct Wiggles {
@@ -124,12 +117,14 @@ double Quantile(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
+LineQuality QualityOf(const LinePoints& points,
+                      const LineFit& fit,
+                      const std::vector<ChainageValue>& limits_kmph) {
   std::vector<double> distances_m;
   for (const double offset_m : fit.offsets_m) distances_m.push_back(std::abs(offset_m));
   std::ranges::sort(distances_m);
   LineQuality quality;
-  quality.num_points = points.nodes.size();
+  quality.num_points = points.places_m.size();
   quality.num_elements = fit.plan.Elements().size();
   quality.length_m = fit.plan.length_m();
   quality.median_m = Quantile(distances_m, 0.5);
@@ -142,8 +137,7 @@ LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
   const auto [s_m, sharpest_per_m] = SharpestOf(fit.plan);
   quality.tightest_radius_m =
       sharpest_per_m > 0.0 ? 1.0 / sharpest_per_m : std::numeric_limits<double>::infinity();
-  quality.needed_radius_m =
-      1.0 / SharpestCurvature_per_m(points.speeds_kmph[LastUpTo(fit.chainages_m, s_m)]);
+  quality.needed_radius_m = 1.0 / SharpestCurvature_per_m(SpeedAt_kmph(limits_kmph, s_m));
 
   SignChanges changes;
   for (const Plateau& plateau : fit.plan.plateaus) changes.Add(plateau.curvature_per_m);
@@ -153,13 +147,16 @@ LineQuality QualityOf(const LinePoints& points, const LineFit& fit) {
 
 }  // namespace
 
-ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportOptions& options) {
+ImportedLine ImportLine(const RailMap& map,
+                        const TrackLine& line,
+                        const ImportOptions& options,
+                        const TellShare& tell) {
   const LinePoints points = PointsOf(map, line, options.otherwise_kmph);
   const auto speed_kmph = [&](double along_m) {
-    return points.speeds_kmph[LastUpTo(points.along_m, along_m)];
+    return points.built_for_kmph[StepAt(points.along_m, along_m)];
   };
   const LineFit exact =
-      FitLine(points.places_m, {.sigma_m = options.sigma_m, .speed_kmph = speed_kmph});
+      FitLine(points.places_m, {.sigma_m = options.sigma_m, .speed_kmph = speed_kmph}, tell);
 
   ImportedLine imported;
   imported.name = line.name;
@@ -181,16 +178,16 @@ ImportedLine ImportLine(const RailMap& map, const TrackLine& line, const ImportO
   start.heading_rad = alignment.heading_deg / kDegPerRad;
   // Measured on what is written.
   const LineFit fit = MeasureFit(PlanOf(start, elements), points.places_m, exact.chainages_m);
-  alignment.speed_limits_kmph = SpeedLimitsOf(points, fit);
+  alignment.speed_limits_kmph = SpeedLimitsOf(points.speeds, fit.chainages_m, fit.plan);
   // Finds what an alignment refuses before anything is written.
   AtPlace("line " + line.name + ": ", [&] { return Alignment(alignment); });
-  imported.quality = QualityOf(points, fit);
+  imported.quality = QualityOf(points, fit, alignment.speed_limits_kmph);
   imported.chainages_m = fit.chainages_m;
   imported.height_sigma_m = options.height_sigma_m;
   for (std::size_t i = 0; i < fit.offsets_m.size(); ++i) {
     if (std::abs(fit.offsets_m[i]) <= kContradiction_m) continue;
     imported.contradictions.push_back(
-        {fit.chainages_m[i], fit.offsets_m[i], map.nodes[points.nodes[i]].geographic_deg});
+        {fit.chainages_m[i], fit.offsets_m[i], map.nodes[line.nodes[i]].geographic_deg});
   }
   return imported;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/import/fit/line_fit.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/rail_map.h"
@@ -62,13 +63,15 @@ struct ImportedLine {
 struct ImportOptions {
   double sigma_m = 0.3;          ///< Standard deviation of mapped points across the track.
   double height_sigma_m = 2.0;   ///< Of the heights.
-  double otherwise_kmph = 80.0;  ///< Where the map gives no speed.
+  double otherwise_kmph = 80.0;  ///< Of running tracks where the map gives no speed.
 };
 
-/// Fits straights, arcs and clothoids to a line (FitLine) and takes its speed limits from the map.
-/// Its heights are all 0 until SetHeights.
+/// Fits straights, arcs and clothoids to a line (FitLine). Its speed limits are the map's or, where
+/// that has none, those of its kind and its arcs (SpeedLimitsOf). Its heights are all 0 until
+/// SetHeights.
 [[nodiscard]] ImportedLine ImportLine(const RailMap& map,
                                       const TrackLine& line,
-                                      const ImportOptions& options);
+                                      const ImportOptions& options,
+                                      const TellShare& tell = {});
 
 }  // namespace railcast

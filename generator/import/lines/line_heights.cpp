@@ -9,17 +9,12 @@
 #include "core/base/text.h"
 #include "generator/import/heights/profile_fit.h"
 #include "generator/import/lines/line_stretches.h"
+#include "generator/import/lines/speed_limits.h"
 
 namespace railcast {
 namespace {
 
 constexpr double kNearestSamples_m = 20.0;
-
-double SpeedAt_kmph(const AlignmentSpec& alignment, double s_m) {
-  const std::vector<ChainageValue>& limits = alignment.speed_limits_kmph;
-  const auto after = std::ranges::upper_bound(limits, s_m, {}, &ChainageValue::s_m);
-  return (after == limits.begin() ? limits.front() : *std::prev(after)).value;
-}
 
 HeightQuality HeightQualityOf(const Profile& profile) {
   HeightQuality quality;
@@ -44,10 +39,11 @@ HeightQuality HeightQualityOf(const Profile& profile) {
 void FitHeights(std::vector<HeightSample> samples, ImportedLine& line) {
   std::ranges::stable_sort(samples, {}, &HeightSample::s_m);
   AlignmentSpec& alignment = line.alignment;
-  const Profile profile =
-      FitProfile(samples, {.length_m = line.quality.length_m,
-                           .sigma_m = line.height_sigma_m,
-                           .speed_kmph = [&](double s_m) { return SpeedAt_kmph(alignment, s_m); }});
+  const Profile profile = FitProfile(
+      samples,
+      {.length_m = line.quality.length_m,
+       .sigma_m = line.height_sigma_m,
+       .speed_kmph = [&](double s_m) { return SpeedAt_kmph(alignment.speed_limits_kmph, s_m); }});
   alignment.origin_m[2] = profile.start_z_m;
   alignment.gradients_permil = profile.gradients_permil;
   alignment.gradient_smoothing_m = profile.smoothing_m;

@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "generator/import/fit/plan_window.h"
+#include "generator/import/lines/contact_lines.h"
 #include "generator/import/lines/line_gauge.h"
 #include "generator/import/network/track_json.h"
 #include "generator/import/structures/structure_json.h"
@@ -21,19 +22,6 @@ std::string CsvText(std::string_view text) {
   std::string shown = ShownText(text);
   std::ranges::replace(shown, '"', '\'');
   return shown;
-}
-
-/// Whether most of a line has a contact line, as far as the map says.
-bool HasContactLine(const RailMap& map, const TrackLine& track) {
-  double with_m = 0.0;
-  double without_m = 0.0;
-  for (std::size_t i = 0; i < track.ways.size(); ++i) {
-    const std::string_view electrified = TagOf(map.ways[track.ways[i]].tags, "electrified");
-    const double length_m = StepLength_m(map, track, i);
-    if (electrified == "contact_line" || electrified == "yes") with_m += length_m;
-    if (electrified == "no" || electrified == "rail") without_m += length_m;
-  }
-  return with_m >= without_m;
 }
 
 /// The line as a track.

@@ -8,10 +8,13 @@
 #include <random>
 #include <vector>
 
+#include "generator/import/fit/line_draft.h"
 #include "generator/import/fit/plan_window.h"
 
 namespace railcast {
 namespace {
+
+using ::testing::ElementsAre;
 
 /// Points of a plan as mappers draw them: more of them in curves, off by sigma_m across the track.
 std::vector<Eigen::Vector2d> MappedPoints(const PlanModel& plan, double sigma_m, unsigned seed) {
@@ -199,10 +202,93 @@ TEST(LineFit, KeepsTheEndOfALongLineInItsRoundedElements) {
   }
 }
 
+/// The radii of a plan's arcs, without sign.
+std::vector<double> RadiiOf_m(const PlanModel& plan) {
+  std::vector<double> radii_m;
+  for (const Plateau& plateau : plan.plateaus) {
+    if (plateau.curvature_per_m != 0.0) radii_m.push_back(1.0 / std::abs(plateau.curvature_per_m));
+  }
+  return radii_m;
+}
+
+TEST(LineFit, MakesNoFlatArcsOfPointsThatAreOffTogether) {
+  // Within 1200 m the points leave a straight by up to 0.7 m and return to it, as a swing of the
+  // pen does.
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 0.0; x_m <= 4000.0; x_m += 25.0) {
+    const double inside_m = std::clamp(x_m - 1400.0, 0.0, 1200.0);
+    points_m.emplace_back(x_m, 0.35 * (1.0 - std::cos(2.0 * M_PI * inside_m / 1200.0)));
+  }
+  const LineFit fit = FitLine(points_m, ForSpeed(160.0, 0.3));
+  EXPECT_THAT(RadiiOf_m(fit.plan), ::testing::Each(::testing::Lt(20e3)));
+}
+
+TEST(LineFit, KeepsAFlatArcThatManyPointsShow) {
+  PlanModel truth;
+  truth.plateaus = {{0.0, 2000.0}, {1.0 / 30e3, 2500.0}, {0.0, 2000.0}};
+  truth.clothoids_m = {60.0, 60.0};
+  const LineFit fit = FitLine(MappedPoints(truth, 0.1, 4), ForSpeed(200.0, 0.3));
+  EXPECT_THAT(RadiiOf_m(fit.plan), ElementsAre(::testing::DoubleNear(30e3, 3e3)));
+}
+
+TEST(LineFit, HasClothoidsOnFastLinesThatTheirSpeedCanRunThrough) {
+  // Points every 60 m and 0.3 m off do not show where a clothoid of 40 m begins.
+  PlanModel truth;
+  truth.plateaus = {{0.0, 1500.0}, {1.0 / 2200.0, 900.0}, {0.0, 1500.0}};
+  truth.clothoids_m = {40.0, 40.0};
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const LineFit fit = FitLine(MappedPoints(truth, 0.3, seed), ForSpeed(200.0, 0.3));
+    for (std::size_t i = 0; i < fit.plan.clothoids_m.size(); ++i) {
+      EXPECT_GE(fit.plan.clothoids_m[i],
+                0.4 * UsualClothoid_m(200.0, fit.plan.plateaus[i].curvature_per_m,
+                                      fit.plan.plateaus[i + 1].curvature_per_m))
+          << seed;
+    }
+  }
+}
+
+/// A metro's straights and curves, over and over, with a point every 15 m.
+std::vector<Eigen::Vector2d> MetroPoints(int num_curves) {
+  PlanModel plan;
+  for (int i = 0; i < num_curves; ++i) {
+    plan.plateaus.push_back({0.0, 250.0 + 37.0 * (i % 5)});
+    plan.plateaus.push_back({(i % 2 == 0 ? 1.0 : -1.0) / (300.0 + 41.0 * (i % 7)), 180.0});
+  }
+  plan.plateaus.push_back({0.0, 300.0});
+  plan.clothoids_m.assign(plan.plateaus.size() - 1, 40.0);
+  const PlanCourse course = plan.Course();
+  std::vector<Eigen::Vector2d> points_m;
+  for (double s_m = 0.0; s_m < plan.length_m(); s_m += 15.0) {
+    points_m.emplace_back(course.At(s_m).x_m, course.At(s_m).y_m);
+  }
+  return points_m;
+}
+
+TEST(LineDraft, TakesFourTimesTheWorkForFourTimesTheLine) {
+  const auto work = [](int num_curves) {
+    const LinePrior prior = ForSpeed(80.0, 0.3);
+    const std::vector<Eigen::Vector2d> points_m = MetroPoints(num_curves);
+    return static_cast<double>(LineDraft(points_m, prior).num_feet());
+  };
+  // Were all feet sought anew after each arc, it would be more than five times.
+  EXPECT_NEAR(work(160) / work(40), 4.0, 0.4);
+}
+
+TEST(LineFit, TellsHowMuchOfItIsDone) {
+  std::vector<double> shares;
+  static_cast<void>(
+      FitLine(MetroPoints(5), ForSpeed(80.0, 0.3), [&](double share) { shares.push_back(share); }));
+  ASSERT_GT(shares.size(), 10U);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_GT(shares.front(), 0.0);
+  EXPECT_LT(shares.back(), 1.0);
+}
+
 TEST(UsualClothoid, IsTheRampOfTheCant) {
   // 120 km/h and 800 m: 212 mm balance, 127 mm are built, and the ramp rises by 1 mm in 1.2 m.
   EXPECT_NEAR(UsualClothoid_m(120.0, 0.0, 1.0 / 800.0), 152.9, 0.1);
   EXPECT_EQ(UsualClothoid_m(40.0, 0.0, 1.0 / 5000.0), 15.0);
+  EXPECT_EQ(UsualClothoid_m(250.0, 0.0, 1.0 / 60e3), 50.0) << "0.2 m for each km/h";
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "generator/import/lines/speed_limits.h"
-
 namespace railcast {
 namespace {
 
@@ -122,28 +120,6 @@ TEST(TrackLines, HaveNamesThatFitAFileName) {
   ASSERT_THAT(lines, SizeIs(2));
   EXPECT_EQ(lines[0].name, std::string(100, 'a'));
   EXPECT_EQ(lines[1].name, std::string(98, 'a') + "-2");
-}
-
-TEST(SpeedLimits, AreReadInKilometresAndMilesPerHour) {
-  EXPECT_EQ(SpeedOf_kmph("120"), 120.0);
-  EXPECT_NEAR(*SpeedOf_kmph("50 mph"), 80.47, 0.01);
-  for (const char* other :
-       {"", "none", "signals", "80;100", "-5", "inf", "nan", "5000", "1e200", "700 mph"}) {
-    EXPECT_EQ(SpeedOf_kmph(other), std::nullopt) << other;
-  }
-}
-
-TEST(SpeedLimits, AreThoseOfTheNearestWayWhereAWayHasNone) {
-  RailMap map = MapWithBranch(6.0);
-  map.ways[1].tags["maxspeed"] = "90";
-  TrackLine line = FindLines(map, 200.0).front();
-  EXPECT_THAT(SpeedsAlong_kmph(map, line, 60.0), ElementsAre(90.0, 90.0, 90.0, 90.0));
-  map.ways[0].tags["maxspeed"] = "50";
-  EXPECT_THAT(SpeedsAlong_kmph(map, line, 60.0),
-              ::testing::UnorderedElementsAre(50.0, 50.0, 90.0, 90.0));
-  map.ways[0].tags.erase("maxspeed");
-  map.ways[1].tags.erase("maxspeed");
-  EXPECT_THAT(SpeedsAlong_kmph(map, line, 60.0), ElementsAre(60.0, 60.0, 60.0, 60.0));
 }
 
 }  // namespace

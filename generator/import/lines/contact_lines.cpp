@@ -1,0 +1,76 @@
+#include "generator/import/lines/contact_lines.h"
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace railcast {
+namespace {
+
+constexpr const char* kUsualKey = "import:usual";
+
+/// Whether a value of `electrified` is a contact line.
+bool IsContactLine(std::string_view electrified) {
+  return electrified == "contact_line" || electrified == "yes";
+}
+
+/// How much of a map's tracks of one kind has what.
+struct TaggedLength {
+  double all_m{};
+  double tagged_m{};
+  double contact_line_m{};
+
+  [[nodiscard]] bool UsuallyHasContactLine() const {
+    return tagged_m > 0.0 && 2.0 * tagged_m >= all_m && 2.0 * contact_line_m >= tagged_m;
+  }
+};
+
+double LengthOfWay_m(const RailMap& map, const MapWay& way) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way.nodes.size(); ++i) {
+    length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
+  }
+  return length_m;
+}
+
+}  // namespace
+
+void FillElectrified(RailMap& map) {
+  std::map<std::string, TaggedLength, std::less<>> kinds;
+  for (const MapWay& way : map.ways) {
+    TaggedLength& kind = kinds[std::string(TagOf(way.tags, "railway"))];
+    const double length_m = LengthOfWay_m(map, way);
+    const std::string_view electrified = TagOf(way.tags, "electrified");
+    kind.all_m += length_m;
+    if (!electrified.empty()) kind.tagged_m += length_m;
+    if (IsContactLine(electrified)) kind.contact_line_m += length_m;
+  }
+  for (MapWay& way : map.ways) {
+    if (!TagOf(way.tags, "electrified").empty()) continue;
+    const std::string_view kind = TagOf(way.tags, "railway");
+    const bool has_one = kind == "tram" || kinds.find(kind)->second.UsuallyHasContactLine();
+    way.tags["electrified"] = has_one ? "contact_line" : "no";
+    way.tags[kUsualKey] = "electrified";
+  }
+}
+
+bool HasContactLine(const RailMap& map, const TrackLine& track) {
+  // Of what the map says, and of what is usual.
+  std::array<double, 2> with_m{};
+  std::array<double, 2> without_m{};
+  for (std::size_t i = 0; i < track.ways.size(); ++i) {
+    const MapTags& tags = map.ways[track.ways[i]].tags;
+    const std::string_view electrified = TagOf(tags, "electrified");
+    const std::size_t source = TagOf(tags, kUsualKey).empty() ? 0 : 1;
+    const double length_m = StepLength_m(map, track, i);
+    if (IsContactLine(electrified)) with_m[source] += length_m;
+    if (electrified == "no" || electrified == "rail") without_m[source] += length_m;
+  }
+  const bool says_something = with_m[0] + without_m[0] > 0.0;
+  const std::size_t source = says_something ? 0 : 1;
+  return with_m[source] > 0.0 && with_m[source] >= without_m[source];
+}
+
+}  // namespace railcast
