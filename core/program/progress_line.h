@@ -6,8 +6,13 @@
 
 namespace railcast {
 
-/// A terminal line that shows the progress of a job and is rewritten in place. Silent where stderr
-/// is not a terminal, except for Say().
+/// "0:05", "8:19" or "2:05:00": minutes and seconds, with hours where there are any. Parts of a
+/// second count as a whole one.
+[[nodiscard]] std::string DurationText(double duration_s);
+
+/// A line on stderr that shows the progress of a job. On a terminal it is rewritten in place.
+/// Elsewhere, as in a log, every half minute what is shown last becomes a line, so that a job of
+/// less than that leaves none. All lines of a program share this half minute.
 class TerminalLine {
  public:
   TerminalLine();
@@ -16,17 +21,28 @@ class TerminalLine {
   /// Prints `text` as a line of its own above the progress, even where stderr is not a terminal.
   void Say(std::string_view text) const;
   void Clear() const { Show(""); }
-  /// Keeps the text shown last and begins a new line.
+  /// Keeps the text shown last on the terminal and begins a new line.
   void End() const;
 
  private:
   bool is_terminal_;
 };
 
+/// "42 %, scenario 11 of 24, about 2:05 left".
+/// @param done Completed share of the job, in [0, 1].
+/// @param done_before That of an earlier run, which says nothing of the time that is left.
+/// @param elapsed_s Since this run began.
+[[nodiscard]] std::string ProgressText(const std::string& what,
+                                       double done,
+                                       double done_before,
+                                       double elapsed_s);
+
 /// Shows in a TerminalLine how far a long job is and how long it will still take.
 class ProgressLine {
  public:
-  ProgressLine() : begin_(std::chrono::steady_clock::now()) {}
+  /// @param done_before Completed share of a job that an earlier run began.
+  explicit ProgressLine(double done_before = 0.0)
+      : begin_(std::chrono::steady_clock::now()), done_before_(done_before) {}
 
   /// @param done Completed share of the job, in [0, 1].
   void Show(const std::string& what, double done) const;
@@ -37,6 +53,7 @@ class ProgressLine {
  private:
   TerminalLine line_;
   std::chrono::steady_clock::time_point begin_;
+  double done_before_;
 };
 
 }  // namespace railcast

@@ -1,13 +1,13 @@
 #include "generator/sequence/summary.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/program/progress_line.h"
 
 namespace railcast {
 namespace {
@@ -65,9 +65,8 @@ std::string SequenceProgressText(std::uint32_t num_done,
   const std::uint32_t num_made = num_done - num_resumed;
   if (num_made == 0 || elapsed_s <= 0.0) return text.str();
   const double rate_hz = num_made / elapsed_s;
-  const auto left_s = static_cast<std::uint64_t>(std::ceil((num_frames - num_done) / rate_hz));
-  text << ", " << std::fixed << std::setprecision(1) << rate_hz << " frames/s, " << left_s / 60
-       << ":" << std::setw(2) << std::setfill('0') << left_s % 60 << " left";
+  text << ", " << std::fixed << std::setprecision(1) << rate_hz << " frames/s, "
+       << DurationText((num_frames - num_done) / rate_hz) << " left";
   return text.str();
 }
 
