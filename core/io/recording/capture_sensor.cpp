@@ -94,11 +94,17 @@ std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   return std::nullopt;
 }
 
-std::string SensorFinder::Findings() const {
-  if (!stranger_.empty()) return "got " + stranger_;
-  if (num_datagrams_ == 0) return "got no UDP datagram";
-  return "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
-         NumberText(first_size_) + " bytes";
+std::string SensorFinder::Findings(std::size_t num_torn) const {
+  std::string found = "got " + stranger_;
+  if (stranger_.empty()) {
+    found = num_torn > 0 ? "got no whole UDP datagram" : "got no UDP datagram";
+  }
+  if (stranger_.empty() && num_datagrams_ > 0) {
+    found = "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
+            NumberText(first_size_) + " bytes";
+  }
+  if (num_torn == 0) return found;
+  return found + ", and " + NumberText(num_torn) + " that lack IP fragments";
 }
 
 }  // namespace railcast
