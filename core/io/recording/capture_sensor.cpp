@@ -52,6 +52,20 @@ std::vector<CaptureSensor> ReadableSensors() {
   return sensors;
 }
 
+/// Whether this begins with a packet of Hesai's Pandar40P: 10 blocks of 124 bytes, each with the
+/// flag of Velodyne's blocks, and a tail of 22 bytes (Hesai, Pandar40P user manual, "point cloud
+/// data packet").
+bool IsPandar40P(std::span<const char> payload) {
+  constexpr std::size_t kBlocks = 10;
+  constexpr std::size_t kBlockBytes = 124;
+  constexpr std::size_t kTailBytes = 22;
+  if (payload.size() < kBlocks * kBlockBytes + kTailBytes) return false;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    if (LoadAt<std::uint16_t>(payload.data() + i * kBlockBytes) != kLowerBlockFlag) return false;
+  }
+  return true;
+}
+
 /// Describes packets of a sensor that is recognised but cannot be decoded; empty if the payload is
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
@@ -67,6 +81,7 @@ std::string NameOfStranger(std::span<const char> payload) {
       LoadAt<std::uint16_t>(payload.data()) != kLowerBlockFlag) {
     return {};
   }
+  if (IsPandar40P(payload)) return "packets of Hesai's Pandar40P, which are not read";
   const auto id = LoadAt<std::uint8_t>(payload.data() + kModelPlace);
   for (const OtherModel& model : kOtherModels) {
     if (model.id == id) return std::string(model.name);
