@@ -73,7 +73,9 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
   const std::string scenarios = ScenariosDir().string();
   const auto file = folder.Write("scenario.json", R"({"version": 1, "file": ")" + scenarios +
                                                       R"(/minimal.json",
-    "world": {"vegetation": {"trees_per_hectare": 0, "grass": false}},
+    "world": {"alignment": {"course": {"type": "elements",
+        "elements": [{"type": "straight", "length_m": 1000}]}},
+      "vegetation": {"trees_per_hectare": 0, "grass": false}},
     "lidar": {"file": ")" + scenarios + R"(/sensors/vir2rail.json",
       "scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
         "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}}})");
