@@ -6,6 +6,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/frontier/frontier_report.h"
+#include "analysis/frontier/kept_frontier.h"
 #include "analysis/frontier/measure.h"
 #include "analysis/report/draw.h"
 #include "analysis/report/output.h"
@@ -49,6 +50,16 @@ ScenarioSpec ReadForFrontier(const FrontierOptions& options) {
   return scenario;
 }
 
+// Tells a run from all that would measure something else.
+std::string IdentityText(const FrontierPlan& plan, const std::string& scenario_hash) {
+  std::string text = "railcast " + ProgramVersion() + ", scenario " + scenario_hash + ", " +
+                     NumberText(plan.num_threads) + " threads, rows";
+  for (const FrontierRow& row : plan.rows) text += " " + row.name;
+  text += ", frames";
+  for (const std::uint32_t frame : plan.frames) text += " " + NumberText(frame);
+  return text;
+}
+
 int RunFrontier(const FrontierOptions& options, const std::string& command_line) {
   FrontierPlan plan;
   plan.rows = ChooseFrontierRows(options.rows);
@@ -62,14 +73,16 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   std::filesystem::create_directories(options.out);
   // The choice of fidelity takes about a tenth of the time.
   constexpr double kRowsShare = 0.9;
-  const ProgressLine progress;
+  const std::string scenario_hash = IdentityOf(scenario).scenario_hash;
+  const KeptFrontier kept(options.out / "frontier.part", IdentityText(plan, scenario_hash));
+  const ProgressLine progress(kRowsShare * KeptShare(plan, kept));
   simulator->UseThreads(0);
   const FidelityChoice choice = ChooseFidelity(*simulator, scenario, [&](double done) {
     progress.Show("what the scene needs", (1.0 - kRowsShare) * done);
   });
   UseChoice(choice, plan.rows);
   const std::vector<RowResult> results =
-      MeasureFrontier(plan, scenario, *simulator, [&](const std::string& what, double done) {
+      MeasureFrontier(plan, scenario, *simulator, kept, [&](const std::string& what, double done) {
         progress.Show(what, 1.0 - kRowsShare + kRowsShare * done);
       });
   progress.End();
@@ -83,7 +96,7 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
       ChoiceJson(choice, scenario.tolerance),
       ChoiceText(choice, scenario.tolerance),
       ReportDate(),
-      IdentityOf(scenario).scenario_hash,
+      scenario_hash,
       WeatherText(scenario.weather)};
   WriteFileWhole(options.out / "frontier.csv", FrontierCsv(results));
   const Report report =
@@ -91,6 +104,7 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
   EmitReport(report, {options.out, true}, "frontier",
              FrontierJson(plan, circumstances, LabelTable(scenario.labels), results));
   DrawSheet(report.sections.front().charts, report.title, options.out / "frontier");
+  kept.Remove();
   std::cout << "frontier.csv, .svg, .png in " << ShownPath(options.out) << "\n";
   return kExitSuccess;
 }
@@ -99,8 +113,10 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
 
 void AddFrontier(CLI::App& app, ProgramCommand& command) {
   const auto options = std::make_shared<FrontierOptions>();
-  CLI::App* frontier = app.add_subcommand(
-      "frontier", "Chart time against accuracy: the rungs, brute force, and the reference");
+  CLI::App* frontier = app.add_subcommand("frontier",
+                                          "Chart time against accuracy: the rungs, brute force, "
+                                          "and the reference; run the same command "
+                                          "again to continue an interrupted run");
   frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
   frontier
       ->add_option(

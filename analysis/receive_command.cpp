@@ -1,5 +1,4 @@
 #include <signal.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -17,6 +16,7 @@
 #include "analysis/receive/receive_report.h"
 #include "analysis/receive/received_files.h"
 #include "core/base/attempt.h"
+#include "core/program/progress_line.h"
 #include "core/program/run_program.h"
 #include "railcast/io/udp_grabber.h"
 
@@ -114,16 +114,24 @@ int RunReceive(const ReceiveOptions& options) {
   grabber.start();
   std::cout << "listening at " << EndpointText(grabber.at()) << std::endl;
 
-  const bool is_terminal = ::isatty(STDERR_FILENO) == 1;
   const double begin_s = Now_s();
   const double end_s =
       begin_s + options.duration_s.value_or(std::numeric_limits<double>::infinity());
-  double next_line_s = begin_s + 1.0;
+  double next_s = begin_s;
+  const ProgressLine progress;
   while (!counter.is_done() && Now_s() < end_s && !signals.Wait()) {
-    if (!is_terminal || Now_s() < next_line_s) continue;
-    std::cerr << ReceiveProgress(counter.totals(), grabber.counts()) << "\n";
-    next_line_s += 1.0;
+    if (Now_s() < next_s) continue;
+    next_s += 1.0;
+    const std::string text = ReceiveProgress(counter.totals(), grabber.counts());
+    const auto done = ReceivedShare(counter.totals(), Now_s() - begin_s,
+                                    {options.num_frames, options.duration_s});
+    if (done) {
+      progress.Show(text, *done);
+    } else {
+      progress.Show(text);
+    }
   }
+  progress.End();
   // Read before the grabber stops, so that a frame in flight does not count as lost.
   const UdpGrabber::Counts counts = grabber.counts();
   grabber.stop();

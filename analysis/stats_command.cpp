@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,10 +7,12 @@
 
 #include "analysis/commands.h"
 #include "analysis/distinct_sources.h"
+#include "analysis/report/draw.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_section.h"
 #include "analysis/stats/measured_source.h"
+#include "analysis/stats/sheet.h"
 #include "analysis/stats/statistics.h"
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
@@ -25,6 +28,7 @@ namespace {
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
   int num_threads = 0;
+  bool has_sheet = false;
   ReportOutput output;
 };
 
@@ -122,7 +126,21 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources, std::size_t nu
   return all;
 }
 
+void WriteSheet(const std::vector<MeasuredSource>& sources, const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> recordings;
+  for (const MeasuredSource& source : sources) {
+    recordings.insert(recordings.end(), source.recordings.begin(), source.recordings.end());
+  }
+  const SheetScript sheet = MakeSheet(recordings);
+  MakeFolder(out);
+  DrawDarkPng(sheet.text, sheet.width_px, sheet.height_px, out / "sheet.png");
+  std::cout << "sheet.png in " << ShownPath(out) << "\n";
+}
+
 int RunStats(const StatsOptions& options, const std::string& command_line) {
+  if (options.has_sheet && options.output.out.empty()) {
+    throw InputError("--sheet: must be with --out");
+  }
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::vector<MeasuredSource> sources = LookAtSources(options.sources);
   const SourcesAtFirstSight seen = LookAtRecordings(sources);
@@ -135,6 +153,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   AddDatasetSections(sources, report);
   AddProvenance(seen.infos, ProgramVersion(), report);
   EmitReport(report, options.output, "stats");
+  if (options.has_sheet) WriteSheet(sources, options.output.out);
   return kExitSuccess;
 }
 
@@ -155,6 +174,8 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
+  stats->add_flag("--sheet", options->has_sheet,
+                  "Also draw sheet.png: frames of each sensor and camera side by side");
   AddReportOptions(*stats, options->output);
   stats->callback([&command, options] {
     command = [options](const std::string& line) { return RunStats(*options, line); };

@@ -9,6 +9,7 @@ with a block per rung and weather, and prints a Markdown table.
 """
 
 import csv
+import json
 import pathlib
 import sys
 
@@ -67,13 +68,19 @@ def shown(rows, band, name, figure, scale, unit):
     return f"{scale * float(values[0]):.1f} {unit}" if values and values[0] else "-"
 
 
+def points_a_frame(report):
+    """From the counts: the report gives no mean of a few frames."""
+    facts = json.loads((pathlib.Path(report) / "stats.json").read_text(encoding="utf-8"))["facts"]
+    return int(facts["Points"]) / int(facts["Frames"])
+
+
 def table_line(rung, weather, report):
-    points = next(row["mean"] for row in read_rows(report, "frames") if row["figure"] == "points")
-    clutter = sum(float(row["share"]) for row in read_rows(report, "outcomes")
-                  if row["outcome"] == "clutter")
+    outcomes = read_rows(report, "outcomes")
+    num_clutter = sum(int(row["firings"]) for row in outcomes if row["outcome"] == "clutter")
+    clutter = num_clutter / sum(int(row["firings"]) for row in outcomes)
     dropout = read_rows(report, "dropout_by_range")
     noise = read_rows(report, "noise_from_truth")
-    cells = [f"`{rung}`", weather, f"{float(points):,.0f}", f"{100.0 * clutter:.1f} %"]
+    cells = [f"`{rung}`", weather, f"{points_a_frame(report):,.0f}", f"{100.0 * clutter:.1f} %"]
     cells += [shown(dropout, band, "true_range_m", "dropout", 100.0, "%") for band in BANDS]
     cells += [shown(noise, band, "range_m", "sigma_mm", 1.0, "mm") for band in BANDS]
     return "| " + " | ".join(cells) + " |"

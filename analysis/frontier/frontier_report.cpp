@@ -163,7 +163,7 @@ Section TimeSection(const std::vector<RowResult>& results) {
   for (std::size_t i = 0; i < kNumCharts; ++i) {
     section.charts.push_back(ErrorChart(errors, kFrontierErrors[i]));
   }
-  section.paragraphs = {DefeatsText(FindDefeats(results))};
+  section.paragraphs = {DefeatsText(results)};
   section.tables = {errors, FoundTable(results), TargetsTable(results), ParetoTable(results)};
   for (Table& table : section.tables) table.is_open = true;
   return section;

@@ -33,31 +33,47 @@ class Stopwatch {
   Stopwatch(const SimulatorSpec& spec, RowSimulators& simulators)
       : spec_(spec), simulators_(simulators) {}
 
-  // One round of all rows on one frame.
-  // @pre The first row is the raw trace.
-  void Round(std::uint32_t frame,
-             const std::function<void()>& raw_trace,
-             bool is_first_round,
-             std::vector<RowResult>& results) {
-    double raw_ms = 0.0;
-    for (RowResult& result : results) {
-      const bool is_raw = result.row.group == RowGroup::kRawTrace;
-      Simulator& simulator = simulators_.Of(result.row);
-      if (!is_raw) simulator.Use(SpecOfRow(result.row, spec_));
-      const std::function<void()> scan = [&] { simulator.Scan(frame, frame_); };
-      const bool has_enough =
-          std::accumulate(result.times_ms.begin(), result.times_ms.end(), 0.0) > kEnough_ms;
-      if (has_enough && !is_first_round) continue;
-      std::vector<double> times_ms = TimesOf(is_raw ? raw_trace : scan);
-      result.times_ms.insert(result.times_ms.end(), times_ms.begin(), times_ms.end());
-      std::sort(times_ms.begin(), times_ms.end());
-      const double median_ms = times_ms[times_ms.size() / 2];
-      if (is_raw) raw_ms = median_ms;
-      result.ratios.push_back(median_ms / raw_ms);
+  // The times of all rows on one frame, in rounds.
+  // @param before The rows with their times on earlier frames. The first is the raw trace.
+  std::vector<RowTimes> TimesOn(std::uint32_t frame,
+                                const FrontierPlan& plan,
+                                const std::vector<RowResult>& before) {
+    simulators_.UseThreads(plan.num_threads);
+    simulators_.BuildWindows(frame);
+    const std::function<void()> raw_trace = simulators_.Of(before.front().row).MakeRawTrace(frame);
+    std::vector<RowTimes> rows(before.size());
+    for (int round = 0; round < plan.num_rounds; ++round) {
+      Round(frame, raw_trace, before, rows);
     }
+    return rows;
   }
 
  private:
+  void Round(std::uint32_t frame,
+             const std::function<void()>& raw_trace,
+             const std::vector<RowResult>& before,
+             std::vector<RowTimes>& rows) {
+    double raw_ms = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool is_raw = before[i].row.group == RowGroup::kRawTrace;
+      Simulator& simulator = simulators_.Of(before[i].row);
+      if (!is_raw) simulator.Use(SpecOfRow(before[i].row, spec_));
+      const std::function<void()> scan = [&] { simulator.Scan(frame, frame_); };
+      const bool has_enough = SumOf(before[i].times_ms) + SumOf(rows[i].times_ms) > kEnough_ms;
+      if (has_enough && !rows[i].times_ms.empty()) continue;
+      std::vector<double> times_ms = TimesOf(is_raw ? raw_trace : scan);
+      rows[i].times_ms.insert(rows[i].times_ms.end(), times_ms.begin(), times_ms.end());
+      std::sort(times_ms.begin(), times_ms.end());
+      const double median_ms = times_ms[times_ms.size() / 2];
+      if (is_raw) raw_ms = median_ms;
+      rows[i].ratios.push_back(median_ms / raw_ms);
+    }
+  }
+
+  static double SumOf(const std::vector<double>& times_ms) {
+    return std::accumulate(times_ms.begin(), times_ms.end(), 0.0);
+  }
+
   static std::vector<double> TimesOf(const std::function<void()>& work) {
     const double first_ms = Time_ms(work);  // The caches still hold another row's data.
     if (first_ms > kSlow_ms) return {first_ms};
@@ -70,6 +86,15 @@ class Stopwatch {
   RowSimulators& simulators_;
   Frame frame_;
 };
+
+void AddTimes(const std::vector<RowTimes>& rows, std::vector<RowResult>& results) {
+  Check(rows.size() == results.size(), "every row has its times");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [times_ms, ratios] = rows[i];
+    results[i].times_ms.insert(results[i].times_ms.end(), times_ms.begin(), times_ms.end());
+    results[i].ratios.insert(results[i].ratios.end(), ratios.begin(), ratios.end());
+  }
+}
 
 // Errors are computed over all echoes and before range noise.
 SimulatorSpec ComparedSpec(const FrontierRow& row, const SimulatorSpec& scenario) {
@@ -96,17 +121,74 @@ std::vector<float> StepsWith(const SimulatorSpec& compared,
   return StepsOf(parts, compared.detector.beam, limits);
 }
 
+// Shares of the work on a sample frame, whose whole is 1: with it comes what the scan of a frame of
+// the reference takes. Frames on the way to objects are scanned, but not timed.
+constexpr double kTimingShare = 0.5;
+constexpr double kReferenceShare = 0.4;
+constexpr double kErrorsShare = 0.1;
+constexpr double kDetailFrameShare = 0.02;
+
+double WorkOf(const FrontierPlan& plan) {
+  return static_cast<double>(plan.frames.size()) +
+         (kReferenceShare + kErrorsShare) * static_cast<double>(plan.approach_frames.size()) +
+         kDetailFrameShare * static_cast<double>(plan.detail_frames.size());
+}
+
+/// Reports the progress in steps.
+class Steps {
+ public:
+  Steps(const FrontierPlan& plan, const FrontierProgress& on_progress)
+      : all_(WorkOf(plan)), on_progress_(on_progress) {}
+
+  /// Begins a step.
+  void Begin(const std::string& what, double work) {
+    on_progress_(what, done_ / all_);
+    done_ += work;
+  }
+
+ private:
+  double all_;
+  const FrontierProgress& on_progress_;
+  double done_ = 0.0;
+};
+
+/// Scans frames of the reference, or takes them from an earlier run.
+class Reference {
+ public:
+  Reference(SimulatorSpec spec, const KeptFrontier& kept, Simulator& simulator)
+      : spec_(std::move(spec)), kept_(kept), simulator_(simulator) {}
+
+  [[nodiscard]] Frame FrameOf(std::uint32_t index) const {
+    return kept_.FrameOf(index, [&] {
+      Frame frame;
+      simulator_.Use(spec_);
+      simulator_.Scan(index, frame);
+      return frame;
+    });
+  }
+  [[nodiscard]] std::vector<float> StepsOf_m(std::uint32_t index) const {
+    return kept_.StepsOf(index,
+                         [&] { return StepsWith(spec_, kReferenceSteps, index, simulator_); });
+  }
+
+ private:
+  SimulatorSpec spec_;
+  const KeptFrontier& kept_;
+  Simulator& simulator_;
+};
+
 // The points of each object on the frames on the way to it, for each row.
 std::vector<std::vector<Approach>> MeasureApproaches(const FrontierPlan& plan,
-                                                     const FrontierRow& yardstick,
+                                                     const Reference& of_reference,
                                                      const SimulatorSpec& spec,
-                                                     Simulator& simulator) {
+                                                     Simulator& simulator,
+                                                     Steps& steps) {
   std::vector<std::vector<Approach>> approaches(plan.rows.size(), ApproachesIn(simulator.world()));
-  Frame reference;
   Frame other;
   for (const std::uint32_t frame : plan.approach_frames) {
-    simulator.Use(ComparedSpec(yardstick, spec));
-    simulator.Scan(frame, reference);
+    steps.Begin("detection distances, frame " + std::to_string(frame),
+                kReferenceShare + kErrorsShare);
+    const Frame reference = of_reference.FrameOf(frame);
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
       if (!plan.rows[i].is_matched()) continue;
       simulator.Use(ComparedSpec(plan.rows[i], spec));
@@ -159,9 +241,22 @@ double RowResult::ratio() const {
   return sorted[sorted.size() / 2];
 }
 
+double KeptShare(const FrontierPlan& plan, const KeptFrontier& kept) {
+  double done = 0.0;
+  for (const std::uint32_t frame : plan.frames) {
+    done += kept.HasTimes(frame) ? kTimingShare : 0.0;
+    done += kept.HasFrame(frame) ? kReferenceShare : 0.0;
+  }
+  for (const std::uint32_t frame : plan.approach_frames) {
+    done += kept.HasFrame(frame) ? kReferenceShare : 0.0;
+  }
+  return done / WorkOf(plan);
+}
+
 std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                                        const ScenarioSpec& scenario,
                                        Simulator& simulator,
+                                       const KeptFrontier& kept,
                                        const FrontierProgress& on_progress) {
   const SimulatorSpec spec = simulator.spec();
   std::vector<RowResult> results;
@@ -172,31 +267,19 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
   std::vector<FrameComparison> comparisons(results.size(), FrameComparison(comparison));
   const FrontierRow yardstick{"yardstick", RowGroup::kReference, YardstickEffects(),
                               plan.yardstick_rays};
+  const Reference of_reference(ComparedSpec(yardstick, spec), kept, simulator);
   RowSimulators simulators(scenario, simulator, plan.rows);
   Stopwatch stopwatch(spec, simulators);
-  Frame reference;
+  Steps steps(plan, on_progress);
   Frame other;
-  double done = 0.0;
-  const auto advance = [&](const std::string& what, double steps) {
-    on_progress(what, done);
-    done += steps / static_cast<double>(plan.frames.size());
-  };
   for (const std::uint32_t frame : plan.frames) {
-    simulators.UseThreads(plan.num_threads);
-    simulators.BuildWindows(frame);
-    const std::function<void()> raw_trace = simulator.MakeRawTrace(frame);
-    for (int round = 0; round < plan.num_rounds; ++round) {
-      advance("timing frame " + std::to_string(frame), 0.5 / plan.num_rounds);
-      stopwatch.Round(frame, raw_trace, round == 0, results);
-    }
+    steps.Begin("timing frame " + std::to_string(frame), kTimingShare);
+    AddTimes(kept.TimesOf(frame, [&] { return stopwatch.TimesOn(frame, plan, results); }), results);
     simulators.UseThreads(0);
-    advance("reference of frame " + std::to_string(frame), 0.4);
-    const SimulatorSpec of_yardstick = ComparedSpec(yardstick, spec);
-    simulator.Use(of_yardstick);
-    simulator.Scan(frame, reference);
-    const std::vector<float> reference_steps_m =
-        StepsWith(of_yardstick, kReferenceSteps, frame, simulator);
-    advance("errors of frame " + std::to_string(frame), 0.1);
+    steps.Begin("reference of frame " + std::to_string(frame), kReferenceShare);
+    const Frame reference = of_reference.FrameOf(frame);
+    const std::vector<float> reference_steps_m = of_reference.StepsOf_m(frame);
+    steps.Begin("errors of frame " + std::to_string(frame), kErrorsShare);
     for (std::size_t i = 0; i < results.size(); ++i) {
       if (!results[i].row.is_matched()) continue;
       const SimulatorSpec of_row = ComparedSpec(results[i].row, spec);
@@ -207,10 +290,9 @@ std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                               StepsWith(of_row, kFoundSteps, frame, simulator));
     }
   }
-  on_progress("detection distances", done);
   std::vector<std::vector<Approach>> approaches =
-      MeasureApproaches(plan, yardstick, spec, simulator);
-  on_progress("scene detail", done);
+      MeasureApproaches(plan, of_reference, spec, simulator, steps);
+  steps.Begin("scene detail", 0.0);
   MeasureDetail(plan, spec, simulators, results);
   simulator.Use(spec);
   for (std::size_t i = 0; i < results.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "analysis/frontier/detail_difference.h"
 #include "analysis/frontier/detection_distance.h"
+#include "analysis/frontier/kept_frontier.h"
 #include "analysis/frontier/rows.h"
 #include "core/fidelity/frame_comparison.h"
 #include "railcast/scenario.h"
@@ -60,13 +61,19 @@ struct RowResult {
 /// Called with the completed share of the work, in [0, 1].
 using FrontierProgress = std::function<void(const std::string& what, double done)>;
 
+/// The share of the work that an earlier run has done.
+[[nodiscard]] double KeptShare(const FrontierPlan& plan, const KeptFrontier& kept);
+
 /// Times the rows, interleaved in this process, and compares their frames with those of the
 /// reference.
 /// @param scenario In full detail.
 /// @param simulator Made from the scenario; its spec is restored afterwards.
+/// @param kept What an earlier run has measured is taken from there; what this one measures is kept
+///   there.
 [[nodiscard]] std::vector<RowResult> MeasureFrontier(const FrontierPlan& plan,
                                                      const ScenarioSpec& scenario,
                                                      Simulator& simulator,
+                                                     const KeptFrontier& kept,
                                                      const FrontierProgress& on_progress);
 
 }  // namespace railcast

@@ -68,7 +68,16 @@ std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results) {
   return defeats;
 }
 
-std::string DefeatsText(const std::vector<Defeat>& defeats) {
+std::string DefeatsText(const std::vector<RowResult>& results) {
+  const auto has = [&](RowGroup group) {
+    return std::ranges::any_of(results, [&](const RowResult& result) {
+      return result.row.group == group && result.difference;
+    });
+  };
+  if (!has(RowGroup::kBruteForce) || !has(RowGroup::kLadder)) {
+    return "Brute force is not compared with the rungs: there must be rows of both.";
+  }
+  const std::vector<Defeat> defeats = FindDefeats(results);
   if (defeats.empty()) return "No row of brute force is faster and more accurate than a rung.";
   std::string text;
   for (const Defeat& defeat : defeats) {

@@ -81,7 +81,8 @@ struct Defeat {
 /// Finds all such pairs: the brute-force points to the left of and below a rung on any chart.
 [[nodiscard]] std::vector<Defeat> FindDefeats(const std::vector<RowResult>& results);
 
-/// Describes them in a sentence.
-[[nodiscard]] std::string DefeatsText(const std::vector<Defeat>& defeats);
+/// Describes them in a sentence, which claims nothing where there is no row of brute force or no
+/// rung.
+[[nodiscard]] std::string DefeatsText(const std::vector<RowResult>& results);
 
 }  // namespace railcast

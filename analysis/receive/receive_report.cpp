@@ -1,5 +1,6 @@
 #include "analysis/receive/receive_report.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -30,6 +31,18 @@ std::string ReceiveProgress(const ReceivedTotals& totals, const StreamReceiver::
   text << totals.frames << " frames, " << PointsEach(totals) << " points each, " << RateText(totals)
        << ", " << counts.stream.lost_packets << " packets lost";
   return text.str();
+}
+
+std::optional<double> ReceivedShare(const ReceivedTotals& totals,
+                                    double elapsed_s,
+                                    const ReceiveLimits& limits) {
+  if (!limits.num_frames && !limits.duration_s) return std::nullopt;
+  double share = 0.0;
+  if (limits.num_frames) {
+    share = static_cast<double>(totals.frames) / static_cast<double>(*limits.num_frames);
+  }
+  if (limits.duration_s) share = std::max(share, elapsed_s / *limits.duration_s);
+  return std::min(1.0, share);
 }
 
 std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::Counts& counts) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "railcast/io/stream.h"
@@ -21,6 +22,17 @@ struct ReceivedTotals {
 /// "50 frames, 16012 points each, 10.0 Hz, 0 packets lost".
 [[nodiscard]] std::string ReceiveProgress(const ReceivedTotals& totals,
                                           const StreamReceiver::Counts& counts);
+
+/// After what a run ends, if anything ends it but a signal.
+struct ReceiveLimits {
+  std::optional<std::uint64_t> num_frames;
+  std::optional<double> duration_s;
+};
+
+/// The completed share of a run, by whichever limit is nearer; nothing if it has none.
+[[nodiscard]] std::optional<double> ReceivedShare(const ReceivedTotals& totals,
+                                                  double elapsed_s,
+                                                  const ReceiveLimits& limits);
 
 /// Lines on frames, packets and points and, where there are any, on datagrams of other senders and
 /// on refused ones by reason.

@@ -1,77 +1,133 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "analysis/report/chart_script.h"
 
 namespace railcast {
 namespace {
 
-// As shares of the axes of a small drawing.
-constexpr double kLetterWidth = 0.012;
-constexpr double kLetterHeight = 0.06;
+// As shares of the axes of a drawing on a sheet of four.
+constexpr double kLetterWidth = 0.0135;
+constexpr double kLineHeight = 0.055;
+// From a point to its label, in letters and lines.
+constexpr double kAside_letters = 0.8;
+constexpr std::array<double, 6> kPlaces_lines = {0.7, -0.7, 1.7, -1.7, 2.7, -2.7};
 
 double PlaceOn(double value, const AxisRange& range, bool is_log) {
   if (is_log) return std::log(value / range.low) / std::log(range.high / range.low);
   return (value - range.low) / (range.high - range.low);
 }
 
-// A label and its point; `right` and `up` are -1 or 1.
-struct ChartLabel {
-  const ChartPoint* point{};
+/// A place on the drawing, as shares of its axes.
+struct Place {
   double x{}, y{};
-  int right = 1, up = 1;
 };
 
-// Chooses the sides of labels. Of neighbours so close that their labels would meet, the left half
-// has its labels on the left; in each half the higher points have theirs above. Isolated labels
-// stand below the points of the first series and above those of the others, which keeps the series'
-// labels apart.
-void TakeSides(std::vector<ChartLabel>::iterator begin,
-               std::vector<ChartLabel>::iterator end,
-               bool is_first) {
-  const auto middle = begin + (end - begin) / 2;
-  for (auto label = begin; label != end; ++label) {
-    const bool is_left = label < middle;
-    const auto half_begin = is_left ? begin : middle, half_end = is_left ? middle : end;
-    const auto num_higher = std::count_if(half_begin, half_end, [&](const ChartLabel& other) {
-      return other.y > label->y || (other.y == label->y && &other < &*label);
-    });
-    label->right = is_left ? -1 : 1;
-    label->up = 2 * num_higher < half_end - half_begin ? 1 : -1;
+struct LabelBox {
+  double left{}, right{}, low{}, high{};
+
+  [[nodiscard]] bool Overlaps(const LabelBox& other) const {
+    return left < other.right && other.left < right && low < other.high && other.low < high;
   }
-  if (end - begin == 1 && is_first) begin->right = begin->up = -1;
-  for (auto label = begin; label != end; ++label) {
-    if (label->y < kLetterHeight) label->up = 1;
+  [[nodiscard]] bool Holds(const Place& place) const {
+    return left < place.x && place.x < right && low < place.y && place.y < high;
   }
+};
+
+/// A way of placing a label beside its point.
+struct LabelPlace {
+  int side{};  ///< 1 = right of the point, -1 = left.
+  double up_lines{};
+};
+
+LabelBox BoxOf(const Place& point, std::size_t num_letters, const LabelPlace& place) {
+  const double near = point.x + place.side * kAside_letters * kLetterWidth;
+  const double far = near + place.side * kLetterWidth * static_cast<double>(num_letters);
+  const double middle = point.y + place.up_lines * kLineHeight;
+  return {std::min(near, far), std::max(near, far), middle - 0.5 * kLineHeight,
+          middle + 0.5 * kLineHeight};
 }
+
+/// Places the labels of a drawing one after another where they cost least.
+class LabelPlacer {
+ public:
+  explicit LabelPlacer(const Drawing& drawing) : drawing_(drawing) {
+    for (const ChartSeries& series : drawing.chart.series) AddLines(series);
+  }
+
+  [[nodiscard]] std::optional<Place> PlaceOf(const ChartPoint& point) const {
+    const Chart& chart = drawing_.chart;
+    if (!HasPlace(point.x, chart.x.is_log) || !HasPlace(point.y, chart.y.is_log)) return {};
+    return Place{PlaceOn(point.x, drawing_.x, chart.x.is_log),
+                 PlaceOn(point.y, drawing_.y, chart.y.is_log)};
+  }
+
+  [[nodiscard]] LabelPlace Put(const Place& point, std::size_t num_letters) {
+    double least = std::numeric_limits<double>::infinity();
+    LabelPlace best;
+    for (const double up_lines : kPlaces_lines) {
+      for (const int side : {1, -1}) {
+        const LabelPlace place{side, up_lines};
+        const double cost = CostOf(BoxOf(point, num_letters, place)) + std::abs(up_lines);
+        if (cost >= least) continue;
+        least = cost;
+        best = place;
+      }
+    }
+    placed_.push_back(BoxOf(point, num_letters, best));
+    return best;
+  }
+
+ private:
+  void AddLines(const ChartSeries& series) {
+    constexpr int kParts = 40;
+    const bool is_line = series.style == SeriesStyle::kLinePoints;
+    std::optional<Place> last;
+    for (const ChartPoint& point : series.points) {
+      const auto place = PlaceOf(point);
+      if (place && last && is_line) {
+        for (int i = 1; i < kParts; ++i) {
+          const double share = static_cast<double>(i) / kParts;
+          drawn_.push_back(
+              {last->x + share * (place->x - last->x), last->y + share * (place->y - last->y)});
+        }
+      }
+      if (place) drawn_.push_back(*place);
+      last = place;
+    }
+  }
+
+  // Labels above each other cannot be read, and labels beyond the axes collide with the numbers
+  // there; a line through a label is only untidy.
+  [[nodiscard]] double CostOf(const LabelBox& box) const {
+    double cost = 0.0;
+    for (const LabelBox& other : placed_) cost += box.Overlaps(other) ? 100.0 : 0.0;
+    if (box.low < 0.0 || box.left < 0.0 || box.right > 1.0) cost += 50.0;
+    for (const Place& place : drawn_) cost += box.Holds(place) ? 0.5 : 0.0;
+    return cost;
+  }
+
+  const Drawing& drawing_;
+  std::vector<Place> drawn_;  ///< Points, and places along the lines between them.
+  std::vector<LabelBox> placed_;
+};
 
 }  // namespace
 
 std::string LabelsText(const Drawing& drawing) {
-  const Chart& chart = drawing.chart;
+  LabelPlacer placer(drawing);
   std::string text;
-  for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    std::vector<ChartLabel> labels;
-    for (const ChartPoint& point : chart.series[i].points) {
-      if (point.label.empty() || !HasPlace(point.x, chart.x.is_log)) continue;
-      if (!HasPlace(point.y, chart.y.is_log)) continue;
-      labels.push_back({&point, PlaceOn(point.x, drawing.x, chart.x.is_log),
-                        PlaceOn(point.y, drawing.y, chart.y.is_log)});
-    }
-    for (auto begin = labels.begin(); begin != labels.end();) {
-      auto end = begin + 1;
-      const auto width = [](const ChartLabel& label) {
-        return kLetterWidth * static_cast<double>(label.point->label.size());
-      };
-      while (end != labels.end() && std::abs(end->x - (end - 1)->x) < width(*(end - 1))) ++end;
-      TakeSides(begin, end, i == 0);
-      begin = end;
-    }
-    for (const ChartLabel& label : labels) {
-      text += "set label " + GnuplotQuoted(label.point->label) + " at " +
-              GnuplotNumber(label.point->x) + "," + GnuplotNumber(label.point->y) +
-              (label.right > 0 ? " left" : " right") + " offset " +
-              GnuplotNumber(0.8 * label.right) + "," + GnuplotNumber(0.7 * label.up) +
+  for (std::size_t i = 0; i < drawing.chart.series.size(); ++i) {
+    for (const ChartPoint& point : drawing.chart.series[i].points) {
+      const auto place = placer.PlaceOf(point);
+      if (point.label.empty() || !place) continue;
+      const auto [side, up_lines] = placer.Put(*place, point.label.size());
+      text += "set label " + GnuplotQuoted(point.label) + " at " + GnuplotNumber(point.x) + "," +
+              GnuplotNumber(point.y) + (side > 0 ? " left" : " right") + " offset " +
+              GnuplotNumber(kAside_letters * side) + "," + GnuplotNumber(up_lines) +
               " textcolor rgb '" + kSeriesColors[i % kSeriesColors.size()] + "'\n";
     }
   }

@@ -156,6 +156,21 @@ void DrawSheet(const std::vector<Chart>& charts,
   draw("pngcairo size 1200,900 font 'sans-serif,10'", ".png");
 }
 
+void DrawDarkPng(const std::string& script,
+                 int width_px,
+                 int height_px,
+                 const std::filesystem::path& png) {
+  const DrawingFolder drawings;
+  WriteFileWhole(drawings.path() / "script.gnuplot", script);
+  const std::string size = std::to_string(width_px) + "," + std::to_string(height_px);
+  const std::string bytes = GnuplotOutput(
+      drawings.path() / "script.gnuplot",
+      "set encoding utf8; set terminal pngcairo noenhanced background '#1b1b1d' size " + size +
+          " font 'sans-serif,9'");
+  if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
+  WriteFileWhole(png, bytes);
+}
+
 std::string CleanSvg(const std::string& gnuplot_svg, const std::string& prefix) {
   std::string text = WithPlainColors(gnuplot_svg);
   EraseAll(text, "<title>", "</title>");

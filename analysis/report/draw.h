@@ -23,6 +23,13 @@ void DrawSheet(const std::vector<Chart>& charts,
                const std::string& title,
                const std::filesystem::path& picture);
 
+/// Draws a gnuplot script on a dark background as a PNG file.
+/// @throws InputError as DrawCharts() does.
+void DrawDarkPng(const std::string& script,
+                 int width_px,
+                 int height_px,
+                 const std::filesystem::path& png);
+
 /// Adapts gnuplot's SVG to a page: black becomes the colour of the surrounding text
 /// (`currentColor`), other colours are written as "#0072b2" so that a style sheet can find and
 /// replace them, ids get the unique `prefix`, and titles, which browsers show as tooltips, are

@@ -118,6 +118,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
   if (is_exact) report.headlines.push_back({"Dropout, exact", "", statistics.dropout.Share()});
   if (!statistics.holes.is_empty()) {
     report.headlines.push_back({"Dropout, estimated from holes", "", statistics.holes.Share()});
+  } else if (!is_exact) {
+    report.facts.emplace_back(
+        "Dropout", "unknown: where the sensor fired without a return cannot be told for certain");
   }
   AddNoiseHeadline(statistics.noise, report);
   AddDensityHeadline(

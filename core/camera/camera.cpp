@@ -12,6 +12,8 @@
 #include "core/camera/daylight.h"
 #include "core/camera/lens.h"
 #include "core/camera/material_colors.h"
+#include "core/camera/put_ray.h"
+#include "core/camera/wires_in_pixels.h"
 #include "core/simulate/frame_scene.h"
 #include "railcast/ray_caster.h"
 
@@ -50,7 +52,10 @@ struct Shot {
 /// Working memory of one block.
 struct BlockWork {
   RayTile rays;
+  /// The same rays without wires, where there are any: what the colours are of, behind the wires.
+  RayTile bare;
   RayTile to_sun;
+  WiresInPixels wires;
   float z_per_range[kTileSize];     ///< Depth of a point, as a share of its range.
   std::uint32_t shaded[kTileSize];  ///< The ray that each ray of `to_sun` belongs to.
   bool is_lit[kTileSize];
@@ -58,25 +63,6 @@ struct BlockWork {
 
 Eigen::Vector3f VectorAt(const float* x, const float* y, const float* z, std::size_t i) {
   return {x[i], y[i], z[i]};
-}
-
-void PutRay(const Eigen::Vector3f& origin,
-            const Eigen::Vector3f& direction,
-            float range_m,
-            std::size_t i,
-            RayTile& rays) {
-  rays.origin_x[i] = origin.x();
-  rays.origin_y[i] = origin.y();
-  rays.origin_z[i] = origin.z();
-  rays.direction_x[i] = direction.x();
-  rays.direction_y[i] = direction.y();
-  rays.direction_z[i] = direction.z();
-  rays.shutter[i] = 0.0F;
-  rays.range_m[i] = range_m;
-  rays.surface[i] = 0;
-  rays.normal_x[i] = 0.0F;
-  rays.normal_y[i] = 0.0F;
-  rays.normal_z[i] = 0.0F;
 }
 
 // Pixels beyond the edge of the image repeat those at the edge.
@@ -101,6 +87,24 @@ void AimBlock(const Shot& shot, const Pixel& corner, BlockWork& work) {
   }
 }
 
+// Pixels as beams: the standard deviations are half the ways to the next pixels, about the middle
+// of the block. A place half a pixel beyond the outer pixels is still within the image.
+BeamShape ShapeOfPixels(const Shot& shot, const Pixel& corner) {
+  const auto middle = [](std::uint32_t first, std::uint32_t size) {
+    return std::min(first + 0.5 * kBlock, size - 1.0);
+  };
+  const double u_px = middle(corner.column, shot.spec.width_px);
+  const double v_px = middle(corner.row, shot.spec.height_px);
+  const auto seen_at = [&](double du_px, double dv_px) {
+    const auto seen = shot.lens.DirectionAt(u_px + du_px, v_px + dv_px);
+    Check(seen.has_value(), "a camera's distortion can be inverted");
+    return Vector3(seen->x(), seen->y(), 1.0).normalized();
+  };
+  return {.up_window = -shot.window_from_camera.linear().col(1).cast<float>(),
+          .sigma_horizontal_rad = 0.5 * (seen_at(0.5, 0.0) - seen_at(-0.5, 0.0)).norm(),
+          .sigma_vertical_rad = 0.5 * (seen_at(0.0, 0.5) - seen_at(0.0, -0.5)).norm()};
+}
+
 // Of unit length, on the camera's side.
 Eigen::Vector3f NormalAt(const RayTile& rays, std::size_t ray) {
   const Eigen::Vector3f normal =
@@ -111,10 +115,9 @@ Eigen::Vector3f NormalAt(const RayTile& rays, std::size_t ray) {
 }
 
 // Finds out which of the surfaces hit the sun shines on: those that face it, with nothing between.
-void CastShadows(const Shot& shot, BlockWork& work) {
+void CastShadows(const Shot& shot, const RayTile& rays, BlockWork& work) {
   std::fill_n(work.is_lit, kTileSize, false);
   if (!shot.daylight.has_sun()) return;
-  const RayTile& rays = work.rays;
   const Eigen::Vector3f& to_sun = shot.daylight.to_sun();
   std::size_t num_shaded = 0;
   for (std::size_t ray = 0; ray < kTileSize; ++ray) {
@@ -131,6 +134,7 @@ void CastShadows(const Shot& shot, BlockWork& work) {
     work.shaded[num_shaded++] = static_cast<std::uint32_t>(ray);
   }
   if (num_shaded == 0) return;
+  work.to_sun.mask = kAllButWires;
   work.to_sun.num_rays = (num_shaded + kPacketSize - 1) / kPacketSize * kPacketSize;
   const Eigen::Vector3f last =
       VectorAt(work.to_sun.origin_x, work.to_sun.origin_y, work.to_sun.origin_z, num_shaded - 1);
@@ -143,8 +147,7 @@ void CastShadows(const Shot& shot, BlockWork& work) {
   }
 }
 
-Radiance ColorOf(const Shot& shot, const BlockWork& work, std::size_t ray) {
-  const RayTile& rays = work.rays;
+Radiance ColorOf(const Shot& shot, const RayTile& rays, const BlockWork& work, std::size_t ray) {
   if (rays.surface[ray] == 0) {
     return shot.daylight.Background(
         VectorAt(rays.direction_x, rays.direction_y, rays.direction_z, ray), shot.reach_m);
@@ -156,7 +159,11 @@ Radiance ColorOf(const Shot& shot, const BlockWork& work, std::size_t ray) {
   return shot.daylight.ThroughAir(radiance, rays.range_m[ray]);
 }
 
-void StoreBlock(const Shot& shot, const Pixel& corner, const BlockWork& work, CameraImage& image) {
+void StoreBlock(const Shot& shot,
+                const Pixel& corner,
+                const RayTile& colored,
+                const BlockWork& work,
+                CameraImage& image) {
   for (std::size_t ray = 0; ray < kTileSize; ++ray) {
     const Pixel place = PlaceInBlock(ray);
     const Pixel pixel{corner.column + place.column, corner.row + place.row};
@@ -168,7 +175,9 @@ void StoreBlock(const Shot& shot, const Pixel& corner, const BlockWork& work, Ca
                                   : std::numeric_limits<float>::quiet_NaN();
     image.label[index] = surface.label;
     image.instance[index] = surface.instance;
-    const auto bytes = SrgbBytes(ColorOf(shot, work, ray));
+    Radiance color = ColorOf(shot, colored, work, ray);
+    if (!work.wires.is_empty()) color = work.wires.Over(colored, ray, color);
+    const auto bytes = SrgbBytes(color);
     std::copy(bytes.begin(), bytes.end(), &image.rgb[3 * index]);
   }
 }
@@ -180,9 +189,18 @@ void RenderBlocks(const Shot& shot, CameraImage& image) {
     const Pixel corner{block % num_across * kBlock, block / num_across * kBlock};
     BlockWork work;
     AimBlock(shot, corner, work);
+    work.wires.Find(work.rays, ShapeOfPixels(shot, corner), shot.scene);
+    const bool has_wires = !work.wires.is_empty();
+    if (has_wires) {
+      work.bare = work.rays;
+      work.bare.mask = kAllButWires;
+      shot.scene.caster.Cast(work.bare);
+      work.wires.Shade(work.rays, shot.scene, shot.colors, shot.daylight, shot.reach_m);
+    }
     shot.scene.caster.Cast(work.rays);
-    CastShadows(shot, work);
-    StoreBlock(shot, corner, work, image);
+    const RayTile& colored = has_wires ? work.bare : work.rays;
+    CastShadows(shot, colored, work);
+    StoreBlock(shot, corner, colored, work, image);
   });
 }
 

@@ -144,7 +144,8 @@ void CaptureLane(const RayTile& rays,
                       .share = static_cast<float>(found.share),
                       .spread_m = static_cast<float>(found.spread_m),
                       .sin_axis = static_cast<float>(found.sin_axis),
-                      .strip = found.strip});
+                      .strip = found.strip,
+                      .axis = (now.end_m - now.begin_m).normalized()});
 }
 
 /// A tile of beams with its bounds, prepared for the search for wires.

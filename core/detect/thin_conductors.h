@@ -28,6 +28,7 @@ struct WireCapture {
   float spread_m{};
   float sin_axis{};
   WireStrip strip{};
+  Eigen::Vector3f axis = Eigen::Vector3f::Zero();  ///< Unit vector along the wire.
 };
 
 /// The share of a capture that nearer captures of the same beam hide, in [0, 1]. Along the track a

@@ -2,6 +2,8 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "core/base/attempt.h"
 #include "core/base/input_file.h"
@@ -13,12 +15,16 @@ namespace railcast {
 namespace {
 
 constexpr std::string_view kHeader = "azimuth_deg,elevation_deg,time_us";
-constexpr std::array<std::string_view, 3> kNames = {"azimuth_deg", "elevation_deg", "time_us"};
+constexpr std::string_view kRingHeader = "azimuth_deg,elevation_deg,time_us,ring";
+constexpr std::array<std::string_view, 4> kNames = {"azimuth_deg", "elevation_deg", "time_us",
+                                                    "ring"};
+constexpr double kMaxRing = 65535.0;
 constexpr double kMaxTime_us = 4294967.0;  // Time in a frame is stored as 32-bit nanoseconds.
 // A file that is not a table at all has a fault in every line.
 constexpr std::size_t kMaxNumFaults = 20;
 
-using Values = std::array<double, 3>;
+/// The numbers of a line; the ring is 0 where the file has none.
+using Values = std::array<double, kNames.size()>;
 
 std::string_view Trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");
@@ -26,23 +32,29 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Parses the three numbers of a line. Returns false, with faults in `errors`, if it fails.
-bool ParseLine(std::string_view line, const std::string& place, Values& values, ErrorList& errors) {
-  std::array<std::string_view, 3> cells;
+/// Parses the numbers of a line, as many as there are columns. Returns false, with faults in
+/// `errors`, if it fails.
+bool ParseLine(std::string_view line,
+               std::size_t num_columns,
+               const std::string& place,
+               Values& values,
+               ErrorList& errors) {
+  std::array<std::string_view, kNames.size()> cells;
   std::string_view rest = line;
   std::size_t num_cells = 0;
   for (bool more = true; more; ++num_cells) {
     const std::size_t comma = rest.find(',');
     more = comma != std::string_view::npos;
-    if (num_cells < cells.size()) cells[num_cells] = Trimmed(rest.substr(0, comma));
+    if (num_cells < num_columns) cells[num_cells] = Trimmed(rest.substr(0, comma));
     if (more) rest.remove_prefix(comma + 1);
   }
-  if (num_cells != cells.size()) {
-    errors.Add(FaultOf(place, "must have 3 values", static_cast<double>(num_cells)));
+  if (num_cells != num_columns) {
+    const std::string rule = "must have " + NumberText(num_columns) + " values";
+    errors.Add(FaultOf(place, rule, static_cast<double>(num_cells)));
     return false;
   }
   bool good = true;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (std::size_t i = 0; i < num_columns; ++i) {
     const char* const end = cells[i].data() + cells[i].size();
     const auto [stop, error] = std::from_chars(cells[i].data(), end, values[i]);
     if (error == std::errc() && stop == end && std::isfinite(values[i])) continue;
@@ -59,7 +71,7 @@ void CheckValues(const Values& values,
                  double last_us,
                  const std::string& place,
                  ErrorList& errors) {
-  const auto [azimuth_deg, elevation_deg, time_us] = values;
+  const auto [azimuth_deg, elevation_deg, time_us, ring] = values;
   if (std::abs(azimuth_deg) > 360.0) {
     errors.Add(FaultOf(place + ": azimuth_deg", "must be >= -360 and <= 360", azimuth_deg));
   }
@@ -73,6 +85,54 @@ void CheckValues(const Values& values,
   } else if (time_us > kMaxTime_us) {
     errors.Add(FaultOf(place + ": time_us", "must be <= 4294967", time_us));
   }
+  if (!(ring >= 0.0 && ring <= kMaxRing && ring == std::floor(ring))) {
+    errors.Add(FaultOf(place + ": ring", "must be a whole number from 0 to 65535", ring));
+  }
+}
+
+/// Checks that the rings are the rows of a grid: each has as many firings, and the elevations do
+/// not fall from ring to ring.
+/// @param num_firings, elevations_rad Of each ring: the number, and the sum of the elevations.
+void CheckRings(const std::vector<std::uint32_t>& num_firings,
+                const std::vector<double>& elevations_rad,
+                const std::string& place,
+                ErrorList& errors) {
+  for (std::size_t ring = 1; ring < num_firings.size(); ++ring) {
+    const std::string name = "ring " + NumberText(ring);
+    if (num_firings[ring] != num_firings[0]) {
+      errors.Add({place,
+                  name + " must have as many firings as ring 0, " + NumberText(num_firings[0]) +
+                      "; one that fires oftener is several",
+                  NumberText(num_firings[ring])});
+      return;
+    }
+    // Sums over as many firings. Their rounding is no fall.
+    const double rise_deg = DegFromRad(elevations_rad[ring] - elevations_rad[ring - 1]);
+    if (rise_deg < -1e-9 * num_firings[0]) {
+      errors.Add({place, name + " must lie no lower, on average, than the ring before it",
+                  ShortText(rise_deg / num_firings[0]) + " deg"});
+      return;
+    }
+  }
+}
+
+/// Gives each firing its row and its column, the number of the ring's firings before it.
+FiringGrid GridOf(std::vector<Firing> firings, const std::string& place, ErrorList& errors) {
+  std::vector<std::uint32_t> num_firings;
+  std::vector<double> elevations_rad;
+  for (Firing& firing : firings) {
+    if (firing.row >= num_firings.size()) {
+      num_firings.resize(firing.row + std::size_t{1});
+      elevations_rad.resize(num_firings.size());
+    }
+    firing.column = num_firings[firing.row]++;
+    elevations_rad[firing.row] += firing.elevation_rad;
+  }
+  if (firings.empty()) return {};
+  CheckRings(num_firings, elevations_rad, place, errors);
+  return {.rows = static_cast<std::uint32_t>(num_firings.size()),
+          .columns = num_firings[0],
+          .firings = std::move(firings)};
 }
 
 }  // namespace
@@ -86,35 +146,40 @@ FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
 FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorList& errors) {
   std::string line;
   std::getline(file, line);
-  if (Trimmed(line) != kHeader) {
-    errors.Add({shown + ":1", "must be \"" + std::string(kHeader) + '"', Quoted(Trimmed(line))});
+  const bool has_rings = Trimmed(line) == kRingHeader;
+  if (!has_rings && Trimmed(line) != kHeader) {
+    errors.Add({shown + ":1", "must be " + Quoted(kHeader) + " or " + Quoted(kRingHeader),
+                Quoted(Trimmed(line))});
     return {};
   }
-  FiringGrid grid{.rows = 1, .columns = 0, .firings = {}};
+  const std::size_t num_columns = has_rings ? kNames.size() : kNames.size() - 1;
+  std::vector<Firing> firings;
   double last_us = -1.0;
   for (std::size_t number = 2; std::getline(file, line); ++number) {
     const std::string place = shown + ":" + std::to_string(number);
     Values values{};
-    if (!ParseLine(line, place, values, errors)) {
+    if (!ParseLine(line, num_columns, place, values, errors)) {
       if (errors.size() >= kMaxNumFaults) return {};
       continue;
     }
     CheckValues(values, last_us, place, errors);
     if (errors.size() >= kMaxNumFaults) return {};
     last_us = values[2];
-    if (grid.firings.size() == kMaxNumFirings) {
+    if (firings.size() == kMaxNumFirings) {
       errors.Add({shown, "must have at most 16777216 firings", ""});
       return {};
     }
-    grid.firings.push_back({.azimuth_rad = RadFromDeg(values[0]),
-                            .elevation_rad = RadFromDeg(values[1]),
-                            .time_ns = std::llround(last_us * kNsPerUs),
-                            .row = 0,
-                            .column = grid.columns++});
+    if (!errors.empty()) continue;
+    firings.push_back({.azimuth_rad = RadFromDeg(values[0]),
+                       .elevation_rad = RadFromDeg(values[1]),
+                       .time_ns = std::llround(last_us * kNsPerUs),
+                       .row = static_cast<std::uint16_t>(values[3])});
   }
-  if (grid.firings.empty() && errors.empty()) {
+  if (firings.empty() && errors.empty()) {
     errors.Add({shown, "must have at least one firing", "0"});
   }
+  if (!errors.empty()) return {};
+  FiringGrid grid = GridOf(std::move(firings), shown + ": ring", errors);
   return errors.empty() ? grid : FiringGrid{};
 }
 

@@ -43,7 +43,8 @@ void Describe(Archive& a, SpinningSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, FiringTableSpec& s) {
-  a.Required("file", s.file, "CSV with the header azimuth_deg,elevation_deg,time_us.",
+  a.Required("file", s.file,
+             "CSV with the header azimuth_deg,elevation_deg,time_us, or these and ring.",
              ExistingFile());
 }
 

@@ -353,6 +353,7 @@ void Simulator::VisitScene(BegunFrame& begun,
   const SceneOfFrame view{
       .caster = scene,
       .surfaces = scene.surfaces(),
+      .wires = &scene.wires(),
       .stamp_ns = scene.stamp_ns,
       .window_from_world = window_from_world,
       .window_from_vehicle = window_from_world * world().WorldFromVehicle(scene.stamp_ns)};

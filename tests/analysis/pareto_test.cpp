@@ -10,6 +10,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 const FrontierError& Missed() {
   return kFrontierErrors.front();
@@ -48,8 +49,9 @@ TEST(FindDefeats, NamesBruteForceThatIsFasterAndMoreAccurate) {
   EXPECT_EQ(defeats[0].brute_force, "brute_4");
   EXPECT_EQ(defeats[0].ours, "footprint");
   EXPECT_EQ(defeats[0].error, "missed_share");
-  EXPECT_THAT(DefeatsText({defeats[0]}),
-              "Faster and more accurate than a rung: brute_4 than footprint in missed_share.");
+  EXPECT_THAT(DefeatsText(results),
+              StartsWith("Faster and more accurate than a rung: brute_4 than footprint in "
+                         "missed_share"));
 }
 
 TEST(FindDefeats, FindsNoneWhereBruteForceIsSlowerOrWorse) {
@@ -59,7 +61,19 @@ TEST(FindDefeats, FindsNoneWhereBruteForceIsSlowerOrWorse) {
   std::vector<Defeat> missed = FindDefeats(results);
   std::erase_if(missed, [](const Defeat& defeat) { return defeat.error != "missed_share"; });
   EXPECT_THAT(missed, IsEmpty());
-  EXPECT_EQ(DefeatsText({}), "No row of brute force is faster and more accurate than a rung.");
+  const std::vector<RowResult> alike = {MadeResult("footprint", RowGroup::kLadder, 3.0, 10),
+                                        MadeResult("brute_4", RowGroup::kBruteForce, 3.0, 10)};
+  EXPECT_EQ(DefeatsText(alike), "No row of brute force is faster and more accurate than a rung.");
+}
+
+TEST(FindDefeats, ClaimNothingWithoutRowsOfBothKinds) {
+  const std::string none =
+      "Brute force is not compared with the rungs: there must be rows of both.";
+  EXPECT_EQ(DefeatsText({}), none);
+  EXPECT_EQ(DefeatsText({MadeResult("footprint", RowGroup::kLadder, 3.0, 10),
+                         MadeResult("d", RowGroup::kBetween, 3.0, 10)}),
+            none);
+  EXPECT_EQ(DefeatsText({MadeResult("brute_4", RowGroup::kBruteForce, 2.0, 20)}), none);
 }
 
 }  // namespace

@@ -31,6 +31,14 @@ TEST(ReceiveReport, SumsUpWhatCameAndWhatDidNot) {
             "points: 336000, 16000 a frame\n");
 }
 
+TEST(ReceiveReport, KnowsItsShareOnlyOfARunThatHasAnEnd) {
+  EXPECT_EQ(ReceivedShare(Totals(), 5.0, {}), std::nullopt);
+  EXPECT_EQ(ReceivedShare(Totals(), 5.0, {.num_frames = 84, .duration_s = {}}), 0.25);
+  EXPECT_EQ(ReceivedShare(Totals(), 5.0, {.num_frames = {}, .duration_s = 10.0}), 0.5);
+  EXPECT_EQ(ReceivedShare(Totals(), 5.0, {.num_frames = 84, .duration_s = 10.0}), 0.5);
+  EXPECT_EQ(ReceivedShare(Totals(), 11.0, {.num_frames = {}, .duration_s = 10.0}), 1.0);
+}
+
 TEST(ReceiveReport, SaysWhyDatagramsWereRefusedAndThatTheSenderBeganAnew) {
   StreamReceiver::Counts counts;
   counts.stream.restarts = 1;

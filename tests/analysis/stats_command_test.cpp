@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -9,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "core/io/png_decoder.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
 #include "tests/core/io/damage.h"
@@ -65,6 +67,51 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
   EXPECT_TRUE(std::filesystem::exists(out / "csv" / "dropout_by_range.csv"));
   EXPECT_TRUE(std::filesystem::exists(out / "charts" / "dropout_by_range.svg"));
+}
+
+// The straight line's cloud is ground, ballast, rails and sleepers in the colours of their labels,
+// on a dark sheet; the camera's image is mostly sky.
+TEST(StatsCommand, DrawsASheetOfCloudsAndImages) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(
+      folder, R"("camera": {"width_px": 64, "height_px": 48, "horizontal_fov_deg": 60},)");
+  const auto sequence = scenario.parent_path() / "sequence";
+  ASSERT_EQ(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                       sequence.string() + " --frames 2")
+                .status,
+            0);
+  const auto out = scenario.parent_path() / "out";
+  const Ended run = Analyze("stats " + sequence.string() + " --sheet --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("sheet.png in "));
+  const auto sheet = DecodePngRgb(ReadFileWhole(out / "sheet.png"));
+  EXPECT_EQ(sheet.size.width_px, 4U * 480U);
+  EXPECT_EQ(sheet.size.height_px, 2U * 300U);
+  const Json labels = Json::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
+  std::array<int, 3> ballast{};
+  for (const Json& label : labels["labels"]) {
+    if (label["name"] == "ballast") ballast = label["rgb"].get<std::array<int, 3>>();
+  }
+  const auto count = [&](std::size_t first_row, std::size_t num_rows, const auto& is_it) {
+    std::size_t num = 0;
+    for (std::size_t row = first_row; row < first_row + num_rows; ++row) {
+      for (std::size_t column = 0; column < sheet.size.width_px; ++column) {
+        const std::size_t i = 3 * (row * sheet.size.width_px + column);
+        num += is_it(sheet.values[i], sheet.values[i + 1], sheet.values[i + 2]) ? 1 : 0;
+      }
+    }
+    return num;
+  };
+  const auto is_ballast = [&](int red, int green, int blue) {
+    return std::array<int, 3>{red, green, blue} == ballast;
+  };
+  EXPECT_GT(count(0, 300, is_ballast), 200U);
+  EXPECT_EQ(count(300, 300, is_ballast), 0U);
+  // Two images of 240 pixels' height, a third of each or more sky.
+  const auto is_bright = [](int red, int green, int blue) { return red + green + blue > 400; };
+  EXPECT_GT(count(300, 300, is_bright), 2U * 300U * 80U);
+  EXPECT_EQ(Analyze("stats " + sequence.string() + " --sheet --format text").said,
+            "--sheet: must be with --out\n");
 }
 
 TEST(StatsCommand, FailsWhereItsTextIsLost) {

@@ -79,7 +79,8 @@ struct CameraImage {
 };
 
 /// Renders images of a simulator's scenes: one ray through the centre of each pixel, and one from
-/// there to the sun. docs/camera.md says what the colours model. Immutable.
+/// there to the sun, and wires by their widths in the pixels. docs/camera.md says what the colours
+/// model. Immutable.
 class Camera {
  public:
   /// @param vehicle_from_camera Pose of the optical axes.

@@ -67,7 +67,9 @@ struct SpinningSpec {
 
 /// An arbitrary sequence of firings, read from a CSV file with the header
 /// `azimuth_deg,elevation_deg,time_us`: azimuth positive to the left (counterclockwise), time from
-/// 0 and non-decreasing. The frame has one row and a column for each firing.
+/// 0 and non-decreasing. The frame has one row and a column for each firing. With a fourth column,
+/// `ring`, it has a row for each ring, 0 the lowest, and a column for each of the ring's firings;
+/// all rings have as many.
 struct FiringTableSpec {
   std::string file;  ///< Relative to the file that refers to it.
 

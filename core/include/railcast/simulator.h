@@ -105,11 +105,14 @@ struct HostScene {
   const std::vector<Surface>& surfaces;  ///< Surface table for the caster's indices; 0 = nothing.
 };
 
+struct WireSet;
+
 /// The scene of one frame at its stamp, for casting other rays than the sensor's (Camera).
 struct SceneOfFrame {
   /// Traces rays given in the window frame. RayTile::shutter 0 is the stamp.
   const RayCaster& caster;
   const std::vector<Surface>& surfaces;  ///< Surface table for the caster's indices; 0 = nothing.
+  const WireSet* wires{};  ///< The wires that the caster sees as tubes; null = unknown.
   std::int64_t stamp_ns{};
   Transform window_from_world;
   Transform window_from_vehicle;  ///< Pose of the vehicle at the stamp.

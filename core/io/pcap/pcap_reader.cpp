@@ -2,6 +2,7 @@
 
 #include <pcap/pcap.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
@@ -51,32 +52,65 @@ bool MayBeginDatagram(std::span<const char> frame) {
          (*ip)[kUdpProtocolPlace] == kUdpProtocol;
 }
 
-// Returns what follows the IPv4 header and its options if that is a whole UDP datagram.
-std::optional<std::span<const char>> UdpPacket(std::span<const char> ip) {
-  if (ip.size() < 20) return std::nullopt;
+constexpr std::size_t kLeastIpHeaderSize = 20;
+
+// Returns what an IPv4 packet carries for UDP: a datagram or a fragment of one.
+std::optional<IpFragment> UdpFragment(std::span<const char> ip) {
+  if (ip.size() < kLeastIpHeaderSize) return std::nullopt;
   const auto version_and_words = static_cast<unsigned char>(ip[0]);
   const std::size_t header_size = std::size_t{version_and_words & 0xFU} * 4;
   // The packet's own length counts, since Ethernet may pad the frame behind it.
   const std::size_t size = BigAt(ip, 2);
-  const bool is_fragment = (BigAt(ip, 6) & 0x3FFFU) != 0;
-  if (version_and_words >> 4U != 4 || header_size < 20 || size < header_size + kUdpHeaderSize ||
-      size > ip.size() || is_fragment || ip[kUdpProtocolPlace] != kUdpProtocol) {
+  if (version_and_words >> 4U != 4 || header_size < kLeastIpHeaderSize || size < header_size ||
+      size > ip.size() || ip[kUdpProtocolPlace] != kUdpProtocol) {
     return std::nullopt;
   }
-  return ip.subspan(header_size, size - header_size);
+  constexpr std::uint16_t kMoreFragments = 0x2000U;
+  const std::uint16_t flags_and_offset = BigAt(ip, 6);
+  IpFragment fragment{.offset = (flags_and_offset & 0x1FFFU) * std::size_t{8},
+                      .is_last = (flags_and_offset & kMoreFragments) == 0,
+                      .bytes = ip.subspan(header_size, size - header_size)};
+  const auto addresses = ip.subspan(12, 8);
+  const auto identification = ip.subspan(4, 2);
+  std::ranges::copy(identification, std::ranges::copy(addresses, fragment.packet.begin()).out);
+  return fragment;
+}
+
+bool IsWhole(const IpFragment& fragment) {
+  return fragment.offset == 0 && fragment.is_last;
+}
+
+std::optional<CapturedDatagram> DatagramIn(std::span<const char> udp) {
+  if (udp.size() < kUdpHeaderSize) return std::nullopt;
+  const std::size_t size = BigAt(udp, 4);
+  if (size < kUdpHeaderSize || size > udp.size()) return std::nullopt;
+  return CapturedDatagram{.payload = udp.subspan(kUdpHeaderSize, size - kUdpHeaderSize),
+                          .source_port = BigAt(udp, 0),
+                          .destination_port = BigAt(udp, 2)};
+}
+
+std::optional<IpFragment> FindFragment(std::span<const char> frame) {
+  const auto ip = IpPacket(frame);
+  return ip ? UdpFragment(*ip) : std::nullopt;
+}
+
+// The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
+std::int64_t TimeOf(const pcap_pkthdr& header, const std::string& place) {
+  // pcapng's clocks have more bits than int64_t has nanoseconds.
+  constexpr std::int64_t kMaxTime_s = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
+  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMaxTime_s) {
+    throw InputError(place + "must be captured before the year 2262 (got " +
+                     NumberText(header.ts.tv_sec) + " s since 1970)");
+  }
+  return header.ts.tv_sec * kNsPerS + header.ts.tv_usec;
 }
 
 }  // namespace
 
 std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
-  const auto ip = IpPacket(frame);
-  const auto udp = ip ? UdpPacket(*ip) : std::nullopt;
-  if (!udp) return std::nullopt;
-  const std::size_t size = BigAt(*udp, 4);
-  if (size < kUdpHeaderSize || size > udp->size()) return std::nullopt;
-  return CapturedDatagram{.payload = udp->subspan(kUdpHeaderSize, size - kUdpHeaderSize),
-                          .source_port = BigAt(*udp, 0),
-                          .destination_port = BigAt(*udp, 2)};
+  const auto fragment = FindFragment(frame);
+  if (!fragment || !IsWhole(*fragment)) return std::nullopt;
+  return DatagramIn(fragment->bytes);
 }
 
 struct PcapReader::Capture {
@@ -132,22 +166,32 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
     if (status != 1) throw InputError(place + pcap_geterr(capture_->pcap));
     const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
-    auto datagram = FindDatagram(kept);
-    if (!datagram && header->caplen < header->len && MayBeginDatagram(kept)) {
+    const auto fragment = FindFragment(kept);
+    const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
+    if (!is_datagram && header->caplen < header->len && MayBeginDatagram(kept)) {
       throw InputError(place + "must be captured whole (got " + NumberText(header->caplen) +
                        " of " + NumberText(header->len) + " bytes)");
     }
+    if (!is_datagram) continue;
+    const std::int64_t time_ns = TimeOf(*header, place);
+    auto datagram =
+        IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
     if (!datagram) continue;
-    // pcapng's clocks have more bits than int64_t has nanoseconds.
-    constexpr std::int64_t kMaxTime_s = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
-    if (header->ts.tv_sec < 0 || header->ts.tv_sec > kMaxTime_s) {
-      throw InputError(place + "must be captured before the year 2262 (got " +
-                       NumberText(header->ts.tv_sec) + " s since 1970)");
-    }
     datagram->packet = packet;
-    // libpcap was asked for nanosecond precision, so tv_usec holds nanoseconds.
-    datagram->time_ns = header->ts.tv_sec * kNsPerS + header->ts.tv_usec;
+    datagram->time_ns = time_ns;
     return datagram;
+  }
+}
+
+std::optional<CapturedDatagram> PcapReader::PutTogether(IpFragment fragment,
+                                                        std::int64_t time_ns,
+                                                        const std::string& place) {
+  fragment.time_ns = time_ns;
+  try {
+    const auto udp = fragments_.Add(fragment);
+    return udp ? DatagramIn(*udp) : std::nullopt;
+  } catch (const InputError& error) {
+    throw InputError(place + error.what());
   }
 }
 

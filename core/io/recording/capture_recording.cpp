@@ -100,7 +100,7 @@ CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
   throw InputError(name +
                    ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
                    "QT128 (" +
-                   finder.Findings() + ")");
+                   finder.Findings(reader.num_torn()) + ")");
 }
 
 }  // namespace

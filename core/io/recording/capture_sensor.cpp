@@ -52,6 +52,20 @@ std::vector<CaptureSensor> ReadableSensors() {
   return sensors;
 }
 
+/// Whether this begins with a packet of Hesai's Pandar40P: 10 blocks of 124 bytes, each with the
+/// flag of Velodyne's blocks, and a tail of 22 bytes (Hesai, Pandar40P user manual, "point cloud
+/// data packet").
+bool IsPandar40P(std::span<const char> payload) {
+  constexpr std::size_t kBlocks = 10;
+  constexpr std::size_t kBlockBytes = 124;
+  constexpr std::size_t kTailBytes = 22;
+  if (payload.size() < kBlocks * kBlockBytes + kTailBytes) return false;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    if (LoadAt<std::uint16_t>(payload.data() + i * kBlockBytes) != kLowerBlockFlag) return false;
+  }
+  return true;
+}
+
 /// Describes packets of a sensor that is recognised but cannot be decoded; empty if the payload is
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
@@ -67,6 +81,7 @@ std::string NameOfStranger(std::span<const char> payload) {
       LoadAt<std::uint16_t>(payload.data()) != kLowerBlockFlag) {
     return {};
   }
+  if (IsPandar40P(payload)) return "packets of Hesai's Pandar40P, which are not read";
   const auto id = LoadAt<std::uint8_t>(payload.data() + kModelPlace);
   for (const OtherModel& model : kOtherModels) {
     if (model.id == id) return std::string(model.name);
@@ -94,11 +109,17 @@ std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   return std::nullopt;
 }
 
-std::string SensorFinder::Findings() const {
-  if (!stranger_.empty()) return "got " + stranger_;
-  if (num_datagrams_ == 0) return "got no UDP datagram";
-  return "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
-         NumberText(first_size_) + " bytes";
+std::string SensorFinder::Findings(std::size_t num_torn) const {
+  std::string found = "got " + stranger_;
+  if (stranger_.empty()) {
+    found = num_torn > 0 ? "got no whole UDP datagram" : "got no UDP datagram";
+  }
+  if (stranger_.empty() && num_datagrams_ > 0) {
+    found = "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
+            NumberText(first_size_) + " bytes";
+  }
+  if (num_torn == 0) return found;
+  return found + ", and " + NumberText(num_torn) + " that lack IP fragments";
 }
 
 }  // namespace railcast

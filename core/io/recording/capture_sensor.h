@@ -31,7 +31,8 @@ class SensorFinder {
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
   /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
-  [[nodiscard]] std::string Findings() const;
+  /// @param num_torn Number of datagrams of which IP fragments are missing.
+  [[nodiscard]] std::string Findings(std::size_t num_torn) const;
 
  private:
   /// Of a datagram that they refuse they use nothing, so that each can look at all of them.

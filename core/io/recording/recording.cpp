@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/merged_files.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
@@ -12,13 +13,14 @@
 namespace railcast {
 namespace {
 
-/// Opens a directory of clouds: side by side, or in the layout of a sequence, of a received stream
-/// or of KITTI.
+/// Opens a directory of clouds: side by side, or in the layout of a sequence, of merged clouds, of
+/// a received stream or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
   // A run without frames.jsonl is opened as a sequence, too, so that its loss is reported: the
   // clouds alone cannot be checked.
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
+  if (exists(directory / kMergedFile)) return OpenMerged(directory);
   if (exists(directory / "frames.csv")) return OpenReceived(directory);
   for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
     auto files = CloudFilesIn(place);

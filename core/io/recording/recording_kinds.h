@@ -58,4 +58,12 @@ namespace railcast {
 /// @throws InputError with one line if a file cannot be read or has changed since it was written.
 [[nodiscard]] std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory);
 
+/// Opens the folder of the merged clouds of a run with several sensors (docs/files.md), checked
+/// against their hashes. Points, poses and boxes are in the axes of the vehicle, which stands for
+/// the sensor. What the folder of the first sensor holds beside it adds the scenario, names,
+/// objects and the motion during each frame. Objects have the number of their points in the merged
+/// cloud; how many firings met them is known of single sensors only, and 0 here.
+/// @throws InputError as OpenSequence() does.
+[[nodiscard]] std::unique_ptr<Recording> OpenMerged(const std::filesystem::path& directory);
+
 }  // namespace railcast

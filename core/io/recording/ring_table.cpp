@@ -85,6 +85,25 @@ void StartBehindGap(std::vector<TablePoint>& points, double first) {
   for (TablePoint& point : points) point.turns = WrappedTurns(point.turns - start);
 }
 
+/// Makes as many rows of each row as it has firings within a column, and counts columns in steps
+/// that all rows share.
+/// @returns The number of rows.
+std::uint32_t SplitRows(const AzimuthSteps& steps, std::vector<TablePoint>& points) {
+  std::vector<std::uint32_t> first_row;
+  std::uint32_t num_rows = 0;
+  for (const std::uint32_t firings : steps.firings) {
+    first_row.push_back(num_rows);
+    num_rows += firings;
+  }
+  for (TablePoint& point : points) {
+    const std::int64_t firings = steps.firings[point.row];
+    const std::int64_t within = ((point.column % firings) + firings) % firings;
+    point.column = (point.column - within) / firings;
+    point.row = first_row[point.row] + static_cast<std::uint32_t>(within);
+  }
+  return num_rows;
+}
+
 /// Renumbers the columns that have a point from 0.
 /// @returns The number of columns.
 std::uint32_t CloseColumns(std::vector<TablePoint>& points) {
@@ -177,19 +196,22 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
     cloud.rings = std::move(*found);
   }
   const std::vector<std::uint32_t> rows = RowsOf(cloud.rings, cloud.elevations_rad);
-  const std::uint32_t num_rows = *std::ranges::max_element(rows) + 1;
-  if (num_rows > kMaxRings) return std::nullopt;
+  const std::uint32_t num_rings = *std::ranges::max_element(rows) + 1;
+  if (num_rings > kMaxRings) return std::nullopt;
   for (std::size_t i = 0; i < points.size(); ++i) points[i].row = rows[i];
-  if (!IsCounterclockwise(points, num_rows)) {
+  if (!IsCounterclockwise(points, num_rings)) {
     for (TablePoint& point : points) point.turns = WrappedTurns(-point.turns);
   }
   const double first = points.front().turns;
   SortByRow(points);
-  const double step = AzimuthStepOf(points);
-  if (step <= 0.0) return std::nullopt;
-  StartBehindGap(points, WrappedTurns(first - 0.5 * step));
+  const AzimuthSteps steps = AzimuthStepsOf(points, num_rings);
+  if (steps.column <= 0.0) return std::nullopt;
+  const double shortest = steps.column / *std::ranges::max_element(steps.firings);
+  StartBehindGap(points, WrappedTurns(first - 0.5 * shortest));
   SortByRow(points);
-  AssignColumns(points, step);
+  AssignColumns(points, steps);
+  if (!AreFiringsCertain(points, steps)) return std::nullopt;
+  const std::uint32_t num_rows = SplitRows(steps, points);
   const std::uint32_t num_columns = CloseColumns(points);
   if (std::size_t{num_rows} * num_columns > kMaxSlotsPerPoint * points.size()) return std::nullopt;
   std::ranges::stable_sort(points, {}, [](const TablePoint& point) {

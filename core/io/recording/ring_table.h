@@ -26,17 +26,36 @@ struct TablePoint {
   std::int64_t column{};
 };
 
-/// Returns the usual azimuth step between neighbours of a row, in turns, refined over ever longer
-/// distances along the rows; 0 if there are no neighbours.
-/// @pre Sorted by row and azimuth.
-[[nodiscard]] double AzimuthStepOf(const std::vector<TablePoint>& points);
+/// How the rows of a table fire.
+struct AzimuthSteps {
+  double column{};  ///< From column to column, in turns; 0 if no row has neighbours.
+  /// For each row, how often it fires within a column: 2 where a sensor fires some of its lasers
+  /// twice as often as the others.
+  std::vector<std::uint32_t> firings;
 
-/// Gives every point its column, azimuth / step, rounded so that no two firings of a row share one.
-/// For firing number i of a row, azimuth / step - i must not fall from firing to firing; it is
-/// fitted by least squares under that constraint and rounded. Points of nearly the same azimuth
-/// belong to one firing.
-/// @pre Sorted by row and azimuth; step > 0.
-void AssignColumns(std::vector<TablePoint>& points, double step);
+  [[nodiscard]] double OfRow(std::uint32_t row) const { return column / firings[row]; }
+};
+
+/// Finds the usual step between neighbours of each row. The columns' is the longest that rows with
+/// a twentieth of the points have, refined over ever longer distances along the rows; a row fires
+/// several times within a column if its own step is a half, a third or a quarter of that.
+/// @pre Sorted by row and azimuth; rows are numbered up to `num_rows`.
+[[nodiscard]] AzimuthSteps AzimuthStepsOf(const std::vector<TablePoint>& points,
+                                          std::size_t num_rows);
+
+/// Gives every point its column, counted in steps of its row: azimuth / step, rounded so that no
+/// two firings of a row share one. For firing number i of a row, azimuth / step - i must not fall
+/// from firing to firing; it is fitted by least squares under that constraint and rounded. Points
+/// of nearly the same azimuth belong to one firing.
+/// @pre Sorted by row and azimuth; steps.column > 0.
+void AssignColumns(std::vector<TablePoint>& points, const AzimuthSteps& steps);
+
+/// Whether places without a point between two others are firings that returned nothing. They are
+/// not if neighbours are often not a whole number of steps apart, nor if most gaps of one place
+/// follow each other: then the row does not fire where it seems to have lost a point.
+/// @pre AssignColumns().
+[[nodiscard]] bool AreFiringsCertain(const std::vector<TablePoint>& points,
+                                     const AzimuthSteps& steps);
 
 /// Positions of points, in arrays of equal length. Entries that are not finite, or all 0, are not
 /// points.
@@ -50,9 +69,10 @@ struct PointPositions {
 /// Puts the points of a spinning sensor into a ring/azimuth table where no file states their
 /// firings.
 ///
-/// Rows are the rings by rising median elevation. The step from column to column is the usual one
-/// between neighbours of a ring, refined over ever longer distances along the rings. A point's
-/// column is azimuth / step, rounded so that no two firings of a ring share one (AssignColumns()).
+/// Rows are the rings by rising median elevation, each with a step of its own (AzimuthStepsOf()). A
+/// ring that fires several times within a column makes as many rows, of one elevation and a part of
+/// a column apart. A point's column is azimuth / step, rounded so that no two firings of a ring
+/// share one (AssignColumns()).
 /// Plain rounding would leave holes that are not dropouts, because the rotor's speed varies and
 /// decoders interpolate the azimuth differently. Columns rise with time, in the sense in which most
 /// neighbours of a ring follow each other in the file, or clockwise if neither sense prevails. They
@@ -67,8 +87,9 @@ struct PointPositions {
 ///
 /// @param rings Ring of each point, as any numbers. If empty, rings are found from the elevations,
 ///   provided that these lie in 2 to 256 narrow clusters that hold 98 % of the points.
-/// @returns Nothing if there are no such clusters, if a cell has more than four points, or if the
-///   table would be nearly empty.
+/// @returns Nothing if there are no such clusters, if a cell has more than four points, if the
+/// table
+///   would be nearly empty, or if it is not certain where the sensor fired (AreFiringsCertain()).
 [[nodiscard]] std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
                                                     std::span<const std::uint32_t> rings);
 

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <regex>
+#include <sstream>
 
 #include "analysis/report/chart_script.h"
 #include "analysis/report/draw.h"
@@ -154,6 +157,68 @@ TEST(LabelsText, KeepsTheLabelsOfNeighboursApart) {
     return line.substr(line.find("offset"), line.find("textcolor") - line.find("offset"));
   };
   EXPECT_NE(side_of(first), side_of(second));
+}
+
+/// A label as gnuplot draws it, in letters of a drawing on a sheet of four: 78 letters wide and 18
+/// lines high.
+struct DrawnLabel {
+  std::string text;
+  double left{}, right{}, low{}, high{};
+};
+
+std::vector<DrawnLabel> DrawnLabels(const Drawing& drawing) {
+  std::vector<DrawnLabel> labels;
+  std::istringstream lines(LabelsText(drawing));
+  for (std::string line; std::getline(lines, line);) {
+    const std::regex form(
+        "set label '([^']*)' at ([^,]*),([^ ]*) (left|right) offset ([^,]*),([^ ]*) .*");
+    std::smatch parts;
+    EXPECT_TRUE(std::regex_match(line, parts, form)) << line;
+    const auto number = [&](std::size_t i) { return std::stod(parts[i]); };
+    const double x =
+        std::log(number(2) / drawing.x.low) / std::log(drawing.x.high / drawing.x.low) * 78.0;
+    const double y = (number(3) - drawing.y.low) / (drawing.y.high - drawing.y.low) * 18.0;
+    const double near = x + number(5);
+    const double width = static_cast<double>(parts[1].length()) * (parts[4] == "left" ? 1.0 : -1.0);
+    labels.push_back({parts[1], std::min(near, near + width), std::max(near, near + width),
+                      y + number(6) - 0.5, y + number(6) + 0.5});
+  }
+  return labels;
+}
+
+// The rows of the open line, with their times and wires missed: four close together, and one whose
+// name reaches to that of the next.
+TEST(LabelsText, KeepsTheNamesOfAFrontiersRowsApart) {
+  Chart chart = {"",
+                 "",
+                 "",
+                 {"Time", "", true},
+                 {"Wires missed", "%"},
+                 {{"railcast", kLinePoints, {}}, {"brute force", kLinePoints, {}}}};
+  const auto add = [&](std::size_t series, const char* name, double x, double y) {
+    chart.series[series].points.push_back({.x = x, .y = y});
+    chart.series[series].points.back().label = name;
+  };
+  add(0, "geometry", 1.09, 83.9);
+  add(0, "plausibility", 1.12, 83.9);
+  add(0, "surface", 1.26, 84.5);
+  add(0, "surface + wires", 1.41, 0.2);
+  add(0, "footprint_16", 8.8, 0.2);
+  add(0, "footprint", 10.5, 0.2);
+  add(1, "4", 5.1, 53.0);
+  add(1, "19", 20.0, 15.5);
+  add(1, "64", 58.0, 3.7);
+  const auto labels = DrawnLabels({chart, *RangeOfX(chart), *RangeOfY(chart)});
+  ASSERT_EQ(labels.size(), 9U);
+  for (const DrawnLabel& a : labels) {
+    EXPECT_GE(a.left, 0.0) << a.text;
+    EXPECT_LE(a.right, 78.0) << a.text;
+    for (const DrawnLabel& b : labels) {
+      if (&a == &b) break;
+      EXPECT_FALSE(a.left < b.right && b.left < a.right && a.low < b.high && b.low < a.high)
+          << a.text << " and " << b.text;
+    }
+  }
 }
 
 TEST(DrawSheet, MakesAPngAnSvgAndTheirScript) {

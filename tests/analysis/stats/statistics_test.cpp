@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/stats/bins.h"
@@ -41,6 +44,20 @@ Statistics Measure(std::vector<RecordedFrame> frames, std::size_t num_threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, num_threads);
   HeldRecording recording(std::move(frames));
   return MeasureStatistics(recording, [](std::size_t) {});
+}
+
+TEST(StatisticsReport, SaysThatDropoutIsUnknownWithoutACertainGrid) {
+  const auto facts_of = [](bool is_grid) {
+    std::vector<RecordedFrame> frames = NoisyFrames(1);
+    frames[0].is_grid = is_grid;
+    frames[0].fields.erase("outcome");
+    const auto report = MakeStatisticsReport(Measure(std::move(frames), 1), {{}}, "");
+    return report.facts;
+  };
+  const std::pair<std::string, std::string> unknown = {
+      "Dropout", "unknown: where the sensor fired without a return cannot be told for certain"};
+  EXPECT_EQ(std::ranges::count(facts_of(false), unknown), 1);
+  EXPECT_EQ(std::ranges::count(facts_of(true), unknown), 0);
 }
 
 TEST(Statistics, AreTheSameAtAnyNumberOfThreads) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/camera/material_colors.h"
+#include "core/scene/shapes.h"
 #include "tests/core/camera/seen.h"
 #include "tests/core/io/message_of.h"
 #include "tests/support/analytic_meshes.h"
@@ -125,6 +127,52 @@ TEST(Camera, LeavesTheFramesOfItsSensorAsTheyAre) {
   simulator->Scan(1, after);
   EXPECT_EQ(before.label, after.label);
   EXPECT_EQ(before.true_range_m.size(), after.true_range_m.size());
+}
+
+// The radiance of a byte of sRGB (IEC 61966-2-1).
+double RadianceOf(std::uint8_t byte) {
+  const double encoded = byte / 255.0;
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+// A wire of 40 mm, slanted, 40 m ahead of a camera with a focal length of 554 pixels, is 0.554
+// pixels wide, so that the rays through the centres of most columns' pixels miss it. In each
+// column, what it takes from the light of the wall behind is this width times the contrast. Without
+// sun a surface that is upright, or upright on average, has 0.6 times its reflectance.
+TEST(Camera, ShowsAThinWireWithoutGaps) {
+  const CameraSpec spec{.width_px = 640, .height_px = 100, .horizontal_fov_deg = 60};
+  auto world = std::make_shared<SimpleWorld>();
+  const std::vector<Vector3> points_m = {{40.0, -30.0, -0.7}, {40.0, 30.0, 0.9}};
+  world->wires = {{1, kBoxLabel, 0.02, points_m}};
+  world->ground = {
+      "wall",
+      {{MakeWall(60.0F, 1000.0F), 2, 5}, {MakeTube(points_m, 0.02, 16), 1, kBoxLabel, true}}};
+  SimulatorSpec cloudy{.detector = {.range_max_m = 100.0}};
+  cloudy.detector.weather.sun.illuminance_klx = 0.0;
+  Simulator simulator(world, MakeRaster(10, 10, 1), TestMaterials(), cloudy, 2);
+  const CameraImage image = Render(simulator, 0, spec);
+  const auto materials = MaterialColors(TestMaterials());
+  const double contrast = 0.6 * (materials[2].y() - materials[1].y());
+  const double width_px = 0.04 / 40.0 * 320.0 / std::tan(std::acos(-1.0) / 6.0);
+  // The wall as its byte has it: half a step of it in each of 100 rows would be half of the sum.
+  const double wall = RadianceOf(image.rgb[1]);
+  EXPECT_NEAR(wall, 0.6 * materials[2].y(), 0.002);
+  std::size_t num_labelled = 0;
+  for (std::size_t column = 0; column < spec.width_px; ++column) {
+    double taken = 0.0;
+    std::size_t num_rows = 0;
+    for (std::size_t row = 0; row < spec.height_px; ++row) {
+      const std::size_t i = row * spec.width_px + column;
+      taken += wall - RadianceOf(image.rgb[3 * i + 1]);
+      if (image.label[i] == kBoxLabel) ++num_rows;
+    }
+    // 1.4 % for the samples of the Gaussian. The wire is in four pixels of a column, each of which
+    // a byte has to half a step, 0.0021 of 0.133.
+    EXPECT_NEAR(taken / (width_px * contrast), 1.0, 0.014 + 0.063) << column;
+    num_labelled += num_rows;
+  }
+  // Labels are those of the centres, exactly.
+  EXPECT_NEAR(static_cast<double>(num_labelled), 640.0 * width_px, 10.0);
 }
 
 TEST(Camera, RejectsADistortionThatCannotBeInverted) {

@@ -34,6 +34,7 @@ class FiringTable : public testing::Test {
 };
 
 constexpr char kHeader[] = "azimuth_deg,elevation_deg,time_us\n";
+constexpr char kRingHeader[] = "azimuth_deg,elevation_deg,time_us,ring\n";
 
 TEST_F(FiringTable, GivesOneRowInTheOrderOfTheFile) {
   const ScanPattern pattern = BuildScanPattern(
@@ -45,6 +46,33 @@ TEST_F(FiringTable, GivesOneRowInTheOrderOfTheFile) {
   EXPECT_EQ(pattern.time_ns, (std::vector<std::uint32_t>{0, 12500, 12500}));
   EXPECT_NEAR(AzimuthInDegrees(pattern, 1), -20.5, kFloatAngle_deg);
   EXPECT_NEAR(ElevationInDegrees(pattern, 1), 7.25, kFloatAngle_deg);
+}
+
+TEST_F(FiringTable, HasARowForEachRingAndAColumnForEachOfItsFirings) {
+  const ScanPattern pattern = BuildScanPattern(Write(
+      std::string(kRingHeader) + "0,2,0,1\n0,-3,1,0\n-1,-3,2,0\n-1,2,3,1\n-2,-3,4,0\n-2,2,5,1"));
+  EXPECT_EQ(pattern.rows, 2U);
+  EXPECT_EQ(pattern.columns, 3U);
+  EXPECT_EQ(pattern.row, (std::vector<std::uint16_t>{1, 0, 0, 1, 0, 1}));
+  EXPECT_EQ(pattern.column, (std::vector<std::uint32_t>{0, 0, 1, 1, 2, 2}));
+  EXPECT_NEAR(ElevationInDegrees(pattern, 0), 2.0, kFloatAngle_deg);
+}
+
+TEST_F(FiringTable, RefusesRingsThatAreNoRowsOfAGrid) {
+  EXPECT_EQ(FaultsOfText(std::string(kRingHeader) + "0,0,0,0\n0,1,0,1\n1,1,1,1\n"),
+            "table.csv: ring: ring 1 must have as many firings as ring 0, 1; one that fires "
+            "oftener is several (got 2)");
+  EXPECT_EQ(FaultsOfText(std::string(kRingHeader) + "0,0,0,2\n"),
+            "table.csv: ring: ring 2 must have as many firings as ring 0, 0; one that fires "
+            "oftener is several (got 1)");
+  EXPECT_EQ(FaultsOfText(std::string(kRingHeader) + "0,5,0,0\n0,3,0,1\n"),
+            "table.csv: ring: ring 1 must lie no lower, on average, than the ring before it "
+            "(got -2 deg)");
+  EXPECT_EQ(FaultsOfText(std::string(kRingHeader) + "0,0,0,-1\n0,0,0,0.5\n0,0,0,65536\n0,0,0\n"),
+            "table.csv:2: ring: must be a whole number from 0 to 65535 (got -1)\n"
+            "table.csv:3: ring: must be a whole number from 0 to 65535 (got 0.5)\n"
+            "table.csv:4: ring: must be a whole number from 0 to 65535 (got 65536)\n"
+            "table.csv:5: must have 4 values (got 3)");
 }
 
 TEST_F(FiringTable, NamesLineAndColumnOfWhatIsNoNumber) {
@@ -83,10 +111,11 @@ TEST_F(FiringTable, RefusesFramesLongerThanThePeriodAnd32BitsOfNanoseconds) {
 
 TEST_F(FiringTable, RefusesFilesWithoutHeaderOrFirings) {
   EXPECT_EQ(FaultsOfText(""),
-            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" (got \"\")");
+            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" or "
+            "\"azimuth_deg,elevation_deg,time_us,ring\" (got \"\")");
   EXPECT_EQ(FaultsOfText("azimuth,elevation,time\n0,0,0\n"),
-            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" "
-            "(got \"azimuth,elevation,time\")");
+            "table.csv:1: must be \"azimuth_deg,elevation_deg,time_us\" or "
+            "\"azimuth_deg,elevation_deg,time_us,ring\" (got \"azimuth,elevation,time\")");
   EXPECT_EQ(FaultsOfText(kHeader), "table.csv: must have at least one firing (got 0)");
 }
 

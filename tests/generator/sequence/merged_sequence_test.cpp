@@ -10,8 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/io/merged_files.h"
 #include "core/io/sensor_folders.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/run_command.h"
@@ -100,6 +103,51 @@ TEST_F(MergedClouds, HoldThePointsOfEverySensorInTheVehiclesAxes) {
   EXPECT_GT(at, 1000U);
   // The one on the roof begins only every other frame.
   EXPECT_EQ(OfSensor(Read(Out("run/merged/frames/000001.pcd")), 1).size(), 0U);
+}
+
+TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
+  const Ended made = Make("run", "--frames 2 --start-frame 6 --stride 4 --merged");
+  ASSERT_EQ(made.status, 0) << made.said;
+  const auto merged = OpenRecording(Out("run/merged/"));
+  const auto front = OpenRecording(Out("run/front"));
+  EXPECT_EQ(merged->info().kind, "merged clouds");
+  EXPECT_EQ(merged->info().num_frames, 2U);
+  ASSERT_TRUE(merged->info().scenario);
+  EXPECT_EQ(merged->info().labels.labels(), front->info().labels.labels());
+  const Transform vehicle_from_front = VehicleFromSensor(front->info().scenario->lidar.mount);
+  for (const std::uint32_t index : {6U, 10U}) {
+    const RecordedFrame all = (*merged->Next())();
+    const RecordedFrame alone = (*front->Next())();
+    EXPECT_EQ(all.frame.index, index);
+    EXPECT_EQ(all.frame.stamp_ns, alone.frame.stamp_ns);
+    EXPECT_EQ(all.frame.duration_ns, alone.frame.duration_ns);
+    ASSERT_TRUE(all.has_pose);
+    EXPECT_TRUE((all.frame.world_from_sensor * vehicle_from_front)
+                    .isApprox(alone.frame.world_from_sensor, 1e-9));
+    EXPECT_TRUE((all.frame.world_from_sensor_end * vehicle_from_front)
+                    .isApprox(alone.frame.world_from_sensor_end, 1e-9));
+    ASSERT_EQ(all.objects.size(), alone.objects.size());
+    ASSERT_FALSE(all.objects.empty());
+    for (std::size_t i = 0; i < all.objects.size(); ++i) {
+      EXPECT_EQ(all.objects[i].name, alone.objects[i].name);
+      EXPECT_TRUE(all.objects[i].sensor_from_box.isApprox(
+          vehicle_from_front * alone.objects[i].sensor_from_box, 1e-9));
+      EXPECT_GE(all.objects[i].points, alone.objects[i].points);
+    }
+  }
+  EXPECT_FALSE(merged->Next());
+}
+
+TEST_F(MergedClouds, AreARecordingWithoutTheirSensorsToo) {
+  ASSERT_EQ(Make("run", "--frames 1 --start-frame 6 --merged").status, 0);
+  fs::rename(Out("run/merged"), Out("moved"));
+  const auto merged = OpenRecording(Out("moved"));
+  EXPECT_FALSE(merged->info().scenario);
+  const RecordedFrame frame = (*merged->Next())();
+  EXPECT_EQ(frame.frame.index, 6U);
+  EXPECT_TRUE(frame.has_pose);
+  std::ofstream(Out("moved/frames/000006.pcd"), std::ios::app) << "more";
+  EXPECT_THROW((void)(*OpenRecording(Out("moved"))->Next())(), InputError);
 }
 
 TEST_F(MergedClouds, CountTimesFromTheFirstSensorsStamp) {

@@ -224,12 +224,23 @@ std::string VelodynePacketOf(std::uint8_t model, bool is_hdl64e = false) {
   return packet;
 }
 
+/// Blocks of 124 bytes with Velodyne's flag, a tail of 22 bytes, and perhaps the packet's number.
+std::string Pandar40PPacket(std::size_t size) {
+  std::string packet(size, '\0');
+  for (std::size_t block = 0; block < 10; ++block) packet.replace(124 * block, 2, "\xFF\xEE");
+  return packet;
+}
+
 TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
   EXPECT_EQ(MessageOfCapture({}), "(got no UDP datagram)");
   EXPECT_EQ(MessageOfCapture({"abc", "defgh"}), "(got 2 UDP datagrams, the first of 3 bytes)");
   EXPECT_EQ(MessageOfCapture({"abc", VelodynePacketOf(0x24)}), "(got Puck Hi-Res)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0xA1)}),
             "(got VLS-128, of which only single returns are read)");
+  EXPECT_EQ(MessageOfCapture({Pandar40PPacket(1262)}),
+            "(got packets of Hesai's Pandar40P, which are not read)");
+  EXPECT_EQ(MessageOfCapture({Pandar40PPacket(1266)}),
+            "(got packets of Hesai's Pandar40P, which are not read)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77)}), "(got Velodyne packets of model byte 119)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77, true)}),
             "(got HDL-64E, whose packets lack its calibration)");

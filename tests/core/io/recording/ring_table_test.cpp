@@ -25,6 +25,8 @@ struct MadeTurn {
   double jitter_steps = 0.0;  ///< Jitter of each firing's azimuth, to either side.
   double drop_share = 0.0;
   bool is_counterclockwise = false;
+  /// From this column on, odd rows fire in every second column only.
+  std::uint32_t first_sparse_column = ~0U;
 };
 
 /// The points of a turn and the row and column where each belongs.
@@ -59,6 +61,7 @@ MadePoints Make(const MadeTurn& turn) {
           turn.first_deg + turn.step_deg * (column + turn.jitter_steps * jitter);
       // Ring numbers alternate between the two ends of the fan and run towards its middle.
       const std::uint32_t row = ring % 2 == 0 ? ring / 2 : turn.rings - 1 - ring / 2;
+      if (column >= turn.first_sparse_column && column % 2 == 1 && row % 2 == 1) continue;
       made.Add(turn.is_counterclockwise ? clockwise_deg : -clockwise_deg,
                ElevationOf_deg(turn, row), 5.0 + 40.0 * static_cast<double>(UnitFloat(words[2])));
       made.rings.push_back(ring);
@@ -134,6 +137,53 @@ TEST(RingTable, ToleratesAnUnevenRotor) {
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(plan->columns, 900U);
   EXPECT_EQ(NumRight(made, *plan), made.row.size());
+}
+
+// Eight rings fire every 0.4 deg, eight every 0.8 deg: each of the former makes two rows of columns
+// of 0.8 deg, in which every slot is a firing.
+TEST(RingTable, GivesARingThatFiresTwiceAsOftenTwoRows) {
+  const MadePoints made = Make({.drop_share = 0.1, .first_sparse_column = 0});
+  const auto plan = MakeRingTable(made.positions, made.rings);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_EQ(plan->rows, 8U * 2 + 8U);
+  EXPECT_EQ(plan->columns, 450U);
+  EXPECT_EQ(plan->returns, 1U);
+  const double filled = static_cast<double>(made.row.size()) / (24 * 450);
+  // Of 10,800 firings a tenth is dropped at random; 4 sigma are 0.012.
+  EXPECT_NEAR(filled, 0.9, 0.012);
+  for (std::size_t i = 0; i < made.row.size(); ++i) {
+    const std::uint32_t first_row = (3 * made.row[i] + 1) / 2;
+    const std::uint32_t row = plan->slots[i] / plan->columns;
+    ASSERT_GE(row, first_row);
+    ASSERT_LT(row, first_row + (made.row[i] % 2 == 0 ? 2 : 1));
+  }
+}
+
+// Two lasers of one elevation, 0.12 deg apart in azimuth, are seen as one ring whose steps are 0.12
+// and 0.28 deg in turn. It does not fire three times within a column.
+TEST(RingTable, TakesTwoLasersOfOneElevationForNoFasterRing) {
+  MadePoints made = Make({.rings = 15});
+  for (std::uint32_t column = 0; column < 900; ++column) {
+    for (const double offset_deg : {0.0, 0.12}) {
+      made.Add(-0.4 * column - offset_deg, 20.0, 30.0);
+      made.rings.push_back(99);
+    }
+  }
+  const auto plan = MakeRingTable(made.positions, made.rings);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_EQ(plan->rows, 16U);
+}
+
+// From the middle of the turn on, half of the rings fire half as often: their gaps there look like
+// firings that returned nothing, and are none.
+TEST(RingTable, IsNoneWhereStepsDoubleWithinATurn) {
+  const MadePoints made = Make({.drop_share = 0.02, .first_sparse_column = 450});
+  EXPECT_FALSE(MakeRingTable(made.positions, made.rings).has_value());
+}
+
+TEST(RingTable, IsNoneWhereAzimuthsAreAtNoSteps) {
+  const MadePoints made = Make({.jitter_steps = 20.0});
+  EXPECT_FALSE(MakeRingTable(made.positions, made.rings).has_value());
 }
 
 TEST(RingTable, GivesACellTwoReturnsIfManyHaveTwoPoints) {

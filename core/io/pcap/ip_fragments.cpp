@@ -1,0 +1,77 @@
+#include "core/io/pcap/ip_fragments.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kMostUnfinished = 64;
+constexpr std::size_t kMostBytes = 65535;
+
+std::string SpanOf(std::size_t begin, std::size_t end) {
+  return NumberText(begin) + " to " + NumberText(end);
+}
+
+}  // namespace
+
+IpFragments::Packet& IpFragments::PacketOf(const IpFragment& fragment) {
+  // Identifications are used again, on busy networks after some seconds.
+  num_given_up_ += std::erase_if(unfinished_, [&](const Packet& packet) {
+    return fragment.time_ns - packet.time_ns > kNsPerS;
+  });
+  const auto found = std::ranges::find(unfinished_, fragment.packet, &Packet::name);
+  if (found != unfinished_.end()) return *found;
+  if (unfinished_.size() == kMostUnfinished) {
+    unfinished_.pop_front();
+    ++num_given_up_;
+  }
+  return unfinished_.emplace_back(Packet{
+      .name = fragment.packet, .time_ns = fragment.time_ns, .bytes = {}, .parts = {}, .end = {}});
+}
+
+std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment) {
+  const std::size_t begin = fragment.offset;
+  const std::size_t end = begin + fragment.bytes.size();
+  if (end > kMostBytes) {
+    throw InputError("an IP fragment must end within 65535 bytes" + Got(end));
+  }
+  Packet& packet = PacketOf(fragment);
+  const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second;
+  if ((packet.end && end > *packet.end) || (fragment.is_last && end < last)) {
+    throw InputError("an IP fragment must lie before the end of its packet (got bytes " +
+                     SpanOf(begin, end) + ", the end at " +
+                     NumberText(packet.end ? *packet.end : end) + ")");
+  }
+  // The first part that ends behind this one's begin is the only one that may be the same.
+  const auto after =
+      std::ranges::find_if(packet.parts, [&](const auto& part) { return part.second > begin; });
+  if (after != packet.parts.end() && after->first < end) {
+    const bool is_same =
+        after->first == begin && after->second == end &&
+        std::ranges::equal(fragment.bytes,
+                           std::span(packet.bytes).subspan(begin, fragment.bytes.size()));
+    if (is_same) return std::nullopt;
+    throw InputError("an IP fragment must not overlap another (got bytes " + SpanOf(begin, end) +
+                     " beside " + SpanOf(after->first, after->second) + ")");
+  }
+  if (packet.bytes.size() < end) packet.bytes.resize(end);
+  std::ranges::copy(fragment.bytes, packet.bytes.begin() + static_cast<std::ptrdiff_t>(begin));
+  if (begin < end) packet.parts.emplace(begin, end);
+  if (fragment.is_last) packet.end = end;
+  std::size_t reached = 0;
+  for (const auto& [part_begin, part_end] : packet.parts) {
+    if (part_begin == reached) reached = part_end;
+  }
+  if (packet.end != reached) return std::nullopt;
+  whole_ = std::move(packet.bytes);
+  unfinished_.remove_if([&](const Packet& other) { return &other == &packet; });
+  return whole_;
+}
+
+}  // namespace railcast
