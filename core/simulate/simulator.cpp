@@ -23,6 +23,7 @@
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/detail_choice.h"
 #include "core/simulate/firing_tiles.h"
+#include "core/simulate/frame_poses.h"
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
@@ -287,6 +288,9 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.world_from_sensor = ReportedPose(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
   frame.world_from_sensor_end = ReportedPose(frame.stamp_ns + frame.duration_ns);
+  frame.poses_between = PosesBetween(frame.duration_ns, [&](std::uint32_t time_ns) {
+    return ReportedPose(frame.stamp_ns + time_ns);
+  });
   const ReturnRule rule = return_rule();
   frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
   const OutputAxes axes(spec.output, spec.origin_place,

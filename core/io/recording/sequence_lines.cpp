@@ -20,6 +20,23 @@ Transform PoseOf(const StrictJson& position_m,
   return MakePose(numbers, place);
 }
 
+ScanPose ScanPoseOf(const StrictJson& json, const std::string& place) {
+  return {json.at("time_ns"), PoseOf(json.at("position_m"), json.at("quaternion_xyzw"), place)};
+}
+
+void ReadScanPoses(const StrictJson& json, const std::string& place, std::vector<ScanPose>& poses) {
+  for (const StrictJson& each : json) {
+    const ScanPose pose = ScanPoseOf(each, place);
+    if (!poses.empty() && pose.time_ns <= poses.back().time_ns) {
+      throw InputError({{place + ": /scan_poses/" + std::to_string(poses.size()) + "/time_ns",
+                         "must be > that before, " + NumberText(poses.back().time_ns),
+                         NumberText(pose.time_ns)}});
+    }
+    poses.push_back(pose);
+  }
+  if (poses.empty()) throw InputError({{place + ": /scan_poses", "must not be empty", ""}});
+}
+
 Vector3 VectorOf(const StrictJson& json) {
   const auto numbers = json.get<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
@@ -62,13 +79,16 @@ Transform MakePose(const std::vector<double>& numbers, const std::string& place)
 
 FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
   return ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
-    const StrictJson& end = json.at("scan_end");
     FrameLine result{.frame = json.at("frame"),
                      .stamp_ns = json.at("stamp_ns"),
-                     .duration_ns = end.at("time_ns"),
+                     .scan_poses = {},
                      .files = {},
                      .records_hash = json.at("records_xxh3")};
-    result.world_from_sensor_end = PoseOf(end.at("position_m"), end.at("quaternion_xyzw"), place);
+    if (json.contains("scan_end")) {
+      result.scan_poses.push_back(ScanPoseOf(json.at("scan_end"), place));
+    } else {
+      ReadScanPoses(json.at("scan_poses"), place, result.scan_poses);
+    }
     for (const StrictJson& file : json.at("files")) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }

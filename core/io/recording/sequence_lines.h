@@ -18,8 +18,9 @@ namespace railcast {
 struct FrameLine {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
-  std::uint32_t duration_ns{};  ///< Time from the stamp to the last firing.
-  Transform world_from_sensor_end = Transform::Identity();
+  /// Poses after the stamp, by time, the last at the last firing: at least that one, and only that
+  /// one in sequences of older programs.
+  std::vector<ScanPose> scan_poses;
   std::vector<KnownFile> files;
   std::string records_hash;  ///< Hash over the frame's lines in the other line files.
 };

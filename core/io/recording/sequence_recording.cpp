@@ -56,7 +56,7 @@ void RecomputeRanges(Frame& frame) {
 }
 
 RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
-  const FrameLine line = ReadNextFrameLine(lines);
+  FrameLine line = ReadNextFrameLine(lines);
   const PlacedLine& pose = lines.records.at(0);
   const PlacedLine& objects = lines.records.at(1);
   RecordedFrame recorded;
@@ -73,9 +73,11 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;
-  frame.duration_ns = line.duration_ns;
+  frame.duration_ns = line.scan_poses.back().time_ns;
   frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
-  frame.world_from_sensor_end = line.world_from_sensor_end;
+  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
+  line.scan_poses.pop_back();
+  frame.poses_between = std::move(line.scan_poses);
   recorded.has_pose = true;
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
   CheckRecords(line, lines);
