@@ -93,12 +93,6 @@ py::object PoseOrNone(const RecordedFrame& recorded, const Transform& pose) {
   return MatrixArray(pose);
 }
 
-py::object OcclusionOf(const RecordedObject& object) {
-  if (object.firings_alone == 0) return py::none();
-  return py::float_(1.0 - static_cast<double>(object.firings_visible) /
-                              static_cast<double>(object.firings_alone));
-}
-
 py::object ScanPoses(const RecordedFrame& recorded) {
   if (!recorded.has_pose) return py::none();
   const Frame& frame = recorded.frame;
@@ -250,11 +244,11 @@ void AddObject(py::module_& module) {
           "Velocity of the box's centre in world axes, in m/s: float64, (3,).")
       .def_readonly("points", &RecordedObject::points, "Slots with a point on it.")
       .def_readonly("firings_visible", &RecordedObject::firings_visible,
-                    "Firings that show it, detected or not.")
+                    "Firings of which a ray meets it first, detected or not.")
       .def_readonly("firings_alone", &RecordedObject::firings_alone,
-                    "Firings that would meet it if nothing else stood there.")
-      .def_property_readonly("occlusion", &OcclusionOf,
-                             R"(1 - firings_visible / firings_alone; None where it would not be
+                    "Firings of which a ray would meet it if nothing else stood there.")
+      .def_readonly("occlusion", &RecordedObject::occlusion,
+                    R"(The share of it that something else hides, 0 to 1; None where it would not be
 visible even alone.)")
       .def("__repr__", [](const RecordedObject& self) {
         return "Object(name=" + Quoted(self.name) + ", label=" + Quoted(self.label) +

@@ -42,14 +42,16 @@ Vector3 VectorOf(const StrictJson& json) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
-  RecordedObject object{.name = json.at("name"),
-                        .type = json.at("type"),
-                        .label = json.at("label"),
-                        .instance = json.at("instance"),
-                        .points = json.at("points"),
-                        .firings_visible = json.at("firings_visible"),
-                        .firings_alone = json.at("firings_alone")};
+RecordedObject ObjectOf(const StrictJson& json, const std::string& place, std::size_t index) {
+  RecordedObject object{
+      .name = json.at("name"),
+      .type = json.at("type"),
+      .label = json.at("label"),
+      .instance = json.at("instance"),
+      .points = json.at("points"),
+      .firings_visible = json.at("firings_visible"),
+      .firings_alone = json.at("firings_alone"),
+      .occlusion = ReadOcclusion(json, place + ": /objects/" + std::to_string(index))};
   const StrictJson& box = json.at("sensor");
   object.size_m = VectorOf(box.at("size_m"));
   object.sensor_from_box = PoseOf(box.at("center_m"), box.at("quaternion_xyzw"), place);
@@ -58,6 +60,27 @@ RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
 }
 
 }  // namespace
+
+std::optional<double> ReadOcclusion(const StrictJson& object, const std::string& place) {
+  const std::uint32_t visible = object.at("firings_visible");
+  const std::uint32_t alone = object.at("firings_alone");
+  if (visible > alone) {
+    throw InputError({{place + "/firings_visible", "must be <= firings_alone, " + NumberText(alone),
+                       NumberText(visible)}});
+  }
+  const StrictJson& occlusion = object.at("occlusion");
+  const auto must_be = [&](const std::string& rule) {
+    return InputError({{place + "/occlusion", "must be " + rule, ShownText(occlusion.dump())}});
+  };
+  if (alone == 0) {
+    if (!occlusion.is_null()) throw must_be("null, as no firing would meet the object even alone");
+    return std::nullopt;
+  }
+  if (!occlusion.is_number()) throw must_be("a number");
+  const auto hidden = occlusion.get<double>();
+  if (!(hidden >= 0.0 && hidden <= 1.0)) throw must_be("from 0 to 1");
+  return hidden;
+}
 
 Transform MakePose(const std::vector<double>& numbers, const std::string& place) {
   if (numbers.size() != 7) {
@@ -129,7 +152,9 @@ std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
                        ", as in frames.jsonl (got " + NumberText(got) + ")");
     }
     std::vector<RecordedObject> objects;
-    for (const StrictJson& object : json.at("objects")) objects.push_back(ObjectOf(object, place));
+    for (const StrictJson& object : json.at("objects")) {
+      objects.push_back(ObjectOf(object, place, objects.size()));
+    }
     return objects;
   });
 }

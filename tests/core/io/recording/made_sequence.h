@@ -72,8 +72,7 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
     wagon.world_from_box = to.frame.world_from_sensor;
     wagon.world_from_box.translate(Vector3(40.0 - 2.0 * index, 1.0, 0.5));
     wagon.points = 7 + index;
-    wagon.firings_visible = 9;
-    wagon.firings_alone = 11;
+    wagon.view = {11, 9, 11, 9};
     to.objects = {wagon};
     result.frames.push_back(to.frame);
   };

@@ -204,6 +204,7 @@ TEST(SequenceRecording, SaysWhatWasSeenOfEveryObject) {
     EXPECT_EQ(wagon.points, 7 + i);
     EXPECT_EQ(wagon.firings_visible, 9U);
     EXPECT_EQ(wagon.firings_alone, 11U);
+    EXPECT_EQ(wagon.occlusion, 1.0 - 9.0 / 11.0);
     EXPECT_TRUE(wagon.size_m.isApprox(Vector3(14.0, 3.0, 3.4)));
     EXPECT_TRUE(
         wagon.sensor_from_box.translation().isApprox(Vector3(40.0 - 2.0 * i, 1.0, 0.5), 1e-9));
@@ -307,6 +308,22 @@ TEST(SequenceRecording, NamesWhatIsDamaged) {
             "poses.csv:3: a pose must have seven numbers (got 8)");
   EXPECT_EQ(MessageAfter("objects.jsonl", "{\"frame\":1", "{\"frame\":2"),
             "objects.jsonl:2: frame: must be 1, as in frames.jsonl (got 2)");
+  EXPECT_EQ(MessageAfter("objects.jsonl", "\"occlusion\":0", "\"occlusion\":-4"),
+            "objects.jsonl:1: /objects/0/occlusion: must be from 0 to 1 (got -4.181818181818182)");
+  EXPECT_EQ(
+      MessageAfter("objects.jsonl", "\"occlusion\":0.18181818181818177", "\"occlusion\":null"),
+      "objects.jsonl:1: /objects/0/occlusion: must be a number (got null)");
+  EXPECT_EQ(MessageAfter("objects.jsonl", "\"firings_visible\":9", "\"firings_visible\":12"),
+            "objects.jsonl:1: /objects/0/firings_visible: must be <= firings_alone, 11 (got 12)");
+  EXPECT_EQ(
+      MessageAfter("objects.jsonl", "\"firings_visible\":9,\"firings_alone\":11",
+                   "\"firings_visible\":0,\"firings_alone\":0"),
+      "objects.jsonl:1: /objects/0/occlusion: must be null, as no firing would meet the object "
+      "even alone (got 0.18181818181818177)");
+  EXPECT_EQ(
+      MessageAfter("frames.jsonl", "\"scan_poses\":[{\"time_ns\":19",
+                   "\"scan_poses\":[{\"time_ns\":99"),
+      "frames.jsonl:1: /scan_poses/1/time_ns: must be > that before, 99916666 (got 39833333)");
   EXPECT_EQ(MessageAfter("labels.json", "", "gone"), "labels.json: no such file");
   EXPECT_EQ(MessageAfter("run.json", "\"version\"", "\"verzion\""),
             "run.json: is damaged: [json.exception.out_of_range.403] key 'version' not found");
