@@ -28,6 +28,7 @@ DEFINITIONS = pathlib.Path(__file__).resolve().parents[2] / "shared" / "data" / 
 KINDS = ("bbox", "cuboid", "poly2d", "poly3d", "vec")
 HORIZON_TOLERANCE = 0.1  # Of the horizon's distance from the top of the image.
 TRACKS = ("track", "transition")
+UNSEEN, MANY_POINTS = ("undefined", "100 %"), 10
 EGO_TRACK = (0, "0", "ego_track")
 
 
@@ -302,8 +303,20 @@ def check_files(scene, folder):
                 yield f"{one.pointer}/val: must be different indices from 0 to {most}"
 
 
+def check_occlusions(scene, _):
+    """Of what is hidden wholly, or to an unknown degree, a lidar has no points, or few on something thin."""
+    boxed = {(one.frame, one.object_uid, one.sensor) for one in scene.annotations if one.kind == "cuboid"}
+    for one in scene.annotations:
+        if one.kind != "vec" or one.sensor_type != "lidar" or (one.frame, one.object_uid, one.sensor) not in boxed:
+            continue
+        value = one.attributes.get("occlusion")
+        if len(one.values) >= MANY_POINTS and value in UNSEEN:
+            yield (f"{one.pointer}/attributes: occlusion: must be a quarter of what is seen, as {len(one.values)} points "
+                   f"are on it{shown(value)}")
+
+
 CHECKS = (check_classes, check_scopes, check_frames, check_rail_sides, check_transitions, check_sensors, check_kinds,
-          check_dimensions, check_horizon)
+          check_dimensions, check_horizon, check_occlusions)
 
 
 def faults_of(path, schema, ontologies, ontology=None):

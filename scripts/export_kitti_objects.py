@@ -95,6 +95,16 @@ def center_of(seen):
     return np.array(seen["sensor"]["center_m"]) + sensor_from_box @ world_from_box.T @ way_m
 
 
+def objects_of(line, place):
+    """The objects of a line of objects.jsonl."""
+    objects = json.loads(line)["objects"]
+    for index, seen in enumerate(objects):
+        hidden = seen["occlusion"]
+        if hidden is not None and not 0 <= hidden <= 1:
+            raise BadInput(f"{place}: /objects/{index}/occlusion: must be from 0 to 1 (got {hidden})")
+    return objects
+
+
 def label_line(seen):
     """KITTI's line about an object of objects.jsonl: class, truncated, occluded, alpha, box in the image, size as
     height, width and length, middle of the underside in the camera's axes, rotation about its y axis."""
@@ -116,7 +126,7 @@ def export_run(run, training, first):
     for place, line in enumerate(lines):
         name = f"{first + place:06}"
         link_or_copy(run / "sequences" / "00" / "velodyne" / f"{place:06}.bin", training / "velodyne" / f"{name}.bin")
-        with_points = [each for each in json.loads(line)["objects"] if each["points"] > 0]
+        with_points = [each for each in objects_of(line, f"{run / 'objects.jsonl'}:{place + 1}") if each["points"] > 0]
         if any("points_time_ns" not in each for each in with_points):
             raise BadInput(f"{run / 'objects.jsonl'}:{place + 1}: must have the key points_time_ns, "
                            "which older programs did not write")
@@ -127,13 +137,8 @@ def export_run(run, training, first):
     return len(lines), num_objects
 
 
-def export(out, splits):
-    """Makes the data set at `out`, which appears only when it is whole. Returns its numbers of frames and objects."""
-    common_configuration([run for name in SPLITS for run in splits[name]])
-    if out.exists():
-        raise BadInput(f"{out}: must not exist")
-    begun = out.with_name(out.name + ".partial")
-    shutil.rmtree(begun, ignore_errors=True)
+def write_set(begun, splits):
+    """Writes the files. Returns the numbers of frames and objects."""
     for name in ("velodyne", "label_2", "calib"):
         (begun / "training" / name).mkdir(parents=True)
     (begun / "ImageSets").mkdir()
@@ -146,8 +151,23 @@ def export(out, splits):
             num_objects += objects
         numbers = "".join(f"{number:06}\n" for number in range(first, num_frames))
         (begun / "ImageSets" / f"{name}.txt").write_text(numbers, "ascii")
-    begun.rename(out)
     return num_frames, num_objects
+
+
+def export(out, splits):
+    """Makes the data set at `out`, which appears only when it is whole. Returns its numbers of frames and objects."""
+    common_configuration([run for name in SPLITS for run in splits[name]])
+    if out.exists():
+        raise BadInput(f"{out}: must not exist")
+    begun = out.with_name(out.name + ".partial")
+    shutil.rmtree(begun, ignore_errors=True)
+    try:
+        numbers = write_set(begun, splits)
+    except BadInput:
+        shutil.rmtree(begun)
+        raise
+    begun.rename(out)
+    return numbers
 
 
 def main():

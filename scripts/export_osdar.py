@@ -167,7 +167,7 @@ def main():
                         help="folder of osdar23.yaml and osdar26.yaml")
     try:
         export(parser.parse_args())
-    except (BadInput, railcast.InputError, OSError) as error:
+    except (BadInput, ValueError, OSError) as error:  # InputError is a ValueError.
         print(error, file=sys.stderr)
         return 1
     return 0

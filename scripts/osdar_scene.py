@@ -79,7 +79,7 @@ class Thing:
         self.name, self.type, self.label, self.instance = seen.name, seen.type, seen.label, seen.instance
         self.size_m = seen.size_m
         self.lidar_from_box = None
-        self.points = self.visible = self.alone = 0
+        self.points = self.hidden = self.alone = 0
 
     def count(self, seen, lidar_from_box):
         if self.lidar_from_box is None:
@@ -88,12 +88,13 @@ class Thing:
             share = seen.points / (self.points + seen.points)
             self.lidar_from_box[:3, 3] += share * (lidar_from_box - self.lidar_from_box)[:3, 3]
         self.points += seen.points
-        self.visible += seen.firings_visible
         self.alone += seen.firings_alone
+        self.hidden += seen.firings_alone * (seen.occlusion or 0)
 
     @property
     def occlusion(self):
-        return 1 - self.visible / self.alone if self.alone > 0 else None
+        """The mean of the sensors' by their firings."""
+        return self.hidden / self.alone if self.alone > 0 else None
 
 
 class View:

@@ -94,6 +94,8 @@ def occlusion_of(occlusion, rule):
     options = [str(option) for option in rule["attribute_type"]["options"]]
     if occlusion is None:
         return "undefined"
+    if not 0 <= occlusion <= 1:
+        raise ValueError(f"occlusion: must be from 0 to 1 (got {occlusion})")
     if occlusion >= 1.0 and "100 %" in options:
         return "100 %"
     return options[min(int(4 * occlusion), 3)]

@@ -195,7 +195,10 @@ void Verifier::CheckFrames() {
 
 void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records) {
   CheckNames(line, lines.frame.place);
-  if (has_all_records) Try([&] { CheckRecords(line, lines); });
+  if (has_all_records && Try([&] { CheckRecords(line, lines); })) {
+    const PlacedLine& objects = lines.records.at(1);
+    Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
+  }
   for (const KnownFile& file : line.files) CheckFile(file, kFramesFile);
   Try([&] {
     ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place,

@@ -29,13 +29,8 @@ FacetParts::FacetParts(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), kernels_(kernels) {}
 
 void FacetParts::Aim(const WideBeams& beams, const DetectTile& first, std::size_t lane) {
-  const BeamSubRays& pattern = SubRaysOfBeam();
-  const PatternTurn turn = TurnOfPattern(spec_.seed, first.frame, first.firing[lane]);
-  // A little wider than the pattern, because its directions are rounded.
-  constexpr float kMargin = 1.0001F;
-  kernels_.aim_sub_rays(
-      beams.rays, lane, beams.frame,
-      {pattern.h, pattern.v, kMargin * pattern.largest_offset, turn.cosine, turn.sine}, beam_);
+  kernels_.aim_sub_rays(beams.rays, lane, beams.frame,
+                        AimOfFiring(spec_.seed, first.frame, first.firing[lane]), beam_);
   std::fill_n(beam_.range_m, kNumSubRays, static_cast<float>(spec_.range_max_m));
   std::fill_n(beam_.facet, kNumSubRays, 0U);
   beam_.num_rays = static_cast<std::size_t>(spec_.beam.footprint_rays);

@@ -89,4 +89,12 @@ const BeamSubRays& SubRaysOfBeam() {
   return sub_rays;
 }
 
+SubRayAim AimOfFiring(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing) {
+  const BeamSubRays& pattern = SubRaysOfBeam();
+  const PatternTurn turn = TurnOfPattern(seed, frame, firing);
+  // A little wider than the pattern, because its directions are rounded.
+  constexpr float kMargin = 1.0001F;
+  return {pattern.h, pattern.v, kMargin * pattern.largest_offset, turn.cosine, turn.sine};
+}
+
 }  // namespace railcast

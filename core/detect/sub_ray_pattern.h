@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/detect/effect_parameters.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {
@@ -51,5 +52,8 @@ struct BeamSubRays {
   float largest_offset{};  ///< From the axis.
 };
 [[nodiscard]] const BeamSubRays& SubRaysOfBeam();
+
+/// How the kernel aim_sub_rays aims them for a firing, whose pattern is turned.
+[[nodiscard]] SubRayAim AimOfFiring(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing);
 
 }  // namespace railcast

@@ -5,6 +5,7 @@
 
 #include "core/base/units.h"
 #include "core/detect/beam_optics.h"
+#include "core/detect/sub_ray_pattern.h"
 
 namespace railcast {
 namespace {
@@ -68,12 +69,21 @@ void BeamTracer::AimCenters(const CastFrame& frame,
   RayTile& rays = work.rays;
   DetectTile& first = work.echoes.first;
   tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
+  first.frame = frame.index;
+  tiles.Describe(tile, first);
   if (spec_.effects.pointing_jitter && pointing_.sigma_rad > 0.0F) {
-    first.frame = frame.index;
-    tiles.Describe(tile, first);
     kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
   }
   rays.mask = spec_.effects.thin_conductors ? kAllButWires : kAllSurfaces;
+}
+
+void BeamTracer::AimSubRays(const Work& work,
+                            const BeamFrame& frame,
+                            std::size_t lane,
+                            BeamRays& beam) const {
+  const DetectTile& first = work.echoes.first;
+  kernels_.aim_sub_rays(work.rays, lane, frame,
+                        AimOfFiring(spec_.seed, first.frame, first.firing[lane]), beam);
 }
 
 void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const {
@@ -114,8 +124,6 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   EchoTiles& echoes = work.echoes;
   DetectTile& first = echoes.first;
   echoes.ClearMore();
-  first.frame = frame.index;
-  tiles.Describe(tile, first);
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);

@@ -60,6 +60,18 @@ class BeamTracer {
                   Work& work,
                   const EffectObserver& observer = {}) const;
 
+  /// Aims the central rays of a tile, as MakeEchoes() does, and describes the firings in
+  /// `work.echoes.first`.
+  void AimCenters(const CastFrame& frame,
+                  const FiringTiles& tiles,
+                  std::size_t tile,
+                  Work& work) const;
+  [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
+                                      const FiringTiles& tiles,
+                                      std::size_t tile) const;
+  /// Aims the sub-rays about a central ray of `work`; everything else of `beam` stays as it is.
+  void AimSubRays(const Work& work, const BeamFrame& frame, std::size_t lane, BeamRays& beam) const;
+
   /// CastFrame::mirrors of a frame with these surfaces.
   [[nodiscard]] std::optional<MirrorScene> MirrorsAmong(const std::vector<Surface>& surfaces,
                                                         const Transform& window_from_world) const {
@@ -68,21 +80,16 @@ class BeamTracer {
 
   [[nodiscard]] const Detector& detector() const { return detector_; }
   [[nodiscard]] bool has_beams() const { return is_physical_; }
+  /// Whether surfaces are met by beams with a width.
+  [[nodiscard]] bool has_wide_beams() const { return HasFootprint(spec_); }
   /// Whether it passes beams to RayCaster::CastBeam().
   [[nodiscard]] bool casts_beams() const {
     return HasFootprint(spec_) && !spec_.effects.dense_footprint;
   }
 
  private:
-  void AimCenters(const CastFrame& frame,
-                  const FiringTiles& tiles,
-                  std::size_t tile,
-                  Work& work) const;
   /// Casts the central rays of beams that need one; of all if `are_all_needed`.
   void CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const;
-  [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
-                                      const FiringTiles& tiles,
-                                      std::size_t tile) const;
   void Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const;
 
   bool is_physical_;

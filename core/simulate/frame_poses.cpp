@@ -20,6 +20,18 @@ PoseF ToPoseF(const Transform& transform) {
 
 }  // namespace
 
+std::vector<ScanPose> PosesBetween(
+    std::uint32_t duration_ns, const std::function<Transform(std::uint32_t)>& world_from_sensor) {
+  constexpr std::uint64_t kSpacing_ns = 20'000'000;
+  const std::uint64_t num_intervals = (duration_ns + kSpacing_ns - 1) / kSpacing_ns;
+  std::vector<ScanPose> poses;
+  for (std::uint64_t i = 1; i < num_intervals; ++i) {
+    const auto time_ns = static_cast<std::uint32_t>(duration_ns * i / num_intervals);
+    poses.push_back({time_ns, world_from_sensor(time_ns)});
+  }
+  return poses;
+}
+
 FramePoses::FramePoses(std::uint32_t duration_ns,
                        const std::function<Transform(std::uint32_t)>& window_from_sensor) {
   // 64 bits, because sums of 32-bit times may overflow: a pattern may last nearly 2^32 ns.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "railcast/frame.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -13,6 +14,13 @@ struct PoseF {
   float r[9];
   float t[3];
 };
+
+/// The sensor's poses between the first and the last firing of a frame, as they are recorded:
+/// evenly spaced by at most 20 ms. Linear interpolation is then wrong by a dt^2 / 8 = 0.2 mm in an
+/// arc of 300 m at 120 km/h, and by 0.8 mm at 50 m from the sensor where a turnout of 190 m is
+/// passed at 80 km/h, twice its speed.
+[[nodiscard]] std::vector<ScanPose> PosesBetween(
+    std::uint32_t duration_ns, const std::function<Transform(std::uint32_t)>& world_from_sensor);
 
 /// The sensor's pose during one frame, evaluated for each firing (rolling shutter).
 ///

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +10,12 @@
 
 namespace railcast {
 
+/// An object that rays of a packet hit.
+struct ObjectHits {
+  std::size_t object{};   ///< Index into World::objects().
+  std::uint32_t lanes{};  ///< Bit i: the packet's ray i hits it.
+};
+
 /// Objects of a frame in a scene of their own.
 struct LoneObjects {
   std::shared_ptr<const TraceScene> scene;
@@ -18,12 +23,9 @@ struct LoneObjects {
   /// of its object. Further placements are something else.
   std::vector<std::size_t> objects;
 
-  /// For every object, adds how many of the first `num_firings` rays hit it within range, whatever
-  /// stands before it. Thread-safe.
-  /// @param counts By index into World::objects().
-  void CountHits(const RayTile& rays,
-                 std::size_t num_firings,
-                 std::vector<std::atomic<std::uint32_t>>& counts) const;
+  /// Appends the objects that rays of the packet beginning at `first` hit within range, whatever
+  /// stands before them. Thread-safe.
+  void AddHits(const RayTile& rays, std::size_t first, std::vector<ObjectHits>& hits) const;
 };
 
 }  // namespace railcast

@@ -7,7 +7,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <limits>
 #include <string>
@@ -23,10 +22,12 @@
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/detail_choice.h"
 #include "core/simulate/firing_tiles.h"
+#include "core/simulate/frame_poses.h"
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
 #include "core/simulate/spray_clouds.h"
+#include "core/simulate/view_counter.h"
 
 namespace railcast {
 namespace {
@@ -139,7 +140,7 @@ struct Simulator::Parts {
   void ForAllEchoes(const CastFrame& cast, const EchoUse& use);
   [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast);
   void Scan(const CastFrame& cast, Frame& frame);
-  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(const FrameScene& scene);
+  [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene);
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
@@ -287,6 +288,9 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   frame.world_from_sensor = ReportedPose(frame.stamp_ns);
   frame.duration_ns = tiles.duration_ns();
   frame.world_from_sensor_end = ReportedPose(frame.stamp_ns + frame.duration_ns);
+  frame.poses_between = PosesBetween(frame.duration_ns, [&](std::uint32_t time_ns) {
+    return ReportedPose(frame.stamp_ns + time_ns);
+  });
   const ReturnRule rule = return_rule();
   frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
   const OutputAxes axes(spec.output, spec.origin_place,
@@ -435,26 +439,21 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
-std::vector<std::uint32_t> Simulator::Parts::FiringsOnObjectAlone(const FrameScene& scene) {
-  const std::vector<LoneObjects> alone = scenes.ObjectsAlone(scene);
-  std::vector<std::atomic<std::uint32_t>> counts(scenes.world().objects().size());
-  ForEachTile([&](std::size_t tile) {
-    RayTile rays;
-    tiles.Aim(tile, scene.poses, range_max_m(), rays);
-    for (const LoneObjects& objects : alone) {
-      objects.CountHits(rays, tiles.num_firings(tile), counts);
-    }
-  });
-  return {counts.begin(), counts.end()};
+std::vector<ObjectView> Simulator::Parts::ViewObjects(const FrameScene& scene) {
+  const CastFrame cast{scene.index,      scene.poses, scene,
+                       scene.surfaces(), nullptr,     scene.window->window_from_world};
+  ViewCounter views(cast, scenes.world(), scenes.ObjectsAlone(scene));
+  ForEachTile([&](std::size_t tile) { views.Add(*tracer, tiles, tile, work->local()); });
+  return views.Total();
 }
 
-std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(BegunFrame& begun) {
+std::vector<ObjectView> Simulator::ViewObjects(BegunFrame& begun) {
   return WithinMemory(parts_->Making(begun.index),
-                      [&] { return parts_->FiringsOnObjectAlone(parts_->SceneOf(begun)); });
+                      [&] { return parts_->ViewObjects(parts_->SceneOf(begun)); });
 }
 
-std::vector<std::uint32_t> Simulator::FiringsOnObjectAlone(std::uint32_t frame_index) {
-  return FiringsOnObjectAlone(*Begin(frame_index));
+std::vector<ObjectView> Simulator::ViewObjects(std::uint32_t frame_index) {
+  return ViewObjects(*Begin(frame_index));
 }
 
 }  // namespace railcast

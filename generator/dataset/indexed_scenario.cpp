@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/recorded_json.h"
+#include "core/io/recording/sequence_lines.h"
 #include "core/io/sequence_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
@@ -15,7 +16,7 @@
 namespace railcast {
 namespace {
 
-IndexedObject IndexedObjectOf(const StrictJson& json) {
+IndexedObject IndexedObjectOf(const StrictJson& json, const std::string& place) {
   IndexedObject object{.name = json.at("name"),
                        .type = json.at("type"),
                        .label = json.at("label"),
@@ -24,12 +25,11 @@ IndexedObject IndexedObjectOf(const StrictJson& json) {
                        .points = json.at("points"),
                        .firings_visible = json.at("firings_visible"),
                        .firings_alone = json.at("firings_alone"),
-                       .occlusion = {}};
+                       .occlusion = ReadOcclusion(json, place)};
   const auto center_m = json.at("sensor").at("center_m").get<std::array<double, 3>>();
   constexpr double kMillimetres = 1e3;
   object.distance_m =
       std::round(std::hypot(center_m[0], center_m[1], center_m[2]) * kMillimetres) / kMillimetres;
-  if (!json.at("occlusion").is_null()) object.occlusion = json.at("occlusion").get<double>();
   return object;
 }
 
@@ -64,13 +64,15 @@ IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const 
     }
     IndexedFrame frame{
         std::move(*frame_record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
-    ReadRecordedJson<StrictJson>(objects_line, ShownPath(folder / kObjectsFile),
-                                 [&](const StrictJson& json) {
-                                   for (const StrictJson& object : json.at("objects")) {
-                                     frame.objects.push_back(IndexedObjectOf(object));
-                                   }
-                                   return true;
-                                 });
+    const std::string objects_place =
+        ShownPath(folder / kObjectsFile) + ":" + std::to_string(i + 1);
+    ReadRecordedJson<StrictJson>(objects_line, objects_place, [&](const StrictJson& json) {
+      for (const StrictJson& object : json.at("objects")) {
+        frame.objects.push_back(IndexedObjectOf(
+            object, objects_place + ": /objects/" + std::to_string(frame.objects.size())));
+      }
+      return true;
+    });
     sequence.frames.push_back(std::move(frame));
   }
   if (sequence.frames.size() == s_m.size()) return sequence;

@@ -132,10 +132,19 @@ py::object PoseOrNone(const RecordedFrame& recorded, const Transform& pose) {
   return MatrixArray(pose);
 }
 
-py::object OcclusionOf(const RecordedObject& object) {
-  if (object.firings_alone == 0) return py::none();
-  return py::float_(1.0 - static_cast<double>(object.firings_visible) /
-                              static_cast<double>(object.firings_alone));
+py::object ScanPoses(const RecordedFrame& recorded) {
+  if (!recorded.has_pose) return py::none();
+  const Frame& frame = recorded.frame;
+  std::vector<ScanPose> poses = {{0, frame.world_from_sensor}};
+  poses.insert(poses.end(), frame.poses_between.begin(), frame.poses_between.end());
+  if (frame.duration_ns > 0) poses.push_back({frame.duration_ns, frame.world_from_sensor_end});
+  py::array_t<std::int64_t> times_ns(static_cast<py::ssize_t>(poses.size()));
+  py::list matrices;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    times_ns.mutable_at(static_cast<py::ssize_t>(i)) = poses[i].time_ns;
+    matrices.append(MatrixArray(poses[i].world_from_sensor));
+  }
+  return py::make_tuple(times_ns, py::module_::import("numpy").attr("stack")(matrices));
 }
 
 // The table of fields for the docstring, so that it stands in one place, ForEachField.
@@ -248,6 +257,10 @@ void AddPlaces(FrameClass& frame) {
             return PoseOrNone(self, self.frame.world_from_sensor_end);
           },
           "Pose at the last firing: float64, (4, 4); None where it is not known.")
+      .def_property_readonly("scan_poses", &ScanPoses,
+                             R"(Times since the stamp in ns and poses, from the stamp to the last
+firing: int64, (n,) and float64, (n, 4, 4). Poses at other times are interpolated. None where they
+are not known.)")
       .def_property_readonly(
           "origin_m", [](const RecordedFrame& self) { return VectorArray(self.origin_m); },
           R"(Add it to positions to get those of the file, in m: float64, (3,). It is 0 unless the
@@ -296,11 +309,11 @@ Frame.sensor_from_box() has it where points are.)")
           R"(Mean time of these since the stamp, in ns; None without any, and in recordings of
 programs that did not write it.)")
       .def_readonly("firings_visible", &RecordedObject::firings_visible,
-                    "Firings that show it, detected or not.")
+                    "Firings of which a ray meets it first, detected or not.")
       .def_readonly("firings_alone", &RecordedObject::firings_alone,
-                    "Firings that would meet it if nothing else stood there.")
-      .def_property_readonly("occlusion", &OcclusionOf,
-                             R"(1 - firings_visible / firings_alone; None where it would not be
+                    "Firings of which a ray would meet it if nothing else stood there.")
+      .def_readonly("occlusion", &RecordedObject::occlusion,
+                    R"(The share of it that something else hides, 0 to 1; None where it would not be
 visible even alone.)")
       .def("__repr__", [](const RecordedObject& self) {
         return "Object(name=" + Quoted(self.name) + ", label=" + Quoted(self.label) +

@@ -138,7 +138,7 @@ void HeldSimulation::Make(std::uint32_t frame,
   simulator.Scan(*begun, made.frame);
   made.objects.clear();
   if (has_objects) {
-    made.objects = Describe(sensor, simulator, made.frame, simulator.FiringsOnObjectAlone(*begun));
+    made.objects = Describe(sensor, simulator, made.frame, simulator.ViewObjects(*begun));
   }
   if (!made.fields.empty()) return;
   static const auto all_fields = AllFields();
@@ -154,10 +154,10 @@ void HeldSimulation::Make(std::uint32_t frame,
 std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
                                                      const Simulator& simulator,
                                                      const Frame& frame,
-                                                     const std::vector<std::uint32_t>& alone) {
+                                                     const std::vector<ObjectView>& views) {
   const Transform sensor_from_world = frame.world_from_sensor.inverse();
   std::vector<RecordedObject> described;
-  for (ObjectInFrame& object : surveys_[sensor].Of(simulator, labels_).Describe(frame, alone)) {
+  for (ObjectInFrame& object : surveys_[sensor].Of(simulator, labels_).Describe(frame, views)) {
     described.push_back({.name = std::move(object.name),
                          .type = std::move(object.type),
                          .label = std::move(object.label),
@@ -167,8 +167,9 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
                          .velocity_world_mps = object.velocity_world_mps,
                          .points = object.points,
                          .points_time_ns = TimeOfPoints(object),
-                         .firings_visible = object.firings_visible,
-                         .firings_alone = object.firings_alone});
+                         .firings_visible = object.view.firings_visible,
+                         .firings_alone = object.view.firings_alone,
+                         .occlusion = object.view.occlusion()});
   }
   return described;
 }

@@ -72,7 +72,7 @@ class HeldSimulation {
   [[nodiscard]] std::vector<RecordedObject> Describe(std::size_t sensor,
                                                      const Simulator& simulator,
                                                      const Frame& frame,
-                                                     const std::vector<std::uint32_t>& alone);
+                                                     const std::vector<ObjectView>& views);
 
   std::mutex mutex_;
   std::function<bool()> is_interrupted_;

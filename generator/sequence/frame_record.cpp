@@ -11,18 +11,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json ScanEndJson(const ScanEnd& end) {
-  const Vector3& position_m = end.position_m;
-  const Eigen::Quaterniond& turn = end.rotation;
-  return {{"time_ns", end.time_ns},
+Json ScanPoseJson(const RecordedScanPose& pose) {
+  const Vector3& position_m = pose.position_m;
+  const Eigen::Quaterniond& turn = pose.rotation;
+  return {{"time_ns", pose.time_ns},
           {"position_m", {position_m.x(), position_m.y(), position_m.z()}},
           {"quaternion_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
 }
 
-ScanEnd ParseScanEnd(const StrictJson& end) {
-  const auto position_m = end.at("position_m").get<std::array<double, 3>>();
-  const auto turn = end.at("quaternion_xyzw").get<std::array<double, 4>>();
-  return {end.at("time_ns").get<std::uint32_t>(),
+RecordedScanPose ParseScanPose(const StrictJson& pose) {
+  const auto position_m = pose.at("position_m").get<std::array<double, 3>>();
+  const auto turn = pose.at("quaternion_xyzw").get<std::array<double, 4>>();
+  return {pose.at("time_ns").get<std::uint32_t>(),
           Vector3(position_m[0], position_m[1], position_m[2]),
           Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2])};
 }
@@ -31,7 +31,9 @@ FrameRecord Parse(const StrictJson& line) {
   FrameRecord record;
   record.frame = line.at("frame").get<std::uint32_t>();
   record.stamp_ns = line.at("stamp_ns").get<std::int64_t>();
-  record.scan_end = ParseScanEnd(line.at("scan_end"));
+  for (const StrictJson& pose : line.at("scan_poses")) {
+    record.scan_poses.push_back(ParseScanPose(pose));
+  }
   for (const StrictJson& file : line.at("files")) {
     record.files.push_back({file.at("name").get<std::string>(),
                             file.at("bytes").get<std::uint64_t>(),
@@ -92,13 +94,18 @@ FrameCounts CountFrame(const Frame& frame, const LabelTable& labels) {
   return counts;
 }
 
-ScanEnd ScanEndOf(const Frame& frame) {
-  ScanEnd end{frame.duration_ns, frame.world_from_sensor_end.translation(),
-              Eigen::Quaterniond(frame.world_from_sensor_end.linear())};
-  if (end.rotation.dot(CanonicalRotation(frame.world_from_sensor)) < 0.0) {
-    end.rotation.coeffs() = -end.rotation.coeffs();
-  }
-  return end;
+std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame) {
+  std::vector<RecordedScanPose> poses;
+  Eigen::Quaterniond before = CanonicalRotation(frame.world_from_sensor);
+  const auto add = [&](const ScanPose& pose) {
+    Eigen::Quaterniond rotation(pose.world_from_sensor.linear());
+    if (rotation.dot(before) < 0.0) rotation.coeffs() = -rotation.coeffs();
+    poses.push_back({pose.time_ns, pose.world_from_sensor.translation(), rotation});
+    before = rotation;
+  };
+  for (const ScanPose& pose : frame.poses_between) add(pose);
+  add({frame.duration_ns, frame.world_from_sensor_end});
+  return poses;
 }
 
 std::string FrameRecordLine(const FrameRecord& record) {
@@ -106,9 +113,11 @@ std::string FrameRecordLine(const FrameRecord& record) {
   for (const WrittenFile& file : record.files) {
     files.push_back({{"name", file.name}, {"bytes", file.size}, {"xxh3", file.hash}});
   }
+  Json poses = Json::array();
+  for (const RecordedScanPose& pose : record.scan_poses) poses.push_back(ScanPoseJson(pose));
   Json line = {{"frame", record.frame},
                {"stamp_ns", record.stamp_ns},
-               {"scan_end", ScanEndJson(record.scan_end)},
+               {"scan_poses", std::move(poses)},
                {"files", files},
                {"records_xxh3", record.records_hash}};
   PutCounts(record.counts, line);

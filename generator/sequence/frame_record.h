@@ -40,24 +40,25 @@ struct WrittenFile {
   bool operator==(const WrittenFile&) const = default;
 };
 
-/// Pose and time of the sensor at a frame's last firing.
-struct ScanEnd {
+/// The sensor's pose at a time during a frame's scan.
+struct RecordedScanPose {
   std::uint32_t time_ns{};               ///< Time since the stamp.
   Vector3 position_m = Vector3::Zero();  ///< In the world frame.
-  /// Of the two quaternions for the same rotation, the one nearer to that of poses.csv, so that
-  /// poses in between can be interpolated.
+  /// Of the two quaternions for the same rotation, the one nearer to that of the pose before it, so
+  /// that poses in between can be interpolated.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 
-  bool operator==(const ScanEnd&) const = default;
+  bool operator==(const RecordedScanPose&) const = default;
 };
 
-[[nodiscard]] ScanEnd ScanEndOf(const Frame& frame);
+/// The poses after the stamp, of which the last is that of the last firing.
+[[nodiscard]] std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame);
 
 /// A line of frames.jsonl, which states that a frame is complete.
 struct FrameRecord {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
-  ScanEnd scan_end;
+  std::vector<RecordedScanPose> scan_poses;
   std::vector<WrittenFile> files;
   std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
   FrameCounts counts;

@@ -65,13 +65,10 @@ void AppendObject(const ObjectInFrame& object,
   line.append(",\"points\":").append(std::to_string(object.points));
   line.append(",\"points_time_ns\":");
   line.append(object.points > 0 ? std::to_string(object.points_time_ns) : "null");
-  line.append(",\"firings_visible\":").append(std::to_string(object.firings_visible));
-  line.append(",\"firings_alone\":").append(std::to_string(object.firings_alone));
+  line.append(",\"firings_visible\":").append(std::to_string(object.view.firings_visible));
+  line.append(",\"firings_alone\":").append(std::to_string(object.view.firings_alone));
   Json occlusion;  // Default-constructed, it is written as null.
-  if (object.firings_alone > 0) {
-    occlusion = 1.0 - static_cast<double>(object.firings_visible) /
-                          static_cast<double>(object.firings_alone);
-  }
+  if (const auto hidden = object.view.occlusion()) occlusion = *hidden;
   line.append(",\"occlusion\":").append(Dumped(occlusion));
   line.append(",\"contacts\":").append(Contacts(object)).append("}");
 }

@@ -12,7 +12,6 @@ namespace {
 
 struct Seen {
   std::uint32_t points{};
-  std::uint32_t firings{};
   std::uint64_t points_time_ns{};  // Sum over the points.
 };
 
@@ -22,27 +21,18 @@ std::uint32_t MeanTime_ns(const Seen& seen) {
   return static_cast<std::uint32_t>((seen.points_time_ns + seen.points / 2) / seen.points);
 }
 
-// Counts by instance. A firing counts once for an object, however many of its returns come from it.
-std::unordered_map<std::uint32_t, Seen> CountInstances(const Frame& frame) {
-  std::unordered_map<std::uint32_t, Seen> seen;
-  for (std::size_t first = 0; first < frame.num_slots(); first += frame.returns) {
-    for (std::size_t slot = first; slot < first + frame.returns; ++slot) {
-      const std::uint32_t instance = frame.instance[slot];
-      // The mirror image of an object is no point on it.
-      if (instance == 0 || frame.outcome[slot] == Outcome::kClutter) continue;
-      bool is_new = true;
-      for (std::size_t earlier = first; earlier < slot; ++earlier) {
-        is_new = is_new && (frame.instance[earlier] != instance ||
-                            frame.outcome[earlier] == Outcome::kClutter);
-      }
-      Seen& entry = seen[instance];
-      entry.firings += is_new ? 1U : 0U;
-      if (!HasPoint(frame.outcome[slot])) continue;
-      ++entry.points;
-      entry.points_time_ns += frame.time_ns[slot];
-    }
+// Points by instance.
+std::unordered_map<std::uint32_t, Seen> CountPoints(const Frame& frame) {
+  std::unordered_map<std::uint32_t, Seen> points;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    // The mirror image of an object is no point on it.
+    if (frame.instance[slot] == 0 || frame.outcome[slot] == Outcome::kClutter) continue;
+    if (!HasPoint(frame.outcome[slot])) continue;
+    Seen& seen = points[frame.instance[slot]];
+    ++seen.points;
+    seen.points_time_ns += frame.time_ns[slot];
   }
-  return seen;
+  return points;
 }
 
 // Returns the smallest distance between the origin and the straight path from `begin` to `end`.
@@ -114,10 +104,10 @@ Transform ObjectSurvey::OutputFromWorld(const Frame& frame) const {
 }
 
 std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
-                                                  const std::vector<std::uint32_t>& firings_alone) {
+                                                  const std::vector<ObjectView>& views) {
   const std::vector<SceneObject>& all = world_.objects();
-  Check(firings_alone.size() == all.size(), "one count for each object");
-  const auto seen = CountInstances(frame);
+  Check(views.size() == all.size(), "one view for each object");
+  const auto points = CountPoints(frame);
   const Transform output_from_world = OutputFromWorld(frame);
   const std::vector<ObjectContact> contacts = contacts_.FindAll(frame.stamp_ns);
   std::vector<ObjectInFrame> described;
@@ -133,11 +123,10 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
     entry.output_from_box = output_from_world * course.world_from_box;
     if (output_.handedness == Handedness::kLeft)
       entry.output_from_box = Mirrored(entry.output_from_box);
-    entry.firings_alone = firings_alone[i];
-    if (const auto found = seen.find(object.instance); found != seen.end()) {
+    entry.view = views[i];
+    if (const auto found = points.find(object.instance); found != points.end()) {
       entry.points = found->second.points;
       entry.points_time_ns = MeanTime_ns(found->second);
-      entry.firings_visible = found->second.firings;
     }
     for (const ObjectContact& contact : contacts) {
       if (contact.one != i && contact.other != i) continue;

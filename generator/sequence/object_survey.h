@@ -27,10 +27,9 @@ class ObjectSurvey {
 
   /// Returns the objects whose bounding sphere comes within range_max_m of the sensor during the
   /// scan, in the world's order, without the sensor's own vehicle.
-  /// @param firings_alone One count for each of world.objects(), from
-  ///   Simulator::FiringsOnObjectAlone.
-  [[nodiscard]] std::vector<ObjectInFrame> Describe(
-      const Frame& frame, const std::vector<std::uint32_t>& firings_alone);
+  /// @param views One for each of world.objects(), from Simulator::ViewObjects().
+  [[nodiscard]] std::vector<ObjectInFrame> Describe(const Frame& frame,
+                                                    const std::vector<ObjectView>& views);
 
  private:
   /// What does not change from frame to frame.

@@ -249,7 +249,7 @@ void SequenceDirectory::Encode(const Frame& frame,
   }
   encoded.record = {.frame = frame.index,
                     .stamp_ns = frame.stamp_ns,
-                    .scan_end = ScanEndOf(frame),
+                    .scan_poses = ScanPosesOf(frame),
                     .files = {},
                     .records_hash = {},
                     .counts = CountFrame(frame, spec_.files.labels)};

@@ -38,8 +38,8 @@ FrameJob SurveyedRun::Begin(std::uint32_t index) {
   WatchBuilding(simulator, StopRequested, true);
   return [this, &simulator, begun = simulator.Begin(index), index](MadeFrame& made) {
     simulator.Scan(*begun, made.frame);
-    const std::vector<std::uint32_t> alone = simulator.FiringsOnObjectAlone(*begun);
-    made.objects = surveys_.local().Of(simulator, labels_).Describe(made.frame, alone);
+    made.objects =
+        surveys_.local().Of(simulator, labels_).Describe(made.frame, simulator.ViewObjects(*begun));
     made.has_image = camera_ && index % frames_per_image_ == 0;
     if (made.has_image) camera_->Render(simulator, *begun, made.image);
   };

@@ -72,7 +72,7 @@ int RunStages(const StagesOptions& options) {
   const std::filesystem::path file = options.out / "railcast-stages.frame";
   Frame frame;
   std::vector<FrameFile> encoded;
-  std::vector<std::uint32_t> alone;
+  std::vector<ObjectView> views;
   std::vector<ObjectInFrame> objects;
   StageTimes times;
   for (std::uint32_t index = 0; index < options.num_frames; ++index) {
@@ -82,9 +82,8 @@ int RunStages(const StagesOptions& options) {
     raw_trace();  // Warms the caches.
     times.Take("raw trace", raw_trace);
     times.Take("scan", [&] { simulator->Scan(*begun, frame); });
-    times.Take("firings on objects alone",
-               [&] { alone = simulator->FiringsOnObjectAlone(*begun); });
-    times.Take("objects' places and contacts", [&] { objects = survey.Describe(frame, alone); });
+    times.Take("views of objects", [&] { views = simulator->ViewObjects(*begun); });
+    times.Take("objects' places and contacts", [&] { objects = survey.Describe(frame, views); });
     times.Take("objects' line", [&] { static_cast<void>(ObjectsLine(frame, objects)); });
     times.Take("counts", [&] { static_cast<void>(CountFrame(frame, labels)); });
     times.Take("encoding", [&] { EncodeFrameFiles(frame, files, index, encoded, {}); });

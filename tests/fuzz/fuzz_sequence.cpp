@@ -48,7 +48,11 @@ void ReadManifestFile(const std::string& text) {
 
 void ReadLine(char kind, const std::string& line) {
   try {
-    if (kind == 'f') CheckPose(ReadFrameLine(line, kPlace).world_from_sensor_end);
+    if (kind == 'f') {
+      for (const ScanPose& pose : ReadFrameLine(line, kPlace).scan_poses) {
+        CheckPose(pose.world_from_sensor);
+      }
+    }
     if (kind == 'o') ReadObjects(line);
     if (kind == 'p') CheckPose(ReadPoseLine(line, kStamp_ns, kPlace));
     if (kind == 'm') ReadManifestFile(line);

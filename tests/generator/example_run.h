@@ -45,8 +45,7 @@ inline void MakeExampleFrame(std::uint32_t index,
   wagon.size_m = Vector3(10.0, 2.9, 3.1);
   wagon.world_from_box.translation() = Vector3(80.0 - 0.1 * index, 1.5, 1.6);
   wagon.points = 4;
-  wagon.firings_visible = 6;
-  wagon.firings_alone = 8;
+  wagon.view = {8, 6, 8, 6};
   objects.push_back(wagon);
 }
 

@@ -110,6 +110,14 @@ class Exported(unittest.TestCase):
         self.assertTrue(0.5 <= hidden < 0.75)
         self.assertEqual((flat["type"], flat["occlusion"]), ("freight", "50-75%"))
 
+    def test_shares_outside_0_to_1_are_refused(self):
+        rule = {"attribute_type": {"options": ["0-25%", "25-50%", "50-75%", "75-100%", "undefined"]}}
+        for share, expected in ((0.0, "0-25%"), (0.25, "25-50%"), (1.0, "75-100%"), (None, "undefined")):
+            self.assertEqual(osdar_truth.occlusion_of(share, rule), expected)
+        for share in (-4.0, -0.81, -1e-9, 1.001, float("nan")):
+            with self.assertRaisesRegex(ValueError, f"^occlusion: must be from 0 to 1 \\(got {share}\\)$"):
+                osdar_truth.occlusion_of(share, rule)
+
     def test_the_ins_has_the_vehicles_pose_and_motion(self):
         rows = np.genfromtxt(self.folder / "osdar26" / "gps_imu" / "ins.csv", delimiter=",", names=True)
         speed = np.sqrt(rows["vx_mps"] ** 2 + rows["vy_mps"] ** 2 + rows["vz_mps"] ** 2)
@@ -223,6 +231,8 @@ class Exported(unittest.TestCase):
             (lambda label: data(label, "person", "cuboid")["val"].__setitem__(9, 3.0),
              "height must be from 1.1 to 2.7 m (got 3.0)"),
             (lambda label: data(label, "person", "vec")["val"].append(10**6), "must be different indices from 0 to"),
+            (lambda label: attribute(label, "train_flat", "vec", "occlusion").update(val="undefined"),
+             "occlusion: must be a quarter of what is seen, as "),
         ):
             self.assertIn(rule, self.faults_after(change))
 
@@ -233,6 +243,7 @@ if __name__ == "__main__":
         sys.exit(SKIPPED)
     try:
         import check_osdar
+        import osdar_truth
     except ImportError as error:
         print(f"skipped: {sys.executable}: {error} (python3-jsonschema, python3-yaml)")
         sys.exit(SKIPPED)

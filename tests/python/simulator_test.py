@@ -18,6 +18,7 @@ from support import ROOT, SCENARIO, faults_of, generate, np, read_pcd
 import railcast
 
 FRAMES = 3
+STRAIGHT = {"course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}}
 TWO_SENSORS = ROOT / "scenarios" / "two_sensors.json"
 ENDLESS = """
 import railcast
@@ -83,6 +84,36 @@ class SameFramesAsASequence(unittest.TestCase):
                 self.assertEqual(thing.occlusion, recorded["occlusion"])
                 np.testing.assert_array_equal(thing.size_m, recorded["sensor"]["size_m"])
                 np.testing.assert_array_equal(thing.sensor_from_box[:3, 3], recorded["sensor"]["center_m"])
+
+    def test_a_free_person_is_not_hidden_in_wide_beams(self):
+        sensors = {"pandar64": 50, "vir2rail": 80}
+        for rung in ("geometry", "footprint"):
+            scenario = {"version": 1, "file": str(ROOT / "scenarios" / "minimal.json"), "fidelity": rung, "lidars": [
+                {"file": str(ROOT / "scenarios" / "sensors" / f"{name}.json"), "name": name,
+                 "mount": {"position_m": [2.0, 0, 2.0]}} for name in sensors],
+                "world": {"alignment": STRAIGHT,
+                          "objects": [{"name": f"person_{ahead_m}", "type": "person", "s_m": 402 + ahead_m, "d_m": side}
+                                      for side, ahead_m in ((4.0, 50), (-4.0, 80))]}}
+            simulator = railcast.Simulator(scenario, file=ROOT / "scenarios" / "other.json")
+            for name, ahead_m in sensors.items():
+                thing, = (each for each in simulator.scan(0, sensor=name, objects=True).objects
+                          if each.name == f"person_{ahead_m}")
+                self.assertGreater(thing.firings_alone, 0)
+                self.assertLessEqual(thing.firings_visible, thing.firings_alone)
+                # The ground may hide the soles.
+                self.assertTrue(0 <= thing.occlusion < 0.25, (rung, name, thing.occlusion))
+
+    def test_scan_poses_lead_from_the_stamp_to_the_last_firing(self):
+        frame = self.simulator.scan(30)
+        times_ns, poses = frame.scan_poses
+        self.assertEqual((times_ns.dtype, poses.shape), (np.int64, (len(times_ns), 4, 4)))
+        self.assertEqual((times_ns[0], times_ns[-1]), (0, frame.duration_ns))
+        self.assertTrue((np.diff(times_ns) <= 20_000_000).all() and (np.diff(times_ns) > 0).all())
+        np.testing.assert_array_equal(poses[0], frame.world_from_sensor)
+        np.testing.assert_array_equal(poses[-1], frame.world_from_sensor_end)
+        recorded = railcast.open(self.run_folder)[0].scan_poses
+        np.testing.assert_array_equal(recorded[0], times_ns)
+        np.testing.assert_allclose(recorded[1], poses, atol=1e-9)
 
     def test_a_dict_and_a_text_are_the_scenario_that_they_hold(self):
         scenario = json.loads(SCENARIO.read_text("utf-8"))

@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -56,6 +57,19 @@ class Exported(unittest.TestCase):
         words = [line.split() for line in lines]
         self.assertTrue(all(len(each) == 15 for each in words))
         return [each[0] for each in words], np.array([each[1:] for each in words], float)
+
+    def test_shares_of_older_programs_are_refused_and_nothing_is_left(self):
+        run = self.folder / "older"
+        shutil.copytree(self.runs[0], run)
+        path = run / "objects.jsonl"
+        lines = path.read_text("utf-8").splitlines()
+        second = json.loads(lines[1])
+        second["objects"][1]["occlusion"] = -4.0
+        path.write_text("\n".join([lines[0], json.dumps(second)]) + "\n", "utf-8")
+        ended = export(self.folder / "bad", "--train", run)
+        self.assertEqual((ended.returncode, ended.stderr),
+                         (1, f"{path}:2: /objects/1/occlusion: must be from 0 to 1 (got -4.0)\n"))
+        self.assertEqual(list(self.folder.glob("bad*")), [])
 
     def test_frames_are_numbered_through_and_split(self):
         self.assertEqual((self.set / "ImageSets" / "train.txt").read_text("ascii"), "000000\n000001\n")

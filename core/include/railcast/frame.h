@@ -78,6 +78,12 @@ struct OutputSpec {
   bool operator==(const OutputSpec&) const = default;
 };
 
+/// Where the sensor is at a time of a scan.
+struct ScanPose {
+  std::uint32_t time_ns{};  ///< Since the stamp.
+  Transform world_from_sensor = Transform::Identity();
+};
+
 /// One complete scan. For every firing it holds what came back, why nothing came back, and the
 /// ground truth.
 ///
@@ -88,12 +94,13 @@ struct OutputSpec {
 /// x, y, z are in the axes that OutputSpec::frame names; by default in the sensor frame at the time
 /// of each firing, which includes the rolling-shutter distortion of a real sensor.
 struct Frame {
-  std::uint32_t index{};                                ///< Frame number in the run.
-  std::int64_t stamp_ns{};                              ///< Simulation time of firing 0.
-  Transform world_from_sensor = Transform::Identity();  ///< Pose at the stamp.
-  /// Pose at the last firing. Over one scan the pose changes nearly linearly, so poses in between
-  /// are interpolated.
-  Transform world_from_sensor_end = Transform::Identity();
+  std::uint32_t index{};                                    ///< Frame number in the run.
+  std::int64_t stamp_ns{};                                  ///< Simulation time of firing 0.
+  Transform world_from_sensor = Transform::Identity();      ///< Pose at the stamp.
+  Transform world_from_sensor_end = Transform::Identity();  ///< Pose at the last firing.
+  /// Poses in between, by time: near enough to one another to be interpolated linearly. Empty where
+  /// only the two above are known.
+  std::vector<ScanPose> poses_between;
   std::uint32_t duration_ns{};  ///< From the stamp to the last firing.
   std::uint32_t rows{};         ///< Channels.
   std::uint32_t columns{};      ///< Azimuth steps.

@@ -82,6 +82,27 @@ struct FiringStory {
   std::vector<Echo> echoes;
 };
 
+/// How much of an object the beams of a frame see.
+///
+/// Where beams have a width (effect `footprint`), each is sampled by 16 rays of equal share;
+/// otherwise it is its central ray. The same rays, each at the time of its firing, are cast at the
+/// object alone and at the whole scene. Whether an echo is detected makes no difference.
+struct ObjectView {
+  /// Firings of which a ray would meet the object within range if nothing else stood there.
+  std::uint32_t firings_alone{};
+  std::uint32_t firings_visible{};  ///< Those of which a ray meets it first.
+  std::uint32_t rays_alone{};       ///< Rays that would meet it if nothing else stood there.
+  std::uint32_t rays_visible{};     ///< Those that meet it first.
+
+  /// The share of the object that something else hides, 0 to 1; absent where no ray would meet it
+  /// even alone.
+  [[nodiscard]] std::optional<double> occlusion() const {
+    if (rays_alone == 0) return std::nullopt;
+    return 1.0 - static_cast<double>(rays_visible) / static_cast<double>(rays_alone);
+  }
+  friend bool operator==(const ObjectView&, const ObjectView&) = default;
+};
+
 class SceneStore;
 
 /// A frame that Simulator::Begin() has begun. It holds the stationary geometry that it needs, and
@@ -162,10 +183,9 @@ class Simulator {
   /// or UseThreads().
   void Scan(BegunFrame& begun, Frame& frame);
 
-  /// For each of world().objects(), in order: the number of firings of the frame that would hit it
-  /// within range if it were the only object in the world. (Occlusion = 1 - visible / alone.)
-  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(std::uint32_t frame_index);
-  [[nodiscard]] std::vector<std::uint32_t> FiringsOnObjectAlone(BegunFrame& begun);
+  /// How much the frame's beams see of each of world().objects(), in order.
+  [[nodiscard]] std::vector<ObjectView> ViewObjects(std::uint32_t frame_index);
+  [[nodiscard]] std::vector<ObjectView> ViewObjects(BegunFrame& begun);
 
   /// Calls `visit` with the scene of a frame, on the run's threads: TBB's algorithms within it use
   /// as many as the simulator.

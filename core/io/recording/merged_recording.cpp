@@ -56,7 +56,7 @@ void AddFromFirstSensor(const MergedContext& context,
                         const FrameLines& lines,
                         const std::string& place,
                         RecordedFrame& recorded) {
-  const FrameLine line = ReadNextFrameLine(lines);
+  FrameLine line = ReadNextFrameLine(lines);
   Frame& frame = recorded.frame;
   if (line.frame != frame.index) {
     throw InputError(place + ": frame: must be that of " + lines.frame.place + ", " +
@@ -64,8 +64,14 @@ void AddFromFirstSensor(const MergedContext& context,
   }
   const PlacedLine& objects = lines.records.at(1);
   CheckRecords(line, lines);
-  frame.duration_ns = line.duration_ns;
-  frame.world_from_sensor_end = line.world_from_sensor_end * context.vehicle_from_first.inverse();
+  const Transform first_from_vehicle = context.vehicle_from_first.inverse();
+  for (ScanPose& pose : line.scan_poses) {
+    pose.world_from_sensor = pose.world_from_sensor * first_from_vehicle;
+  }
+  frame.duration_ns = line.scan_poses.back().time_ns;
+  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
+  line.scan_poses.pop_back();
+  frame.poses_between = std::move(line.scan_poses);
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
   std::map<std::uint32_t, std::uint32_t> num_points;
   for (const std::uint32_t instance : frame.instance) ++num_points[instance];
@@ -73,6 +79,7 @@ void AddFromFirstSensor(const MergedContext& context,
     object.sensor_from_box = context.vehicle_from_first * object.sensor_from_box;
     object.points = num_points[object.instance];
     object.firings_visible = object.firings_alone = 0;
+    object.occlusion.reset();
   }
 }
 

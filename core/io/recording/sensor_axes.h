@@ -9,8 +9,8 @@ namespace railcast {
 
 /// Moves the points of a frame that railcast made from the axes that the scenario asked for back
 /// into the sensor's axes; undoes OutputAxes (core/simulate/output_axes.h). Points in world
-/// coordinates use the pose at each firing's own time, as ScanMotion interpolates it: 2.5 mm off in
-/// the middle of a scan of 0.1 s at an acceleration of 2 m/s^2. Leaves range_m unchanged.
+/// coordinates use the pose at each firing's own time, as ScanMotion interpolates it. Leaves
+/// range_m unchanged.
 /// @param pattern Gives the firing times of a grid where the file has none.
 /// @throws InputError "name: rule" if world coordinates come without times.
 void UndoOutputAxes(const OutputSpec& output,

@@ -20,19 +20,38 @@ Transform PoseOf(const StrictJson& position_m,
   return MakePose(numbers, place);
 }
 
+ScanPose ScanPoseOf(const StrictJson& json, const std::string& place) {
+  return {json.at("time_ns"), PoseOf(json.at("position_m"), json.at("quaternion_xyzw"), place)};
+}
+
+void ReadScanPoses(const StrictJson& json, const std::string& place, std::vector<ScanPose>& poses) {
+  for (const StrictJson& each : json) {
+    const ScanPose pose = ScanPoseOf(each, place);
+    if (!poses.empty() && pose.time_ns <= poses.back().time_ns) {
+      throw InputError({{place + ": /scan_poses/" + std::to_string(poses.size()) + "/time_ns",
+                         "must be > that before, " + NumberText(poses.back().time_ns),
+                         NumberText(pose.time_ns)}});
+    }
+    poses.push_back(pose);
+  }
+  if (poses.empty()) throw InputError({{place + ": /scan_poses", "must not be empty", ""}});
+}
+
 Vector3 VectorOf(const StrictJson& json) {
   const auto numbers = json.get<std::array<double, 3>>();
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
-  RecordedObject object{.name = json.at("name"),
-                        .type = json.at("type"),
-                        .label = json.at("label"),
-                        .instance = json.at("instance"),
-                        .points = json.at("points"),
-                        .firings_visible = json.at("firings_visible"),
-                        .firings_alone = json.at("firings_alone")};
+RecordedObject ObjectOf(const StrictJson& json, const std::string& place, std::size_t index) {
+  RecordedObject object{
+      .name = json.at("name"),
+      .type = json.at("type"),
+      .label = json.at("label"),
+      .instance = json.at("instance"),
+      .points = json.at("points"),
+      .firings_visible = json.at("firings_visible"),
+      .firings_alone = json.at("firings_alone"),
+      .occlusion = ReadOcclusion(json, place + ": /objects/" + std::to_string(index))};
   // Older programs did not write it.
   if (const auto time = json.find("points_time_ns"); time != json.end() && !time->is_null()) {
     object.points_time_ns = time->get<std::uint32_t>();
@@ -45,6 +64,27 @@ RecordedObject ObjectOf(const StrictJson& json, const std::string& place) {
 }
 
 }  // namespace
+
+std::optional<double> ReadOcclusion(const StrictJson& object, const std::string& place) {
+  const std::uint32_t visible = object.at("firings_visible");
+  const std::uint32_t alone = object.at("firings_alone");
+  if (visible > alone) {
+    throw InputError({{place + "/firings_visible", "must be <= firings_alone, " + NumberText(alone),
+                       NumberText(visible)}});
+  }
+  const StrictJson& occlusion = object.at("occlusion");
+  const auto must_be = [&](const std::string& rule) {
+    return InputError({{place + "/occlusion", "must be " + rule, ShownText(occlusion.dump())}});
+  };
+  if (alone == 0) {
+    if (!occlusion.is_null()) throw must_be("null, as no firing would meet the object even alone");
+    return std::nullopt;
+  }
+  if (!occlusion.is_number()) throw must_be("a number");
+  const auto hidden = occlusion.get<double>();
+  if (!(hidden >= 0.0 && hidden <= 1.0)) throw must_be("from 0 to 1");
+  return hidden;
+}
 
 Transform MakePose(const std::vector<double>& numbers, const std::string& place) {
   if (numbers.size() != 7) {
@@ -66,13 +106,16 @@ Transform MakePose(const std::vector<double>& numbers, const std::string& place)
 
 FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
   return ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
-    const StrictJson& end = json.at("scan_end");
     FrameLine result{.frame = json.at("frame"),
                      .stamp_ns = json.at("stamp_ns"),
-                     .duration_ns = end.at("time_ns"),
+                     .scan_poses = {},
                      .files = {},
                      .records_hash = json.at("records_xxh3")};
-    result.world_from_sensor_end = PoseOf(end.at("position_m"), end.at("quaternion_xyzw"), place);
+    if (json.contains("scan_end")) {
+      result.scan_poses.push_back(ScanPoseOf(json.at("scan_end"), place));
+    } else {
+      ReadScanPoses(json.at("scan_poses"), place, result.scan_poses);
+    }
     for (const StrictJson& file : json.at("files")) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }
@@ -113,7 +156,9 @@ std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
                        ", as in frames.jsonl (got " + NumberText(got) + ")");
     }
     std::vector<RecordedObject> objects;
-    for (const StrictJson& object : json.at("objects")) objects.push_back(ObjectOf(object, place));
+    for (const StrictJson& object : json.at("objects")) {
+      objects.push_back(ObjectOf(object, place, objects.size()));
+    }
     return objects;
   });
 }

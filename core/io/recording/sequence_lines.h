@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/io/recording/known_file.h"
+#include "core/io/strict_json.h"
 #include "railcast/io/recording.h"
 #include "railcast/transform.h"
 
@@ -18,8 +20,9 @@ namespace railcast {
 struct FrameLine {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
-  std::uint32_t duration_ns{};  ///< Time from the stamp to the last firing.
-  Transform world_from_sensor_end = Transform::Identity();
+  /// Poses after the stamp, by time, the last at the last firing: at least that one, and only that
+  /// one in sequences of older programs.
+  std::vector<ScanPose> scan_poses;
   std::vector<KnownFile> files;
   std::string records_hash;  ///< Hash over the frame's lines in the other line files.
 };
@@ -38,6 +41,14 @@ struct FrameLine {
 [[nodiscard]] std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
                                                           std::uint32_t frame,
                                                           const std::string& place);
+
+/// Reads the occlusion of an object of such a line: 0 to 1, absent if no firing would meet it even
+/// alone.
+/// @param place Names the object, too: "out/objects.jsonl:3: /objects/0".
+/// @throws InputError "place/occlusion: rule" if it is anything else, or if more firings see the
+///   object than would see it alone.
+[[nodiscard]] std::optional<double> ReadOcclusion(const StrictJson& object,
+                                                  const std::string& place);
 
 /// Makes a pose of seven numbers: x y z qx qy qz qw.
 /// @throws InputError "place: rule" unless there are seven finite numbers and the quaternion has

@@ -57,21 +57,23 @@ void RecomputeRanges(Frame& frame) {
 }
 
 /// Takes what the frame's lines say: stamp, poses and objects.
-void TakeRecords(const FrameLine& line, const FrameLines& lines, RecordedFrame& recorded) {
+void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded) {
   const PlacedLine& pose = lines.records.at(0);
   const PlacedLine& objects = lines.records.at(1);
   Frame& frame = recorded.frame;
   frame.stamp_ns = line.stamp_ns;
-  frame.duration_ns = line.duration_ns;
+  frame.duration_ns = line.scan_poses.back().time_ns;
   frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
-  frame.world_from_sensor_end = line.world_from_sensor_end;
+  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
+  line.scan_poses.pop_back();
+  frame.poses_between = std::move(line.scan_poses);
   recorded.has_pose = true;
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
   CheckRecords(line, lines);
 }
 
 RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
-  const FrameLine line = ReadNextFrameLine(lines);
+  FrameLine line = ReadNextFrameLine(lines);
   RecordedFrame recorded;
   bool has_ranges = true;
   if (context.has_clouds) {
@@ -85,7 +87,7 @@ RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines)
   }
   Frame& frame = recorded.frame;
   frame.index = line.frame;
-  TakeRecords(line, lines, recorded);
+  TakeRecords(std::move(line), lines, recorded);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
   if (!has_ranges) RecomputeRanges(frame);
@@ -138,7 +140,7 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
   const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
   recorded.frame.index = place;
-  TakeRecords(line, lines, recorded);
+  TakeRecords(std::move(line), lines, recorded);
   for (RecordedObject& object : recorded.objects) object.label = context.ClassOf(object);
   recorded.axes = PointAxes::kSensorAtStamp;
   return recorded;

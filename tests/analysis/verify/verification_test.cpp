@@ -231,6 +231,21 @@ TEST_P(Verify, GoesAsFarAsAnUnfinishedRunDoes) {
                           "letter.txt: is no file of a sequence"));
 }
 
+// As older programs wrote them on rungs with wide beams.
+TEST_P(Verify, FindsOcclusionsThatAreNone) {
+  const auto out = path() / "older";
+  SequenceSpec spec = ExampleRun(out, GetParam(), 2);
+  const FrameSource make = [](std::uint32_t index, Frame& frame, auto& objects) {
+    MakeExampleFrame(index, frame, objects);
+    if (index == 4) objects[0].view = {6, 6, 6, 30};
+  };
+  (void)RunSequence(spec, make, NoHooks());
+  EXPECT_THAT(
+      FaultsOf(out),
+      ElementsAre(out.string() + "/objects.jsonl:2: /objects/0/occlusion: must be from 0 to "
+                                 "1 (got -4.0)"));
+}
+
 TEST_P(Verify, SaysThatAnOlderDirectoryIsOne) {
   auto run = nlohmann::ordered_json::parse(ReadFileWhole(path() / "run.json"));
   run.erase("isa");

@@ -3,11 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/io/kitti.h"
+#include "core/io/write_file.h"
+#include "core/simulate/frame_poses.h"
+#include "railcast/scenario.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -30,8 +36,20 @@ TEST(ScanMotion, PutsWhatStandsWhereItWasSeenAtTheStamp) {
   frame.duration_ns = 100'000'000;
   frame.world_from_sensor = world_from_stamp;
   frame.world_from_sensor_end = world_from_stamp * stamp_from_sensor(1.0);
-  const ScanMotion motion(frame);
   const Vector3 seen_at_stamp(80.0, -7.0, 1.5);
+  // With poses in between, the chords are a third as long.
+  frame.poses_between = {{33'333'333, world_from_stamp * stamp_from_sensor(0.33333333)},
+                         {66'666'667, world_from_stamp * stamp_from_sensor(0.66666667)}};
+  const ScanMotion of_four(frame);
+  for (const double share : {0.0, 0.2, 0.5, 0.9, 1.0}) {
+    const Vector3 seen = stamp_from_sensor(share).inverse() * seen_at_stamp;
+    const auto time_ns = static_cast<std::uint32_t>(share * 1e8);
+    const double tolerance_m = 1e-7 + 1.1 * 3.0 * kTurn_rad / 8.0 / 9.0;
+    EXPECT_LT((of_four.AtStamp(seen, time_ns) - seen_at_stamp).norm(), tolerance_m) << share;
+    EXPECT_LT((of_four.AtFiring(of_four.AtStamp(seen, time_ns), time_ns) - seen).norm(), 1e-9);
+  }
+  frame.poses_between.clear();
+  const ScanMotion motion(frame);
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
     const Vector3 seen = stamp_from_sensor(share).inverse() * seen_at_stamp;
     const auto time_ns = static_cast<std::uint32_t>(share * 1e8);
@@ -39,7 +57,91 @@ TEST(ScanMotion, PutsWhatStandsWhereItWasSeenAtTheStamp) {
     // the middle; 10 % are added.
     const double tolerance_m = 1e-7 + 1.1 * 4.0 * share * (1.0 - share) * 3.0 * kTurn_rad / 8.0;
     EXPECT_LT((motion.AtStamp(seen, time_ns) - seen_at_stamp).norm(), tolerance_m) << share;
+    EXPECT_LT((motion.AtFiring(motion.AtStamp(seen, time_ns), time_ns) - seen).norm(), 1e-9);
   }
+}
+
+/// A vehicle that runs at one speed from the chainage on, by the text of `world` and `route`.
+std::unique_ptr<Simulator> RunAt(double speed_mps,
+                                 const std::string& alignment,
+                                 const std::string& more = "",
+                                 const std::string& vehicle = "") {
+  const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "scenario.json";
+  WriteFileWhole(
+      file, R"({"version": 1, "file": ")" + scenarios + R"(minimal.json", "lidar": {"file": ")" +
+                scenarios + R"(sensors/vir2rail.json", "mount": {"position_m": [2.2, 0, 2.5]}}, )" +
+                R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
+                alignment + "]}}" + more + R"(}, "vehicle": {"start_s_m": 110, )" + vehicle +
+                R"("motion": {"profile": [{"time_s": 0, "speed_mps": )" +
+                std::to_string(speed_mps) + "}]}}}");
+  return MakeSimulator(ReadScenario(file), 1);
+}
+
+struct Residuals {
+  double of_two_poses_m{};
+  double of_recorded_poses_m{};
+};
+
+/// How far compensation leaves points 50 m ahead, beside and above from where they are, at most,
+/// in scans of 0.1 s that begin everywhere on the way.
+Residuals LeftOver(const Simulator& simulator, double duration_s) {
+  constexpr std::uint32_t kScan_ns = 100'000'000;
+  constexpr double kDistance_m = 50.0;
+  Residuals most;
+  Frame frame;
+  frame.duration_ns = kScan_ns;
+  for (std::int64_t stamp_ns = 0; stamp_ns < static_cast<std::int64_t>(1e9 * duration_s);
+       stamp_ns += 7'000'000) {
+    const auto pose = [&](std::uint32_t time_ns) {
+      return simulator.WorldFromSensor(stamp_ns + time_ns);
+    };
+    frame.world_from_sensor = pose(0);
+    frame.world_from_sensor_end = pose(kScan_ns);
+    frame.poses_between.clear();
+    const ScanMotion of_two(frame);
+    frame.poses_between = PosesBetween(kScan_ns, pose);
+    const ScanMotion of_recorded(frame);
+    for (std::uint32_t time_ns = 0; time_ns <= kScan_ns; time_ns += kScan_ns / 20) {
+      const Transform stamp_from_sensor = pose(0).inverse() * pose(time_ns);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3 seen = kDistance_m * Vector3::Unit(axis);
+        const Vector3 at_stamp = stamp_from_sensor * seen;
+        most.of_two_poses_m =
+            std::max(most.of_two_poses_m, (of_two.AtStamp(seen, time_ns) - at_stamp).norm());
+        most.of_recorded_poses_m = std::max(most.of_recorded_poses_m,
+                                            (of_recorded.AtStamp(seen, time_ns) - at_stamp).norm());
+      }
+    }
+  }
+  return most;
+}
+
+// The sagitta of an arc: (33.3 m/s x 0.1 s)^2 / (8 R), and a 25th of it.
+TEST(ScanMotion, LeavesLessThanAMillimetreInCurvesAt120Kmph) {
+  for (const double radius_m : {300.0, 500.0}) {
+    const auto simulator = RunAt(120.0 / 3.6, R"({"type": "arc", "length_m": 600, "radius_m": )" +
+                                                  std::to_string(radius_m) + "}");
+    const double sagitta_m = std::pow(120.0 / 3.6 * 0.1, 2) / (8.0 * radius_m);
+    const Residuals most = LeftOver(*simulator, 0.2);
+    EXPECT_NEAR(most.of_two_poses_m, sagitta_m, 0.02 * sagitta_m) << radius_m;
+    EXPECT_NEAR(most.of_recorded_poses_m, sagitta_m / 25.0, 0.05 * sagitta_m / 25.0) << radius_m;
+  }
+}
+
+// A turnout has no transition curves: the vehicle's yaw rate changes within its pivot distance. At
+// 80 km/h, twice the speed of a 1:9-190, two poses leave 20 mm at 50 m.
+TEST(ScanMotion, LeavesLessThanAMillimetreInATurnoutAtTwiceItsSpeed) {
+  const auto simulator =
+      RunAt(80.0 / 3.6, R"({"type": "straight", "length_m": 600})",
+            R"(, "tracks": [{"name": "main"}, {"name": "side", "offset_m": -4.75, "begin": )"
+            R"({"track": "main", "s_m": 120, "turnout": "1:9-190", "side": "right"}}])",
+            R"("route": ["main", "side"], )");
+  const Residuals most = LeftOver(*simulator, 4.0);
+  EXPECT_GT(most.of_two_poses_m, 0.018);
+  EXPECT_LT(most.of_two_poses_m, 0.022);
+  EXPECT_LT(most.of_recorded_poses_m, 0.001);
 }
 
 TEST(ScanMotion, LeavesPointsOfAScanOfOneMoment) {

@@ -108,8 +108,9 @@ TEST(BendingObjects, CountEachFiringOnceHoweverManyPiecesItGoesThrough) {
   const ScanPattern pattern = MakeRaster(10.0, 5.0, 0.5);
   for (const bool moves : {false, true}) {
     Simulator simulator(std::make_shared<HingedWorld>(1.0, moves), pattern, TestMaterials(), {}, 1);
-    EXPECT_EQ(simulator.FiringsOnObjectAlone(0),
-              std::vector<std::uint32_t>{static_cast<std::uint32_t>(pattern.num_firings())});
+    const auto num_firings = static_cast<std::uint32_t>(pattern.num_firings());
+    EXPECT_EQ(simulator.ViewObjects(0),
+              (std::vector<ObjectView>{{num_firings, num_firings, num_firings, num_firings}}));
   }
 }
 

@@ -70,13 +70,13 @@ TEST(Determinism, FramesMadeAtOnceAreThoseMadeOneAfterAnother) {
   Simulator simulator(world, pattern, TestMaterials(), EverythingOn(), 4);
   constexpr std::uint32_t kNumFrames = 8;
   std::vector<Frame> frames(kNumFrames);
-  std::vector<std::vector<std::uint32_t>> alone(kNumFrames);
+  std::vector<std::vector<ObjectView>> views(kNumFrames);
   std::vector<std::shared_ptr<BegunFrame>> begun;
   for (std::uint32_t i = 0; i < kNumFrames; ++i) begun.push_back(simulator.Begin(i));
   simulator.Execute([&] {
     tbb::parallel_for(0U, kNumFrames, [&](std::uint32_t i) {
       simulator.Scan(*begun[i], frames[i]);
-      alone[i] = simulator.FiringsOnObjectAlone(*begun[i]);
+      views[i] = simulator.ViewObjects(*begun[i]);
     });
   });
   Simulator one(world, pattern, TestMaterials(), EverythingOn(), 1);
@@ -84,7 +84,7 @@ TEST(Determinism, FramesMadeAtOnceAreThoseMadeOneAfterAnother) {
   for (std::uint32_t i = 0; i < kNumFrames; ++i) {
     one.Scan(i, frame);
     ExpectSameBytes(frame, frames[i]);
-    EXPECT_EQ(one.FiringsOnObjectAlone(i), alone[i]);
+    EXPECT_EQ(one.ViewObjects(i), views[i]);
   }
 }
 

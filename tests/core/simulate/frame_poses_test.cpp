@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace railcast {
 namespace {
@@ -62,6 +63,28 @@ TEST(FramePoses, PatternsOfSecondsKeepTheirKnots) {
   PoseF change{};
   EXPECT_NEAR(static_cast<double>(poses.At(2'145'000'000U, change).t[0]), 2.145 * 2.145, 1e-4);
   EXPECT_NEAR(static_cast<double>(poses.At(kLongest_ns, change).t[0]), 4.29 * 4.29, 1e-4);
+}
+
+TEST(PosesBetween, AreAtMostTwentyMillisecondsApart) {
+  struct Case {
+    std::uint32_t duration_ns;
+    std::size_t num;
+  };
+  for (const auto& [duration_ns, num] : {Case{0, 0}, Case{20'000'000, 0}, Case{20'000'001, 1},
+                                         Case{kDuration_ns, 4}, Case{4'290'000'000U, 214}}) {
+    const std::vector<ScanPose> poses = PosesBetween(duration_ns, [](std::uint32_t time_ns) {
+      return MakeTransform(Eigen::Matrix3d::Identity(), {time_ns * 1e-9, 0.0, 0.0});
+    });
+    EXPECT_EQ(poses.size(), num) << duration_ns;
+    std::uint32_t before_ns = 0;
+    for (const ScanPose& pose : poses) {
+      EXPECT_EQ(pose.world_from_sensor.translation().x(), pose.time_ns * 1e-9);
+      EXPECT_GT(pose.time_ns, before_ns);
+      EXPECT_LE(pose.time_ns - before_ns, 20'000'000U);
+      before_ns = pose.time_ns;
+    }
+    EXPECT_LE(duration_ns - before_ns, 20'000'000U);
+  }
 }
 
 TEST(FramePoses, AFlashHasOnePose) {

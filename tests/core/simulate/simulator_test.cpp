@@ -189,26 +189,21 @@ TEST(Simulator, MovingObjectsAreSeenWhereTheyAreAtEachFiring) {
   }
 }
 
-TEST(Simulator, CountsTheFiringsOnAnObjectAsIfItStoodAlone) {
+TEST(Simulator, ViewsObjectsAloneAndAsTheyAreHidden) {
   auto world = std::make_shared<SimpleWorld>();
   world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {20, 0, 0}));
   world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {40, 0, 0}));
   world->AddObject(WallModel(0.0F, 2.0F), MakeTransform(Eigen::Matrix3d::Identity(), {400, 0, 0}));
   Simulator simulator(world, MakeRaster(30, 30, 0.5), TestMaterials(), {}, 2);
-  const auto alone = simulator.FiringsOnObjectAlone(0);
-  Frame frame;
-  simulator.Scan(0, frame);
-  ASSERT_EQ(alone.size(), 3U);
-  const auto visible = [&](std::uint32_t instance) {
-    return std::count(frame.instance.begin(), frame.instance.end(), instance);
-  };
+  const std::vector<ObjectView> views = simulator.ViewObjects(0);
   // Half angles atan(2/20) = 5.7 deg: 22 cells per side; atan(2/40) = 2.9 deg: 12 cells. The first
   // object hides the second; the third is out of range.
-  EXPECT_EQ(alone[0], 22U * 22U);
-  EXPECT_EQ(visible(1), 22 * 22);
-  EXPECT_EQ(alone[1], 12U * 12U);
-  EXPECT_EQ(visible(2), 0);
-  EXPECT_EQ(alone[2], 0U);
+  const std::uint32_t near = 22U * 22U;
+  const std::uint32_t far = 12U * 12U;
+  EXPECT_EQ(views, (std::vector<ObjectView>{{near, near, near, near}, {far, 0, far, 0}, {}}));
+  EXPECT_EQ(views[0].occlusion(), 0.0);
+  EXPECT_EQ(views[1].occlusion(), 1.0);
+  EXPECT_EQ(views[2].occlusion(), std::nullopt);
 }
 
 std::vector<std::string> EffectsOn(const FiringStory& story) {

@@ -38,7 +38,7 @@ TEST(CountFrame, CountsAFiringWithTwoReturnsOnceAndItsPointsTwice) {
 }
 
 // Near half a turn the canonical quaternions at the stamp and at the end have opposite signs.
-TEST(ScanEndOf, HasTheQuaternionNearerToTheOneAtTheStamp) {
+TEST(ScanPosesOf, HasTheQuaternionNearerToTheOneBefore) {
   constexpr double kHalfTurn_rad = std::numbers::pi;
   Frame frame;
   frame.duration_ns = 99'750'000;
@@ -47,12 +47,24 @@ TEST(ScanEndOf, HasTheQuaternionNearerToTheOneAtTheStamp) {
         MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad - turn_rad, 0, 0), Vector3(1, 2, 3));
     frame.world_from_sensor_end =
         MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad + turn_rad, 0, 0), Vector3(4, 2, 3));
-    const ScanEnd end = ScanEndOf(frame);
+    const std::vector<RecordedScanPose> poses = ScanPosesOf(frame);
+    ASSERT_EQ(poses.size(), 1U);
+    const RecordedScanPose& end = poses[0];
     EXPECT_EQ(end.time_ns, 99'750'000U);
     EXPECT_EQ(end.position_m, Vector3(4, 2, 3));
     // The rotation between them is 2 turn_rad, so the quaternions are turn_rad apart.
     EXPECT_NEAR(end.rotation.dot(CanonicalRotation(frame.world_from_sensor)), std::cos(turn_rad),
                 1e-12);
+    // With half a turn in between, the signs differ at the first or at the last step.
+    frame.poses_between = {{50'000'000, MakeTransform(RotationFromYawPitchRoll(kHalfTurn_rad, 0, 0),
+                                                      Vector3(2, 2, 3))}};
+    const std::vector<RecordedScanPose> three = ScanPosesOf(frame);
+    ASSERT_EQ(three.size(), 2U);
+    EXPECT_EQ(three[0].time_ns, 50'000'000U);
+    EXPECT_EQ(three[0].position_m, Vector3(2, 2, 3));
+    EXPECT_EQ(three[1], end);
+    EXPECT_NEAR(three[0].rotation.dot(end.rotation), std::cos(0.5 * turn_rad), 1e-12);
+    frame.poses_between.clear();
   }
 }
 
@@ -60,8 +72,9 @@ TEST(FrameRecordLine, ReadsBack) {
   FrameRecord record;
   record.frame = 7;
   record.stamp_ns = 700'000'000;
-  record.scan_end = {99'750'000, Vector3(5.3e6 + 1.0 / 3.0, 6e5, 0.1),
-                     Eigen::Quaterniond(-0.1, 0.7, -0.5, 1.0 / 7.0)};
+  record.scan_poses = {{49'750'000, Vector3(5.3e6, 6e5, 0.2), Eigen::Quaterniond::Identity()},
+                       {99'750'000, Vector3(5.3e6 + 1.0 / 3.0, 6e5, 0.1),
+                        Eigen::Quaterniond(-0.1, 0.7, -0.5, 1.0 / 7.0)}};
   record.files = {{"frames/000007.pcd", 1234, "0123456789abcdef"}};
   record.records_hash = "fedcba9876543210";
   record.counts = CountFrame(ExampleFrame(7), ExampleLabels());

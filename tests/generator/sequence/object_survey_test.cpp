@@ -57,18 +57,19 @@ std::vector<ObjectInFrame> Survey(const Frame& frame,
                                   double range_max_m = 1000.0,
                                   const OutputSpec& output = {}) {
   const TwoWagons world;
-  return ObjectSurvey(world, ExampleLabels(), range_max_m, output).Describe(frame, {10, 0, 7});
+  return ObjectSurvey(world, ExampleLabels(), range_max_m, output)
+      .Describe(frame, {{10, 6, 160, 40}, {}, {7, 7, 7, 7}});
 }
 
-TEST(ObjectSurvey, CountsFiringsAndPointsAndLeavesOutTheOwnVehicle) {
+TEST(ObjectSurvey, CountsPointsAndLeavesOutTheOwnVehicle) {
   const auto objects = Survey(FrameWithFiveFiringsOnInstanceThree());
   ASSERT_EQ(objects.size(), 2U);
   EXPECT_EQ(objects[0].name, "near");
   EXPECT_EQ(objects[0].label, "wagon");
-  EXPECT_EQ(objects[0].firings_visible, 5U);
   EXPECT_EQ(objects[0].points, 4U);  // One of the five returns was too weak.
-  EXPECT_EQ(objects[0].firings_alone, 10U);
-  EXPECT_EQ(objects[1].firings_visible, 0U);
+  EXPECT_EQ(objects[0].view, (ObjectView{10, 6, 160, 40}));
+  EXPECT_EQ(objects[1].points, 0U);
+  EXPECT_EQ(objects[1].view, ObjectView());
 }
 
 TEST(ObjectSurvey, PutsTheBoxWhereTheObjectIsAtTheStamp) {
@@ -89,15 +90,6 @@ TEST(ObjectSurvey, GivesTheVelocityOverTheScan) {
   }
 }
 
-TEST(ObjectSurvey, CountsAFiringWithTwoEchoesFromOneObjectOnce) {
-  Frame frame = FrameWithFiveFiringsOnInstanceThree();
-  frame.columns = 4;
-  frame.returns = 2;
-  const auto objects = Survey(frame);
-  EXPECT_EQ(objects[0].firings_visible, 3U);
-  EXPECT_EQ(objects[0].points, 4U);
-}
-
 TEST(ObjectSurvey, GivesTheMeanTimeOfThePointsAlone) {
   Frame frame = FrameWithFiveFiringsOnInstanceThree();
   // Slot 1 has no point, and slots 5 to 7 are not on the object.
@@ -111,13 +103,7 @@ TEST(ObjectSurvey, GivesTheMeanTimeOfThePointsAlone) {
 TEST(ObjectSurvey, CountsNoMirrorImages) {
   Frame frame = FrameWithFiveFiringsOnInstanceThree();
   frame.outcome[0] = Outcome::kClutter;
-  const auto objects = Survey(frame);
-  EXPECT_EQ(objects[0].firings_visible, 4U);
-  EXPECT_EQ(objects[0].points, 3U);
-  // A firing that meets the object beside its image counts.
-  frame.columns = 4;
-  frame.returns = 2;
-  EXPECT_EQ(Survey(frame)[0].firings_visible, 3U);
+  EXPECT_EQ(Survey(frame)[0].points, 3U);
 }
 
 // The far box's centre is 402 m east and 0.5 m below; the radius of its sphere is sqrt(29) / 2 m.
@@ -169,7 +155,9 @@ TEST(ObjectsLine, GivesBoxesVelocityAndOcclusion) {
   const auto line = nlohmann::json::parse(ObjectsLine(frame, Survey(frame)));
   EXPECT_EQ(line.at("stamp_ns"), 200'000'000);
   const auto& near = line.at("objects").at(0);
-  EXPECT_EQ(near.at("occlusion"), 0.5);
+  EXPECT_EQ(near.at("firings_visible"), 6);
+  EXPECT_EQ(near.at("firings_alone"), 10);
+  EXPECT_EQ(near.at("occlusion"), 0.75);  // By the rays: 40 of 160 are visible.
   EXPECT_NEAR(near.at("velocity_mps").at(0).get<double>(), 10.0, 1e-9);
   for (const char* box : {"sensor", "output"}) {
     const auto centre = near.at(box).at("center_m").get<std::vector<double>>();

@@ -33,6 +33,7 @@ struct RecordedObject {
   std::optional<std::uint32_t> points_time_ns{};
   std::uint32_t firings_visible{};
   std::uint32_t firings_alone{};
+  std::optional<double> occlusion{};  ///< 0 to 1; absent where no firing would meet it even alone.
 };
 
 /// A per-point value of a foreign cloud that has no counterpart in Frame, such as `curvature`.

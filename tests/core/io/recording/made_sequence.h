@@ -75,8 +75,7 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
     wagon.points = 7 + index;
     wagon.points_time_ns = 1000 + index;
     wagon.velocity_world_mps = made.wagon_velocity_mps;
-    wagon.firings_visible = 9;
-    wagon.firings_alone = 11;
+    wagon.view = {11, 9, 11, 9};
     to.objects = {wagon};
     result.frames.push_back(to.frame);
   };

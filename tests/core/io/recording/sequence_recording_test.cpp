@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 
 #include "core/io/content_hash.h"
 #include "railcast/io/recording.h"
@@ -36,6 +39,12 @@ void ExpectSameHead(const Frame& a, const Frame& b) {
   // The poses were written as quaternions with all digits.
   EXPECT_TRUE(a.world_from_sensor.isApprox(b.world_from_sensor, 1e-12));
   EXPECT_TRUE(a.world_from_sensor_end.isApprox(b.world_from_sensor_end, 1e-12));
+  ASSERT_EQ(a.poses_between.size(), b.poses_between.size());
+  for (std::size_t i = 0; i < a.poses_between.size(); ++i) {
+    EXPECT_EQ(a.poses_between[i].time_ns, b.poses_between[i].time_ns);
+    EXPECT_TRUE(
+        a.poses_between[i].world_from_sensor.isApprox(b.poses_between[i].world_from_sensor, 1e-12));
+  }
 }
 
 class OrganisedFormat : public testing::TestWithParam<const char*> {};
@@ -136,9 +145,9 @@ TEST_P(OutputAxesOf, AreTurnedBackIntoTheSensorsOwn) {
   const auto frames = ReadAll(directory.path() / "other");
   ASSERT_EQ(frames.size(), 2U);
   // World coordinates reach 1000 m here, where float32 has steps of 0.06 mm in each axis. Speed and
-  // radius are constant, so ScanMotion neglects only the sagitta of the path, (20 m/s x 0.1 s)^2 /
-  // (8 x 500 m).
-  constexpr double kTolerance_m = 3 * 0.06e-3 + 1.0e-3;
+  // radius are constant, so ScanMotion neglects only the sagitta of the path between poses,
+  // (20 m/s x 0.02 s)^2 / (8 x 500 m) = 0.04 mm.
+  constexpr double kTolerance_m = 3 * 0.06e-3 + 0.04e-3;
   for (std::size_t f = 0; f < 2; ++f) {
     const Frame& frame = frames[f].frame;
     ExpectSameShape(frame, truth[f]);
@@ -196,6 +205,7 @@ TEST(SequenceRecording, SaysWhatWasSeenOfEveryObject) {
     EXPECT_EQ(wagon.points_time_ns, 1000 + i);
     EXPECT_EQ(wagon.firings_visible, 9U);
     EXPECT_EQ(wagon.firings_alone, 11U);
+    EXPECT_EQ(wagon.occlusion, 1.0 - 9.0 / 11.0);
     EXPECT_TRUE(wagon.size_m.isApprox(Vector3(14.0, 3.0, 3.4)));
     EXPECT_TRUE(
         wagon.sensor_from_box.translation().isApprox(Vector3(40.0 - 2.0 * i, 1.0, 0.5), 1e-9));
@@ -258,6 +268,31 @@ std::string MessageAfter(const char* file, const std::string& from, const std::s
   return message.starts_with(place) ? message.substr(place.size()) : message;
 }
 
+// Older programs wrote only the pose at the last firing, as scan_end.
+TEST(SequenceRecording, ReadsTheEndOfTheScanOfOlderPrograms) {
+  const TemporaryDirectory directory;
+  const auto run = directory.path() / "run";
+  const auto made = MakeSequence(run, {.fields = "x,y,z"});
+  std::filesystem::remove(run / "manifest.json");
+  std::string lines;
+  std::istringstream written(ReadFileWhole(run / "frames.jsonl"));
+  for (std::string line; std::getline(written, line);) {
+    auto json = nlohmann::ordered_json::parse(line);
+    json["scan_end"] = json.at("scan_poses").back();
+    json.erase("scan_poses");
+    lines += json.dump() + "\n";
+  }
+  WriteFileWhole(run / "frames.jsonl", lines);
+  const auto frames = ReadAll(run);
+  ASSERT_EQ(frames.size(), 2U);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame& frame = frames[i].frame;
+    EXPECT_TRUE(frame.poses_between.empty());
+    EXPECT_EQ(frame.duration_ns, made.frames[i].duration_ns);
+    EXPECT_TRUE(frame.world_from_sensor_end.isApprox(made.frames[i].world_from_sensor_end, 1e-12));
+  }
+}
+
 TEST(SequenceRecording, NamesWhatIsDamaged) {
   EXPECT_EQ(MessageAfter("frames/000001.pcd", "", "gone"),
             "frames/000001.pcd: no such file or directory");
@@ -274,6 +309,22 @@ TEST(SequenceRecording, NamesWhatIsDamaged) {
             "poses.csv:3: a pose must have seven numbers (got 8)");
   EXPECT_EQ(MessageAfter("objects.jsonl", "{\"frame\":1", "{\"frame\":2"),
             "objects.jsonl:2: frame: must be 1, as in frames.jsonl (got 2)");
+  EXPECT_EQ(MessageAfter("objects.jsonl", "\"occlusion\":0", "\"occlusion\":-4"),
+            "objects.jsonl:1: /objects/0/occlusion: must be from 0 to 1 (got -4.181818181818182)");
+  EXPECT_EQ(
+      MessageAfter("objects.jsonl", "\"occlusion\":0.18181818181818177", "\"occlusion\":null"),
+      "objects.jsonl:1: /objects/0/occlusion: must be a number (got null)");
+  EXPECT_EQ(MessageAfter("objects.jsonl", "\"firings_visible\":9", "\"firings_visible\":12"),
+            "objects.jsonl:1: /objects/0/firings_visible: must be <= firings_alone, 11 (got 12)");
+  EXPECT_EQ(
+      MessageAfter("objects.jsonl", "\"firings_visible\":9,\"firings_alone\":11",
+                   "\"firings_visible\":0,\"firings_alone\":0"),
+      "objects.jsonl:1: /objects/0/occlusion: must be null, as no firing would meet the object "
+      "even alone (got 0.18181818181818177)");
+  EXPECT_EQ(
+      MessageAfter("frames.jsonl", "\"scan_poses\":[{\"time_ns\":19",
+                   "\"scan_poses\":[{\"time_ns\":99"),
+      "frames.jsonl:1: /scan_poses/1/time_ns: must be > that before, 99916666 (got 39833333)");
   EXPECT_EQ(MessageAfter("labels.json", "", "gone"), "labels.json: no such file");
   EXPECT_EQ(MessageAfter("run.json", "\"version\"", "\"verzion\""),
             "run.json: is damaged: [json.exception.out_of_range.403] key 'version' not found");

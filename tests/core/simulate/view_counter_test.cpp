@@ -1,8 +1,9 @@
-#include "core/simulate/lone_object.h"
+#include "core/simulate/view_counter.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -68,13 +69,19 @@ const ScanPattern& Pattern() {
   return pattern;
 }
 
+std::vector<std::uint32_t> FiringsAlone(const std::vector<ObjectView>& views) {
+  std::vector<std::uint32_t> firings;
+  for (const ObjectView& view : views) firings.push_back(view.firings_alone);
+  return firings;
+}
+
 // The slow and obvious way: a scan of a world that holds nothing else.
 std::uint32_t FiringsOn(const Thing& thing, std::uint32_t frame_index) {
   const Frame frame = ScanOnce(WorldOf({thing}), Pattern(), {}, frame_index);
   return static_cast<std::uint32_t>(std::count(frame.instance.begin(), frame.instance.end(), 1U));
 }
 
-TEST(LoneObjects, AreHitAsOftenAsEachInAWorldOfItsOwn) {
+TEST(ViewCounter, CountsFiringsAloneAsInAWorldOfTheObjectsOwn) {
   ASSERT_NE(Pattern().num_firings() % kPacketSize, 0U) << "the last packet is not full";
   const std::vector<Thing> crowd = Crowd();
   std::vector<std::uint32_t> expected;
@@ -85,18 +92,18 @@ TEST(LoneObjects, AreHitAsOftenAsEachInAWorldOfItsOwn) {
     auto world = WorldOf(crowd);
     world->ground.parts = {{MakeWall(2.0F, 100.0F), 1, 1}};  // Hides all of them.
     Simulator simulator(world, Pattern(), TestMaterials(), {}, num_threads);
-    EXPECT_EQ(simulator.FiringsOnObjectAlone(2), expected);
+    EXPECT_EQ(FiringsAlone(simulator.ViewObjects(2)), expected);
   }
 }
 
-TEST(LoneObjects, AreCountedWhileTheWindMovesTrees) {
+TEST(ViewCounter, CountsFiringsAloneWhileTheWindMovesTrees) {
   const std::vector<Thing> crowd = Crowd();
   SimulatorSpec windy;
   windy.detector.weather.wind_speed_mps = 12.0;
   auto world = WorldOf(crowd);
   world->placements = {{Thicket(99), Eigen::Affine3d(Eigen::Translation3d(6.0, 0.0, 0.0)), 0, 4.0}};
   Simulator simulator(world, Pattern(), TestMaterials(), windy, 2);
-  const std::vector<std::uint32_t> alone = simulator.FiringsOnObjectAlone(2);
+  const std::vector<std::uint32_t> alone = FiringsAlone(simulator.ViewObjects(2));
   ASSERT_EQ(alone.size(), crowd.size());
   for (std::size_t i = 0; i < crowd.size(); ++i) EXPECT_EQ(alone[i], FiringsOn(crowd[i], 2)) << i;
 }
@@ -131,13 +138,78 @@ class WithoutTheFirst final : public World {
   std::vector<SceneObject> objects_;
 };
 
-TEST(LoneObjects, KeepTheirCountsWhenAnotherIsRemoved) {
+TEST(ViewCounter, KeepsItsCountsWhenAnotherObjectIsRemoved) {
   const auto world = WorldOf(Crowd());
   Simulator simulator(world, Pattern(), TestMaterials(), {}, 1);
-  const std::vector<std::uint32_t> before = simulator.FiringsOnObjectAlone(2);
+  const auto before = FiringsAlone(simulator.ViewObjects(2));
   simulator.UseWorld(std::make_shared<const WithoutTheFirst>(world));
-  const std::vector<std::uint32_t> after = simulator.FiringsOnObjectAlone(2);
+  const auto after = FiringsAlone(simulator.ViewObjects(2));
   EXPECT_EQ(after, std::vector<std::uint32_t>(before.begin() + 1, before.end()));
+}
+
+// One ray per firing: the frame of the rung geometry has the first object of each.
+TEST(ViewCounter, CountsVisibleFiringsAsTheFrameShowsThem) {
+  auto world = WorldOf(Crowd());
+  world->ground.parts = {{MakeWall(60.0F, 10.0F), 1, 1}};
+  Simulator simulator(world, Pattern(), TestMaterials(), {}, 2);
+  Frame frame;
+  simulator.Scan(2, frame);
+  const std::vector<ObjectView> views = simulator.ViewObjects(2);
+  std::size_t num_partly_hidden = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto instance = static_cast<std::uint32_t>(i + 1);
+    EXPECT_EQ(views[i].firings_visible,
+              std::count(frame.instance.begin(), frame.instance.end(), instance));
+    EXPECT_EQ(views[i].rays_visible, views[i].firings_visible);
+    EXPECT_EQ(views[i].rays_alone, views[i].firings_alone);
+    const double occlusion = views[i].occlusion().value_or(0.0);
+    if (occlusion > 0.0 && occlusion < 1.0) ++num_partly_hidden;
+  }
+  EXPECT_GT(num_partly_hidden, 10U);
+}
+
+SimulatorSpec WithWideBeams() {
+  SimulatorSpec spec;
+  spec.detector.effects = EffectsOfRung(Fidelity::kFootprint);
+  spec.detector.beam.divergence_mrad = {3.0, 3.0};
+  return spec;
+}
+
+/// A board of 4 m x 4 m at 50 m, and at 40 m a screen that hides what is to the left of its edge.
+/// @param edge_y_m Where the edge appears on the board.
+std::shared_ptr<SimpleWorld> ScreenedBoard(double edge_y_m) {
+  constexpr double kScreenWidth_m = 20.0;
+  auto world = std::make_shared<SimpleWorld>();
+  const auto wall = [](float half_m) {
+    return std::make_shared<const Model>(Model{"wall", {{MakeWall(0.0F, half_m), 2, 2}}});
+  };
+  world->AddObject(wall(2.0F), Transform(Eigen::Translation3d(50.0, 0.0, 0.0)));
+  world->AddObject(
+      wall(static_cast<float>(kScreenWidth_m / 2.0)),
+      Transform(Eigen::Translation3d(40.0, 40.0 / 50.0 * edge_y_m + kScreenWidth_m / 2.0, 0.0)));
+  return world;
+}
+
+// Beams 0.35 deg apart are 0.3 m apart on the board, and 3 mrad (a standard deviation of 37 mm
+// there) wide, so that 13 x 13 beams meet it, of 16 rays each: those within 0.15 m of an edge by
+// parts. The share that is hidden is that of the board to within half a column.
+TEST(ViewCounter, FindsTheHiddenShareOfABoardInWideBeams) {
+  for (const double edge_y_m : {-3.0, -1.0, 0.0, 1.0, 3.0}) {
+    Simulator simulator(ScreenedBoard(edge_y_m), Pattern(), TestMaterials(), WithWideBeams(), 2);
+    const ObjectView board = simulator.ViewObjects(0).at(0);
+    const double expected = std::clamp((2.0 - edge_y_m) / 4.0, 0.0, 1.0);
+    EXPECT_NEAR(board.occlusion().value(), expected, 0.5 / 13.0) << edge_y_m;
+    EXPECT_GE(board.firings_alone, 13U * 13U);
+    EXPECT_NEAR(board.rays_alone, 16.0 * 16.0 / 0.0933, 0.1 * 16.0 * 16.0 / 0.0933);
+    EXPECT_GT(board.firings_alone * 16U, board.rays_alone) << "some beams meet it by parts";
+  }
+}
+
+TEST(ViewCounter, CountsAWideBeamAsOneFiring) {
+  Simulator simulator(ScreenedBoard(-3.0), MakeRaster(0.7, 0.7, 0.35), TestMaterials(),
+                      WithWideBeams(), 1);
+  // 2 x 2 beams, all of whose rays meet the board and, before it, the screen.
+  EXPECT_EQ(simulator.ViewObjects(0), (std::vector<ObjectView>{{4, 0, 64, 0}, {4, 4, 64, 64}}));
 }
 
 }  // namespace

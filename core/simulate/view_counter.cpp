@@ -1,0 +1,116 @@
+#include "core/simulate/view_counter.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace railcast {
+namespace {
+
+static_assert(kNumCrowdedSubRays == kPacketSize, "a beam's rays are one packet");
+
+void ForgetHits(RayTile& rays, float range_max_m) {
+  std::fill_n(rays.range_m, kPacketSize, range_max_m);
+  std::fill_n(rays.surface, kPacketSize, 0U);
+}
+
+// The packet stays as it is traced for the frame, so that its rays hit the same.
+void CopyPacket(const RayTile& from, std::size_t first, RayTile& to) {
+  const auto copy = [&](auto member) {
+    std::copy_n(from.*member + first, kPacketSize, to.*member);
+  };
+  for (const auto member :
+       {&RayTile::origin_x, &RayTile::origin_y, &RayTile::origin_z, &RayTile::direction_x,
+        &RayTile::direction_y, &RayTile::direction_z, &RayTile::shutter}) {
+    copy(member);
+  }
+}
+
+void CopyBeam(const BeamRays& from, RayTile& to) {
+  std::fill_n(to.origin_x, kPacketSize, from.origin[0]);
+  std::fill_n(to.origin_y, kPacketSize, from.origin[1]);
+  std::fill_n(to.origin_z, kPacketSize, from.origin[2]);
+  std::copy_n(from.direction_x, kPacketSize, to.direction_x);
+  std::copy_n(from.direction_y, kPacketSize, to.direction_y);
+  std::copy_n(from.direction_z, kPacketSize, to.direction_z);
+  std::fill_n(to.shutter, kPacketSize, from.shutter);
+}
+
+}  // namespace
+
+ViewCounter::ViewCounter(const CastFrame& frame, const World& world, std::vector<LoneObjects> alone)
+    : frame_(frame),
+      objects_(world.objects()),
+      alone_(std::move(alone)),
+      counts_(world.objects().size()) {}
+
+void ViewCounter::Add(const BeamTracer& tracer,
+                      const FiringTiles& tiles,
+                      std::size_t tile,
+                      BeamTracer::Work& work) {
+  if (alone_.empty()) return;
+  tracer.AimCenters(frame_, tiles, tile, work);
+  const float range_max_m = work.rays.range_m[0];
+  const std::size_t num_firings = tiles.num_firings(tile);
+  Packet packet;
+  packet.rays.num_rays = kPacketSize;
+  packet.rays.mask = kAllSurfaces;
+  packet.is_one_beam = tracer.has_wide_beams();
+  if (packet.is_one_beam) {
+    const BeamFrame beam_frame = tracer.BeamFrameOf(frame_, tiles, tile);
+    BeamRays beam;
+    packet.lanes = (1U << kPacketSize) - 1U;
+    for (std::size_t lane = 0; lane < num_firings; ++lane) {
+      tracer.AimSubRays(work, beam_frame, lane, beam);
+      CopyBeam(beam, packet.rays);
+      ForgetHits(packet.rays, range_max_m);
+      Count(packet);
+    }
+    return;
+  }
+  for (std::size_t first = 0; first < num_firings; first += kPacketSize) {
+    packet.lanes = (1U << std::min(kPacketSize, num_firings - first)) - 1U;
+    CopyPacket(work.rays, first, packet.rays);
+    ForgetHits(packet.rays, range_max_m);
+    Count(packet);
+  }
+}
+
+void ViewCounter::Count(Packet& packet) {
+  packet.hits.clear();
+  for (const LoneObjects& objects : alone_) objects.AddHits(packet.rays, 0, packet.hits);
+  if (packet.hits.empty()) return;
+  frame_.caster.Cast(packet.rays);
+  for (const ObjectHits& hit : packet.hits) {
+    const std::uint32_t alone = hit.lanes & packet.lanes;
+    if (alone == 0) continue;
+    std::uint32_t visible = 0;
+    for (std::uint32_t rest = alone; rest != 0; rest &= rest - 1U) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
+      const Surface& first = frame_.surfaces[packet.rays.surface[lane]];
+      if (first.instance == objects_[hit.object].instance) visible |= 1U << lane;
+    }
+    const auto count = [&](std::uint32_t lanes) {
+      return static_cast<std::uint32_t>(std::popcount(lanes));
+    };
+    const auto firings = [&](std::uint32_t lanes) {
+      return packet.is_one_beam ? std::min(lanes, 1U) : count(lanes);
+    };
+    Counts& counts = counts_[hit.object];
+    counts.firings_alone += firings(alone);
+    counts.firings_visible += firings(visible);
+    counts.rays_alone += count(alone);
+    counts.rays_visible += count(visible);
+  }
+}
+
+std::vector<ObjectView> ViewCounter::Total() const {
+  std::vector<ObjectView> views;
+  for (const Counts& counts : counts_) {
+    views.push_back(
+        {counts.firings_alone, counts.firings_visible, counts.rays_alone, counts.rays_visible});
+  }
+  return views;
+}
+
+}  // namespace railcast
