@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "analysis/commands.h"
-#include "analysis/verify/dataset_content.h"
-#include "analysis/verify/dataset_verification.h"
-#include "analysis/verify/merged_verification.h"
-#include "analysis/verify/verification.h"
+#include "core/io/verify/dataset_content.h"
+#include "core/io/verify/dataset_verification.h"
+#include "core/io/verify/merged_verification.h"
+#include "core/io/verify/verification.h"
 #include "core/base/text.h"
 #include "core/io/sensor_folders.h"
 #include "core/program/progress_line.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "analysis/verify/dataset_content.h"
+#include "core/io/verify/dataset_content.h"
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"

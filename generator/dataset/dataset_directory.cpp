@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
+#include "core/io/line_hash.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/scenario_lines.h"
 
@@ -92,8 +93,13 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
   if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);
   ScenarioLines lines(directory, spec_.shard);
-  num_done_ = lines.Skip();
-  if (!is_complete_) lines_.emplace(directory / kScenariosFile, lines.size());
+  if (is_complete_) {
+    const std::uint32_t num_scenarios = spec_.shard.NumOf(spec_.num_scenarios);
+    for (; num_done_ < num_scenarios; ++num_done_) static_cast<void>(lines.Need());
+  } else {
+    num_done_ = lines.Skip();
+    lines_.emplace(directory / kScenariosFile, lines.size());
+  }
 }
 
 void DatasetDirectory::CheckSameDataset() const {
@@ -111,7 +117,7 @@ void DatasetDirectory::CheckSameDataset() const {
 }
 
 void DatasetDirectory::Append(const Json& line) {
-  lines_->Append(line.dump() + "\n");
+  lines_->Append(WithLineHash(line.dump()) + "\n");
   ++num_done_;
 }
 

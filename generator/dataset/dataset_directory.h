@@ -38,8 +38,8 @@ struct DatasetSpec {
 class DatasetDirectory {
  public:
   /// Creates the folder, or opens it and finds out how far its run has got.
-  /// @throws InputError if it holds anything else, belongs to another data set, or is being written
-  ///   by another process.
+  /// @throws InputError if it holds anything else, belongs to another data set, is complete but has
+  ///   a line that was changed since, or is being written by another process.
   explicit DatasetDirectory(DatasetSpec spec);
 
   /// Whether manifest.json exists.

@@ -31,6 +31,9 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 9> kHashedFiles = {
     kDatasetFile, kRecipeFile,    kScenariosFile, kIndexFile,    kIndexDatabaseFile,
     kReportFile,  kSplitFiles[0], kSplitFiles[1], kSplitFiles[2]};
+/// Those of a shard.
+constexpr std::array<std::string_view, 3> kHashedFilesOfShard = {kDatasetFile, kRecipeFile,
+                                                                 kScenariosFile};
 
 /// A file that grows line by line under another name until it is whole.
 class NewFile {
@@ -89,11 +92,10 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   for (const std::string_view name : kSplitFiles) splits.emplace_back(directory / name);
   // Of a scenario, nothing else stays in memory.
   std::string hashes;
-  std::uint32_t num_scenarios = 0;
   PerPart<std::uint32_t> parts{};
   ScenarioLines lines(directory, spec.shard);
-  while (auto line = lines.Next()) {
-    const IndexedScenario scenario = ReadIndexedScenario(directory, std::move(*line));
+  for (std::uint32_t i = 0; i < spec.num_scenarios; ++i) {
+    const IndexedScenario scenario = ReadIndexedScenario(directory, lines.Need().record);
     const Json& record = scenario.record;
     const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
     ++parts.at(static_cast<std::size_t>(split));
@@ -109,9 +111,7 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
     index.Append(IndexLines(scenario));
     database.Add(scenario);
     report.Add(scenario);
-    ++num_scenarios;
   }
-  Check(num_scenarios == spec.num_scenarios, "all scenarios are done");
   index.Finish();
   database.Finish();
   for (NewFile& split : splits) split.Finish();
@@ -119,6 +119,18 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   WriteFileWhole(directory / kReportFile, written.dump(2) + "\n");
   WriteFileWhole(directory / kDatasetManifestFile, ManifestText(spec, hashes, written));
   return parts;
+}
+
+void WriteShardManifest(const DatasetSpec& spec) {
+  Json files = Json::object();
+  for (const std::string_view name : kHashedFilesOfShard) {
+    files[std::string(name)] = HashFile(spec.directory / name).hash;
+  }
+  const Json manifest = {{"version", spec.version},
+                         {"shard", ShardText(spec.shard)},
+                         {"num_scenarios", spec.shard.NumOf(spec.num_scenarios)},
+                         {"files_xxh3", std::move(files)}};
+  WriteFileWhole(spec.directory / kDatasetManifestFile, WithManifestHash(manifest.dump(2) + "\n"));
 }
 
 }  // namespace railcast

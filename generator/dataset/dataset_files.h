@@ -15,4 +15,8 @@ namespace railcast {
 /// @throws InputError if a sequence cannot be read or the system refuses.
 PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec);
 
+/// Writes the manifest.json of a shard whose sequences are complete.
+/// @throws InputError if a file cannot be read or the system refuses.
+void WriteShardManifest(const DatasetSpec& spec);
+
 }  // namespace railcast

@@ -60,7 +60,7 @@ IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const 
   for (std::size_t i = 0; std::getline(frames, frame_line); ++i) {
     auto frame_record = ParseFrameLine(frame_line);
     if (!frame_record || i >= s_m.size() || !std::getline(objects, objects_line)) {
-      throw InputError(place + ": is damaged at line " + std::to_string(i + 1));
+      throw InputError(place + ":" + std::to_string(i + 1) + ": is damaged");
     }
     IndexedFrame frame{
         std::move(*frame_record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};

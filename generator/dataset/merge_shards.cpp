@@ -9,10 +9,9 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/io/content_hash.h"
 #include "core/io/dataset_files.h"
-#include "core/io/sensor_folders.h"
-#include "core/io/sequence_files.h"
+#include "core/io/verify/dataset_verification.h"
+#include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/dataset_directory.h"
 #include "generator/dataset/dataset_files.h"
@@ -28,6 +27,25 @@ struct GivenShard {
   DatasetSpec spec;
   std::optional<ScenarioLines> lines;
 };
+
+// Checks the files about a shard's scenarios.
+void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
+  const std::uint32_t num_scenarios = spec.shard.NumOf(spec.num_scenarios);
+  if (!fs::exists(directory / kDatasetManifestFile)) {
+    throw InputError(ShownPath(directory) + ": is unfinished, with " +
+                     std::to_string(ScenarioLines(directory, spec.shard).Skip()) + " of " +
+                     std::to_string(num_scenarios) +
+                     " scenarios; the command that began it continues");
+  }
+  ErrorList errors;
+  for (const std::string& fault : VerifyDatasetFiles(directory).faults) errors.AddLine(fault);
+  static_cast<void>(Attempt("", errors, [&] {
+    ScenarioLines lines(directory, spec.shard);
+    for (std::uint32_t i = 0; i < num_scenarios; ++i) static_cast<void>(lines.Need());
+    return true;
+  }));
+  errors.ThrowIfAny();
+}
 
 GivenShard ReadShard(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
@@ -57,13 +75,7 @@ GivenShard ReadShard(const fs::path& directory) {
   if (DatasetJson(given.spec).dump(2) + "\n" != text) {
     throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
   }
-  const std::uint32_t num_lines = ScenarioLines(directory, given.spec.shard).Skip();
-  const std::uint32_t num_scenarios = given.spec.shard.NumOf(given.spec.num_scenarios);
-  if (num_lines != num_scenarios) {
-    throw InputError(ShownPath(directory) + ": is unfinished, with " + std::to_string(num_lines) +
-                     " of " + std::to_string(num_scenarios) +
-                     " scenarios; the command that began it continues");
-  }
+  CheckIsWhole(directory, given.spec);
   given.lines.emplace(directory, given.spec.shard);
   given.lines->Pause();
   return given;
@@ -123,9 +135,13 @@ void PutFile(const fs::path& from, const fs::path& to) {
   WriteFileWhole(to, ReadFileWhole(from));
 }
 
-void CheckHash(const fs::path& file, const std::string& hash) {
-  if (ContentHash(ReadFileWhole(file)) == hash) return;
-  throw InputError(ShownPath(file) + ": must have the hash " + hash + ", as scenarios.jsonl says");
+// Checks a scenario of a shard, with all files of its sequences.
+void CheckScenario(const fs::path& directory, std::uint32_t scenario, const PlacedLine& line) {
+  ErrorList errors;
+  for (const std::string& fault : VerifyScenario(directory, scenario, line).faults) {
+    errors.AddLine(fault);
+  }
+  errors.ThrowIfAny();
 }
 
 void PutScenario(const fs::path& from, const fs::path& to) {
@@ -164,20 +180,13 @@ std::uint32_t MergeShards(
     const std::uint32_t number = merged.num_done();
     on_progress(number, spec.num_scenarios);
     auto& [shard, lines] = shards[number % num_shards];
-    const Json line = lines->Next().value();
+    const ScenarioLines::Line line = lines->Need();
     // The system allows a thousand open files; there may be more shards.
     lines->Pause();
-    for (const Json& sequence : line.at("sequences")) {
-      const std::string manifest = sequence.at("folder").get<std::string>() + "/";
-      CheckHash(shard.directory / (manifest + std::string(kManifestFile)),
-                sequence.at("manifest_xxh3"));
-    }
+    CheckScenario(shard.directory, number, line.placed);
     const std::string folder = SequenceFolderOf(number);
-    if (line.contains("sensors_xxh3")) {
-      CheckHash(shard.directory / folder / kSensorsFile, line.at("sensors_xxh3"));
-    }
     PutScenario(shard.directory / folder, out / folder);
-    merged.Append(line);
+    merged.Append(line.record);
   }
   merged.Sync();
   WriteDatasetFiles(merged.spec());

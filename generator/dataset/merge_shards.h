@@ -12,8 +12,9 @@ namespace railcast {
 /// interrupted merge is continued by the same call.
 /// @param on_progress Called with the number of scenarios done.
 /// @return Number of scenarios.
-/// @throws InputError with a line for each shard that is missing, unfinished or of another data
-///   set.
+/// @throws InputError with a line for each shard that is missing, unfinished, changed or of another
+///   data set, and for each file of a scenario that is not as its shard's run wrote it; the
+///   scenarios before that are merged.
 std::uint32_t MergeShards(
     const std::vector<std::filesystem::path>& shards,
     const std::filesystem::path& out,

@@ -95,7 +95,11 @@ class DatasetRun {
     const bool has_all = result_.num_done == result_.num_scenarios;
     if (has_all && !result_.was_complete) {
       directory_.Sync();
-      if (choices_.shard.is_whole()) result_.parts = WriteDatasetFiles(directory_.spec());
+      if (choices_.shard.is_whole()) {
+        result_.parts = WriteDatasetFiles(directory_.spec());
+      } else {
+        WriteShardManifest(directory_.spec());
+      }
     }
     result_.is_complete = has_all;
     result_.elapsed_s =

@@ -5,7 +5,9 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <string>
 
+#include "core/io/recording/line_reader.h"
 #include "core/io/shard.h"
 #include "core/scenario/json_text.h"
 
@@ -14,14 +16,23 @@ namespace railcast {
 /// Reads the lines of scenarios.jsonl one after the other: millions need not fit into memory.
 class ScenarioLines {
  public:
+  /// A line, as it stands and as JSON without its hash.
+  struct Line {
+    PlacedLine placed;
+    Json record;
+  };
+
   /// @param directory Of a data set or a shard; it may have no lines yet.
   /// @throws InputError if the file cannot be read.
   ScenarioLines(const std::filesystem::path& directory, const Shard& shard);
 
-  /// Returns the line of the shard's next scenario; nothing from the first line on that is another
-  /// or incomplete.
+  /// Returns the line of the shard's next scenario; nothing from the first line on that is another,
+  /// incomplete or not as it was written, as an interrupted run may leave it.
   /// @throws InputError if the file cannot be read.
-  [[nodiscard]] std::optional<Json> Next();
+  [[nodiscard]] std::optional<Line> Next();
+  /// As Next(), for the lines of finished scenarios.
+  /// @throws InputError "file:3: rule" also where Next() returns nothing.
+  [[nodiscard]] Line Need();
   /// Skips all further lines, or `most` of them.
   /// @return How many there were.
   std::uint32_t Skip(std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
@@ -32,6 +43,10 @@ class ScenarioLines {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
+  [[nodiscard]] std::optional<PlacedLine> Read();
+  // Returns what is wrong with a line; empty if nothing is: then it is read.
+  std::string Take(const PlacedLine& line, Json& record);
+
   std::filesystem::path file_;
   Shard shard_;
   std::optional<std::ifstream> stream_;

@@ -154,8 +154,8 @@ void SplitPlan::DivideCells(const RecipeBases& bases) {
   std::size_t index = 0;
   for (const auto& [cell, weight] : weights) lines_[cell.first][cell.second] = (*parts)[index++];
   for (const BaseGround& ground : grounds) line_of_base_.push_back(&lines_[ground.line_hash]);
-  for (const auto& [split, name] : kEnumNames<Split>) {
-    const auto part = static_cast<std::size_t>(split);
+  for (std::size_t part = 0; part < kNumSplits; ++part) {
+    const auto split = static_cast<Split>(part);
     double sum = 0.0;
     for (std::size_t i = 0; i < grounds.size(); ++i) {
       const auto fits = [&](double s_m) {
@@ -166,7 +166,8 @@ void SplitPlan::DivideCells(const RecipeBases& bases) {
       sum += base_weights_[part][i];
     }
     if (quota_[part] == 0 || sum > 0.0) continue;
-    Refuse(recipe_, "must have room for a scenario in the places of " + std::string(name), got);
+    Refuse(recipe_, "must have room for a scenario in the places of " + std::string(NameOf(split)),
+           got);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/io/line_hash.h"
 #include "core/io/strict_json.h"
 #include "generator/sequence/pose_record.h"
 
@@ -121,10 +122,12 @@ std::string FrameRecordLine(const FrameRecord& record) {
                {"files", files},
                {"records_xxh3", record.records_hash}};
   PutCounts(record.counts, line);
-  return line.dump() + "\n";
+  return WithLineHash(line.dump()) + "\n";
 }
 
 std::optional<FrameRecord> ParseFrameLine(std::string_view line) {
+  if (line.ends_with('\n')) line.remove_suffix(1);
+  if (!LineHashFault(line).empty()) return std::nullopt;
   try {
     return Parse(StrictJson::parse(line));
   } catch (const StrictJson::exception&) {

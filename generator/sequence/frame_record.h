@@ -68,7 +68,7 @@ struct FrameRecord {
 
 [[nodiscard]] std::string FrameRecordLine(const FrameRecord& record);
 
-/// Returns nothing if the line is incomplete or was not written by FrameRecordLine.
+/// Returns nothing if the line is incomplete, was changed, or was not written by FrameRecordLine.
 [[nodiscard]] std::optional<FrameRecord> ParseFrameLine(std::string_view line);
 
 }  // namespace railcast

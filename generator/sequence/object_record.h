@@ -31,15 +31,15 @@ struct ObjectInFrame {
   /// Velocity of the box's centre, mean over the scan.
   Vector3 velocity_world_mps = Vector3::Zero();
   std::uint32_t points{};          ///< Slots with a point on the object.
-  std::uint32_t points_time_ns{};   ///< Mean time of those points since the stamp.
+  std::uint32_t points_time_ns{};  ///< Mean time of those points since the stamp.
   ObjectView view{};
   std::vector<ContactInFrame> contacts{};  ///< At the stamp, in the world's order.
 };
 
 /// Returns a line of objects.jsonl: the stamp and, for every object, its identity, its box at the
 /// stamp in world coordinates, in the sensor's axes (right-handed whatever `output` says) and in
-/// those of the frame's points, velocity, points and their mean time, firings, occlusion (null where
-/// it would not be visible even alone), and what it touches or overlaps.
+/// those of the frame's points, velocity, points and their mean time, firings, occlusion (null
+/// where it would not be visible even alone), and what it touches or overlaps.
 [[nodiscard]] std::string ObjectsLine(const Frame& frame,
                                       const std::vector<ObjectInFrame>& objects);
 

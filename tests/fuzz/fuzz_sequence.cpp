@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "analysis/verify/count_totals.h"
+#include "core/io/verify/count_totals.h"
 #include "core/base/error.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/recording/sequence_summary.h"

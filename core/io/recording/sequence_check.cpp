@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/line_hash.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -145,6 +146,9 @@ FrameLine ReadNextFrameLine(const FrameLines& lines) {
 }
 
 void CheckRecords(const FrameLine& line, const FrameLines& lines) {
+  // Those of older programs have no hash of themselves.
+  const std::string fault = HasLineHash(lines.frame.text) ? LineHashFault(lines.frame.text) : "";
+  if (!fault.empty()) throw InputError(lines.frame.place + ": " + fault);
   std::string records;
   std::string files;
   for (const PlacedLine& record : lines.records) {

@@ -99,7 +99,8 @@ class FrameLineReader {
 ///   expected one.
 [[nodiscard]] FrameLine ReadNextFrameLine(const FrameLines& lines);
 
-/// Checks the frame's lines in the other files against records_hash.
+/// Checks the frame's line against its own hash, and its lines in the other files against
+/// records_hash.
 /// @throws InputError with one line if they have changed since the frame was written.
 void CheckRecords(const FrameLine& line, const FrameLines& lines);
 

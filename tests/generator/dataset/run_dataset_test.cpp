@@ -234,6 +234,29 @@ TEST_F(RunDatasetTest, ContinuesARunThatWasKilledWhileItBegan) {
   EXPECT_EQ(FilesOfDataset(Path("killed")), FilesOfDataset(Path("whole")));
 }
 
+TEST_F(RunDatasetTest, NamesALineThatWasChangedSinceItWasComplete) {
+  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  const fs::path file = Path("set/scenarios.jsonl");
+  std::string lines = ReadFileWhole(file);
+  lines.replace(lines.rfind("\"start_s_m\":"), 12, "\"start_s_m\":1");
+  WriteFileWhole(file, lines);
+  EXPECT_THAT(MessageOf([&] {
+                (void)MakeDataset(recipe_, Path("set"), {1, 2});
+              }),
+              HasSubstr(file.string() + ":3: /line_xxh3: must be "));
+}
+
+TEST_F(RunDatasetTest, MakesAnUnfinishedScenarioWhoseLineWasChangedAnew) {
+  (void)MakeDataset(recipe_, Path("whole"), {1, 2});
+  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  fs::remove(Path("set/manifest.json"));
+  std::string lines = ReadFileWhole(Path("set/scenarios.jsonl"));
+  lines.replace(lines.find("\"points\":"), 9, "\"points\":1");
+  WriteFileWhole(Path("set/scenarios.jsonl"), lines);
+  EXPECT_TRUE(MakeDataset(recipe_, Path("set"), {1, 2}).is_complete);
+  EXPECT_EQ(FilesOfDataset(Path("set")), FilesOfDataset(Path("whole")));
+}
+
 TEST_F(RunDatasetTest, NoticesAChangedBase) {
   (void)MakeDataset(recipe_, Path("set"), {1, 2});
   const fs::path base = directory_.path() / "project/scenario.json";

@@ -83,6 +83,15 @@ TEST(FrameRecordLine, ReadsBack) {
   EXPECT_EQ(line.find('\n'), line.size() - 1);
 }
 
+TEST(ParseFrameLine, GivesNothingForAChangedLine) {
+  FrameRecord record;
+  record.counts.points = 12;
+  std::string line = FrameRecordLine(record);
+  ASSERT_EQ(ParseFrameLine(line), record);
+  line.replace(line.find("\"points\":12"), 11, "\"points\":13");
+  EXPECT_FALSE(ParseFrameLine(line).has_value());
+}
+
 TEST(ParseFrameLine, GivesNothingForATornLine) {
   const std::string line = FrameRecordLine(FrameRecord{});
   for (std::size_t size = 0; size + 1 < line.size(); ++size) {

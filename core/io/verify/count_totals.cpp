@@ -1,4 +1,4 @@
-#include "analysis/verify/count_totals.h"
+#include "core/io/verify/count_totals.h"
 
 #include <cstdint>
 
@@ -30,23 +30,34 @@ std::string TotalText(const StrictJson* value) {
 // must be numbers are examined.
 void CompareTo(const StrictJson& sum,
                const StrictJson* got,
-               const std::string& place,
+               const std::string& pointer,
+               const CountsPlace& place,
                ErrorList& faults) {
   if (sum.is_object() && got != nullptr && got->is_object()) {
     for (const auto& [key, one] : sum.items()) {
-      CompareTo(one, FindCount(*got, key), place + "/" + ShownText(key), faults);
+      CompareTo(one, FindCount(*got, key), pointer + "/" + ShownText(key), place, faults);
     }
     for (const auto& [key, one] : got->items()) {
-      if (!sum.contains(key)) faults.Add({place + "/" + ShownText(key), "is in no frame", ""});
+      if (sum.contains(key)) continue;
+      faults.Add({place.place + ": " + pointer + "/" + ShownText(key), place.is_absent, ""});
     }
     return;
   }
   if (sum.is_number() && got != nullptr && got->is_number() && sum == *got) return;
   const std::string expected = sum.is_number() ? sum.dump() : sum.type_name();
-  faults.Add({place, "must be " + expected + ", the sum over frames.jsonl", TotalText(got)});
+  faults.Add({place.place + ": " + pointer, "must be " + expected + ", " + place.compared,
+              TotalText(got)});
 }
 
 }  // namespace
+
+void CompareCounts(const StrictJson& counted,
+                   const StrictJson& object,
+                   const std::string& key,
+                   const CountsPlace& place,
+                   ErrorList& faults) {
+  CompareTo(counted, FindCount(object, key), "/" + key, place, faults);
+}
 
 void CountTotals::Add(const StrictJson& line) {
   for (const auto& [key, sum] : sums_.items()) AddToTotals(sum, line.at(key));
@@ -56,7 +67,8 @@ void CountTotals::Compare(const StrictJson& manifest,
                           const std::string& place,
                           ErrorList& faults) const {
   for (const auto& [key, sum] : sums_.items()) {
-    CompareTo(sum, FindCount(manifest, key), place + ": /" + key, faults);
+    CompareCounts(sum, manifest, key, {place, "the sum over frames.jsonl", "is in no frame"},
+                  faults);
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "analysis/verify/verification.h"
 #include "core/io/sensor_folders.h"
+#include "core/io/verify/verification.h"
 
 namespace railcast {
 

@@ -1,17 +1,22 @@
-#include "analysis/verify/verification.h"
+#include "core/io/verify/verification.h"
 
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <utility>
 
-#include "analysis/verify/count_totals.h"
 #include "core/base/attempt.h"
 #include "core/base/text.h"
+#include "core/io/line_hash.h"
+#include "core/io/recording/point_table.h"
 #include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/sequence_files.h"
+#include "core/io/verify/cloud_counts.h"
+#include "core/io/verify/count_totals.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -42,6 +47,7 @@ class Verifier {
     ReadTheManifest();
     if (summary_.manifest) CompareManifest();
     CheckKnownFiles();
+    ReadLabels();
     are_frames_known_ = Try([&] { CheckFrames(); });
     Try([&] { FindOthers(); });
     result_.faults = faults_.lines();
@@ -64,7 +70,13 @@ class Verifier {
   void ReadTheManifest();
   void CompareManifest();
   void CheckKnownFiles();
+  void ReadLabels();
   void CheckFile(const KnownFile& file, std::string_view said_in);
+  void CheckCloud(const KnownFile& file, const FrameLines& lines, const FrameFormat& format);
+  void CompareCloud(const KnownFile& file,
+                    std::string bytes,
+                    const FrameLines& lines,
+                    const FrameFormat& format);
   void CheckFrames();
   bool HasAllLines(std::string_view name);
   void CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records);
@@ -74,6 +86,7 @@ class Verifier {
   const std::function<void(double)>& on_progress_;
   SequenceSummary summary_;
   StrictJson manifest_json_;
+  std::optional<LabelTable> labels_;
   CountTotals totals_;
   std::set<std::string, std::less<>> known_;
   bool are_frames_known_ = false;
@@ -135,11 +148,45 @@ void Verifier::CheckKnownFiles() {
   }
 }
 
+// What is wrong with the file has been said if a manifest names it.
+void Verifier::ReadLabels() {
+  ErrorList known;
+  labels_ = Attempt("", summary_.manifest ? known : faults_,
+                    [&] { return ReadLabelTable(summary_.directory / kLabelsFile); });
+}
+
 void Verifier::CheckFile(const KnownFile& file, std::string_view said_in) {
   known_.insert(file.name);
   Try([&] {
     result_.num_bytes += ReadKnownFile(summary_.directory, file, said_in).size();
     ++result_.num_files;
+  });
+}
+
+void Verifier::CheckCloud(const KnownFile& file,
+                          const FrameLines& lines,
+                          const FrameFormat& format) {
+  known_.insert(file.name);
+  std::string bytes;
+  const bool is_whole = Try([&] {
+    bytes = ReadKnownFile(summary_.directory, file, kFramesFile);
+    result_.num_bytes += bytes.size();
+    ++result_.num_files;
+  });
+  if (is_whole) Try([&] { CompareCloud(file, std::move(bytes), lines, format); });
+}
+
+// The line's hash shows that it is as it was written; only the cloud shows what it holds.
+void Verifier::CompareCloud(const KnownFile& file,
+                            std::string bytes,
+                            const FrameLines& lines,
+                            const FrameFormat& format) {
+  if (!labels_) return;
+  const std::string path = PathOf(file.name);
+  const PointTable cloud = format.parse(path, std::move(bytes), std::nullopt);
+  ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place, [&](const StrictJson& json) {
+    CompareWithCloud({cloud, format, *labels_, file.name}, json, lines.frame.place, faults_);
+    return true;
   });
 }
 
@@ -199,7 +246,17 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
     const PlacedLine& objects = lines.records.at(1);
     Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
   }
-  for (const KnownFile& file : line.files) CheckFile(file, kFramesFile);
+  const std::string hash_fault = LineHashFault(lines.frame.text);
+  if (!hash_fault.empty()) faults_.Add({lines.frame.place, hash_fault, ""});
+  const FrameFormat* const format = FindFrameFormat(summary_.run.format);
+  for (const KnownFile& file : line.files) {
+    if (format != nullptr && format->parse != nullptr &&
+        file.name.starts_with(format->files.front().folder)) {
+      CheckCloud(file, lines, *format);
+    } else {
+      CheckFile(file, kFramesFile);
+    }
+  }
   Try([&] {
     ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place,
                                  [&](const StrictJson& json) { totals_.Add(json); });

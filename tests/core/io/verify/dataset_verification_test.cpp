@@ -1,13 +1,14 @@
-#include "analysis/verify/dataset_verification.h"
+#include "core/io/verify/dataset_verification.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "analysis/verify/dataset_content.h"
+#include "core/io/verify/dataset_content.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/recipe_project.h"
@@ -83,9 +84,37 @@ TEST_F(VerifyDatasetTest, AnUnfinishedDataSetIsAFaultButAFinishedShardIsNone) {
   const fs::path shard = directory_.path() / "shard";
   (void)MakeDataset(recipe_, shard, {2, 2});
   EXPECT_THAT(VerifyDataset(shard, [](double) {}).faults, IsEmpty());
+  fs::rename(shard / "manifest.json", directory_.path() / "kept");
+  EXPECT_THAT(
+      VerifyDataset(shard, [](double) {}).faults,
+      ElementsAre((shard / "manifest.json").string() + ": missing: the shard is unfinished"));
+  fs::rename(directory_.path() / "kept", shard / "manifest.json");
   WriteFileWhole(shard / "scenarios.jsonl", "");
   EXPECT_THAT(VerifyDataset(shard, [](double) {}).faults,
               Contains(HasSubstr("must have a line for each of 1 scenarios (got 0)")));
+}
+
+TEST_F(VerifyDatasetTest, FindsAChangedLineOfAScenario) {
+  const fs::path shard = directory_.path() / "shard";
+  (void)MakeDataset(recipe_, shard, {2, 2});
+  const std::string whole = ReadFileWhole(shard / "scenarios.jsonl");
+  const auto faults_after = [&](const std::string& from, const std::string& to) {
+    std::string line = whole;
+    line.replace(line.find(from), from.size(), to);
+    WriteFileWhole(shard / "scenarios.jsonl", line);
+    return VerifyDataset(shard, [](double) {}).faults;
+  };
+  const std::string split = nlohmann::json::parse(whole).at("split");
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{split, "other"},
+                                 {"\"start_s_m\":", "\"start_s_m\":1"},
+                                 {"\"points\":", "\"points\":1"}}) {
+    EXPECT_THAT(faults_after(from, to),
+                testing::IsSupersetOf({HasSubstr("scenarios.jsonl: must have the hash "),
+                                       HasSubstr("scenarios.jsonl:1: /line_xxh3: must be ")}))
+        << to;
+  }
+  EXPECT_THAT(faults_after("\"points\":", "\"points\":1"),
+              Contains(HasSubstr("scenarios.jsonl:1: /sequences: points: must be ")));
 }
 
 TEST_F(VerifyDatasetTest, ReadsTheSequencesAndTheMergedCloudsOfSeveralSensors) {
@@ -102,7 +131,7 @@ TEST_F(VerifyDatasetTest, ReadsTheSequencesAndTheMergedCloudsOfSeveralSensors) {
   WriteFileWhole(scenario / "notes.txt", "mine");
   EXPECT_THAT(faults(), ElementsAre(HasSubstr("000001/roof/frames/000002.pcd: must have "),
                                     HasSubstr("000001/merged/frames/000000.pcd: must have "),
-                                    HasSubstr("000001/notes.txt: belongs to no scenario")));
+                                    HasSubstr("000001/notes.txt: belongs to no sequence")));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "analysis/verify/dataset_content.h"
+#include "core/io/verify/dataset_content.h"
 
 #include <gtest/gtest.h>
 

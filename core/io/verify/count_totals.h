@@ -7,6 +7,22 @@
 
 namespace railcast {
 
+/// Where counts are, and what they are compared with, in messages.
+struct CountsPlace {
+  std::string place;      ///< "manifest.json".
+  std::string compared;   ///< "the sum over frames.jsonl".
+  std::string is_absent;  ///< "is in no frame".
+};
+
+/// Adds a fault for each count of a member of `object` that differs from what was counted: "place:
+/// /points: must be 7, the sum over frames.jsonl (got 8)".
+/// @param counted A number, or an object of numbers.
+void CompareCounts(const StrictJson& counted,
+                   const StrictJson& object,
+                   const std::string& key,
+                   const CountsPlace& place,
+                   ErrorList& faults);
+
 /// Sums the counts of each frame in frames.jsonl, for comparison with the manifest's totals.
 class CountTotals {
  public:

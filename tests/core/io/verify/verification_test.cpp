@@ -1,4 +1,4 @@
-#include "analysis/verify/verification.h"
+#include "core/io/verify/verification.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,11 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "core/io/line_hash.h"
 #include "core/io/recording/sequence_summary.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/damaged_run.h"
@@ -245,6 +247,72 @@ TEST_P(Verify, FindsOcclusionsThatAreNone) {
       ElementsAre(out.string() + "/objects.jsonl:2: /objects/0/occlusion: must be from 0 to "
                                  "1 (got -4.0)"));
 }
+
+/// A line of frames.jsonl of an unfinished run, which no manifest vouches for.
+class VerifyUnfinished : public Verify {
+ protected:
+  void SetUp() override {
+    Verify::SetUp();
+    std::filesystem::remove(path() / "manifest.json");
+  }
+  /// The faults after a change to the line of the second frame.
+  /// @param is_hashed Whether the line's own hash is adapted to the change.
+  [[nodiscard]] std::vector<std::string> FaultsAfter(const std::string& from,
+                                                     const std::string& to,
+                                                     bool is_hashed) const {
+    const std::string lines = ReadFileWhole(path() / "frames.jsonl");
+    const std::size_t begin = lines.find('\n') + 1;
+    const std::size_t end = lines.find('\n', begin);
+    std::string line = Replaced(lines.substr(begin, end - begin), from, to);
+    if (is_hashed) line = WithLineHash(line.substr(0, line.rfind(",\"line_xxh3\"")) + "}");
+    WriteFileWhole(path() / "frames.jsonl", lines.substr(0, begin) + line + lines.substr(end));
+    std::vector<std::string> faults = Faults();
+    EXPECT_EQ(faults.front(), "manifest.json: missing: the run is unfinished");
+    faults.erase(faults.begin());
+    return faults;
+  }
+  [[nodiscard]] std::string cloud() const {
+    return is_kitti() ? "sequences/00/velodyne/000001.bin" : "frames/000004.pcd";
+  }
+  [[nodiscard]] nlohmann::json SecondLine() const {
+    std::istringstream lines(ReadFileWhole(path() / "frames.jsonl"));
+    std::string line;
+    for (int i = 0; i < 2; ++i) std::getline(lines, line);
+    return nlohmann::json::parse(line);
+  }
+};
+
+TEST_P(VerifyUnfinished, NoticesAChangedLine) {
+  const std::string points = SecondLine().at("points").dump();
+  const auto faults = FaultsAfter("\"points\":" + points, "\"points\":7", false);
+  ASSERT_EQ(faults.size(), 2U) << testing::PrintToString(faults);
+  EXPECT_THAT(faults[0], testing::StartsWith("frames.jsonl:2: /line_xxh3: must be "));
+  EXPECT_EQ(faults[1], "frames.jsonl:2: /points: must be " + points + ", as counted in " + cloud() +
+                           " (got 7)");
+}
+
+TEST_P(VerifyUnfinished, ComparesCountsWithTheCloudItself) {
+  const nlohmann::json line = SecondLine();
+  const std::string points = line.at("points").dump();
+  EXPECT_THAT(FaultsAfter("\"points\":" + points, "\"points\":7", true),
+              ElementsAre("frames.jsonl:2: /points: must be " + points + ", as counted in " +
+                          cloud() + " (got 7)"));
+}
+
+TEST_P(VerifyUnfinished, ComparesLabelsAndOutcomesWithTheCloudItself) {
+  if (is_kitti()) GTEST_SKIP() << "its labels are SemanticKITTI's, and it has no outcomes";
+  const nlohmann::json line = SecondLine();
+  const auto label = line.at("points_per_label").items().begin();
+  const std::string count = "\"" + label.key() + "\":" + label.value().dump();
+  EXPECT_THAT(FaultsAfter(count, "\"" + label.key() + "\":99", true),
+              ElementsAre("frames.jsonl:2: /points_per_label/" + label.key() + ": must be " +
+                          label.value().dump() + ", as counted in " + cloud() + " (got 99)"));
+  const std::string lost = line.at("outcomes").at("no_surface").dump();
+  EXPECT_THAT(FaultsAfter("\"no_surface\":" + lost, "\"no_surface\":0", true),
+              Contains(HasSubstr("frames.jsonl:2: /outcomes")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, VerifyUnfinished, testing::Values("pcd", "kitti"));
 
 TEST_P(Verify, SaysThatAnOlderDirectoryIsOne) {
   auto run = nlohmann::ordered_json::parse(ReadFileWhole(path() / "run.json"));

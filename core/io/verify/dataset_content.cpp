@@ -1,4 +1,4 @@
-#include "analysis/verify/dataset_content.h"
+#include "core/io/verify/dataset_content.h"
 
 #include <algorithm>
 #include <optional>
@@ -56,9 +56,9 @@ DatasetContent ReadDatasetContent(const fs::path& directory) {
 }
 
 std::vector<fs::path> FinishedSequences(const fs::path& directory, const DatasetContent& content) {
-  // A shard is finished with its last scenario; a data set's manifest is written last.
+  // The manifest is written last.
   const std::size_t num_done = NumScenariosDone(directory);
-  const bool is_closed = !content.shard.is_whole() || IsThere(directory / kDatasetManifestFile);
+  const bool is_closed = IsThere(directory / kDatasetManifestFile);
   if (num_done < content.num_own() || !is_closed) {
     const std::string got =
         num_done < content.num_own()

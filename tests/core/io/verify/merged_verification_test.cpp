@@ -1,4 +1,4 @@
-#include "analysis/verify/merged_verification.h"
+#include "core/io/verify/merged_verification.h"
 
 #include <gtest/gtest.h>
 

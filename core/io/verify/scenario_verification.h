@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "core/io/recording/line_reader.h"
+#include "core/io/verify/verification.h"
+
+namespace railcast {
+
+/// Compares the folder of a scenario of a data set with its line of scenarios.jsonl: verifies its
+/// sequences, compares them with what the line says of them, and looks for files that belong to
+/// none.
+/// @param dataset The folder of the data set.
+/// @param scenario The number that the line must have.
+[[nodiscard]] Verification VerifyScenario(const std::filesystem::path& dataset,
+                                          std::uint32_t scenario,
+                                          const PlacedLine& line);
+
+}  // namespace railcast
