@@ -16,6 +16,7 @@
 #include "analysis/receive/receive_report.h"
 #include "analysis/receive/received_files.h"
 #include "core/base/attempt.h"
+#include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/run_program.h"
 #include "railcast/io/udp_grabber.h"
@@ -29,6 +30,7 @@ struct ReceiveOptions {
   std::optional<double> duration_s;
   std::optional<std::uint64_t> num_frames;
   std::filesystem::path out;  // Empty: nothing is recorded.
+  std::optional<std::filesystem::path> summary;
 };
 
 double Now_s() {
@@ -102,6 +104,7 @@ class FrameCounter {
 };
 
 int RunReceive(const ReceiveOptions& options) {
+  if (options.summary) CheckCanWrite(*options.summary);
   const HeldSignals signals;
   FrameCounter counter(options);
   WantedStream wanted;
@@ -137,6 +140,9 @@ int RunReceive(const ReceiveOptions& options) {
   grabber.stop();
   counter.ThrowIfFailed();
   std::cout << ReceiveSummary(counter.totals(), counts);
+  if (options.summary) {
+    WriteFileWhole(*options.summary, ReceiveSummaryJson(counter.totals(), counts));
+  }
   return kExitSuccess;
 }
 
@@ -161,6 +167,7 @@ void AddReceive(CLI::App& app, ProgramCommand& command) {
       ->transform(Whole({1}));
   receive->add_option("--out", options->out, "Directory to record to: frames/*.pcd and frames.csv")
       ->check(NonEmpty());
+  AddSummaryFile(*receive, options->summary);
   receive->callback([&command, options] {
     command = [options](const std::string&) { return RunReceive(*options); };
   });

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <iomanip>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace railcast {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 std::uint64_t PointsEach(const ReceivedTotals& totals) {
   return totals.frames == 0 ? 0 : totals.points / totals.frames;
@@ -68,6 +71,34 @@ std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::C
   }
   text << "\n";
   return text.str();
+}
+
+std::string ReceiveSummaryJson(const ReceivedTotals& totals, const StreamReceiver::Counts& counts) {
+  const StreamCounts& stream = counts.stream;
+  Json refused = Json::object();
+  for (std::size_t i = 0; i < stream.refused.size(); ++i) {
+    if (stream.refused[i] > 0) refused[std::string(kStreamFaultNames[i])] = stream.refused[i];
+  }
+  const Json summary = {{"command", "receive"},
+                        {"frames",
+                         {{"complete", stream.complete_frames},
+                          {"incomplete", stream.incomplete_frames},
+                          {"missing", stream.missing_frames},
+                          {"dropped_here", counts.dropped_frames}}},
+                        {"rate_hz", totals.rate_hz()},  // NaN is written as null.
+                        {"packets",
+                         {{"received", stream.received_packets},
+                          {"lost", stream.lost_packets},
+                          {"duplicate", stream.duplicate_packets},
+                          {"reordered", stream.reordered_packets},
+                          {"late", stream.late_packets},
+                          {"stray", stream.stray_packets},
+                          {"of_other_senders", stream.other_sender_packets},
+                          {"refused", stream.num_refused()}}},
+                        {"refused_for", refused},
+                        {"points", totals.points},
+                        {"restarts_of_the_sender", stream.restarts}};
+  return summary.dump() + "\n";
 }
 
 }  // namespace railcast

@@ -39,4 +39,8 @@ struct ReceiveLimits {
 [[nodiscard]] std::string ReceiveSummary(const ReceivedTotals& totals,
                                          const StreamReceiver::Counts& counts);
 
+/// The same as JSON, in one line.
+[[nodiscard]] std::string ReceiveSummaryJson(const ReceivedTotals& totals,
+                                             const StreamReceiver::Counts& counts);
+
 }  // namespace railcast

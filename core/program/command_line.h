@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,14 @@ namespace railcast {
 /// Validator for an option that names a file or folder.
 [[nodiscard]] inline CLI::Validator NonEmpty() {
   return {[](std::string& text) { return NonEmptyRule(text); }, ""};
+}
+
+/// Adds the option --summary.
+inline void AddSummaryFile(CLI::App& command, std::optional<std::filesystem::path>& file) {
+  command
+      .add_option("--summary", file,
+                  "File to write what the run did to when it has ended, as one line of JSON")
+      ->check(NonEmpty());
 }
 
 /// Returns the program and those of its commands that the command line names.

@@ -1,6 +1,7 @@
 #include "generator/live/live_summary.h"
 
 #include <iomanip>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
 
@@ -9,6 +10,8 @@
 
 namespace railcast {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr double kNsPerMs = 1e6;
 constexpr int kHeadWidth = 10;
@@ -21,6 +24,13 @@ void PutQuantiles(std::string_view head, const DurationHistogram& times, std::os
     text << std::setw(kNumberWidth) << static_cast<double>(times.QuantileNs(fraction)) / kNsPerMs;
   }
   text << std::setw(kNumberWidth) << static_cast<double>(times.max_ns()) / kNsPerMs << " ms\n";
+}
+
+Json Times(const DurationHistogram& times) {
+  return {{"p50", static_cast<double>(times.QuantileNs(0.5)) / kNsPerMs},
+          {"p95", static_cast<double>(times.QuantileNs(0.95)) / kNsPerMs},
+          {"p99", static_cast<double>(times.QuantileNs(0.99)) / kNsPerMs},
+          {"max", static_cast<double>(times.max_ns()) / kNsPerMs}};
 }
 
 // Empty where no frame was dropped.
@@ -51,6 +61,48 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
     PutQuantiles("lateness", record.sent.lateness, text);
   }
   return text.str();
+}
+
+std::string LiveSummaryJson(const LiveResult& result,
+                            const std::vector<UdpSender::Counts>& delivered,
+                            const std::vector<std::string>& capture_faults,
+                            bool has_times) {
+  Json sensors = Json::array();
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const LiveRecord& record = result.records[i];
+    const auto times = [&](const DurationHistogram& of) { return has_times ? Times(of) : Json(); };
+    sensors.push_back({{"name", record.name},
+                       {"frames", record.frames},
+                       {"late_frames", record.late_frames},
+                       {"dropped_frames", record.dropped_frames},
+                       {"datagrams", record.sent.datagrams},
+                       {"bytes", record.sent.bytes},
+                       {"sent_to_receivers", delivered[i].sent},
+                       {"refused", delivered[i].refused},
+                       {"compute_ms", times(record.compute)},
+                       {"send_ms", times(record.sent.send)},
+                       {"lateness_ms", times(record.sent.lateness)}});
+  }
+  const Json fault = result.fault ? Json(*result.fault) : Json();
+  const Json summary = {{"command", "stream"},
+                        {"sensors", sensors},
+                        {"capture_faults", capture_faults},
+                        {"fault", fault}};
+  return summary.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string LateText(const std::vector<LiveRecord>& records) {
+  std::uint64_t num_frames = 0;
+  std::uint64_t num_late = 0;
+  std::uint64_t num_dropped = 0;
+  for (const LiveRecord& record : records) {
+    num_frames += record.frames;
+    num_late += record.late_frames;
+    num_dropped += record.dropped_frames;
+  }
+  if (num_late + num_dropped == 0) return "";
+  return std::to_string(num_late) + " of " + std::to_string(num_frames) + " frames late" +
+         DroppedText(num_dropped);
 }
 
 std::string LiveProgress(const RunState& state) {

@@ -260,11 +260,12 @@ class RunSurroundings {
   std::size_t num_faults_said_ = 0;
 };
 
-/// Prints the outcome of the run and returns the exit status.
+/// Prints the outcome of the run, writes its summary and returns the exit status.
 int ReportRun(const LiveResult& result,
               const LiveStreams& streams,
               const CommandChannel* channel,
-              bool has_times) {
+              const StreamOptions& options) {
+  const bool has_times = !IsOffline(options);
   std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
   const std::vector<std::string> capture_faults = streams.CaptureFaults();
   for (const std::string& fault : capture_faults)
@@ -276,13 +277,21 @@ int ReportRun(const LiveResult& result,
   if (channel != nullptr && channel->num_answers() > 0) {
     std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
   }
+  if (options.summary) {
+    WriteFileWhole(*options.summary,
+                   LiveSummaryJson(result, streams.Delivered(), capture_faults, has_times));
+  }
   if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";
-  return result.fault || !capture_faults.empty() ? kExitFailure : kExitSuccess;
+  const std::string late = options.fails_late ? LateText(result.records) : "";
+  if (!late.empty()) std::cerr << "--fail-late: " << late << "\n";
+  const bool is_failed = result.fault || !capture_faults.empty() || !late.empty();
+  return is_failed ? kExitFailure : kExitSuccess;
 }
 
 int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
+  if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const LiveRunSpec spec = RunSpecOf(options, scenario);
   const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
@@ -309,7 +318,7 @@ int RunStream(const StreamOptions& options) {
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
   surroundings.End();
-  return ReportRun(result, streams, channel.get(), !clock.jumps());
+  return ReportRun(result, streams, channel.get(), options);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "generator/live/stream_options.h"
 
+#include <utility>
+
 #include "core/base/error.h"
 #include "core/program/command_line.h"
 #include "generator/run/run_options.h"
@@ -36,6 +38,9 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
   stream.add_flag(
       "--drop-late", options.drops_late,
       "Leave out whole frames that would be late; default: send all frames, even if late");
+  stream.add_flag("--fail-late", options.fails_late,
+                  "End with exit status 1 if a frame was late or dropped; the run goes on until "
+                  "its end");
   stream.add_flag(
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
@@ -71,6 +76,7 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       ->capture_default_str();
   stream.add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Fidelity>()));
+  AddSummaryFile(stream, options.summary);
   AddIsa(stream, options.isa);
 }
 
@@ -95,8 +101,10 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
   needs_commands_port("--lockstep", options.lockstep);
   needs_commands_port("--commands-log", options.commands_log.has_value());
   needs_commands_port("--commands-from", options.commands_from.has_value());
-  if (options.drops_late && (options.lockstep || IsOffline(options))) {
-    throw InputError(std::string("--drop-late: must be left out where frames ") +
+  for (const auto& [option, is_given] : {std::pair{"--drop-late", options.drops_late},
+                                         std::pair{"--fail-late", options.fails_late}}) {
+    if (!is_given || !(options.lockstep || IsOffline(options))) continue;
+    throw InputError(std::string(option) + ": must be left out where frames " +
                      (options.lockstep ? "wait for steps, as with --lockstep"
                                        : "are never late, as with --pcap without --to"));
   }

@@ -20,6 +20,7 @@ struct StreamOptions {
   bool has_all_slots = false;           ///< For protocol railcast.
   std::string pacing = "spread";
   bool drops_late = false;
+  bool fails_late = false;    ///< A late or dropped frame makes the exit status 1.
   bool sends_singly = false;  ///< Without UDP segmentation offload.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
@@ -27,9 +28,10 @@ struct StreamOptions {
   std::optional<std::uint16_t> commands_port;
   std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
   std::optional<std::filesystem::path> commands_log;
-  std::optional<double> duration_s;     ///< Simulation time; absent = until stopped.
-  std::optional<std::uint64_t> seed;    ///< Overrides the scenario's.
-  std::optional<std::string> fidelity;  ///< Overrides the scenario's.
+  std::optional<std::filesystem::path> summary;  ///< JSON file on the run.
+  std::optional<double> duration_s;              ///< Simulation time; absent = until stopped.
+  std::optional<std::uint64_t> seed;             ///< Overrides the scenario's.
+  std::optional<std::string> fidelity;           ///< Overrides the scenario's.
   /// Instruction set of the trace; empty = the machine's best.
   std::string isa;
   int num_threads = 0;  ///< 0 = all cores.

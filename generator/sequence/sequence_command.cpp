@@ -44,6 +44,7 @@ struct SequenceOptions {
   std::optional<std::string> fidelity;            ///< Overrides the scenario's.
   std::optional<std::string> sensor;              ///< Which sensor, if there are several.
   std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
+  std::optional<std::filesystem::path> summary;   ///< JSON file on the run.
   int num_threads = 0;                            ///< 0 = all cores.
   bool is_merged = false;                         ///< Whether sensors' clouds are merged, too.
   bool is_verbose = false;
@@ -189,10 +190,14 @@ int Report(const SequenceOptions& options,
            const Simulators& simulators,
            const std::vector<SequenceResult>& results) {
   bool is_complete = true;
+  std::vector<SummarizedRun> summarized;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    std::cout << ShownLines(Summary(runs.sensors[i].spec, results[i]));
+    const SensorRun& sensor = runs.sensors[i];
+    std::cout << ShownLines(Summary(sensor.spec, results[i]));
     is_complete = is_complete && results[i].is_complete;
+    summarized.push_back({sensor.name, sensor.spec, results[i]});
   }
+  if (options.summary) WriteFileWhole(*options.summary, SummaryJson(summarized));
   if (is_complete) return Finish(options, runs, simulators);
   std::cerr << "interrupted; the same command continues with frame ";
   const char* separator = "";
@@ -224,7 +229,21 @@ std::vector<SequenceResult> MakeFrames(CommandedRun& run,
   return results;
 }
 
+// A file in the directory of the frames would be a stranger there.
+void CheckSummary(const SequenceOptions& options) {
+  if (!options.summary) return;
+  const auto directory = std::filesystem::weakly_canonical(options.made.directory);
+  const auto file = std::filesystem::weakly_canonical(*options.summary);
+  if (std::mismatch(directory.begin(), directory.end(), file.begin(), file.end()).first ==
+      directory.end()) {
+    throw InputError("--summary: must not be in the directory of --out (got " +
+                     ShownPath(*options.summary) + ")");
+  }
+  CheckCanWrite(*options.summary);
+}
+
 int RunSequenceCommand(const SequenceOptions& options) {
+  CheckSummary(options);
   Runs runs = ReadForSequence(options);
   const CommandLog log = ReadLog(options, runs);
   if (options.is_verbose) std::cerr << "read " << ShownPath(options.scenario) << "\n";
@@ -313,6 +332,7 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
           "--commands", options->commands,
           "Command log of a live run to replay; with that run's scenario it reproduces its frames")
       ->check(NonEmpty());
+  AddSummaryFile(*sequence, options->summary);
   sequence->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

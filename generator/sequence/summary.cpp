@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 namespace railcast {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Row = std::pair<std::string, std::uint64_t>;
 
 void PutTable(const std::string& title, std::vector<Row> rows, std::ostringstream& text) {
@@ -54,6 +56,29 @@ std::string Summary(const SequenceSpec& spec, const SequenceResult& result) {
   text << result.num_done << " of " << spec.num_frames << " frames in " << ShownPath(spec.directory)
        << "\n";
   return text.str();
+}
+
+std::string SummaryJson(const std::vector<SummarizedRun>& runs) {
+  Json sensors = Json::array();
+  for (const SummarizedRun& run : runs) {
+    const FrameCounts& counts = run.result.counts;
+    Json outcomes = Json::object();
+    for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
+      if (counts.outcomes[i] > 0) outcomes[std::string(kOutcomeNames[i])] = counts.outcomes[i];
+    }
+    sensors.push_back({{"name", run.sensor},
+                       {"directory", run.spec.directory.string()},
+                       {"frames", run.spec.num_frames},
+                       {"frames_done", run.result.num_done},
+                       {"frames_made", run.result.num_done - run.result.num_resumed},
+                       {"is_complete", run.result.is_complete},
+                       {"elapsed_s", run.result.elapsed_s},
+                       {"points", counts.points},
+                       {"outcomes", std::move(outcomes)},
+                       {"points_per_label", counts.points_per_label}});
+  }
+  const Json summary = {{"command", "sequence"}, {"sensors", sensors}};
+  return summary.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string SequenceProgressText(std::uint32_t num_done,

@@ -39,6 +39,19 @@ TEST(ReceiveCommand, CountsFramesAndPackets) {
   EXPECT_EQ(program.ExitStatus(), 0);
 }
 
+TEST(ReceiveCommand, WritesItsSummaryAsJson) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "summary.json";
+  ListeningProgram program(Receive() + "--frames 1 --summary " + file.string());
+  LiveStream(program.at()).Send(0);
+  (void)program.Rest();
+  EXPECT_EQ(program.ExitStatus(), 0);
+  EXPECT_THAT(ReadFileWhole(file), HasSubstr(R"("frames":{"complete":1,)"));
+  // What cannot be written is known before the first datagram.
+  EXPECT_EQ(RunCommand(RAILCAST_ANALYZE " receive --summary " + folder.path().string()).said,
+            folder.path().string() + ": must be a regular file (got a directory)\n");
+}
+
 TEST(ReceiveCommand, TakesNobodyButWhoItIsTold) {
   ListeningProgram program(Receive() + "--from 127.9.9.9 --duration 1");
   LiveStream(program.at()).Send(0);

@@ -63,6 +63,18 @@ TEST(ReceiveReport, SaysWhoElseSent) {
             "packets of other senders: 3, dropped; the last from 10.0.0.7:4711\n");
 }
 
+TEST(ReceiveReport, IsJsonInOneLine) {
+  StreamReceiver::Counts counts = Counts();
+  counts.stream.refused[static_cast<std::size_t>(StreamFault::kMagic)] = 2;
+  EXPECT_EQ(ReceiveSummaryJson(Totals(), counts),
+            R"({"command":"receive","frames":{"complete":20,"incomplete":1,"missing":2,)"
+            R"("dropped_here":8},"rate_hz":8.0,"packets":{"received":8620,"lost":3,"duplicate":4,)"
+            R"("reordered":5,"late":6,"stray":7,"of_other_senders":0,"refused":2},)"
+            R"("refused_for":{"magic":2},"points":336000,"restarts_of_the_sender":0})"
+            "\n");
+  EXPECT_NE(ReceiveSummaryJson({}, {}).find(R"("rate_hz":null)"), std::string::npos);
+}
+
 TEST(ReceiveReport, TellsHowItGoes) {
   EXPECT_EQ(ReceiveProgress(Totals(), Counts()),
             "21 frames, 16000 points each, 8.00 Hz, 3 packets lost");

@@ -124,6 +124,29 @@ TEST(RailcastGenerate, ExitsWithOneAndOneLineOnBadInput) {
   EXPECT_EQ(stretch.said, "--from-s, --to-s: must be 0 <= from < to <= 1000 (got 5, 1)\n");
 }
 
+TEST(RailcastGenerate, WritesTheSummaryOfASequenceBesideItsDirectory) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path out = directory.path() / "out";
+  const std::string sequence = "sequence " + scenarios_folder +
+                               "minimal.json --format objects --frames 2 --out " + out.string() +
+                               " --summary ";
+  for (const std::string wrong : {"out/summary.json", "out/more/../summary.json", "out"}) {
+    const std::string file = (directory.path() / wrong).string();
+    const Ended refused = Generate(sequence + file);
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.said,
+              "--summary: must not be in the directory of --out (got " + file + ")\n");
+  }
+  EXPECT_FALSE(std::filesystem::exists(out));
+  const std::filesystem::path file = directory.path() / "out.json";
+  const Ended ended = Generate(sequence + file.string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const std::string begin = R"({"command":"sequence","sensors":[{"name":"Vir2Rail","directory":")" +
+                            out.string() +
+                            R"(","frames":2,"frames_done":2,"frames_made":2,"is_complete":true,)";
+  EXPECT_EQ(ReadFileWhole(file).substr(0, begin.size()), begin);
+}
+
 TEST(RailcastGenerate, RefusesAMeshItCouldNotWriteBeforeItIsBuilt) {
   const Ended half = Generate("world " + scenarios_folder + "minimal.json --from-s 5 --out a.ply");
   EXPECT_EQ(half.said,

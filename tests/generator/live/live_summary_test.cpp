@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace railcast {
 namespace {
 
@@ -28,6 +30,45 @@ TEST(LiveSummary, TellsDroppedFramesWhereThereAreAny) {
   EXPECT_EQ(LiveSummary({record}, {{0, 0}}, false),
             "front: 3 frames, 2 late, 4 dropped; 0 datagrams, 0 bytes; to receivers 0 sent, 0 "
             "refused\n");
+}
+
+TEST(LiveSummaryJson, IsOneLineOfTheSameNumbers) {
+  LiveRecord record{.name = "front", .period_ns = 100'000'000, .frames = 3, .late_frames = 2};
+  record.dropped_frames = 4;
+  for (const std::int64_t ms : {2, 2, 5}) record.compute.Add(ms * 1'000'000);
+  record.sent.datagrams = 12;
+  record.sent.bytes = 16'800;
+  const auto parsed = [&](const LiveResult& result, bool has_times) {
+    const std::string text =
+        LiveSummaryJson(result, {{24, 1}}, {"a.pcap: no space left on device"}, has_times);
+    EXPECT_EQ(text.find('\n'), text.size() - 1);
+    return nlohmann::json::parse(text);
+  };
+  const nlohmann::json summary = parsed({{record}, std::nullopt}, true);
+  EXPECT_EQ(summary.at("command"), "stream");
+  EXPECT_TRUE(summary.at("fault").is_null());
+  EXPECT_EQ(summary.at("capture_faults"),
+            nlohmann::json::array({"a.pcap: no space left on device"}));
+  const nlohmann::json& front = summary.at("sensors").at(0);
+  for (const auto& [key, value] :
+       {std::pair{"frames", 3}, std::pair{"late_frames", 2}, std::pair{"dropped_frames", 4},
+        std::pair{"datagrams", 12}, std::pair{"bytes", 16'800}, std::pair{"sent_to_receivers", 24},
+        std::pair{"refused", 1}}) {
+    EXPECT_EQ(front.at(key), value) << key;
+  }
+  EXPECT_EQ(front.at("compute_ms").at("max"), 5.0);
+  EXPECT_EQ(front.at("compute_ms").at("p50"),
+            static_cast<double>(record.compute.QuantileNs(0.5)) / 1e6);
+  const nlohmann::json untimed = parsed({{record}, "the line ends"}, false);
+  EXPECT_EQ(untimed.at("fault"), "the line ends");
+  EXPECT_TRUE(untimed.at("sensors").at(0).at("lateness_ms").is_null());
+}
+
+TEST(LateText, CountsAllSensorsAndIsEmptyIfAllWasInTime) {
+  EXPECT_EQ(LateText({{.frames = 3}, {.frames = 4}}), "");
+  EXPECT_EQ(LateText({{.frames = 3, .late_frames = 1}, {.frames = 4, .late_frames = 2}}),
+            "3 of 7 frames late");
+  EXPECT_EQ(LateText({{.frames = 3, .dropped_frames = 5}}), "0 of 3 frames late, 5 dropped");
 }
 
 TEST(LiveProgress, IsOneLine) {

@@ -152,6 +152,11 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             "--pcap: needs --duration where no --to is given (got none)\n");
   EXPECT_EQ(fault(scenario + " --drop-late --lockstep --commands-port 9"),
             "--drop-late: must be left out where frames wait for steps, as with --lockstep\n");
+  EXPECT_EQ(fault(scenario + " --fail-late --pcap a --duration 1"),
+            "--fail-late: must be left out where frames are never late, as with --pcap without "
+            "--to\n");
+  EXPECT_EQ(fault(scenario + " --duration 1 --summary " + folder.path().string()),
+            folder.path().string() + ": must be a regular file (got a directory)\n");
   EXPECT_EQ(fault(scenario + " --no-offload --pcap a --duration 1"),
             "--no-offload: must be left out where nothing is sent, as with --pcap without --to\n");
   EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),

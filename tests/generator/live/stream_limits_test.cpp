@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/io/write_file.h"
@@ -20,6 +21,16 @@ std::string ScenarioFrom(const std::filesystem::path& folder, const std::string&
   const std::string start = "\"start_s_m\": 200";
   text.replace(text.find(start), start.size(), "\"start_s_m\": " + start_s_m);
   const std::filesystem::path file = folder / "from.json";
+  WriteFileWhole(file, text);
+  return file.string();
+}
+
+/// Returns the coarse scenario with more frames per second than any machine can make.
+std::string FastScenario(const std::filesystem::path& folder) {
+  std::string text = ReadFileWhole(CoarseScenario(folder));
+  const std::string rate = "\"rate_hz\": 20";
+  text.replace(text.find(rate), rate.size(), "\"rate_hz\": 20000");
+  const std::filesystem::path file = folder / "fast.json";
   WriteFileWhole(file, text);
   return file.string();
 }
@@ -88,12 +99,7 @@ TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
 
 TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
   const TemporaryDirectory folder;
-  std::string text = ReadFileWhole(CoarseScenario(folder.path()));
-  // More frames per second than any machine can make.
-  const std::string rate = "\"rate_hz\": 20";
-  text.replace(text.find(rate), rate.size(), "\"rate_hz\": 20000");
-  const std::string scenario = (folder.path() / "fast.json").string();
-  WriteFileWhole(scenario, text);
+  const std::string scenario = FastScenario(folder.path());
   // Runs until the text has been printed, and returns all output.
   const auto run_until = [&](const std::string& said, const std::string& option) {
     const std::string log = (folder.path() / "log").string();
@@ -112,6 +118,26 @@ TEST(Stream, SaysThatItCannotKeepUpAndDropsFramesIfAskedTo) {
   EXPECT_NE(dropping.said.find(" frames dropped after "), std::string::npos) << dropping.said;
   EXPECT_NE(dropping.said.find(" dropped; "), std::string::npos) << dropping.said;
   EXPECT_EQ(dropping.said.find(" s behind"), std::string::npos) << dropping.said;
+}
+
+TEST(Stream, FailsForLateFramesIfAskedToAndSumsUpAsJson) {
+  const TemporaryDirectory folder;
+  const std::string scenario = FastScenario(folder.path());
+  const std::filesystem::path summary = folder.path() / "summary.json";
+  const auto run = [&](const std::string& options) {
+    return Generate("stream " + scenario + " --duration 0.01 --to :" + FreePort() + " --summary " +
+                    summary.string() + options);
+  };
+  EXPECT_EQ(run("").status, 0);
+  const Ended late = run(" --fail-late");
+  EXPECT_EQ(late.status, 1) << late.said;
+  const auto front = nlohmann::json::parse(ReadFileWhole(summary)).at("sensors").at(0);
+  EXPECT_EQ(front.at("frames"), 200);
+  EXPECT_GT(front.at("late_frames"), 100);
+  EXPECT_NE(
+      late.said.find("--fail-late: " + front.at("late_frames").dump() + " of 200 frames late\n"),
+      std::string::npos)
+      << late.said;
 }
 
 TEST(Stream, SendsInTimeWhatItDoesNotDropAsItIs) {

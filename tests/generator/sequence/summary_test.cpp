@@ -41,6 +41,19 @@ TEST(Summary, TellsWhatWasThereBefore) {
             "already complete: nothing to do");
 }
 
+TEST(SummaryJson, IsOneLineOfTheSameNumbers) {
+  SequenceResult result = ExampleResult();
+  result.num_resumed = 5;
+  const SequenceSpec spec = ExampleRun("/data/run");
+  const std::string text = SummaryJson({{"front", spec, result}});
+  EXPECT_EQ(text,
+            R"({"command":"sequence","sensors":[{"name":"front","directory":"/data/run",)"
+            R"("frames":6,"frames_done":6,"frames_made":1,"is_complete":true,"elapsed_s":0.5,)"
+            R"("points":400,"outcomes":{"returned":400,"rain_absorbed":100},)"
+            R"("points_per_label":{"ballast":100,"rail":300}}]})"
+            "\n");
+}
+
 TEST(ProgressLine, EstimatesWhatIsLeftFromTheFramesMadeNow) {
   EXPECT_EQ(SequenceProgressText(0, 50, 0, 0.0), "frame 0 of 50");
   EXPECT_EQ(SequenceProgressText(12, 50, 2, 5.0), "frame 12 of 50, 2.0 frames/s, 0:19 left");

@@ -59,7 +59,7 @@ TEST(ObjectBoxes, OfKittiAreWhereTheirPointsWereSeen) {
   wagon.velocity_world_mps = Vector3(0.0, 30.0, 0.0);  // Ahead, as the sensor looks north.
   wagon.points_time_ns = 50'000'000;
   recorded.objects = {wagon};
-  EXPECT_TRUE(HasEnd(DrawObjectBoxes(recorded, LabelTable({})), {58.5F, 3.5F, 3.0F}));
+  EXPECT_TRUE(HasEnd(DrawObjectBoxes(recorded, LabelTable()), {58.5F, 3.5F, 3.0F}));
 }
 
 TEST(ObjectBoxes, HaveFourEdgesAlongEachAxis) {
