@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/base/attempt.h"
@@ -149,13 +150,22 @@ std::optional<StripWidth> DraftStripWidth(const WorldSpec& world,
     const std::string place = "/world/tracks/" + std::to_string(i) + "/offset_m";
     const std::optional<TrackCourse>& course = network.courses[i];
     if (!course || !faults.AreKnown({place})) continue;
-    const double least_m = course->least_d_m();
-    const double offset_m = -least_m > course->most_d_m() ? least_m : course->most_d_m();
-    if (std::abs(offset_m) + kFormationEdge_m < width.least_m()) continue;
+    double room_m = std::numeric_limits<double>::infinity();
+    double worst_s_m = 0.0;
+    const auto num_steps = static_cast<int>(
+        std::ceil((course->end_s_m() - course->begin_s_m()) / StripWidth::kStep_m));
+    for (int k = 0; k <= num_steps; ++k) {
+      const double s_m =
+          std::lerp(course->begin_s_m(), course->end_s_m(), 1.0 * k / std::max(1, num_steps));
+      const double here_m = width.RoomAt_m(s_m, course->OffsetWithin_m(s_m));
+      if (here_m < room_m) std::tie(room_m, worst_s_m) = std::pair(here_m, s_m);
+    }
+    if (room_m > kFormationEdge_m) continue;
+    const double offset_m = course->OffsetWithin_m(worst_s_m);
     faults.Add(place,
                "must leave " + NumberText(kFormationEdge_m) +
-                   " m to the edge of the ground, which narrows to " + ShortText(width.least_m()) +
-                   " m in a curve",
+                   " m to the edge of the ground, which narrows to " +
+                   ShortText(room_m + std::abs(offset_m)) + " m in a curve",
                NumberText(offset_m));
   }
   return width;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <type_traits>
 #include <utility>
 
@@ -113,6 +114,13 @@ class GaugeProbe {
     GaugeEntry entry = entry_;
     entry.name = name;
     entry.track = track_.name;
+    constexpr int kClear_m = 5;
+    for (const int at_m : metres_) {
+      if (entry.stretches.empty() || at_m > entry.stretches.back().end_s_m + kClear_m) {
+        entry.stretches.push_back({std::max<double>(at_m, entry.begin_s_m), 0.0});
+      }
+      entry.stretches.back().end_s_m = std::min(at_m + 1.0, entry.end_s_m);
+    }
     return entry;
   }
 
@@ -202,6 +210,7 @@ class GaugeProbe {
       entry_.bottom_m = bottom_m;
       entry_.top_m = top_m;
     }
+    metres_.insert(static_cast<int>(std::floor(s_m)));
     entry_.begin_s_m = std::min(entry_.begin_s_m, s_m);
     entry_.end_s_m = std::max(entry_.end_s_m, s_m);
     entry_.bottom_m = std::max(0.0, std::min(entry_.bottom_m, bottom_m));
@@ -219,6 +228,7 @@ class GaugeProbe {
   std::vector<GaugePart> gauge_;
   double top_m_ = 0.0;
   GaugeEntry entry_;
+  std::set<int> metres_;  ///< Of chainage, with something of it in the gauge.
 };
 
 /// Probes for all tracks.

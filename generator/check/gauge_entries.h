@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rail/chainage_range.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
@@ -18,6 +19,8 @@ struct GaugeEntry {
   std::string track;  ///< Name of the track.
   double begin_s_m{};
   double end_s_m{};
+  /// Between these chainages it reaches in; it stays out for more than 5 m between two of them.
+  std::vector<ChainageRange> stretches;
   double deepest_s_m{};  ///< Where it reaches farthest in.
   double depth_m{};   ///< From the gauge's side towards the track's axis; half its width at most.
   double bottom_m{};  ///< Above top of rail, inside the gauge.

@@ -1,12 +1,14 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +27,7 @@
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_world.h"
+#include "generator/import/lines/standing_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/crop_map.h"
 #include "generator/import/map/map_projection.h"
@@ -32,6 +35,7 @@
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/clear_gauge.h"
 #include "generator/import/structures/line_structures.h"
+#include "generator/import/structures/map_coverage.h"
 
 namespace railcast {
 namespace {
@@ -48,6 +52,26 @@ struct ImportCommandOptions {
   double min_length_m = 1000.0;
   ImportOptions fit;
 };
+
+/// Leaves out the items of a list at whose numbers there is a reason to.
+template <class Item>
+void EraseWhere(const std::vector<std::optional<std::string>>& reasons, std::vector<Item>& items) {
+  std::vector<Item> kept;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (!reasons[i]) kept.push_back(std::move(items[i]));
+  }
+  items = std::move(kept);
+}
+
+/// Notes the lines that cannot stand.
+void LeaveOutLines(const RailMap& map,
+                   const std::vector<TrackLine>& tracks,
+                   const std::vector<std::optional<std::string>>& reasons,
+                   std::vector<LeftOutLine>& left_out) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (reasons[i]) left_out.push_back({tracks[i].name, LengthOf_m(map, tracks[i]), *reasons[i]});
+  }
+}
 
 /// Works on all lines at once, and shows how far that is. Lines count by their lengths.
 /// @param what Such as "fitting", for the progress.
@@ -82,13 +106,24 @@ void WorkOnLines(const RailMap& map,
   progress.End();
 }
 
+/// Fits all lines at once, and shows how far that is. Lines that no alignment can have are left out
+/// of both lists.
 std::vector<ImportedLine> ImportLines(const RailMap& map,
-                                      const std::vector<TrackLine>& tracks,
-                                      const ImportOptions& options) {
+                                      const ImportOptions& options,
+                                      std::vector<TrackLine>& tracks,
+                                      std::vector<LeftOutLine>& left_out) {
   std::vector<ImportedLine> lines(tracks.size());
+  std::vector<std::optional<std::string>> reasons(tracks.size());
   WorkOnLines(map, tracks, "fit", [&](std::size_t i, const TellShare& tell) {
-    lines[i] = ImportLine(map, tracks[i], options, tell);
+    try {
+      lines[i] = ImportLine(map, tracks[i], options, tell);
+    } catch (const InputError& error) {
+      reasons[i] = error.what();
+    }
   });
+  LeaveOutLines(map, tracks, reasons, left_out);
+  EraseWhere(reasons, tracks);
+  EraseWhere(reasons, lines);
   return lines;
 }
 
@@ -172,6 +207,15 @@ void WriteLine(const std::filesystem::path& out,
   WriteFileWhole(out / (line.name + ".world.json"), WorldFileText(line, world, has_elevation));
 }
 
+std::string LeftOutLinesText(const std::vector<LeftOutLine>& left_out) {
+  std::string text;
+  for (const LeftOutLine& line : left_out) {
+    text += "left out line " + line.name + " of " + NumberText(std::round(line.length_m)) +
+            " m: " + ShownLines(line.reason) + "\n";
+  }
+  return text;
+}
+
 /// The map, or what of it lies within the rectangle that was asked for.
 RailMap ReadMapWithin(const ImportCommandOptions& options) {
   RailMap map = ReadMap(options.map);
@@ -194,13 +238,26 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
   return cropped;
 }
 
+void WriteTables(const std::filesystem::path& out,
+                 const std::vector<ImportedLine>& lines,
+                 const std::vector<BuiltWorld>& worlds,
+                 const std::vector<MapCoverage>& coverages,
+                 const std::vector<LeftOutLine>& left_out) {
+  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, lines, WorldsOf(worlds)));
+  WriteFileWhole(out / "tracks.csv", TracksCsv(lines, worlds));
+  WriteFileWhole(out / "coverage.csv", CoverageCsv(lines, coverages));
+  WriteFileWhole(out / "heights.csv", HeightsCsv(lines));
+  WriteFileWhole(out / "lines.csv", QualityCsv(lines));
+  WriteFileWhole(out / "contradictions.csv", ContradictionsCsv(lines));
+}
+
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMapWithin(options);
   // Without --crs, it is the map that cannot be projected.
   const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
                                            [&] { return ProjectMap(options.crs, map); });
   FillElectrified(map);
-  const std::vector<TrackLine> tracks = FindLines(map, options.min_length_m);
+  std::vector<TrackLine> tracks = FindLines(map, options.min_length_m);
   if (tracks.empty()) {
     throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
                      NumberText(options.min_length_m) + " m");
@@ -210,34 +267,46 @@ int RunImport(const ImportCommandOptions& options) {
   MakeEmptyFolder(options.out);
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
-  std::vector<ImportedLine> lines = ImportLines(map, tracks, options.fit);
+  std::vector<LeftOutLine> left_out;
+  std::vector<ImportedLine> lines = ImportLines(map, options.fit, tracks, left_out);
   std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
   const ProgressLine progress;
+  std::vector<MapCoverage> coverages;
+  std::vector<std::optional<std::string>> reasons(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     progress.Show("clearing line " + std::to_string(i + 1) + " of " + std::to_string(lines.size()),
                   static_cast<double>(i) / static_cast<double>(lines.size()));
+    std::optional<std::filesystem::path> elevation_file;
     if (elevation) {
       SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
-      WriteFileWhole(options.out / (lines[i].name + ".elevation.asc"),
-                     ElevationGridText(*elevation, BoundsAbout(map, tracks[i])));
+      elevation_file = options.out / (lines[i].name + ".elevation.asc");
+      WriteFileWhole(*elevation_file, ElevationGridText(*elevation, BoundsAbout(map, tracks[i])));
     } else if (!options.is_level) {
       SetHeights(map, tracks[i], lines[i]);
     }
     SetCants(map, tracks[i], lines[i]);
     ClearStructures(lines[i].alignment, worlds[i].world);
-    WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
+    reasons[i] = MakeStand(lines[i].alignment, elevation_file, worlds[i].world);
+    coverages.push_back(CoverageOf(map, worlds[i].world, worlds[i].beside));
+    if (!reasons[i]) {
+      WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
+    } else if (elevation_file) {
+      std::filesystem::remove(*elevation_file);
+    }
   }
   progress.End();
-  WriteFileWhole(options.out / "left_out.csv", LeftOutCsv(lines, WorldsOf(worlds)));
-  WriteFileWhole(options.out / "tracks.csv", TracksCsv(lines, worlds));
-  WriteFileWhole(options.out / "heights.csv", HeightsCsv(lines));
-  WriteFileWhole(options.out / "lines.csv", QualityCsv(lines));
-  WriteFileWhole(options.out / "contradictions.csv", ContradictionsCsv(lines));
+  LeaveOutLines(map, tracks, reasons, left_out);
+  EraseWhere(reasons, lines);
+  EraseWhere(reasons, worlds);
+  EraseWhere(reasons, coverages);
+  WriteTables(options.out, lines, worlds, coverages, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m\n\n"
             << QualityTable(lines) << '\n'
-            << "Wrote " << lines.size() << " lines to " << ShownPath(options.out) << '\n';
+            << CoverageTable(lines, coverages) << '\n'
+            << LeftOutLinesText(left_out) << "Wrote " << lines.size() << " lines to "
+            << ShownPath(options.out) << '\n';
   return kExitSuccess;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/rail/line/network.h"
 #include "core/rail/structures/structure_track.h"
+#include "core/rail/structures/tunnel_shape.h"
 #include "core/rail/world_tracks.h"
 #include "railcast/structures.h"
 #include "viewer/plan/plan.h"
@@ -51,11 +52,6 @@ static_assert(kStructureStyles.size() == std::variant_size_v<StructureSpec>);
 constexpr double kUsualFacing_m = 3.0;
 constexpr double kUsualThirdRail_m = 1.5;
 constexpr double kRailFromAxis_m = 0.75;
-// Gaps between tracks that one structure still spans, as where these are built
-// (core/rail/structures), and how far a tunnel's walls are from the outermost axes.
-constexpr double kBridgeGap_m = 7.0;
-constexpr double kTunnelGap_m = 5.5;
-constexpr double kTunnelWall_m = 3.0;
 
 /// Draws structures of all types in one style.
 class StructureSketch {
@@ -90,12 +86,12 @@ class StructureSketch {
   }
   void Sketch(const SlabTrackSpec& slab) { AddBand(slab, -0.5 * slab.width_m, 0.5 * slab.width_m); }
   void Sketch(const TunnelSpec& tunnel) {
-    const TrackSpread spread = SpreadOf(tracks_, tunnel, kTunnelGap_m);
-    const double half_m = tunnel.radius_m.value_or(spread.half_width_m() + kTunnelWall_m);
-    AddBand(tunnel, spread.middle_m() - half_m, spread.middle_m() + half_m);
+    const TunnelShape shape = TunnelShapeOf(tracks_, tunnel);
+    const double middle_m = shape.spread.middle_m();
+    AddBand(tunnel, middle_m - shape.radius_m, middle_m + shape.radius_m);
   }
   void Sketch(const BridgeSpec& bridge) {
-    const TrackSpread spread = SpreadOf(tracks_, bridge, kBridgeGap_m);
+    const TrackSpread spread = SpreadOf(tracks_, bridge, kSharedBridge_m);
     AddBand(bridge, spread.right_m - bridge.edge_distance_m,
             spread.left_m + bridge.edge_distance_m);
   }

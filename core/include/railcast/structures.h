@@ -98,7 +98,7 @@ struct CableTroughSpec : SideStretchSpec {
   bool operator==(const CableTroughSpec&) const = default;
 };
 
-/// A tunnel around its track and the next one, where that is less than 5.5 m away.
+/// A tunnel around its track and the next one, where that is at most 7.4 m away.
 struct TunnelSpec : StretchSpec {
   std::optional<double> radius_m;  ///< Of its vault, inside; absent = as the tracks need.
   bool has_portals = true;         ///< Whether a wall closes the hill about either mouth.

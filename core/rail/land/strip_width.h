@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "railcast/alignment.h"
@@ -30,6 +31,10 @@ class StripWidth {
   [[nodiscard]] bool narrows() const { return !left_m_.empty(); }
   /// Distance from the axis to the edge of the ground. @param side > 0 for the left.
   [[nodiscard]] double At(double s_m, double side) const;
+  /// From a place to the nearer edge of the ground. @param d_m Left of the axis.
+  [[nodiscard]] double RoomAt_m(double s_m, double d_m) const {
+    return std::min(At(s_m, 1.0) - d_m, At(s_m, -1.0) + d_m);
+  }
   /// The least of At().
   [[nodiscard]] double least_m() const { return least_m_; }
 

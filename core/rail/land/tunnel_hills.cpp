@@ -14,6 +14,8 @@ namespace {
 /// Portals are 1 m deep, and rows of the ground 0.5 m apart: the step between two of them about
 /// this place is inside the portal.
 constexpr double kHillBegin_m = 0.5 * TunnelShape::kPortalDepth_m;
+/// Where a tunnel goes on as another one, so does the hill.
+constexpr double kHillOverlap_m = 1e-3;
 /// The portal's upper edge is higher than the ground behind it.
 constexpr double kPortalShows_m = 0.2;
 /// So far before and in a mouth nothing joins the ground above.
@@ -34,13 +36,18 @@ TunnelHills::TunnelHills(const ChunkContext& context, double begin_s_m, double e
       const Transform world_from_track = track->WorldFromTrack(context.alignment, s_m);
       return (context.chunk_from_world * world_from_track).translation().z();
     };
-    tunnels_.push_back({.spec = tunnel,
-                        .track = track,
-                        .shape = TunnelShapeOf(tracks, *tunnel),
-                        .begin_h_m = top_of_rail_m(tunnel->begin_s_m),
-                        .end_h_m = top_of_rail_m(tunnel->end_s_m),
-                        .hill_begin_s_m = tunnel->begin_s_m + kHillBegin_m,
-                        .hill_end_s_m = tunnel->end_s_m - kHillBegin_m});
+    const bool begin_goes_on = GoesOn(tracks, *tunnel, TrackTip::kBegin);
+    const bool end_goes_on = GoesOn(tracks, *tunnel, TrackTip::kEnd);
+    tunnels_.push_back(
+        {.spec = tunnel,
+         .track = track,
+         .shape = TunnelShapeOf(tracks, *tunnel),
+         .begin_h_m = top_of_rail_m(tunnel->begin_s_m),
+         .end_h_m = top_of_rail_m(tunnel->end_s_m),
+         .begin_goes_on = begin_goes_on,
+         .end_goes_on = end_goes_on,
+         .hill_begin_s_m = tunnel->begin_s_m + (begin_goes_on ? -kHillOverlap_m : kHillBegin_m),
+         .hill_end_s_m = tunnel->end_s_m - (end_goes_on ? -kHillOverlap_m : kHillBegin_m)});
   }
 }
 
@@ -56,7 +63,9 @@ double TunnelHills::Beside_m(const Tunnel& tunnel, double s_m, double d_m) {
 
 TunnelHills::Place TunnelHills::PlaceOf(double s_m, double d_m) const {
   for (const Tunnel& tunnel : tunnels_) {
-    if (s_m < tunnel.spec->begin_s_m - kMouth_m || s_m > tunnel.spec->end_s_m + kMouth_m) continue;
+    const double first_s_m = tunnel.spec->begin_s_m - (tunnel.begin_goes_on ? 0.0 : kMouth_m);
+    const double last_s_m = tunnel.spec->end_s_m + (tunnel.end_goes_on ? 0.0 : kMouth_m);
+    if (s_m < first_s_m || s_m > last_s_m) continue;
     if (Beside_m(tunnel, s_m, d_m) > tunnel.shape.ReachBeside_m()) continue;
     return HasHill(tunnel, s_m) ? Place::kOver : Place::kMouth;
   }
@@ -117,9 +126,14 @@ double TunnelHills::Height_m(const CrossSection& section,
     const double depth_m = tunnel.spec->has_portals ? TunnelShape::kPortalDepth_m : 0.0;
     const double from_begin_m = std::max(0.0, s_m - tunnel.spec->begin_s_m - depth_m);
     const double from_end_m = std::max(0.0, tunnel.spec->end_s_m - depth_m - s_m);
-    height_m = std::min({height_m,
-                         Limit_m(tunnel, from_begin_m, beside_m) + tunnel.begin_h_m - formation_h_m,
-                         Limit_m(tunnel, from_end_m, beside_m) + tunnel.end_h_m - formation_h_m});
+    if (!tunnel.begin_goes_on) {
+      height_m = std::min(
+          height_m, Limit_m(tunnel, from_begin_m, beside_m) + tunnel.begin_h_m - formation_h_m);
+    }
+    if (!tunnel.end_goes_on) {
+      height_m = std::min(height_m,
+                          Limit_m(tunnel, from_end_m, beside_m) + tunnel.end_h_m - formation_h_m);
+    }
   }
   for (const Tunnel& tunnel : tunnels_) {
     if (!HasHill(tunnel, s_m)) continue;

@@ -48,6 +48,8 @@ class TunnelHills {
     TunnelShape shape;
     double begin_h_m{};  ///< Top of rail at its ends, in the chunk's frame.
     double end_h_m{};
+    bool begin_goes_on{};  ///< Whether there is no mouth, since it goes on in another tunnel.
+    bool end_goes_on{};
     double hill_begin_s_m{};  ///< Where the ground above it begins and ends.
     double hill_end_s_m{};
   };

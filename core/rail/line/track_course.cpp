@@ -173,16 +173,18 @@ double TrackCourse::OffsetWithin_m(double s_m) const {
   return OffsetAt(std::clamp(s_m, begin_s_m_, end_s_m_)).d_m;
 }
 
-double TrackCourse::CurvatureAt(const Alignment& alignment, double s_m) const {
+double CurvatureBeside_per_m(double axis_per_m, const TrackOffset& offset) {
   // With the offset d(s) from an axis of curvature k, the axis of the track has the velocity
   // (u, v) = (1 - k d, d') in the frame of the alignment, and the acceleration (-2 k d', d'' + k
   // u).
-  const double axis_per_m = alignment.At(s_m).curvature_per_m;
-  const TrackOffset offset = OffsetAt(s_m);
   const double u = 1.0 - axis_per_m * offset.d_m;
   const double v = offset.slope;
   return (u * (offset.bend_per_m + axis_per_m * u) + 2.0 * axis_per_m * v * v) /
          std::pow(u * u + v * v, 1.5);
+}
+
+double TrackCourse::CurvatureAt(const Alignment& alignment, double s_m) const {
+  return CurvatureBeside_per_m(alignment.At(s_m).curvature_per_m, OffsetAt(s_m));
 }
 
 double TrackCourse::Heading_rad(const Alignment& alignment, double s_m) const {

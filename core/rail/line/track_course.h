@@ -22,6 +22,10 @@ struct TrackOffset {
   [[nodiscard]] double curvature_per_m() const;
 };
 
+/// Curvature in plan, left positive, of a track beside an axis of some curvature. The change of the
+/// latter along the axis is neglected, which contributes less than offset x slope x that change.
+[[nodiscard]] double CurvatureBeside_per_m(double axis_per_m, const TrackOffset& offset);
+
 /// Angle of a track to the alignment at the point `axis` of the latter, left positive:
 /// atan(slope / (1 - curvature d)).
 [[nodiscard]] double TurnFromAlignment_rad(const AxisPoint& axis, const TrackOffset& offset);
@@ -81,8 +85,7 @@ class TrackCourse {
   [[nodiscard]] TrackOffset OffsetAt(double s_m) const;
   /// The offset at the chainage of the track that is nearest to `s_m`.
   [[nodiscard]] double OffsetWithin_m(double s_m) const;
-  /// Curvature of the track's axis in plan, left positive. The change of the alignment's curvature
-  /// along the track is neglected, which contributes less than offset x slope x that change.
+  /// Curvature of the track's axis in plan, left positive (CurvatureBeside_per_m).
   [[nodiscard]] double CurvatureAt(const Alignment& alignment, double s_m) const;
 
   /// Counterclockwise from east, towards rising chainage.

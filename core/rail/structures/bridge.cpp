@@ -11,9 +11,6 @@
 namespace railcast {
 namespace {
 
-/// Tracks this close share a bridge.
-constexpr double kSharedBridge_m = 7.0;
-
 constexpr double kDeckTop_m = -CrossSection::kFormationDepth_m;
 constexpr double kEdgeBeamWidth_m = 0.4;
 constexpr double kEdgeBeamTop_m = -0.35;

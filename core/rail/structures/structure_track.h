@@ -12,6 +12,14 @@
 
 namespace railcast {
 
+/// Tracks of which one runs this close to the next share a tunnel: nearer than this, one with a
+/// lining of its own, of 5.1 m radius and 0.5 m thick, would have it in the gauge of the other,
+/// which is 1.575 m wide to either side and leans over by 0.18 m at half the lining's height with a
+/// cant of 150 mm.
+inline constexpr double kSharedTunnel_m = 7.4;
+/// As above, a bridge.
+inline constexpr double kSharedBridge_m = 7.0;
+
 /// The axes of the outermost of several tracks, left of the axis of one of them.
 struct TrackSpread {
   double right_m{};  ///< At most 0.

@@ -43,6 +43,33 @@ Outline ArcOutline(double radius_m, double begin_rad, double end_rad) {
   return arc;
 }
 
+/// A wall about a mouth, from its right to its left.
+struct PortalWall {
+  double opening_m{};  ///< Radius.
+  double right_m{};
+  double left_m{};
+  double top_m{};
+};
+
+/// Where the wall ends within the opening, it has no foot on that side.
+Outline OutlineOf(const PortalWall& wall) {
+  const double foot_rad =
+      std::asin((TunnelShape::kVaultFoot_m - TunnelShape::kVaultCentre_m) / wall.opening_m);
+  const bool has_right_foot = -wall.right_m >= wall.opening_m;
+  const bool has_left_foot = wall.left_m >= wall.opening_m;
+  const double begin_rad = has_right_foot ? foot_rad : std::acos(-wall.right_m / wall.opening_m);
+  const double end_rad = has_left_foot ? foot_rad : std::acos(wall.left_m / wall.opening_m);
+  Outline outline = ArcOutline(wall.opening_m, begin_rad, std::numbers::pi - end_rad);
+  const double side_m = wall.opening_m * std::cos(foot_rad);
+  if (has_right_foot) outline.insert(outline.begin(), {-side_m, kPortalFoot_m});
+  if (has_left_foot) {
+    outline.insert(outline.end(), {{side_m, kPortalFoot_m}, {wall.left_m, kPortalFoot_m}});
+  }
+  outline.insert(outline.end(), {{wall.left_m, wall.top_m}, {wall.right_m, wall.top_m}});
+  if (has_right_foot) outline.emplace_back(wall.right_m, kPortalFoot_m);
+  return outline;
+}
+
 /// Builds the part of a tunnel in a chunk. Outlines run from right (-y) to left, over the top.
 class TunnelBuilder {
  public:
@@ -176,29 +203,40 @@ class TunnelBuilder {
   }
 
   void AddPortals() {
-    const double half_m = shape_.PortalHalfWidth_m();
-    const double top_m = shape_.PortalTop_m();
-    const double opening_m = shape_.radius_m + kPortalGap_m;
-    const double foot_rad =
-        std::asin((TunnelShape::kVaultFoot_m - TunnelShape::kVaultCentre_m) / opening_m);
-    Outline wall = ArcOutline(opening_m, foot_rad, std::numbers::pi - foot_rad);
-    const double side_m = wall.back().x();
-    wall.insert(wall.begin(), {-side_m, kPortalFoot_m});
-    wall.insert(wall.end(), {{side_m, kPortalFoot_m},
-                             {half_m, kPortalFoot_m},
-                             {half_m, top_m},
-                             {-half_m, top_m},
-                             {-half_m, kPortalFoot_m}});
     if (track_.Holds(tunnel_.begin_s_m)) {
-      Lining().Append(MakeExtrusion(wall, 0.0, TunnelShape::kPortalDepth_m),
+      Lining().Append(MakeExtrusion(PortalAt(TrackTip::kBegin), 0.0, TunnelShape::kPortalDepth_m),
                       FrameAt(tunnel_.begin_s_m));
       AddWings(tunnel_.begin_s_m, 1.0);
     }
     if (track_.Holds(tunnel_.end_s_m)) {
-      Lining().Append(MakeExtrusion(wall, -TunnelShape::kPortalDepth_m, 0.0),
+      Lining().Append(MakeExtrusion(PortalAt(TrackTip::kEnd), -TunnelShape::kPortalDepth_m, 0.0),
                       FrameAt(tunnel_.end_s_m));
       AddWings(tunnel_.end_s_m, -1.0);
     }
+  }
+
+  /// The wall about a mouth. Where the tunnel goes on in a wider one, it closes that, too, and it
+  /// ends half way to a tunnel beside it.
+  [[nodiscard]] Outline PortalAt(TrackTip end) const {
+    PortalWall wall{.opening_m = shape_.radius_m + kPortalGap_m,
+                    .right_m = -shape_.PortalHalfWidth_m(),
+                    .left_m = shape_.PortalHalfWidth_m(),
+                    .top_m = shape_.PortalTop_m()};
+    const std::vector<TunnelMouth> mouths = MouthsAt(TracksOf(context_), tunnel_, end);
+    for (const TunnelMouth& mouth : mouths) {
+      if (!mouth.goes_on) continue;
+      const double outer_m = mouth.radius_m + TunnelShape::kLiningThickness_m;
+      wall.right_m = std::min(wall.right_m, mouth.middle_m - outer_m);
+      wall.left_m = std::max(wall.left_m, mouth.middle_m + outer_m);
+      wall.top_m = std::max(wall.top_m, TunnelShape::kVaultCentre_m + outer_m);
+    }
+    for (const TunnelMouth& mouth : mouths) {
+      if (mouth.goes_on) continue;
+      const double half_way_m = 0.5 * mouth.middle_m;
+      if (half_way_m > 0.0) wall.left_m = std::min(wall.left_m, half_way_m);
+      if (half_way_m < 0.0) wall.right_m = std::max(wall.right_m, half_way_m);
+    }
+    return OutlineOf(wall);
   }
 
   /// Walls beside a portal that hold back the hill: from the portal outwards as far as the ground

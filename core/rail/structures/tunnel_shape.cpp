@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "core/rail/catenary/system_height.h"
 
@@ -15,8 +17,6 @@ constexpr double kRoomBesideAxis_m = 3.3;
 constexpr double kWireClearance_m = 0.3;
 /// Without a contact line: above the wagons' 4.28 m.
 constexpr double kRoomAbove_m = 4.8;
-/// Tracks this close share a tunnel.
-constexpr double kSharedTunnel_m = 5.5;
 
 constexpr double kPortalBeside_m = 2.5;
 constexpr double kPortalAbove_m = 1.5;
@@ -67,6 +67,38 @@ TunnelShape TunnelShapeOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
   shape.radius_m = tunnel.radius_m.value_or(std::max(
       half_m + kRoomBesideAxis_m, std::hypot(half_m, above_m - TunnelShape::kVaultCentre_m)));
   return shape;
+}
+
+std::vector<TunnelMouth> MouthsAt(const WorldTracks& tracks,
+                                  const TunnelSpec& tunnel,
+                                  TrackTip end) {
+  constexpr double kSame_m = 0.05;
+  const double s_m = end == TrackTip::kBegin ? tunnel.begin_s_m : tunnel.end_s_m;
+  std::vector<TunnelMouth> mouths;
+  std::optional<TunnelShape> own;
+  for (const StructureSpec& structure : tracks.world.structures) {
+    const auto* other = std::get_if<TunnelSpec>(&structure);
+    if (other == nullptr || other == &tunnel || *other == tunnel) continue;
+    const bool begins = std::abs(other->begin_s_m - s_m) < kSame_m;
+    if (!begins && !(std::abs(other->end_s_m - s_m) < kSame_m)) continue;
+    const TrackCourse* track = tracks.CourseOf(tunnel.track);
+    const TrackCourse* other_track = tracks.CourseOf(other->track);
+    if (track == nullptr || other_track == nullptr) continue;
+    if (!own) own = TunnelShapeOf(tracks, tunnel);
+    const TunnelShape shape = TunnelShapeOf(tracks, *other);
+    const TunnelMouth mouth{.goes_on = begins != (end == TrackTip::kBegin),
+                            .middle_m = other_track->OffsetWithin_m(s_m) + shape.spread.middle_m() -
+                                        track->OffsetWithin_m(s_m) - own->spread.middle_m(),
+                            .radius_m = shape.radius_m};
+    const double reach_m = mouth.goes_on ? own->radius_m + shape.radius_m
+                                         : own->PortalHalfWidth_m() + shape.PortalHalfWidth_m();
+    if (std::abs(mouth.middle_m) < reach_m) mouths.push_back(mouth);
+  }
+  return mouths;
+}
+
+bool GoesOn(const WorldTracks& tracks, const TunnelSpec& tunnel, TrackTip end) {
+  return std::ranges::any_of(MouthsAt(tracks, tunnel, end), &TunnelMouth::goes_on);
 }
 
 }  // namespace railcast

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/world_tracks.h"
 #include "railcast/structures.h"
@@ -32,5 +34,20 @@ struct TunnelShape {
 };
 
 [[nodiscard]] TunnelShape TunnelShapeOf(const WorldTracks& tracks, const TunnelSpec& tunnel);
+
+/// Another tunnel that has a mouth where a tunnel has one, and touches it there.
+struct TunnelMouth {
+  /// Whether the tunnel goes on in it: it begins where that ends, or ends where that begins. Else
+  /// it lies beside it.
+  bool goes_on{};
+  double middle_m{};  ///< Left of the tunnel's own middle.
+  double radius_m{};
+};
+/// @param end Which of the tunnel's own mouths.
+[[nodiscard]] std::vector<TunnelMouth> MouthsAt(const WorldTracks& tracks,
+                                                const TunnelSpec& tunnel,
+                                                TrackTip end);
+/// Whether a tunnel goes on in another one at one of its ends.
+[[nodiscard]] bool GoesOn(const WorldTracks& tracks, const TunnelSpec& tunnel, TrackTip end);
 
 }  // namespace railcast

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
-#include <variant>
 
 #include "core/base/text.h"
 #include "generator/import/fit/plan_window.h"
@@ -26,9 +25,7 @@ std::string CsvText(std::string_view text) {
 
 /// The line as a track.
 TrackDraft MainTrack(const RailMap& map, const TrackLine& track, const ImportedLine& line) {
-  const auto& elements = std::get<AlignmentElementsSpec>(line.alignment.course);
-  const PlanModel plan = PlanOf({}, elements.elements);
-  TrackDraft main = TrackNetwork(plan.length_m(), plan.Curvature()).tracks().front();
+  TrackDraft main = TrackNetwork(line.alignment).tracks().front();
   main.spec.electrified = HasContactLine(map, track);
   return main;
 }
@@ -57,7 +54,7 @@ LineWorld MakeLineWorld(const RailMap& map, const TrackLine& track, const Import
     return !gauge.empty() && GaugeOf_mm(gauge) != gauge_mm;
   };
   for (const LineStretch& stretch : StretchesWhere(map, world.tracks[0].ways, has_other_gauge)) {
-    world.left_out.push_back({"gauge", stretch.begin_s_m,
+    world.left_out.push_back({"gauge", stretch.begin_s_m, stretch.end_s_m,
                               "the map has " + CsvText(TagOf(map.ways[stretch.way].tags, "gauge")) +
                                   " mm, the world " + NumberText(gauge_mm) + " mm"});
   }
@@ -83,15 +80,21 @@ std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool
          "\n}\n";
 }
 
-std::string LeftOutCsv(const std::vector<ImportedLine>& lines,
+std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+                       const std::vector<ImportedLine>& lines,
                        const std::vector<LineWorld>& worlds) {
   std::ostringstream csv;
-  csv << "line,what,s_m,reason\n";
+  csv << "line,what,from_s_m,to_s_m,reason\n";
+  const auto add = [&](const std::string& line, const LeftOut& thing) {
+    std::string reason = thing.reason;
+    std::ranges::replace(reason, '"', '\'');
+    csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
+        << RoundedTo(thing.end_s_m, 100.0) << ",\"" << reason << "\"\n";
+  };
+  for (const LeftOutLine& line : left_out)
+    add(line.name, {"line", 0.0, line.length_m, line.reason});
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (const LeftOut& thing : worlds[i].left_out) {
-      csv << lines[i].name << ',' << thing.what << ',' << RoundedTo(thing.s_m, 100.0) << ",\""
-          << thing.reason << "\"\n";
-    }
+    for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);
   }
   return csv.str();
 }

@@ -8,6 +8,7 @@
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/track_network.h"
+#include "generator/import/network/track_runs.h"
 #include "railcast/structures.h"
 
 namespace railcast {
@@ -15,7 +16,8 @@ namespace railcast {
 /// Something on the map that a world cannot have as it is.
 struct LeftOut {
   std::string what;
-  double s_m{};
+  double begin_s_m{};
+  double end_s_m{};  ///< The same for what stands at one place.
   std::string reason;
 };
 
@@ -29,6 +31,7 @@ struct WorldTrack {
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
   std::vector<StructureSpec> structures;
+  std::vector<TrackRun> runs;  ///< The tracks of the map beside the line, made or not.
   std::vector<LeftOut> left_out;
 };
 
@@ -43,8 +46,16 @@ struct LineWorld {
                                         const LineWorld& world,
                                         bool has_elevation);
 
-/// What was left out of all worlds as CSV.
-[[nodiscard]] std::string LeftOutCsv(const std::vector<ImportedLine>& lines,
+/// A line that cannot stand.
+struct LeftOutLine {
+  std::string name;
+  double length_m{};
+  std::string reason;
+};
+
+/// What was left out as CSV: whole lines first, then what worlds lack.
+[[nodiscard]] std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+                                     const std::vector<ImportedLine>& lines,
                                      const std::vector<LineWorld>& worlds);
 
 }  // namespace railcast

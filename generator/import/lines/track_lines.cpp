@@ -10,6 +10,8 @@
 #include <span>
 #include <unordered_map>
 
+#include "generator/import/lines/divided_line.h"
+
 namespace railcast {
 namespace {
 
@@ -209,9 +211,11 @@ std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m) {
   for (const std::size_t way : order) {
     if (!walk.IsRunning(way) || walk.IsUsed(way)) continue;
     for (const TrackLine& part : DividedWhereItTurnsBack(map, walk.From(way))) {
-      TrackLine line = Thinned(map, part);
-      if (line.ways.empty() || LengthOf_m(map, line) < shortest_m) continue;
-      lines.push_back(std::move(line));
+      const TrackLine thin = Thinned(map, part);
+      if (thin.ways.empty()) continue;
+      for (TrackLine& line : DividedWhereItMeetsItself(map, thin)) {
+        if (LengthOf_m(map, line) >= shortest_m) lines.push_back(std::move(line));
+      }
     }
   }
   std::ranges::stable_sort(lines, std::ranges::greater{},

@@ -23,7 +23,8 @@ struct TrackLine {
 /// by at most 20 degrees; of several, that with the smallest angle, where a change of `ref` counts
 /// as 6 degrees. Directions are those to the first point at least 5 m away. Every way is followed
 /// once at most. Ways may end in the middle of others. Where a way turns back, by more than 90
-/// degrees, its line ends and another begins.
+/// degrees, its line ends and another begins, and a line is divided where it meets itself
+/// (DividedWhereItMeetsItself).
 /// @param shortest_m Lines shorter than this are left out, and those whose points are all nearer
 ///   than 0.5 m to the first one.
 /// @returns The longest line first.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/rail/chainage_range.h"
 #include "core/rail/line/alignment_course.h"
 #include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/line_places.h"
@@ -35,18 +36,19 @@ struct OpenRun {
   [[nodiscard]] std::size_t num_meetings() const { return (begin ? 1U : 0U) + (end ? 1U : 0U); }
 };
 
-/// The part of a run between two chainages; absent if it is short.
+/// The part of a run between two chainages of it; absent if it is short.
 std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double to_s_m) {
   constexpr double kShortest_m = 30.0;
+  constexpr double kSame_m = 0.5;
+  if (to_s_m - from_s_m < kShortest_m) return std::nullopt;
   TrackRun part = run;
-  part.points_m.clear();
+  part.points_m = {{from_s_m, OffsetOf_m(run, from_s_m)}};
   for (const Eigen::Vector2d& point_m : run.points_m) {
-    if (point_m.x() >= from_s_m && point_m.x() <= to_s_m) part.points_m.push_back(point_m);
+    if (point_m.x() > from_s_m + kSame_m && point_m.x() < to_s_m - kSame_m) {
+      part.points_m.push_back(point_m);
+    }
   }
-  if (part.points_m.size() < 2 ||
-      part.points_m.back().x() - part.points_m.front().x() < kShortest_m) {
-    return std::nullopt;
-  }
+  part.points_m.emplace_back(to_s_m, OffsetOf_m(run, to_s_m));
   return part;
 }
 
@@ -121,10 +123,20 @@ class SideTrackSearch {
   /// Makes a track from a turnout at one end of the run as far as it is apart from others.
   /// @return Where it ends.
   std::optional<double> TakeFromOneEnd(const OpenRun& open, const RunFit& fit, bool is_begin);
+  /// Makes tracks without turnouts of all stretches of a run that are apart from others.
   void TakeFree(const TrackRun& run);
+  /// @param stretch Of the fit.
+  /// @param made_up_to_s_m Chainage up to which it is known what becomes of the run.
+  void TakeStretch(const TrackRun& run,
+                   const RunFit& fit,
+                   const ChainageRange& stretch,
+                   double& made_up_to_s_m);
   void Accept(const TrackRun& run, TrackDraft draft);
-  void LeaveOut(const TrackRun& run, const char* reason) {
-    world_.left_out.push_back({run.kind + " track", run.points_m.front().x(), reason});
+  void LeaveOutBetween(const TrackRun& run, double from_s_m, double to_s_m) {
+    constexpr double kLeast_m = 2.0;
+    if (to_s_m - from_s_m < kLeast_m) return;
+    world_.left_out.push_back({run.kind + " track", from_s_m, to_s_m,
+                               "it is nearer than 3 m to others there, too sharp, or too short"});
   }
 
   TrackNetwork network_;
@@ -231,44 +243,55 @@ void SideTrackSearch::TakeParts(OpenRun open, const RunFit& fit, std::optional<T
     Accept(open.run, std::move(*level));
     return;
   }
-  if (!is_untouched) {
-    if (from_s_m < to_s_m) LeaveOut(open.run, "it is cut where it comes nearer than 3 m to others");
-    const auto rest = PartOfRun(open.run, from_s_m, to_s_m);
-    if (rest) TakeFree(*rest);
-    return;
+  if (is_untouched) {
+    TakeFree(open.run);
+  } else if (const auto rest = PartOfRun(open.run, from_s_m, to_s_m)) {
+    TakeFree(*rest);
+  } else {
+    LeaveOutBetween(open.run, from_s_m, to_s_m);
   }
-  TakeFree(open.run);
 }
 
 void SideTrackSearch::TakeFree(const TrackRun& run) {
-  constexpr double kShortest_m = 30.0;
   const RunFit fit(run, sigma_m_);
-  // The longest stretch that is apart from all others, with an end at a whole metre of the fit.
-  double best_begin_m = 0.0;
-  double best_end_m = 0.0;
-  double begin_m = 0.0;
+  // Stretches that are apart from all others, with ends at whole metres of the fit.
+  std::vector<ChainageRange> free;
+  bool goes_on = false;
   for (double at_m = 0.0; at_m <= fit.plan.length_m(); ++at_m) {
     const PlanPoint at = fit.course.At(at_m);
-    const bool fits =
-        at.x_m >= 0.0 && at.x_m <= network_.length_m() && network_.IsApartAt(at.x_m, at.y_m);
-    if (!fits) begin_m = at_m + 1.0;
-    if (fits && at_m - begin_m > best_end_m - best_begin_m) {
-      best_begin_m = begin_m;
-      best_end_m = at_m;
-    }
+    const double slope = std::tan(at.heading_rad);
+    const TrackOffset offset{at.y_m, slope,
+                             at.curvature_per_m * std::pow(1.0 + slope * slope, 1.5)};
+    const bool fits = at.x_m >= 0.0 && at.x_m <= network_.length_m() &&
+                      network_.IsApartAt(at.x_m, at.y_m) && network_.HasRoom(at.x_m, offset);
+    if (fits && !goes_on) free.push_back({at_m, at_m});
+    if (fits) free.back().end_s_m = at_m;
+    goes_on = fits;
   }
-  const double from_m = fit.OutOfClothoid_m(best_begin_m, false);
-  const double to_m = fit.OutOfClothoid_m(best_end_m, true);
-  std::optional<TrackDraft> draft;
-  if (to_m - from_m >= kShortest_m) draft = network_.Make(TrackOfPart(fit, from_m, to_m));
-  if (!draft || network_.FirstConflict_m(*draft)) {
-    LeaveOut(run, "it is nearer than 3 m to other tracks");
+  double made_up_to_s_m = run.points_m.front().x();
+  for (const ChainageRange& stretch : free) TakeStretch(run, fit, stretch, made_up_to_s_m);
+  LeaveOutBetween(run, made_up_to_s_m, run.points_m.back().x());
+}
+
+void SideTrackSearch::TakeStretch(const TrackRun& run,
+                                  const RunFit& fit,
+                                  const ChainageRange& stretch,
+                                  double& made_up_to_s_m) {
+  constexpr double kShortest_m = 30.0;
+  const double from_m = fit.OutOfClothoid_m(stretch.begin_s_m, false);
+  const double to_m = fit.OutOfClothoid_m(stretch.end_s_m, true);
+  if (to_m - from_m < kShortest_m) return;
+  std::optional<TrackDraft> draft = network_.Make(TrackOfPart(fit, from_m, to_m));
+  if (!draft) return;
+  if (const auto conflict_s_m = network_.FirstConflict_m(*draft)) {
+    TakeStretch(run, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)}, made_up_to_s_m);
+    const double behind_m = BeginBehind_m(fit, *conflict_s_m);
+    if (behind_m > from_m) TakeStretch(run, fit, {behind_m, to_m}, made_up_to_s_m);
     return;
   }
+  LeaveOutBetween(run, made_up_to_s_m, draft->course.begin_s_m());
+  made_up_to_s_m = draft->course.end_s_m();
   Accept(run, std::move(*draft));
-  if (from_m > 1.0 || to_m + 1.0 < fit.plan.length_m()) {
-    LeaveOut(run, "it is cut where it comes nearer than 3 m to others");
-  }
 }
 
 void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
@@ -293,10 +316,11 @@ void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
 }
 
 void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
+  quality_.num_on_map = switches.size();
   constexpr double kSame_m = 0.6;  // Nodes nearer than 0.5 m to the one before are left out.
   for (const SwitchNode& node : switches) {
     const auto leave_out = [&](const char* reason) {
-      world_.left_out.push_back({"switch", node.place_m.x(), reason});
+      world_.left_out.push_back({"switch", node.place_m.x(), node.place_m.x(), reason});
     };
     if (!MeetingAt(node.place_m, true)) {
       leave_out("it lies on no track of the world");
@@ -332,10 +356,9 @@ SideTrackQuality AddSideTracks(const RailMap& map,
                                double sigma_m,
                                LineWorld& world) {
   const LinePlaces places(map, track, line);
-  const auto& elements = std::get<AlignmentElementsSpec>(line.alignment.course);
-  TrackNetwork network(places.length_m(), PlanOf({}, elements.elements).Curvature());
-  SideTrackSearch search(std::move(network), line, sigma_m, world);
-  for (const TrackRun& run : FindRuns(map, track, places)) search.Take(run);
+  SideTrackSearch search(TrackNetwork(line.alignment), line, sigma_m, world);
+  world.runs = FindRuns(map, track, places);
+  for (const TrackRun& run : world.runs) search.Take(run);
   search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
   std::ranges::sort(search.quality().distances_m);
   return search.quality();

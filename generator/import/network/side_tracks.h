@@ -13,6 +13,7 @@ namespace railcast {
 struct SideTrackQuality {
   std::size_t num_tracks{};
   std::size_t num_turnouts{};
+  std::size_t num_on_map{};    ///< Switches of the map beside the line.
   std::size_t num_switches{};  ///< Of the map, on tracks of the world.
   std::size_t num_made{};      ///< Of these, those that are turnouts of the world.
   double length_m{};

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <variant>
 
+#include "core/rail/land/cut_and_fill.h"
+#include "core/rail/line/alignment_course.h"
 #include "core/rail/line/own_course.h"
 #include "core/rail/world_check.h"
+#include "generator/import/fit/plan_model.h"
 
 namespace railcast {
 namespace {
@@ -46,9 +50,11 @@ double TrackDraft::OffsetNear_m(double s_m) const {
   return std::lerp(offsets_m[before], offsets_m[after], at - std::floor(at));
 }
 
-TrackNetwork::TrackNetwork(double length_m, PiecewiseLinear curvature)
-    : length_m_(length_m), curvature_(std::move(curvature)) {
-  tracks_.push_back(DraftOf({}, TrackCourse(0.0, length_m, 0.0)));
+TrackNetwork::TrackNetwork(const AlignmentSpec& line)
+    : curvature_(PlanOf({}, std::get<AlignmentElementsSpec>(line.course).elements).Curvature()),
+      length_m_(curvature_.end_s_m()),
+      ground_(Alignment(line), WorldSpec().terrain.half_width_m) {
+  tracks_.push_back(DraftOf({}, TrackCourse(0.0, length_m_, 0.0)));
 }
 
 TurnoutPlace TrackNetwork::PlaceOf(const TurnoutSpec& spec, bool opens_ahead) const {
@@ -97,11 +103,6 @@ std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
     draft.turnouts.push_back(*site);
     draft.turnouts.back().branch = tracks_.size();
   }
-  constexpr double kSharpest_per_m = 0.01;
-  for (int at_m = draft.first_m; at_m < draft.end_m(); ++at_m) {
-    const double per_m = course->OffsetAt(at_m).curvature_per_m() + curvature_.Value(at_m);
-    if (std::abs(per_m) > kSharpest_per_m) return std::nullopt;
-  }
   return draft;
 }
 
@@ -111,6 +112,11 @@ std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, boo
     joined.push_back(JoinedSectionOf(tracks_[turnout.track].course, draft.course, turnout));
   }
   std::optional<double> first_m;
+  const int num_metres = draft.end_m() - draft.first_m;
+  for (int k = 0; k < num_metres && !first_m; ++k) {
+    const int at_m = backwards ? draft.end_m() - 1 - k : draft.first_m + k;
+    if (!HasRoom(at_m, draft.course.OffsetAt(at_m))) first_m = at_m;
+  }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const TrackDraft& track = tracks_[i];
     const int from_m = std::max(track.first_m, draft.first_m);
@@ -145,6 +151,17 @@ bool TrackNetwork::IsApartAt(double s_m, double d_m) const {
     return std::abs(track.offsets_m[static_cast<std::size_t>(nearest_m - track.first_m)] - d_m) <
            kLeastApart_m + kSlack_m;
   });
+}
+
+bool TrackNetwork::HasRoom(double s_m, const TrackOffset& at) const {
+  constexpr double kEdge_m = kFormationEdge_m + 0.5;  // The ground is known every 5 m.
+  constexpr double kSharpest_per_m = 0.01;
+  constexpr double kSharperThanLine = 1.5;
+  constexpr double kEver_per_m = 0.9 / kSmallestRadius_m;
+  if (ground_.RoomAt_m(s_m, at.d_m) < kEdge_m) return false;
+  const double line_per_m = curvature_.Value(s_m);
+  const double most_per_m = std::max(kSharpest_per_m, kSharperThanLine * std::abs(line_per_m));
+  return std::abs(CurvatureBeside_per_m(line_per_m, at)) <= std::min(most_per_m, kEver_per_m);
 }
 
 void TrackNetwork::Add(TrackDraft draft) {

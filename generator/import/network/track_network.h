@@ -4,10 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "core/rail/land/strip_width.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/turnout_place.h"
 #include "core/rail/network_check.h"
+#include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
@@ -32,8 +34,7 @@ struct TrackDraft {
 class TrackNetwork {
  public:
   /// Begins with "main" at offset 0.
-  /// @param curvature Of the line, by chainage.
-  TrackNetwork(double length_m, PiecewiseLinear curvature);
+  explicit TrackNetwork(const AlignmentSpec& line);
 
   [[nodiscard]] double length_m() const { return length_m_; }
   [[nodiscard]] const std::vector<TrackDraft>& tracks() const { return tracks_; }
@@ -43,20 +44,23 @@ class TrackNetwork {
   /// Whether no turnout lies between two chainages of a track, in either order.
   [[nodiscard]] bool IsFree(std::size_t track, double one_s_m, double other_s_m) const;
 
-  /// A track by its specification; absent if it cannot be, has radii below 100 m, or its turnouts
-  /// overlap with others.
+  /// A track by its specification; absent if it cannot be, or its turnouts overlap with others.
   [[nodiscard]] std::optional<TrackDraft> Make(const TrackSpec& spec) const;
-  /// The first chainage, or with `backwards` the last one, at which a draft is too near to a track
-  /// that no turnout joins to it.
+  /// The first chainage, or with `backwards` the last one, at which a draft has no room (HasRoom)
+  /// or is too near to a track that no turnout joins to it.
   [[nodiscard]] std::optional<double> FirstConflict_m(const TrackDraft& draft,
                                                       bool backwards = false) const;
   /// Whether a place is far enough from all tracks for a track that no turnout joins to them.
   [[nodiscard]] bool IsApartAt(double s_m, double d_m) const;
+  /// Whether a track may be at a place beside the line: on its ground, with all of its formation,
+  /// and with a radius of at least 100 m, or of two thirds of the line's there.
+  [[nodiscard]] bool HasRoom(double s_m, const TrackOffset& at) const;
   void Add(TrackDraft draft);
 
  private:
+  PiecewiseLinear curvature_;  ///< Of the line, by chainage.
   double length_m_;
-  PiecewiseLinear curvature_;
+  StripWidth ground_;
   std::vector<TrackDraft> tracks_;
   std::vector<JoinedSection> joined_;
 };

@@ -201,6 +201,14 @@ std::vector<TrackRun> FindRuns(const RailMap& map,
   return InOrderOfMeetings(std::move(runs));
 }
 
+double OffsetOf_m(const TrackRun& run, double s_m) {
+  const auto& points_m = run.points_m;
+  std::size_t i = 1;
+  while (i + 1 < points_m.size() && points_m[i].x() < s_m) ++i;
+  const Eigen::Vector2d step_m = points_m[i] - points_m[i - 1];
+  return points_m[i - 1].y() + step_m.y() / step_m.x() * (s_m - points_m[i - 1].x());
+}
+
 PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m) {
   // By its elements: those outside are dropped, those at the ends shortened. A clothoid at an end
   // becomes an arc of its mean curvature, since an end has none.

@@ -32,6 +32,10 @@ inline constexpr double kRunStrip_m = 60.0;
                                              const TrackLine& line,
                                              const LinePlaces& places);
 
+/// The offset of a run at a chainage, along the lines between its points; beyond its ends, along
+/// the first and the last of them.
+[[nodiscard]] double OffsetOf_m(const TrackRun& run, double s_m);
+
 /// The part of a plan between two lengths along it; its start is not set.
 [[nodiscard]] PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m);
 

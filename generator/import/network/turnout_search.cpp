@@ -36,15 +36,6 @@ std::size_t TurnoutIndexFor(double speed_kmph) {
   return index;
 }
 
-/// The offset of a run at a chainage, along the lines between its points.
-double OffsetOf_m(const TrackRun& run, double s_m) {
-  const auto& points_m = run.points_m;
-  std::size_t i = 1;
-  while (i + 1 < points_m.size() && points_m[i].x() < s_m) ++i;
-  const Eigen::Vector2d step_m = points_m[i] - points_m[i - 1];
-  return points_m[i - 1].y() + step_m.y() / step_m.x() * (s_m - points_m[i - 1].x());
-}
-
 /// Best join of the end of a branch to the fit of its run: by two arcs, with the fit from there on.
 void FindJoin(const RunFit& fit, double foot_m, bool is_begin, TurnoutChoice& choice) {
   constexpr std::array<double, 8> kLengths_m = {8.0, 15.0, 25.0, 40.0, 60.0, 90.0, 130.0, 180.0};

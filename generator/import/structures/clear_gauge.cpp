@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/rail/chainage_range.h"
 #include "core/rail/line/network.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/structures/tunnel_shape.h"
 #include "core/scenario/describe_structures.h"
 #include "generator/check/gauge_entries.h"
 #include "generator/import/structures/line_structures.h"
@@ -32,15 +32,16 @@ constexpr double kGaugeMargin_m = 1.0;
 /// What is left of a structure without some stretches of chainage.
 template <class Structure>
 std::vector<StructureSpec> PartsOutside(const Structure& structure,
-                                        const std::vector<GaugeEntry>& entries) {
+                                        const std::vector<ChainageRange>& stretches) {
   std::vector<Structure> parts{structure};
-  for (const GaugeEntry& entry : entries) {
+  for (const ChainageRange& stretch : stretches) {
     std::vector<Structure> rest;
     for (const Structure& part : parts) {
       Structure before = part;
-      before.end_s_m = std::min(part.end_s_m, RoundedTo(entry.begin_s_m - kGaugeMargin_m, 100.0));
+      before.end_s_m = std::min(part.end_s_m, RoundedTo(stretch.begin_s_m - kGaugeMargin_m, 100.0));
       Structure behind = part;
-      behind.begin_s_m = std::max(part.begin_s_m, RoundedTo(entry.end_s_m + kGaugeMargin_m, 100.0));
+      behind.begin_s_m =
+          std::max(part.begin_s_m, RoundedTo(stretch.end_s_m + kGaugeMargin_m, 100.0));
       for (const Structure& piece : {before, behind}) {
         if (piece.end_s_m - piece.begin_s_m >= kShortestPart_m<Structure>) rest.push_back(piece);
       }
@@ -88,15 +89,19 @@ class StructureClearing {
           world_.structures.push_back(open[i]);
           continue;
         }
+        std::vector<ChainageRange> stretches;
         for (const GaugeEntry& entry : found->second) {
-          LeaveOut(open[i], "it would stand in the structure gauge of track " + entry.track +
-                                " from " + NumberText(RoundedTo(entry.begin_s_m, 1.0)) + " to " +
-                                NumberText(RoundedTo(entry.end_s_m, 1.0)) + " m");
+          for (const ChainageRange& stretch : entry.stretches) {
+            LeaveOut(open[i], "it would stand in the structure gauge of track " + entry.track);
+            world_.left_out.back().begin_s_m = stretch.begin_s_m;
+            world_.left_out.back().end_s_m = stretch.end_s_m;
+            stretches.push_back(stretch);
+          }
         }
         std::visit(
             [&]<class Structure>(const Structure& spec) {
               if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
-                std::ranges::move(PartsOutside(spec, found->second), std::back_inserter(parts));
+                std::ranges::move(PartsOutside(spec, stretches), std::back_inserter(parts));
               }
             },
             open[i]);
@@ -106,25 +111,6 @@ class StructureClearing {
     for (const StructureSpec& structure : open) {
       LeaveOut(structure, "what is left of it would still stand in the gauge of a track");
     }
-  }
-
-  /// Of tunnels that reach into each other only the first stays.
-  void LeaveOutTunnelsInTunnels() {
-    spec_.structures = world_.structures;
-    std::vector<const TunnelSpec*> tunnels;
-    std::vector<StructureSpec> kept;
-    for (const StructureSpec& structure : spec_.structures) {
-      const auto* tunnel = std::get_if<TunnelSpec>(&structure);
-      const auto meets = [&](const TunnelSpec* other) { return Meet(*tunnel, *other); };
-      const auto met = tunnel == nullptr ? tunnels.end() : std::ranges::find_if(tunnels, meets);
-      if (met != tunnels.end()) {
-        LeaveOut(structure, "it would reach into that of track " + (*met)->track);
-        continue;
-      }
-      if (tunnel != nullptr) tunnels.push_back(tunnel);
-      kept.push_back(structure);
-    }
-    world_.structures = std::move(kept);
   }
 
   void LeaveOutPortals() {
@@ -158,33 +144,8 @@ class StructureClearing {
     return entries;
   }
 
-  /// Whether the linings of two tunnels touch.
-  [[nodiscard]] bool Meet(const TunnelSpec& one, const TunnelSpec& other) const {
-    const WorldTracks tracks{spec_, network_.courses};
-    const TunnelShape shape = TunnelShapeOf(tracks, one);
-    const TunnelShape other_shape = TunnelShapeOf(tracks, other);
-    const double reach_m =
-        shape.radius_m + other_shape.radius_m + 2.0 * TunnelShape::kLiningThickness_m;
-    const TrackCourse* track = tracks.CourseOf(one.track);
-    const TrackCourse* other_track = tracks.CourseOf(other.track);
-    const double end_s_m = std::min(one.end_s_m, other.end_s_m);
-    for (double s_m = std::max(one.begin_s_m, other.begin_s_m); s_m < end_s_m; s_m += 1.0) {
-      const double apart_m = track->OffsetWithin_m(s_m) + shape.spread.middle_m() -
-                             other_track->OffsetWithin_m(s_m) - other_shape.spread.middle_m();
-      if (std::abs(apart_m) < reach_m) return true;
-    }
-    return false;
-  }
-
   void LeaveOut(const StructureSpec& structure, const std::string& reason) {
-    std::visit(
-        [&]<class Structure>(const Structure& spec) {
-          double s_m = 0.0;
-          if constexpr (std::is_base_of_v<StretchSpec, Structure>) s_m = spec.begin_s_m;
-          if constexpr (std::is_base_of_v<PointSpec, Structure>) s_m = spec.s_m;
-          world_.left_out.push_back({kTypeName<Structure>, s_m, reason});
-        },
-        structure);
+    world_.left_out.push_back(LeftOutOf(structure, reason));
   }
 
   Alignment alignment_;
@@ -200,7 +161,6 @@ void ClearStructures(const AlignmentSpec& alignment, LineWorld& world) {
   StructureClearing clearing(alignment, world);
   clearing.LeaveOutFaults();
   clearing.CutOutOfGauges();
-  clearing.LeaveOutTunnelsInTunnels();
   clearing.LeaveOutPortals();
   NameStructures(world.structures);
 }

@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "core/base/text.h"
 #include "core/scenario/describe_structures.h"
@@ -58,7 +60,7 @@ void AddBufferStop(const LinePlace& at, const LinePlaces& places, LineWorld& wor
   if (at.s_m < kNearEnd_m) {
     stop.at = TrackTip::kBegin;
   } else if (at.s_m <= places.length_m() - kNearEnd_m) {
-    world.left_out.push_back({"buffer_stop", at.s_m, "the line goes on behind it"});
+    world.left_out.push_back({"buffer_stop", at.s_m, at.s_m, "the line goes on behind it"});
     return;
   }
   world.structures.push_back(std::move(stop));
@@ -86,7 +88,7 @@ void AddPoint(const MapThing& thing, const LinePlaces& places, LineWorld& world)
   } else if (railway == "signal") {
     const std::optional<SignalSpec> signal = SignalOf(thing, *at, places);
     if (signal) return add(*signal);
-    world.left_out.push_back({"signal", at->s_m, "the map does not say which kind it is"});
+    world.left_out.push_back({"signal", at->s_m, at->s_m, "the map does not say which kind it is"});
   }
 }
 
@@ -102,6 +104,20 @@ void NameStructures(std::vector<StructureSpec>& structures) {
         },
         structure);
   }
+}
+
+LeftOut LeftOutOf(const StructureSpec& structure, const std::string& reason) {
+  return std::visit(
+      [&]<class Structure>(const Structure& spec) -> LeftOut {
+        if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
+          return {kTypeName<Structure>, spec.begin_s_m, spec.end_s_m, reason};
+        } else if constexpr (std::is_base_of_v<PointSpec, Structure>) {
+          return {kTypeName<Structure>, spec.s_m, spec.s_m, reason};
+        } else {
+          return {kTypeName<Structure>, 0.0, 0.0, reason};
+        }
+      },
+      structure);
 }
 
 TracksOfLine::TracksOfLine(const LineWorld& world) {

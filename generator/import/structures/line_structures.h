@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/rail/world_tracks.h"
@@ -24,6 +25,9 @@ void AddStructures(const RailMap& map,
 
 /// Numbers things of a kind: platform_1, platform_2.
 void NameStructures(std::vector<StructureSpec>& structures);
+
+/// What is said of a structure that is left out, from where to where it would be.
+[[nodiscard]] LeftOut LeftOutOf(const StructureSpec& structure, const std::string& reason);
 
 /// The tracks of a world that is being imported as core has them.
 class TracksOfLine {

@@ -222,8 +222,8 @@ void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& wor
   const std::optional<PlatformShape> shape = ShapeOf(thing, places);
   if (!shape || shape->end_s_m - shape->begin_s_m < kShortestPlatform_m) return;
   const PlatformFinder found(*shape, world);
-  const auto leave_out = [&](double s_m, const std::string& reason) {
-    world.left_out.push_back({"platform", s_m, reason});
+  const auto leave_out = [&](double begin_s_m, double end_s_m, const std::string& reason) {
+    world.left_out.push_back({"platform", begin_s_m, end_s_m, reason});
   };
   bool is_beside = false;
   for (const auto& [edge, metres] : found.edges()) {
@@ -238,9 +238,11 @@ void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& wor
       const double room_m = std::ranges::min_element(piece, {}, &EdgeMetre::room_m)->room_m;
       platform.width_m = RoundedTo(std::min({MedianWidth_m(piece), room_m, kWidest_m}), 100.0);
       if (platform.width_m < kNarrowest_m) {
-        leave_out(platform.begin_s_m, "there is no room for it beside track " + platform.track);
+        leave_out(platform.begin_s_m, platform.end_s_m,
+                  "there is no room for it beside track " + platform.track);
       } else if (IsTaken(platform, world)) {
-        leave_out(platform.begin_s_m, "another one stands on its side of track " + platform.track);
+        leave_out(platform.begin_s_m, platform.end_s_m,
+                  "another one stands on its side of track " + platform.track);
       } else {
         world.structures.push_back(std::move(platform));
       }
@@ -248,9 +250,10 @@ void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& wor
   }
   if (found.across()) {
     const auto& [track, s_m] = *found.across();
-    leave_out(s_m, "it lies across track " + world.tracks[track].draft.spec.name + " on the map");
+    leave_out(s_m, shape->end_s_m,
+              "it lies across track " + world.tracks[track].draft.spec.name + " on the map");
   } else if (!is_beside) {
-    leave_out(shape->begin_s_m, "no track of the world runs along it");
+    leave_out(shape->begin_s_m, shape->end_s_m, "no track of the world runs along it");
   }
 }
 

@@ -9,63 +9,12 @@
 #include <vector>
 
 #include "core/rail/structures/structure_track.h"
-#include "generator/import/lines/line_stretches.h"
 #include "generator/import/structures/line_structures.h"
+#include "generator/import/structures/tagged_stretches.h"
+#include "generator/import/structures/tunnels.h"
 
 namespace railcast {
 namespace {
-
-/// What lies between two chainages of a track.
-struct TaggedStretch {
-  std::size_t track{};
-  double begin_s_m{};
-  double end_s_m{};
-
-  [[nodiscard]] double length_m() const { return end_s_m - begin_s_m; }
-};
-
-/// By so much tags of tracks beside each other may begin and end at different chainages.
-constexpr double kSameEnd_m = 15.0;
-/// Shorter tunnels are not made, and shorter parts of those that strangers cut.
-constexpr double kShortestTunnel_m = 5.0;
-constexpr double kShortestTunnelPart_m = 20.0;
-/// Tracks this close share a tunnel or a bridge (docs/world.md).
-constexpr double kSharedTunnel_m = 5.5;
-constexpr double kSharedBridge_m = 7.0;
-
-using HasTag = std::function<bool(const MapTags&)>;
-
-/// In centimetres and on the track.
-std::vector<TaggedStretch> StretchesOf(const RailMap& map,
-                                       const LineWorld& world,
-                                       std::size_t track,
-                                       const HasTag& has) {
-  constexpr double kSteps_per_m = 100.0;
-  const TrackCourse& course = world.tracks[track].draft.course;
-  std::vector<TaggedStretch> stretches;
-  for (const LineStretch& stretch : StretchesWhere(map, world.tracks[track].ways, has)) {
-    const auto on_track_m = [&](double s_m) {
-      const double first_m = std::ceil(course.begin_s_m() * kSteps_per_m) / kSteps_per_m;
-      const double last_m = std::floor(course.end_s_m() * kSteps_per_m) / kSteps_per_m;
-      return std::clamp(std::round(s_m * kSteps_per_m) / kSteps_per_m, first_m,
-                        std::max(first_m, last_m));
-    };
-    const TaggedStretch on_track{track, on_track_m(stretch.begin_s_m), on_track_m(stretch.end_s_m)};
-    if (on_track.length_m() > 0.0) stretches.push_back(on_track);
-  }
-  return stretches;
-}
-
-std::vector<TaggedStretch> StretchesOfAll(const RailMap& map,
-                                          const LineWorld& world,
-                                          const HasTag& has) {
-  std::vector<TaggedStretch> all;
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-    const std::vector<TaggedStretch> some = StretchesOf(map, world, i, has);
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  return all;
-}
 
 /// The runs of chainages, metre by metre, at which something holds; the ends are those of the
 /// stretch where it holds there.
@@ -155,64 +104,7 @@ void AddAlong(const TaggedStretch& stretch, Structure structure, LineWorld& worl
   world.structures.push_back(std::move(structure));
 }
 
-/// A track that would run in a tunnel at a chainage, though the map has it outside; absent if there
-/// is none.
-std::optional<std::size_t> StrangerAt(double s_m,
-                                      const TaggedStretch& tunnel,
-                                      const TrackSpread& spread,
-                                      const std::vector<TaggedStretch>& tagged,
-                                      const LineWorld& world) {
-  constexpr double kInside_m = 5.6;  // Of the outermost axis: the outside of the lining.
-  const double own_d_m = world.tracks[tunnel.track].draft.OffsetNear_m(s_m);
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-    const TrackDraft& track = world.tracks[i].draft;
-    if (!track.Has(s_m)) continue;
-    const double d_m = track.OffsetNear_m(s_m) - own_d_m;
-    if (d_m < spread.right_m - kInside_m || d_m > spread.left_m + kInside_m) continue;
-    const bool is_tagged = std::ranges::any_of(tagged, [&](const TaggedStretch& stretch) {
-      return stretch.track == i && s_m > stretch.begin_s_m - kSameEnd_m &&
-             s_m < stretch.end_s_m + kSameEnd_m;
-    });
-    if (!is_tagged) return i;
-  }
-  return std::nullopt;
-}
-
-void AddTunnels(const RailMap& map, LineWorld& world) {
-  const std::vector<TaggedStretch> tagged = StretchesOfAll(map, world, IsTunnel);
-  const SharedStretches shared(world, kSharedTunnel_m);
-  for (const TaggedStretch& tunnel : shared.Of(tagged)) {
-    const TrackSpread spread = shared.SpreadAt(tunnel);
-    const auto stranger_at = [&](double s_m) {
-      return StrangerAt(s_m, tunnel, spread, tagged, world);
-    };
-    const auto is_free = [&](double s_m) { return !stranger_at(s_m).has_value(); };
-    for (const TaggedStretch& part :
-         PartsWhere(tunnel, [&](double s_m) { return !is_free(s_m); })) {
-      const std::size_t stranger =
-          *stranger_at(part.begin_s_m + 0.5 * std::min(1.0, part.length_m()));
-      world.left_out.push_back({"tunnel", part.begin_s_m,
-                                "track " + world.tracks[stranger].draft.spec.name +
-                                    ", which has none on the map, would run in it up to " +
-                                    std::to_string(std::lround(part.end_s_m)) + " m"});
-    }
-    for (const TaggedStretch& part : PartsWhere(tunnel, is_free)) {
-      const bool is_whole = part.length_m() == tunnel.length_m();
-      if (part.length_m() < (is_whole ? kShortestTunnel_m : kShortestTunnelPart_m)) continue;
-      AddAlong(part, TunnelSpec{}, world);
-    }
-  }
-}
-
 }  // namespace
-
-bool IsTunnel(const MapTags& tags) {
-  return IsThere(TagOf(tags, "tunnel")) && TagOf(tags, "tunnel") != "building_passage";
-}
-
-bool IsBridge(const MapTags& tags) {
-  return IsThere(TagOf(tags, "bridge")) && !IsTunnel(tags);
-}
 
 void AddWayStructures(const RailMap& map, LineWorld& world) {
   AddTunnels(map, world);

@@ -5,10 +5,6 @@
 
 namespace railcast {
 
-/// Whether the tags of a way say that it lies in a tunnel, or on a bridge; never both.
-[[nodiscard]] bool IsTunnel(const MapTags& tags);
-[[nodiscard]] bool IsBridge(const MapTags& tags);
-
 /// Adds tunnels, bridges, slab track and conductor rails where the ways of a world's tracks have
 /// them.
 ///

@@ -76,5 +76,20 @@ TEST(DraftWorld, NamesEachMissingLabelAndMaterialOnce) {
             1);
 }
 
+/// The ground narrows to 40 m in the curve and is 80 m wide far from it.
+TEST(DraftWorld, HoldsTracksToTheGroundWhereTheyAre) {
+  WorldSpec world;
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}},
+                                                  {ElementType::kArc, 80.0, 50.0},
+                                                  {ElementType::kStraight, 600.0, {}}}};
+  world.tracks.push_back({.name = "beside", .offset_m = 60.0, .end_s_m = 400.0});
+  EXPECT_THAT(FaultsOf(world), IsEmpty());
+  world.tracks[1].end_s_m = 640.0;
+  EXPECT_THAT(FaultsOf(world),
+              ElementsAre(testing::StartsWith(
+                  "/world/tracks/1/offset_m: must leave 4.5 m to the edge of the ground, which "
+                  "narrows to 40 m in a curve (got 60)")));
+}
+
 }  // namespace
 }  // namespace railcast

@@ -195,5 +195,30 @@ TEST(GaugeEntries, AreReportedInALineEach) {
             "deepest at 150.0 m by 0.08 m, from 0.00 to 0.76 m above top of rail\n");
 }
 
+TEST(GaugeEntries, SayBetweenWhichChainagesAThingReachesIn) {
+  // Of 1.575 m half width, the gauge of a track 4.5 m away reaches a wall at 3.8 m, and that of one
+  // 8 m away does not.
+  WorldSpec world = CurveOfTwoTracks();
+  world.tracks[1].offset_m.reset();
+  world.tracks[1].offsets_m = {{60.0, 8.0},  {90.0, 4.5},  {120.0, 4.5}, {150.0, 8.0},
+                               {180.0, 8.0}, {210.0, 4.5}, {240.0, 4.5}, {270.0, 8.0}};
+  NoiseWallSpec wall;
+  wall.name = "wall";
+  wall.side = TrackSide::kLeft;
+  wall.begin_s_m = 20.0;
+  wall.end_s_m = 290.0;
+  wall.distance_m = 3.8;
+  world.structures = {wall};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  ASSERT_EQ(entries[0].stretches.size(), 2U);
+  EXPECT_EQ(entries[0].stretches[0].begin_s_m, entries[0].begin_s_m);
+  EXPECT_EQ(entries[0].stretches[1].end_s_m, entries[0].end_s_m);
+  for (const int i : {0, 1}) {
+    EXPECT_NEAR(entries[0].stretches[static_cast<std::size_t>(i)].begin_s_m, 76.0 + 120.0 * i, 8.0);
+    EXPECT_NEAR(entries[0].stretches[static_cast<std::size_t>(i)].end_s_m, 134.0 + 120.0 * i, 8.0);
+  }
+}
+
 }  // namespace
 }  // namespace railcast

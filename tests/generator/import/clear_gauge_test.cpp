@@ -67,8 +67,7 @@ TEST(ClearStructures, LeavesOutAThingThatStandsInAGauge) {
   ASSERT_THAT(map.All<BoardSpec>(), SizeIs(1));
   EXPECT_EQ(map.All<BoardSpec>()[0].name, "board_1");
   EXPECT_THAT(map.ReasonsFor("signal"),
-              ElementsAre("it would stand in the structure gauge of track running_1 from 1000 to "
-                          "1000 m"));
+              ElementsAre("it would stand in the structure gauge of track running_1"));
 }
 
 TEST(ClearStructures, LeavesOutWhatAWorldRefuses) {
@@ -85,16 +84,43 @@ TEST(ClearStructures, LeavesOutWhatAWorldRefuses) {
               ElementsAre("it must not put the road into a turnout"));
 }
 
-TEST(ClearStructures, KeepsTheFirstOfTunnelsThatReachIntoEachOther) {
+TEST(ClearStructures, KeepsTunnelsWhoseLiningsTouchOutsideOfAllGauges) {
   MadeMap map;
   map.AddTrack(0.0, kTunnelTags);
   map.AddTrack(10.0, kTunnelTags);
   map.Make();
-  EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(2));
   ClearStructures(map.line().alignment, map.world());
-  ASSERT_THAT(map.All<TunnelSpec>(), SizeIs(1));
-  EXPECT_EQ(map.All<TunnelSpec>()[0].track, "main");
-  EXPECT_THAT(map.ReasonsFor("tunnel"), ElementsAre("it would reach into that of track main"));
+  EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(2));
+  EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty());
+}
+
+TEST(ClearStructures, KeepsWhatIsBetweenTwoPlacesThatAreInTheWay) {
+  MadeMap map;
+  map.AddTrack(0.0, {});
+  // A loop from 600 to 1400 m to the north.
+  std::vector<Eigen::Vector2d> points_m = {{600.0, 0.0}};
+  for (double x_m = 5.0; x_m < 40.5; x_m += 5.0) points_m.emplace_back(600.0 + x_m, x_m / 9.0);
+  for (double x_m = 640.5; x_m < 1360.0; x_m += 40.0) points_m.emplace_back(x_m, 4.5);
+  for (double x_m = 40.5; x_m > 0.0; x_m -= 5.0) points_m.emplace_back(1400.0 - x_m, x_m / 9.0);
+  points_m.emplace_back(1400.0, 0.0);
+  map.AddWay(points_m, {{"service", "siding"}});
+  map.Make();
+  ASSERT_EQ(map.world().tracks.size(), 2U);
+  PlatformSpec platform;
+  platform.begin_s_m = 500.0;
+  platform.end_s_m = 1500.0;
+  platform.width_m = 1.0;
+  platform.side = map.north();
+  map.world().structures = {platform};
+  ClearStructures(map.line().alignment, map.world());
+  const std::vector<PlatformSpec> platforms = map.All<PlatformSpec>();
+  ASSERT_THAT(platforms, SizeIs(3));
+  // The branch is parallel some metres behind the end of the points at 1:9.
+  EXPECT_LT(platforms[1].begin_s_m, 640.5 + 25.0);
+  EXPECT_GT(platforms[1].end_s_m, 1359.5 - 25.0);
+  ASSERT_THAT(map.ReasonsFor("platform"), SizeIs(2));
+  EXPECT_GT(map.world().left_out.back().begin_s_m, 1300.0) << "from where to where it is left out";
+  EXPECT_LT(map.world().left_out.back().end_s_m, 1420.0);
 }
 
 TEST(ClearStructures, LeavesOutOnlyThePortalsWhereTheseStandInAGauge) {

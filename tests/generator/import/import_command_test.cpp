@@ -34,6 +34,8 @@ TEST(Import, WritesAnAlignmentAndTheReports) {
   EXPECT_THAT(ReadFileWhole(out / "hill-line.alignment.json"), HasSubstr(R"("type": "elements")"));
   EXPECT_THAT(ReadFileWhole(out / "lines.csv"), HasSubstr("hill-line,22"));
   EXPECT_THAT(ReadFileWhole(out / "contradictions.csv"), HasSubstr("line,s_m,offset_m"));
+  EXPECT_THAT(ReadFileWhole(out / "coverage.csv"), HasSubstr("hill-line,tunnels_km,0.000,0.000"));
+  EXPECT_THAT(run.said, HasSubstr("| hill-line | 0.00 of 0.00 |"));
 }
 
 TEST(Import, GivesTheSameBytesAgain) {
@@ -56,7 +58,7 @@ TEST(Import, GivesTheSameBytesAgain) {
       texts[run][file.path().filename()] = ReadFileWhole(file.path());
     }
   }
-  EXPECT_THAT(texts[0], ::testing::SizeIs(11)) << "two files of each line and five reports";
+  EXPECT_THAT(texts[0], ::testing::SizeIs(12)) << "two files of each line and six reports";
   EXPECT_EQ(texts[0], texts[1]);
 }
 

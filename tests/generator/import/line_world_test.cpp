@@ -160,7 +160,8 @@ TEST_F(OfOneLine, HasCrossingsSignalsAndBoardsOnlyWhereTheyStandOnIt) {
   EXPECT_EQ(Only("board")["kind"], "kilometre");
   EXPECT_EQ(Only("signal")["kind"], "main");
   EXPECT_EQ(Only("signal")["direction"], runs_east_ ? "falling" : "rising");
-  EXPECT_THAT(LeftOutCsv({line_}, {world_}), HasSubstr("the map does not say which kind it is"));
+  EXPECT_THAT(LeftOutCsv({}, {line_}, {world_}),
+              HasSubstr("the map does not say which kind it is"));
 }
 
 TEST_F(OfOneLine, IsAWorldFile) {

@@ -11,6 +11,7 @@
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
+#include "generator/import/structures/map_coverage.h"
 
 namespace railcast {
 
@@ -54,11 +55,13 @@ class MadeMap {
     runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
     line_ = ImportLine(map_, track, {});
     world_ = MakeLineWorld(map_, track, line_);
-    static_cast<void>(AddSideTracks(map_, track, line_, 0.3, world_));
+    beside_ = AddSideTracks(map_, track, line_, 0.3, world_);
     AddStructures(map_, track, line_, world_);
   }
 
   [[nodiscard]] LineWorld& world() { return world_; }
+  /// What of the map the world has.
+  [[nodiscard]] MapCoverage Coverage() const { return CoverageOf(map_, world_, beside_); }
   [[nodiscard]] const ImportedLine& line() const { return line_; }
   [[nodiscard]] bool runs_east() const { return runs_east_; }
   /// What stands on the northern side of a track.
@@ -98,6 +101,7 @@ class MadeMap {
   bool runs_east_ = true;
   ImportedLine line_;
   LineWorld world_;
+  SideTrackQuality beside_;
 };
 
 }  // namespace railcast

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/rail/line/turnout_geometry.h"
+#include "generator/import/lines/standing_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/network/track_json.h"
 
@@ -165,10 +166,65 @@ TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
   EXPECT_TRUE(tracks_[1].contains("elements"));
   EXPECT_GE(std::abs(tracks_[1]["offset_m"].get<double>()), 3.0);
   ASSERT_THAT(world_.left_out, SizeIs(2));
-  EXPECT_EQ(world_.left_out[0].reason, "it is cut where it comes nearer than 3 m to others");
+  EXPECT_EQ(world_.left_out[0].reason,
+            "it is nearer than 3 m to others there, too sharp, or too short");
   EXPECT_EQ(world_.left_out[1].what, "switch");
   EXPECT_EQ(world_.left_out[1].reason,
             "no turnout fits there that leads to the branch, apart from others");
+}
+
+TEST_F(BesideALine, EveryPieceOfATrackIsKeptThatComesTooNearInPlaces) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 100.0; x_m <= 1900.0; x_m += 25.0) {
+    const double to_narrow_m = std::min(std::abs(x_m - 600.0), std::abs(x_m - 1400.0));
+    points_m.emplace_back(x_m, to_narrow_m < 110.0 ? 2.0 : 4.5);
+  }
+  Add(points_m, {{"maxspeed", "80"}});
+  Make();
+  ASSERT_THAT(tracks_, SizeIs(4));
+  // Of 1800 m, 200 m are too near in either place, and the fit needs some on either side to get
+  // there.
+  EXPECT_GT(quality_.length_m, 1800.0 - 2.0 * 330.0);
+  ASSERT_THAT(world_.left_out, SizeIs(2));
+  for (const LeftOut& thing : world_.left_out) {
+    EXPECT_EQ(thing.what, "running track");
+    EXPECT_GT(thing.end_s_m - thing.begin_s_m, 190.0);
+    EXPECT_LT(thing.end_s_m - thing.begin_s_m, 330.0);
+  }
+}
+
+/// A line that turns by 90 degrees with 60 m radius, and a track that leads along its first
+/// straight 50 m to the left and on around the middle of the curve.
+TEST(SideTracks, EndBeforeTheMiddleOfACurve) {
+  RailMap map{.nodes = {}, .ways = {}, .things = {}, .attribution = "Test"};
+  const auto add = [&](const std::vector<Eigen::Vector2d>& points_m, const MapTags& tags) {
+    MapWay way{static_cast<std::int64_t>(map.ways.size()), {}, tags};
+    for (const Eigen::Vector2d& point_m : points_m) {
+      way.nodes.push_back(map.nodes.size());
+      map.nodes.push_back({.place_m = point_m, .tags = {}});
+    }
+    map.ways.push_back(way);
+  };
+  const auto bend = [](double radius_m) {
+    std::vector<Eigen::Vector2d> points_m;
+    for (double x_m = 0.0; x_m < 600.0; x_m += 20.0) points_m.emplace_back(x_m, 60.0 - radius_m);
+    for (double rad = 0.0; rad < 1.6; rad += 0.1) {
+      points_m.emplace_back(600.0 + radius_m * std::sin(rad), 60.0 - radius_m * std::cos(rad));
+    }
+    for (double y_m = 80.0; y_m < 400.0; y_m += 20.0) points_m.emplace_back(600.0 + radius_m, y_m);
+    return points_m;
+  };
+  add(bend(60.0), {{"railway", "rail"}, {"maxspeed", "30"}});
+  add(bend(12.0), {{"railway", "rail"}, {"service", "yard"}, {"maxspeed", "30"}});
+  const TrackLine track = FindLines(map, 500.0).front();
+  const ImportedLine line = ImportLine(map, track, {});
+  LineWorld world = MakeLineWorld(map, track, line);
+  static_cast<void>(AddSideTracks(map, track, line, 0.3, world));
+  ASSERT_GE(world.tracks.size(), 3U) << "one on either straight";
+  EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
+  for (const LeftOut& thing : world.left_out) {
+    EXPECT_EQ(thing.reason, "it is nearer than 3 m to others there, too sharp, or too short");
+  }
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
+#include "generator/import/structures/clear_gauge.h"
 #include "tests/generator/import/made_map.h"
 
 namespace railcast {
@@ -44,28 +48,94 @@ TEST(WayStructures, ATunnelIsAboutTheTrackThatHasIt) {
               ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1200.0, kOff_m)));
 }
 
-TEST(WayStructures, ThereIsNoTunnelWhereATrackOutsideWouldRunInIt) {
+TEST(WayStructures, ATunnelOfTheLineTakesInATrackThatHasNoneOnTheMap) {
   MadeMap map;
   map.AddTrack(0.0, kInTunnel);
   map.AddTrack(4.5, {});
   map.Make();
-  EXPECT_THAT(map.All<TunnelSpec>(), IsEmpty());
-  EXPECT_THAT(
-      map.ReasonsFor("tunnel"),
-      ElementsAre("track running_1, which has none on the map, would run in it up to 1200 m"));
-}
-
-TEST(WayStructures, ATunnelIsCutWhereATrackOutsideBegins) {
-  MadeMap map;
-  map.AddTrack(0.0, kInTunnel);
-  map.AddWay({{1000.0, 4.5}, {1400.0, 4.5}, {1800.0, 4.5}}, {});
-  map.Make();
   const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
   ASSERT_THAT(tunnels, SizeIs(1));
-  // Cut at whole metres.
   EXPECT_THAT(map.PlacesOf_x_m(tunnels[0]),
-              ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1000.0, 1.0 + kOff_m)));
-  EXPECT_THAT(map.ReasonsFor("tunnel"), SizeIs(1));
+              ElementsAre(DoubleNear(800.0, kOff_m), DoubleNear(1200.0, kOff_m)));
+}
+
+TEST(WayStructures, ThereIsNoTunnelInWhichTheLineWouldRunThoughItIsOutside) {
+  MadeMap map;
+  map.AddTrack(0.0, {});
+  map.AddTrack(4.5, kInTunnel);
+  map.Make();
+  EXPECT_THAT(map.All<TunnelSpec>(), IsEmpty());
+  EXPECT_THAT(map.ReasonsFor("tunnel"),
+              ElementsAre("track main, which has none on the map, would run in it"));
+  const MapCoverage coverage = map.Coverage();
+  EXPECT_NEAR(coverage.tunnels_km.on_map, 0.4, 1e-3);
+  EXPECT_EQ(coverage.tunnels_km.made, 0.0);
+}
+
+/// Two linings for one track each are 11.2 m wide under a contact line, and the gauge of the other
+/// track is 1.575 m wide.
+TEST(WayStructures, TracksTooNearForTwoLiningsShareOne) {
+  for (const auto& [y_m, num_tunnels] : {std::pair(6.5, 1), {7.1, 1}, {7.5, 2}, {10.0, 2}}) {
+    MadeMap map;
+    map.AddTrack(0.0, kInTunnel);
+    map.AddTrack(y_m, kInTunnel);
+    map.Make();
+    ClearStructures(map.line().alignment, map.world());
+    EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(num_tunnels)) << y_m;
+    const MapCoverage coverage = map.Coverage();
+    EXPECT_NEAR(coverage.tunnels_km.on_map, 0.8, 1e-3) << y_m;
+    EXPECT_NEAR(coverage.tunnels_km.made, 0.8, 1e-3) << y_m;
+  }
+}
+
+/// Tracks that part in a tunnel, from 4.5 m to 24.5 m at 1:15, pass all distances.
+TEST(WayStructures, NothingOfATunnelIsLostWhereItsTracksPart) {
+  MadeMap map;
+  map.AddTrack(0.0, kInTunnel);
+  map.AddWay({{100.0, 4.5}, {400.0, 4.5}, {800.0, 4.5}}, {});
+  map.AddWay({{800.0, 4.5},
+              {860.0, 4.5},
+              {900.0, 4.9},
+              {960.0, 8.5},
+              {1020.0, 12.5},
+              {1080.0, 16.5},
+              {1140.0, 20.1},
+              {1200.0, 22.5}},
+             kInTunnel);
+  map.AddWay({{1200.0, 22.5}, {1260.0, 24.0}, {1320.0, 24.5}, {1600.0, 24.5}, {1900.0, 24.5}}, {});
+  map.Make();
+  ClearStructures(map.line().alignment, map.world());
+  EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty());
+  const MapCoverage coverage = map.Coverage();
+  EXPECT_NEAR(coverage.tunnels_km.on_map, 0.8, 2e-3);
+  EXPECT_NEAR(coverage.tunnels_km.made, coverage.tunnels_km.on_map, 2e-3);
+  // One about both, and one about each where they have parted.
+  ASSERT_THAT(map.All<TunnelSpec>(), SizeIs(3));
+  double shared_end_s_m = 0.0;
+  for (const TunnelSpec& tunnel : map.All<TunnelSpec>()) {
+    const double s_m = map.runs_east() ? tunnel.begin_s_m : tunnel.end_s_m;
+    if (std::abs(s_m - map.ChainageAt_m(800.0)) < 1.0) {
+      shared_end_s_m = map.runs_east() ? tunnel.end_s_m : tunnel.begin_s_m;
+    }
+  }
+  EXPECT_NEAR(shared_end_s_m, map.ChainageAt_m(935.0), 25.0);
+  for (const TunnelSpec& tunnel : map.All<TunnelSpec>()) {
+    const bool goes_on = tunnel.begin_s_m == shared_end_s_m || tunnel.end_s_m == shared_end_s_m;
+    EXPECT_TRUE(goes_on) << tunnel.name;
+  }
+}
+
+/// A loop of 200 m makes only its own stretch of the line's tunnel wide.
+TEST(WayStructures, ATunnelIsWideOnlyWhereItsTracksNeedIt) {
+  MadeMap map;
+  map.AddTrack(0.0, kInTunnel);
+  map.AddWay({{1000.0, 6.5}, {1100.0, 6.5}, {1200.0, 6.5}}, kInTunnel);
+  map.Make();
+  const std::vector<TunnelSpec> tunnels = map.All<TunnelSpec>();
+  ASSERT_THAT(tunnels, SizeIs(2));
+  EXPECT_EQ(tunnels[0].end_s_m, tunnels[1].begin_s_m);
+  EXPECT_NEAR(tunnels[0].end_s_m, map.ChainageAt_m(1000.0), 1.0);
+  EXPECT_NEAR(map.Coverage().tunnels_km.made, 0.6, 1e-3);
 }
 
 TEST(WayStructures, ABridgeCarriesTracksBesideEachOtherAndTheRestHaveTheirOwn) {

@@ -192,5 +192,26 @@ TEST(TunnelHills, AreNotWhereThingsStandInTheTunnel) {
   EXPECT_NEAR(height_m(8.0), 30.0, 1e-9);
 }
 
+TEST(TunnelHills, GoOnWhereATunnelGoesOnAsAnother) {
+  WorldSpec spec = LineBelow(30.0);
+  TunnelSpec first = std::get<TunnelSpec>(spec.structures[0]);
+  TunnelSpec second = first;
+  first.end_s_m = second.begin_s_m = 310.0;
+  second.name = "second";
+  spec.structures = {first, second};
+  const StructureProbe probe(spec);
+  const SurfaceClass& ground = probe.line().surfaces().ground;
+  for (const double s_m : {290.0, 308.0, 309.7, 310.0, 310.3, 312.0, 333.3}) {
+    for (double d_m = -20.0; d_m < 20.0; d_m += 0.73) {
+      EXPECT_NEAR(probe.HeightBelow_m(ground, {s_m, d_m, 60.0}).value_or(0.0), 30.0, 1e-4)
+          << s_m << " " << d_m;
+    }
+    for (double angle_rad = 0.0; angle_rad < 3.2; angle_rad += 0.13) {
+      const Vector3 to(s_m, 7.0 * std::cos(angle_rad), 1.2 + 7.0 * std::sin(angle_rad));
+      EXPECT_NE(probe.LabelSeen({s_m, 0.0, 1.2}, to), ground.label) << s_m << " " << angle_rad;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace railcast

@@ -113,7 +113,7 @@ TEST(Tunnel, TakesInALoopInOneHalfOfItsLength) {
   stretch.track = "main";
   stretch.begin_s_m = 50.0;
   stretch.end_s_m = 750.0;
-  const TrackSpread spread = SpreadOf({spec, network.courses}, stretch, 5.5);
+  const TrackSpread spread = SpreadOf({spec, network.courses}, stretch, kSharedTunnel_m);
   EXPECT_NEAR(spread.left_m, 4.5, 1e-9);
   EXPECT_EQ(spread.right_m, 0.0);
   // A track that leaves for good counts as far as it is near.
@@ -122,9 +122,9 @@ TEST(Tunnel, TakesInALoopInOneHalfOfItsLength) {
   spec.tracks[1].end.reset();
   spec.tracks[1].end_s_m = 700.0;
   const Network wide = MakeNetwork(spec, 800.0);
-  const double left_m = SpreadOf({spec, wide.courses}, stretch, 5.5).left_m;
+  const double left_m = SpreadOf({spec, wide.courses}, stretch, kSharedTunnel_m).left_m;
   EXPECT_GT(left_m, 5.0);
-  EXPECT_LE(left_m, 5.5);
+  EXPECT_LE(left_m, kSharedTunnel_m);
 }
 
 TEST(Tunnel, HasNoGroundAndNoPlantsInside) {
@@ -137,6 +137,69 @@ TEST(Tunnel, HasNoGroundAndNoPlantsInside) {
   for (double s_m = 151.0; s_m < 199.0; s_m += 3.7) {
     const std::uint32_t seen = probe.LabelSeen({s_m, 1.9, 2.0}, {s_m, 1.95, -0.5});
     EXPECT_TRUE(seen == surfaces.ballast.label || seen == surfaces.structures.tunnel.label) << s_m;
+  }
+}
+
+/// Straight, with a second track 7 m beside the first from 230 m on, and a tunnel for either part.
+WorldSpec TunnelThatBecomesWider() {
+  WorldSpec spec = StraightLine(600.0);
+  spec.tracks.push_back({.name = "second", .offset_m = 7.0, .start_s_m = 230.0, .end_s_m = {}});
+  TunnelSpec narrow;
+  narrow.name = "narrow";
+  narrow.begin_s_m = 50.0;
+  narrow.end_s_m = 230.0;
+  TunnelSpec wide;
+  wide.name = "wide";
+  wide.begin_s_m = 230.0;
+  wide.end_s_m = 430.0;
+  spec.structures = {narrow, wide};
+  return spec;
+}
+
+TEST(Tunnel, IsClosedAroundTheNarrowerOneInWhichItGoesOn) {
+  const StructureProbe probe(TunnelThatBecomesWider());
+  const std::uint32_t concrete = probe.line().surfaces().structures.tunnel.label;
+  // Its own radius is 3.5 m more than 3.3 m, the other's 5.1 m. Below the wires.
+  for (double d_m = -2.9; d_m < 10.0; d_m += 0.31) {
+    for (double h_m = 0.3; h_m < 4.7; h_m += 0.37) {
+      if (std::hypot(d_m - 3.5, h_m - 1.8) > 6.7 || std::hypot(d_m, h_m - 1.8) < 5.2) continue;
+      const auto seen = probe.Look({240.0, d_m, h_m}, {222.0, d_m, h_m});
+      EXPECT_EQ(seen.label, concrete) << d_m << " " << h_m;
+      EXPECT_NEAR(seen.distance_m, 10.0, 1e-3) << d_m << " " << h_m;
+    }
+  }
+  // The other one's opening is free.
+  for (double d_m = -4.9; d_m < 5.0; d_m += 0.31) {
+    if (std::hypot(d_m, 1.2) > 5.0 || std::abs(d_m - 3.5) > 6.6) continue;
+    EXPECT_GT(probe.Look({240.0, d_m, 3.0}, {222.0, d_m, 3.0}).distance_m, 10.5) << d_m;
+  }
+}
+
+TEST(Tunnel, HasAPortalThatEndsHalfWayToTheNextOne) {
+  WorldSpec spec = StraightLine(600.0);
+  spec.tracks.push_back({.name = "second", .offset_m = 7.6, .end_s_m = {}});
+  for (const char* track : {"main", "second"}) {
+    TunnelSpec tunnel;
+    tunnel.name = track;
+    tunnel.track = track;
+    tunnel.begin_s_m = 230.0;
+    tunnel.end_s_m = 430.0;
+    spec.structures.emplace_back(tunnel);
+  }
+  const StructureProbe probe(spec);
+  const std::uint32_t concrete = probe.line().surfaces().structures.tunnel.label;
+  // Before the mouths: the walls above both and between them, and free openings.
+  for (double d_m = -7.0; d_m < 14.7; d_m += 0.31) {
+    const auto above = probe.Look({221.0, d_m, 8.2}, {240.0, d_m, 8.2});
+    EXPECT_EQ(above.label, concrete) << d_m;
+    EXPECT_NEAR(above.distance_m, 9.0, 1e-3) << d_m;
+  }
+  for (const double axis_d_m : {0.0, 7.6}) {
+    for (double d_m = -1.6; d_m < 1.61; d_m += 0.2) {
+      EXPECT_GT(probe.Look({221.0, axis_d_m + d_m, 3.0}, {240.0, axis_d_m + d_m, 3.0}).distance_m,
+                9.5)
+          << axis_d_m << " " << d_m;
+    }
   }
 }
 
