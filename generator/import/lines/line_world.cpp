@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/text.h"
-#include "generator/import/fit/plan_window.h"
 #include "generator/import/lines/contact_lines.h"
 #include "generator/import/lines/line_gauge.h"
 #include "generator/import/network/track_json.h"
