@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -51,5 +52,10 @@ struct BeamSubRays {
   float largest_offset{};  ///< From the axis.
 };
 [[nodiscard]] const BeamSubRays& SubRaysOfBeam();
+
+/// The sub-rays of a closer look: one pattern of Vogel's kind, dealt out to this many sets.
+inline constexpr std::size_t kNumCloserSets = 4;
+/// The sets, each as SubRaysOfBeam().
+[[nodiscard]] const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook();
 
 }  // namespace railcast
