@@ -8,6 +8,7 @@
 #include "core/detect/echo_finder.h"
 #include "core/detect/kernels.h"
 #include "core/detect/part_batch.h"
+#include "core/detect/sub_ray_pattern.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 
@@ -18,9 +19,10 @@ namespace railcast {
 ///
 /// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
 /// range is their mean, and its spread has the variance among them and the one within the cell of a
-/// sub-ray. A beam that lies on one plane as a whole is left to its central ray. Most others need
-/// none, so that the sub-rays come first: Trace(), central rays of those that NeedsCenter(),
-/// Find().
+/// sub-ray. Where a small share decides, because few sub-rays or none have met something that may
+/// be detected for its share alone, a closer look with kNumCloserSets times as many tells it. A
+/// beam that lies on one plane as a whole is left to its central ray. Most others need none, so
+/// that the sub-rays come first: Trace(), central rays of those that NeedsCenter(), Find().
 ///
 /// Not thread-safe: keeps its working memory.
 class FacetParts {
@@ -43,17 +45,24 @@ class FacetParts {
   /// `base_m`.
   struct Sums {
     std::uint32_t num;
-    std::uint32_t facet;
+    Facet facet;
     float base_m, range_m, range2_m2;
     float x, y, z;
   };
 
-  void Aim(const WideBeams& beams, const DetectTile& first, std::size_t lane);
+  void Aim(const WideBeams& beams,
+           const DetectTile& first,
+           std::size_t lane,
+           const BeamSubRays& pattern);
   /// Whether all sub-rays are on one facet, or on none.
   [[nodiscard]] bool IsOneFacet() const;
   void SumUp();
-  void JoinPlanes();
-  void AddParts(const WideBeams& beams, std::size_t lane);
+  void JoinPlanes(std::size_t most_planes);
+  void AddParts(const WideBeams& beams, std::size_t lane, std::size_t num_rays);
+  void NoteMissed(const WideBeams& beams, std::size_t lane);
+  void NotePlane(const WideBeams& beams, std::size_t lane, const Facet& plane);
+  [[nodiscard]] bool NeedsCloserLook(const WideBeams& beams, std::size_t lane) const;
+  void LookCloser(const WideBeams& beams, const DetectTile& first, std::size_t lane);
   void Flush(const WideBeams& beams);
   void StoreLists(std::size_t num_lanes, PartLists& lists) const;
 
@@ -70,6 +79,11 @@ class FacetParts {
   std::array<float, kTileSize> share_on_nothing_{};
   // By lane; the surface of a beam on one plane, else kSeveralPlanes.
   std::array<std::uint32_t, kTileSize> plane_surface_{};
+  // By lane; how near what the sub-rays have missed may be, the greatest power that it may send, or
+  // 0, and that of a beam on one plane, if something may lie before it.
+  std::array<float, kTileSize> missed_m_{};
+  std::array<float, kTileSize> missed_ratio_{};
+  std::array<float, kTileSize> plane_ratio_{};
 };
 
 }  // namespace railcast

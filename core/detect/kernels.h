@@ -31,7 +31,8 @@ namespace railcast {
   KERNEL(snow, ApplySnowClutter, void(DetectTile&, const struct SnowParameters&))                \
   /* Physics. */                                                                                 \
   KERNEL(response, ApplyResponse, void(DetectTile&, const ResponseParameters&))                  \
-  KERNEL(pulse_stretch, ApplyPulseStretch, void(DetectTile&, float pulse_sigma_m))               \
+  KERNEL(pulse_stretch, ApplyPulseStretch,                                                       \
+         void(DetectTile&, const struct PulseStretchParameters&))                                \
   KERNEL(extinction, ApplyExtinction, void(DetectTile&, float extinction_per_m))                 \
   KERNEL(sunlight, ApplySunlight, void(DetectTile&, const struct SunlightParameters&))           \
   KERNEL(cover_loss, ApplyCoverLoss, void(DetectTile&))                                          \

@@ -8,8 +8,10 @@
 #include "core/detect/detection.h"
 #include "core/detect/effect_table.h"
 #include "core/detect/fog_profile.h"
+#include "core/detect/footprint.h"
 #include "core/detect/mirror_paths.h"
 #include "core/detect/spray.h"
+#include "core/detect/surface_response.h"
 #include "core/detect/weather_optics.h"
 
 namespace railcast {
@@ -63,9 +65,11 @@ std::string PulseStretchText(const DetectorSpec& spec) {
 }
 
 Loop PulseStretchLoop(const DetectorSpec& spec, const Kernels& kernels) {
-  if (!StretchLowersPower(spec)) return [](DetectTile& /*tile*/) {};
-  return [sigma_m = static_cast<float>(PulseSigma_m(spec.beam)),
-          apply = kernels.pulse_stretch](DetectTile& tile) { apply(tile, sigma_m); };
+  const PulseStretchParameters parameters{
+      .pulse_sigma_m = static_cast<float>(PulseSigma_m(spec.beam)),
+      .lowers_power = StretchLowersPower(spec),
+      .moves_peak = HasFootprint(spec)};
+  return [=, apply = kernels.pulse_stretch](DetectTile& tile) { apply(tile, parameters); };
 }
 
 // Mirror paths act where beams are traced.

@@ -67,30 +67,47 @@ void SortIntoGroups(std::vector<Place>& places) {
   std::sort(places.begin() + inner, places.end(), by_angle);
 }
 
+// Stores places from `first` on, so that those of a group are kNumSubRayGroups apart.
+void StoreInGroups(std::vector<Place> places, std::size_t first, BeamSubRays& all) {
+  SortIntoGroups(places);
+  const std::size_t num_in_group = places.size() / kNumSubRayGroups;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t group = k / num_in_group;
+    const std::size_t i = first + k % num_in_group * kNumSubRayGroups + group;
+    all.h[i] = static_cast<float>(places[k].h);
+    all.v[i] = static_cast<float>(places[k].v);
+    all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
+  }
+}
+
 const BeamSubRays& SubRaysOfBeam() {
   static const BeamSubRays sub_rays = [] {
     BeamSubRays all{};
-    std::size_t first = 0;
-    for (const std::size_t count : {kNumCrowdedSubRays, kNumSubRays - kNumCrowdedSubRays}) {
-      std::vector<Place> places = Spiral(count, 0.0);
-      SortIntoGroups(places);
-      const std::size_t num_in_group = count / kNumSubRayGroups;
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t group = k / num_in_group;
-        const std::size_t i = first + k % num_in_group * kNumSubRayGroups + group;
-        all.h[i] = static_cast<float>(places[k].h);
-        all.v[i] = static_cast<float>(places[k].v);
-        all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
-      }
-      first += count;
-    }
+    StoreInGroups(Spiral(kNumCrowdedSubRays, 0.0), 0, all);
+    StoreInGroups(Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0), kNumCrowdedSubRays, all);
     return all;
   }();
   return sub_rays;
 }
 
-SubRayAim AimOfFiring(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing) {
-  const BeamSubRays& pattern = SubRaysOfBeam();
+const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook() {
+  static const auto sets = [] {
+    std::array<std::vector<Place>, kNumCloserSets> places;
+    const std::vector<Place> spiral = Spiral(kNumCloserSets * kNumSubRays, 0.0);
+    for (std::size_t k = 0; k < spiral.size(); ++k) places[k % kNumCloserSets].push_back(spiral[k]);
+    std::array<BeamSubRays, kNumCloserSets> all{};
+    for (std::size_t set = 0; set < kNumCloserSets; ++set) {
+      StoreInGroups(places[set], 0, all[set]);
+    }
+    return all;
+  }();
+  return sets;
+}
+
+SubRayAim AimOfFiring(const BeamSubRays& pattern,
+                      std::uint64_t seed,
+                      std::uint32_t frame,
+                      std::uint32_t firing) {
   const PatternTurn turn = TurnOfPattern(seed, frame, firing);
   // A little wider than the pattern, because its directions are rounded.
   constexpr float kMargin = 1.0001F;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -53,7 +54,15 @@ struct BeamSubRays {
 };
 [[nodiscard]] const BeamSubRays& SubRaysOfBeam();
 
+/// The sub-rays of a closer look: one pattern of Vogel's kind, dealt out to this many sets.
+inline constexpr std::size_t kNumCloserSets = 4;
+/// The sets, each as SubRaysOfBeam().
+[[nodiscard]] const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook();
+
 /// How the kernel aim_sub_rays aims them for a firing, whose pattern is turned.
-[[nodiscard]] SubRayAim AimOfFiring(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing);
+[[nodiscard]] SubRayAim AimOfFiring(const BeamSubRays& pattern,
+                                    std::uint64_t seed,
+                                    std::uint32_t frame,
+                                    std::uint32_t firing);
 
 }  // namespace railcast

@@ -9,6 +9,16 @@
 #include "core/detect/effect_parameters.h"
 #include "core/detect/vector_math.h"
 
+namespace railcast {
+
+struct PulseStretchParameters {
+  float pulse_sigma_m{};
+  bool lowers_power{};  ///< As StretchLowersPower().
+  bool moves_peak{};    ///< Whether beams of one hit lie on its plane: effect `footprint` looks.
+};
+
+}  // namespace railcast
+
 namespace railcast::RAILCAST_ISA {
 
 /// Effective reflectance of a GGX lobe seen from the light source, with Smith's shadowing both
@@ -64,14 +74,35 @@ inline void ApplyResponse(DetectTile& tile, const ResponseParameters& parameters
   }
 }
 
-/// Effect `pulse_stretch`: a surface oblique to the beam stretches the pulse, so that the echo's
-/// peak is lower: power x s / hypot(s, spread), s the pulse's sigma in metres of range (Gaussian
-/// pulse, Gaussian beam).
-inline void ApplyPulseStretch(DetectTile& tile, float pulse_sigma_m) {
-  const float s2 = pulse_sigma_m * pulse_sigma_m;
+/// Effect `pulse_stretch`: a surface oblique to the beam stretches the pulse. The echo's peak is
+/// lower, power x s / hypot(s, spread), and nearer than the surface is on the beam's axis, since
+/// the near part of the beam is brighter and more of it answers at once (s: the pulse's sigma in
+/// metres of range; Gaussian pulse, Gaussian beam):
+///
+///   peak = R 2 / (1 + sqrt(1 + 4 c q)),  q = spread^2 / R^2,
+///   c    = 1 + k + 3 spread^2 / (s^2 + spread^2),  k = d ln(rho_eff) / d ln(cos)
+///
+/// where R / (1 + x), x normal of variance q, is the range over the plane and (1 + x)^(2 + k) its
+/// power. This is the power's mean range for spread << s and its mode for spread >> s, to the first
+/// order in q between, and holds where the whole beam lies on the plane. k is 1 for Lambert and
+/// that of the diffuse part for Oren and Nayar.
+inline void ApplyPulseStretch(DetectTile& tile, const PulseStretchParameters& parameters) {
+  const PulseStretchParameters p = parameters;  // The copy cannot alias the tile.
+  const float s2 = p.pulse_sigma_m * p.pulse_sigma_m;
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float range_m = tile.true_range_m[i];
+    const float cosine = tile.cos_incidence[i];
     const float spread2 = tile.spread_m[i] * tile.spread_m[i];
-    tile.power_ratio[i] *= std::sqrt(s2 / (s2 + spread2));
+    const float lowered = std::sqrt(s2 / (s2 + spread2));
+    const float by_cosine = tile.diffuse_a[i] * cosine;
+    const float all = by_cosine + tile.diffuse_b[i] * (1.0F - cosine * cosine);
+    const float power = all > 0.0F ? by_cosine / all : 1.0F;
+    const float nearer = 1.0F + power + 3.0F * spread2 / (s2 + spread2);
+    const float root = std::sqrt(1.0F + 4.0F * nearer * spread2 / (range_m * range_m));
+    const float shift_m = range_m * (1.0F - root) / (1.0F + root);
+    // The comparison is false where nothing was hit.
+    tile.peak_shift_m[i] = (range_m > 0.0F) & p.moves_peak ? shift_m : 0.0F;
+    tile.power_ratio[i] *= p.lowers_power ? lowered : 1.0F;
   }
 }
 

@@ -83,7 +83,8 @@ void BeamTracer::AimSubRays(const Work& work,
                             BeamRays& beam) const {
   const DetectTile& first = work.echoes.first;
   kernels_.aim_sub_rays(work.rays, lane, frame,
-                        AimOfFiring(spec_.seed, first.frame, first.firing[lane]), beam);
+                        AimOfFiring(SubRaysOfBeam(), spec_.seed, first.frame, first.firing[lane]),
+                        beam);
 }
 
 void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const {

@@ -227,16 +227,28 @@ template <std::size_t num>
   return NegativeLanes(hits) != 0;
 }
 
+/// The least range at which a beam can meet the plane of the triangle in a lane of a leaf. The
+/// lengths of a cone's axis and of its half extents are those of a unit vector's in the window.
+[[nodiscard]] inline float NearestRange_m(const LeafProducts& t, std::size_t lane) {
+  const float h = t.h[3][lane];
+  const float v = t.v[3][lane];
+  const float steepest = std::fabs(t.along[3][lane]) + std::sqrt(h * h + v * v);
+  return std::fabs(t.offset[lane]) / Most(steepest, kLeastSlope);
+}
+
 /// Intersects the sub-rays with the triangle in a lane of a leaf. Returns whether any hits it
 /// nearer than anything before.
+/// @param is_inside Whether any passes through it, however far away.
 [[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
                                       std::size_t lane,
                                       std::uint32_t facet,
                                       const SubRayPlaces& places,
-                                      BeamRays& beam) {
+                                      BeamRays& beam,
+                                      bool& is_inside) {
   std::uint64_t rays = beam.num_rays == kNumCrowdedSubRays
                            ? RaysInside<kNumCrowdedSubRays>(products, lane, places)
                            : RaysInside<kNumSubRays>(products, lane, places);
+  is_inside = rays != 0;
   bool is_any_hit = false;
   // Most triangles are passed by, or met by few rays; only these need divisions.
   while (rays != 0) {

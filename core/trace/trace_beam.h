@@ -203,7 +203,11 @@ constexpr std::uint32_t kCrowd = 96;
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
     if (beam.num_facets == BeamRays::kMaxFacets) DropHiddenFacets(beam);
-    if (!HitTriangle(products, lane, beam.num_facets, places, beam)) continue;
+    bool is_inside = false;
+    if (!HitTriangle(products, lane, beam.num_facets, places, beam, is_inside)) {
+      if (!is_inside) beam.missed_m = Least(beam.missed_m, NearestRange_m(products, lane));
+      continue;
+    }
     AddFacet(surface.window_from_model, surface.first + leaf.part[lane], products, lane, beam);
     is_changed = true;
   }

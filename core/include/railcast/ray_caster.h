@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace railcast {
 
@@ -78,6 +79,9 @@ struct alignas(64) BeamRays {
   std::size_t num_rays = kNumSubRays;
   /// The number of triangles that casters have intersected with sub-rays so far.
   std::uint32_t num_met = 0;
+  /// At least this far away is whatever the ellipse of the sub-rays may meet, but none of them
+  /// does: something thin, or an edge. A caster that knows of such things lowers it.
+  float missed_m = std::numeric_limits<float>::infinity();
   float origin[3]{};  ///< m
   float axis[3]{};    ///< Direction of the beam's axis; unit length.
   /// The semi-axes of the ellipse that contains all sub-rays: every direction is a multiple of

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "core/detect/beam_optics.h"
@@ -145,7 +146,8 @@ TEST(Spread, IsNothingForARay) {
 double StretchOf(const Slant& slant, const BeamSpec& beam) {
   const auto tiles = Spread(slant);
   tiles->detect.power_ratio[0] = 1.0F;
-  baseline::ApplyPulseStretch(tiles->detect, static_cast<float>(PulseSigma_m(beam)));
+  tiles->detect.true_range_m[0] = static_cast<float>(slant.range_m);
+  baseline::ApplyPulseStretch(tiles->detect, {static_cast<float>(PulseSigma_m(beam)), true, true});
   return static_cast<double>(tiles->detect.power_ratio[0]);
 }
 
@@ -154,6 +156,65 @@ TEST(PulseStretch, IsThePeakOfAllPulsesThatASlantingPlaneSendsBack) {
   for (const Slant& slant : kSlants) {
     const double peak = PeakShare(BruteForce(slant), slant.range_m, PulseSigma_m(beam));
     EXPECT_NEAR(StretchOf(slant, beam), peak, 0.01) << slant.normal.transpose();
+  }
+}
+
+/// Ground under a beam.
+struct Ground {
+  double height_m{}, range_m{};
+  double lambert = 1.0, rough = 0.0;  ///< Weights of cos and sin^2 in its reflectance.
+};
+
+// Where the sum of all returned pulses has its peak, in front of the ground on the beam's axis.
+double PeakBefore_m(const Ground& ground, const BeamSpec& beam) {
+  const double sigma_rad = VerticalSigma_rad(beam);
+  const double axis_rad = std::asin(ground.height_m / ground.range_m);
+  const double pulse_m = PulseSigma_m(beam);
+  const auto wave = [&](double at_m) {
+    double sum = 0.0;
+    constexpr double kReach = 6.0;
+    for (double z = -kReach; z <= kReach; z += 0.002) {
+      const double sine = std::sin(axis_rad + z * sigma_rad);
+      if (sine <= 0.0) continue;  // Above the horizon.
+      const double range_m = ground.height_m / sine;
+      const double answer = ground.lambert * sine + ground.rough * (1.0 - sine * sine);
+      const double off = (range_m - at_m) / pulse_m;
+      sum += std::exp(-0.5 * (z * z + off * off)) * answer / (range_m * range_m);
+    }
+    return sum;
+  };
+  // The wave has one peak, which a search by the golden section finds.
+  double near_m = 0.8 * ground.range_m;
+  double far_m = ground.range_m;
+  const double golden = std::numbers::phi - 1.0;
+  while (far_m - near_m > 1e-5) {
+    const double a = far_m - golden * (far_m - near_m);
+    const double b = near_m + golden * (far_m - near_m);
+    (wave(a) > wave(b) ? far_m : near_m) = wave(a) > wave(b) ? b : a;
+  }
+  return ground.range_m - 0.5 * (near_m + far_m);
+}
+
+// Between 1 mm and 0.6 m before the ground on the axis.
+TEST(PulseStretch, DrawsThePeakOfGrazedGroundToWhereItsPulsesPileUp) {
+  for (const double divergence_mrad : {1.5, 3.0}) {
+    const BeamSpec beam{.divergence_mrad = {divergence_mrad, divergence_mrad}};
+    for (const Ground& ground :
+         {Ground{2.0, 40.0}, Ground{2.0, 60.0, 0.7, 0.2}, Ground{2.0, 100.0},
+          Ground{4.5, 40.0, 0.7, 0.2}, Ground{4.5, 80.0}, Ground{4.5, 150.0, 0.7, 0.2}}) {
+      const double sine = ground.height_m / ground.range_m;
+      const double sigma_rad = VerticalSigma_rad(beam);
+      const auto tiles = Spread(
+          {{std::sqrt(1.0 - sine * sine), 0, -sine}, {0, 0, 1}, ground.range_m, 0.0, sigma_rad});
+      DetectTile& tile = tiles->detect;
+      tile.true_range_m[0] = static_cast<float>(ground.range_m);
+      tile.diffuse_a[0] = static_cast<float>(ground.lambert);
+      tile.diffuse_b[0] = static_cast<float>(ground.rough);
+      baseline::ApplyPulseStretch(tile, {static_cast<float>(PulseSigma_m(beam)), true, true});
+      // The next order of the expansion and the rounding of float32 take 0.2 mm.
+      EXPECT_NEAR(static_cast<double>(-tile.peak_shift_m[0]), PeakBefore_m(ground, beam), 2e-4)
+          << ground.height_m << " " << ground.range_m;
+    }
   }
 }
 

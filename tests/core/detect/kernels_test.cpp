@@ -17,6 +17,7 @@
 #include "core/detect/saturation.h"
 #include "core/detect/sensor_dropout.h"
 #include "core/detect/snow_clutter.h"
+#include "core/detect/surface_response.h"
 #include "core/detect/threshold.h"
 #include "railcast/outcome.h"
 
@@ -106,7 +107,7 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   kernels.incidence(rays, tile);
   kernels.spread(rays, beam, tile);
   kernels.response(tile, {false, 400'000.0F, 0.3F, 0.9F, 0.1F});
-  kernels.pulse_stretch(tile, 0.32F);
+  kernels.pulse_stretch(tile, {0.32F, true, true});
   kernels.extinction(tile, 0.004F);
   kernels.sunlight(tile, {2.0F});
   kernels.cover_loss(tile);
