@@ -149,9 +149,11 @@ void Spray::Apply(const RayTile& rays,
                   EchoTiles& echoes) const {
   std::vector<Passage> passages(echoes.first.num_rays);
   for (std::size_t i = 0; i < passages.size(); ++i) {
-    const float origin[3] = {rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
     const float direction[3] = {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
     for (const SprayCloud& cloud : clouds) {
+      const float origin[3] = {rays.origin_x[i] - rays.shutter[i] * cloud.way[0],
+                               rays.origin_y[i] - rays.shutter[i] * cloud.way[1],
+                               rays.origin_z[i] - rays.shutter[i] * cloud.way[2]};
       const SprayPath path = PathIn(cloud, origin, direction);
       if (path.end_m > path.begin_m) passages[i].parts.push_back({&cloud, path});
     }

@@ -13,7 +13,9 @@ namespace railcast {
 /// The cloud that a train whirls up: as dense as at its rear beside and under the whole vehicle,
 /// thinning out behind it. In the frame of the rays.
 struct SprayCloud {
-  float rear[3]{};  ///< The middle of the vehicle's rear end at the height of its wheels' foot.
+  /// The middle of the vehicle's rear end at the height of its wheels' foot, at the stamp.
+  float rear[3]{};
+  float way[3]{};  ///< How far it moves until the last firing. It does not turn.
   // Unit vectors.
   float back[3]{};  ///< Against the direction of travel.
   float left[3]{};
@@ -33,7 +35,8 @@ struct SprayPath {
   float back_per_m{};  ///< Its change per metre of range.
 };
 
-/// The part of a ray from `origin` along the unit vector `direction` that is inside a cloud.
+/// The part of a ray from `origin` along the unit vector `direction` that is inside a cloud at the
+/// stamp. Of a later ray, `origin` must be moved back by as much as the cloud has moved on.
 [[nodiscard]] SprayPath PathIn(const SprayCloud& cloud,
                                const float (&origin)[3],
                                const float (&direction)[3]);

@@ -35,11 +35,13 @@ namespace {
 CastFrame CastOf(const FrameScene& scene,
                  const World& world,
                  const DetectorSpec& spec,
-                 const BeamTracer& tracer) {
+                 const BeamTracer& tracer,
+                 std::uint32_t duration_ns) {
   CastFrame cast{scene.index,      scene.poses,    scene,
                  scene.surfaces(), &scene.wires(), scene.window->window_from_world};
   if (spec.effects.spray && HasSpray(spec)) {
-    cast.spray = SprayCloudsOf(world, spec.weather, scene.stamp_ns, cast.window_from_world);
+    cast.spray =
+        SprayCloudsOf(world, spec.weather, {scene.stamp_ns, duration_ns}, cast.window_from_world);
   }
   cast.mirrors = tracer.MirrorsAmong(cast.surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
@@ -321,7 +323,9 @@ std::shared_ptr<BegunFrame> Simulator::Begin(std::uint32_t frame_index) {
 void Simulator::Scan(BegunFrame& begun, Frame& frame) {
   WithinMemory(parts_->Making(begun.index), [&] {
     const FrameScene& scene = parts_->SceneOf(begun);
-    parts_->Scan(CastOf(scene, world(), spec().detector, *parts_->tracer), frame);
+    parts_->Scan(
+        CastOf(scene, world(), spec().detector, *parts_->tracer, parts_->tiles.duration_ns()),
+        frame);
   });
 }
 
@@ -372,7 +376,8 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   Parts& parts = *parts_;
   BegunFrame begun = parts.Begin(frame_index);
   const FrameScene& scene = parts.SceneOf(begun);
-  const CastFrame cast = CastOf(scene, world(), spec().detector, *parts.tracer);
+  const CastFrame cast =
+      CastOf(scene, world(), spec().detector, *parts.tracer, parts.tiles.duration_ns());
   const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;

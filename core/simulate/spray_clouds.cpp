@@ -25,16 +25,18 @@ void Put(const Vector3& from, float (&to)[3]) {
 
 std::vector<SprayCloud> SprayCloudsOf(const World& world,
                                       const WeatherSpec& weather,
-                                      std::int64_t time_ns,
+                                      const ScanSpan& span,
                                       const Transform& window_from_world) {
   constexpr std::int64_t kStep_ns = 10'000'000;
   std::vector<SprayCloud> clouds;
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
     if (!IsOfATrain(object)) continue;
-    const Transform now = window_from_world * world.WorldFromObject(i, time_ns);
-    const Transform then = window_from_world * world.WorldFromObject(i, time_ns + kStep_ns);
-    const Vector3 way = then.translation() - now.translation();
+    const auto at = [&](std::int64_t since_stamp_ns) -> Transform {
+      return window_from_world * world.WorldFromObject(i, span.stamp_ns + since_stamp_ns);
+    };
+    const Transform now = at(0);
+    const Vector3 way = at(kStep_ns).translation() - now.translation();
     const double speed_mps = way.norm() / SecondsFromNs(kStep_ns);
     const double extinction_per_m = SprayExtinction_per_m(weather, speed_mps);
     if (!(extinction_per_m > 0.0)) continue;
@@ -49,6 +51,7 @@ std::vector<SprayCloud> SprayCloudsOf(const World& world,
                      .decay_m = static_cast<float>(speed_mps * kDecayTime_s),
                      .extinction_per_m = static_cast<float>(extinction_per_m)};
     Put(now * Vector3(rear_x_m, box_m.center().y(), box_m.min().z()), cloud.rear);
+    Put(at(span.duration_ns).translation() - now.translation(), cloud.way);
     Put(-turn * now.linear().col(0), cloud.back);
     Put(-turn * now.linear().col(1), cloud.left);
     Put(now.linear().col(2), cloud.up);

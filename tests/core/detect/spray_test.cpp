@@ -93,6 +93,7 @@ std::unique_ptr<RayTile> RaysAhead() {
   std::fill_n(rays->direction_x, kTileSize, 1.0F);
   std::fill_n(rays->direction_y, kTileSize, 0.0F);
   std::fill_n(rays->direction_z, kTileSize, 0.0F);
+  std::fill_n(rays->shutter, kTileSize, 0.0F);
   return rays;
 }
 
@@ -102,16 +103,21 @@ struct Passed {
   float wall_ratio{};
 };
 
-Passed Pass(double wall_m) {
+/// @param shutter Of all rays.
+/// @param way_m How far the cloud moves ahead from shutter 0 to 1.
+Passed Pass(double wall_m, float shutter = 0.0F, float way_m = 0.0F) {
   const Detector detector(InSpray());
   const Spray spray(InSpray());
   const auto rays = RaysAhead();
+  std::fill_n(rays->shutter, kTileSize, shutter);
+  SprayCloud cloud = CloudAhead();
+  cloud.way[0] = way_m;
   EchoTiles echoes;
   Passed passed;
   for (std::uint32_t begin = 0; begin < 1U << 16U; begin += kTileSize) {
     FillHits({.range_m = [=](std::uint32_t) { return wall_m; }}, begin, echoes);
     std::fill_n(echoes.first.power_ratio, kTileSize, 7.0F);
-    spray.Apply(*rays, {CloudAhead()}, detector, echoes);
+    spray.Apply(*rays, {cloud}, detector, echoes);
     passed.wall_ratio = echoes.first.power_ratio[0];
     for (std::size_t i = 0; i < echoes.num_more(); ++i) {
       const auto [tile, lane] = echoes.more(i);
@@ -130,6 +136,15 @@ TEST(Spray, WeakensWhatIsBehindItBothWays) {
   const double half_way = 0.1 * (4.0 * (1.0 - std::exp(-5.0)) + 5.0);
   EXPECT_NEAR(Pass(35.0).wall_ratio, 7.0 * std::exp(-2.0 * half_way), 1e-5);
   EXPECT_EQ(Pass(9.0).wall_ratio, 7.0F);
+}
+
+// The cloud moves 2 m ahead until shutter 0.5: of what is at the vehicle, 3 m are left before the
+// wall at 35 m.
+TEST(Spray, MovesAheadDuringTheScan) {
+  const double depth = 0.1 * (4.0 * (1.0 - std::exp(-5.0)) + 3.0);
+  EXPECT_NEAR(Pass(35.0, 0.5F, 4.0F).wall_ratio, 7.0 * std::exp(-2.0 * depth), 1e-5);
+  EXPECT_EQ(Pass(11.0, 0.5F, 4.0F).wall_ratio, 7.0F);
+  EXPECT_LT(Pass(11.0, 0.0F, 4.0F).wall_ratio, 7.0F);
 }
 
 double DepthTo(double range_m) {
