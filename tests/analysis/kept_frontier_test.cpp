@@ -81,7 +81,11 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
         "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}}})");
   ScenarioSpec scenario = ReadScenario(file);
   scenario.world.detail = SceneDetail::kFull;
-  const auto simulator = MakeSimulator(scenario, 2);
+  // Each run is a program of its own.
+  const auto measure = [&](const FrontierPlan& plan, const KeptFrontier& kept,
+                           const FrontierProgress& on_progress) {
+    return MeasureFrontier(plan, scenario, *MakeSimulator(scenario, 2), kept, on_progress);
+  };
   const FrontierPlan plan{.rows = ChooseFrontierRows("geometry,footprint_16"),
                           .frames = {0, 5},
                           .approach_frames = {2},
@@ -92,12 +96,12 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
   const KeptFrontier kept(kept_folder, "a run");
   std::vector<std::string> whats;
   EXPECT_EQ(KeptShare(plan, kept), 0.0);
-  EXPECT_THROW((void)MeasureFrontier(plan, scenario, *simulator, kept,
-                                     [&](const std::string& what, double done) {
-                                       EXPECT_LE(done, 1.0);
-                                       whats.push_back(what);
-                                       if (what == "errors of frame 5") throw Stopped();
-                                     }),
+  EXPECT_THROW((void)measure(plan, kept,
+                             [&](const std::string& what, double done) {
+                               EXPECT_LE(done, 1.0);
+                               whats.push_back(what);
+                               if (what == "errors of frame 5") throw Stopped();
+                             }),
                Stopped);
   EXPECT_THAT(whats,
               testing::ElementsAre("timing frame 0", "reference of frame 0", "errors of frame 0",
@@ -107,9 +111,9 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
   EXPECT_NEAR(KeptShare(plan, kept), 1.8 / 2.5, 1e-9);
   const std::string times = ReadFileWhole(kept_folder / "times_0");
   const auto ignore = [](const std::string&, double) {};
-  const auto resumed = MeasureFrontier(plan, scenario, *simulator, kept, ignore);
+  const auto resumed = measure(plan, kept, ignore);
   EXPECT_EQ(ReadFileWhole(kept_folder / "times_0"), times) << "timed again";
-  const auto whole = MeasureFrontier(plan, scenario, *simulator, KeptFrontier(), ignore);
+  const auto whole = measure(plan, KeptFrontier(), ignore);
   ASSERT_EQ(resumed.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_EQ(resumed[i].times_ms.size(), whole[i].times_ms.size());
