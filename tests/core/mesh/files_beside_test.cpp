@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "core/base/error.h"
-#include "core/io/write_file.h"
+#include "core/base/input_file.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mtl_reader.h"
 #include "tests/core/io/message_of.h"
@@ -23,14 +25,18 @@ class FilesBeside : public testing::Test {
  protected:
   fs::path Write(const std::string& name, const std::string& bytes) const {
     fs::create_directories((folder_.path() / name).parent_path());
-    WriteFileWhole(folder_.path() / name, bytes);
+    std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
     return folder_.path() / name;
+  }
+  [[nodiscard]] static std::string Read(const fs::path& file) {
+    std::ifstream in = OpenInput(file);
+    return {std::istreambuf_iterator<char>(in), {}};
   }
   [[nodiscard]] std::vector<std::string> NamesBeside(const fs::path& file) const {
     std::vector<std::string> names;
-    for (const FileBeside& beside : FilesBesideMesh(ReadFileWhole(file), file)) {
+    for (const FileBeside& beside : FilesBesideMesh(Read(file), file)) {
       names.push_back(beside.name);
-      EXPECT_EQ(beside.bytes, ReadFileWhole(folder_.path() / beside.name));
+      EXPECT_EQ(beside.bytes, Read(folder_.path() / beside.name));
     }
     return names;
   }

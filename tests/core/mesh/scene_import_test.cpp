@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <string>
 #include <string_view>
 
-#include "core/io/write_file.h"
 #include "core/mesh/assimp_reader.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -79,9 +79,9 @@ TEST_F(SceneImport, PutsASkinWhereItsBonesAre) {
     // Half as large, for the joints are twice as large as the mesh.
     buffer += BytesOfFloats({0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, 0.5F, 0, 0, 0, 0, 1});
   }
-  WriteFileWhole(folder.path() / "skin.bin", buffer);
-  WriteFileWhole(folder.path() / "skin.gltf",
-                 R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+  std::ofstream(folder.path() / "skin.bin", std::ios::binary) << buffer;
+  std::ofstream(folder.path() / "skin.gltf", std::ios::binary)
+      << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
     "nodes": [{"mesh": 0, "skin": 0, "name": "body", "scale": [100, 100, 100]},
               {"name": "low", "scale": [2, 2, 2]},
               {"name": "high", "scale": [2, 2, 2], "translation": [0, 4, 0]}],
@@ -96,7 +96,7 @@ TEST_F(SceneImport, PutsASkinWhereItsBonesAre) {
                     {"buffer": 0, "byteOffset": 36, "byteLength": 12},
                     {"buffer": 0, "byteOffset": 48, "byteLength": 48},
                     {"buffer": 0, "byteOffset": 96, "byteLength": 128}],
-    "buffers": [{"byteLength": 224, "uri": "skin.bin"}]})");
+    "buffers": [{"byteLength": 224, "uri": "skin.bin"}]})";
   const ImportedMesh mesh = ReadMesh(folder.path() / "skin.gltf");
   // (0, 0, 0), (1, 4, 0) and (0, 1 + 4/2, 0), with y up.
   EXPECT_TRUE(BoxOf(mesh).isApprox(Box(Vector3(0, 0, 0), Vector3(1, 0, 4)), 1e-6));

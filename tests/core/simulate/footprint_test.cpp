@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSigma_rad = 0.75e-3;
 
-SimulatorSpec WideBeams() {
+SimulatorSpec SpecOfWideBeams() {
   SimulatorSpec spec{.detector = {.effects = {.footprint = true}}};
   spec.detector.beam.divergence_mrad = {3.0, 3.0};
   return spec;
@@ -43,7 +43,7 @@ double AzimuthOf(const ScanPattern& pattern, const Frame& frame, std::size_t slo
 
 TEST(Footprint, SeesTheShareOfABeamBesideAnEdge) {
   const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
-  const Frame frame = ScanOnce(HalfAWall(), pattern, WideBeams());
+  const Frame frame = ScanOnce(HalfAWall(), pattern, SpecOfWideBeams());
   int num_near = 0;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const double off_edge = -AzimuthOf(pattern, frame, slot) / kSigma_rad;
@@ -60,7 +60,7 @@ TEST(Footprint, LeavesThePlainAlone) {
   // Ground at grazing incidence: the ranges of neighbours differ by metres but lie on one plane.
   auto world = std::make_shared<SimpleWorld>();
   world->ground.parts.push_back({MakeFloor(-2.0F, 3000.0F), 1, 2});
-  SimulatorSpec spec = WideBeams();
+  SimulatorSpec spec = SpecOfWideBeams();
   const Frame wide = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
   spec.detector.effects = {.detection = true};
   const Frame single = ScanOnce(world, MakeRaster(10, 8, 0.25), spec);
@@ -116,7 +116,7 @@ TEST(Footprint, SeesAStepOfATenthOfAMetreAsAMixedPixel) {
   constexpr float kStep_m = 0.1F;
   auto world = HalfAWall();
   world->ground.parts.push_back({MakeWall(50.0F + kStep_m, 60.0F), 2, 1});
-  SimulatorSpec spec = WideBeams();
+  SimulatorSpec spec = SpecOfWideBeams();
   const ScanPattern pattern = MakeRaster(0.4, 0.2, 0.02);
   const Frame frame = ScanOnce(world, pattern, spec);
   int num_mixed = 0;
@@ -150,7 +150,7 @@ TEST(Footprint, FillsTheBeamInACrowd) {
     }
   }
   world->ground.parts = {{patches, 2, 1}, {MakeWall(53.0F, 60.0F), 2, 1}};
-  SimulatorSpec spec = WideBeams();
+  SimulatorSpec spec = SpecOfWideBeams();
   spec.detector.beam.divergence_mrad = {8.0, 8.0};
   spec.detector.receiver.return_mode = ReturnMode::kDual;
   const Frame frame = ScanOnce(world, MakeRaster(2.5, 2.5, 0.1), spec);

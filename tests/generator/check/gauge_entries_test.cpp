@@ -186,6 +186,7 @@ TEST(GaugeEntries, AreReportedInALineEach) {
                          .track = "main",
                          .begin_s_m = 81.24,
                          .end_s_m = 218.76,
+                         .stretches = {},
                          .deepest_s_m = 150.0,
                          .depth_m = 0.0754,
                          .bottom_m = 0.0,
