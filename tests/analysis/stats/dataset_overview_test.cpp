@@ -107,7 +107,7 @@ TEST_F(DatasetOverviewTest, RefusesAReportThatIsNone) {
 TEST_F(DatasetOverviewTest, RefusesNumbersThatDoNotFit) {
   EXPECT_EQ(MessageWith("/mine", 1), "unknown key mine");
   EXPECT_EQ(MessageWith("/duplicate_frames", 7), "/duplicate_frames: must be <= 6 (got 7)");
-  EXPECT_EQ(MessageWith("/splits/train/frames", 5), "/splits: must sum up to 6 (got 5)");
+  EXPECT_EQ(MessageWith("/splits/train/frames", 5), "/splits: must sum up to 6 (got 8)");
   EXPECT_EQ(MessageWith("/num_frames", 5), "/num_frames: must be 6, as manifest.json says (got 5)");
   EXPECT_EQ(MessageWith("/weathers", Json::object()), "/weathers: must sum up to 2 (got 0)");
   EXPECT_EQ(MessageWith("/objects/person/by_occlusion/far", 0),

@@ -86,7 +86,7 @@ TEST(ReadScenario, ReportsTheFaultsOfEveryFileAtOnce) {
 }
 
 // With that many keys, comparing each with all the others would take minutes.
-TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
+TEST(ReadScenario, NamesTwentyOf200000UnknownKeys) {
   const TemporaryFolder folder;
   std::vector<std::string> keys(200'000);
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = "fidelity_" + std::to_string(i);
@@ -95,10 +95,13 @@ TEST(ReadScenario, NamesEachOf200000UnknownKeys) {
   const auto file = folder.Write("a.json", OnMinimal(sections));
   std::istringstream faults(FaultsOf(file));
   std::string fault;
-  for (const std::string& key : keys) {
+  for (std::size_t i = 0; i < 20; ++i) {
     std::getline(faults, fault);
-    ASSERT_EQ(fault, file.string() + ": /" + key + ": unknown key, the nearest is \"fidelity\"");
+    ASSERT_EQ(fault,
+              file.string() + ": /" + keys[i] + ": unknown key, the nearest is \"fidelity\"");
   }
+  std::getline(faults, fault);
+  EXPECT_EQ(fault, "... and 199980 more faults");
   EXPECT_FALSE(std::getline(faults, fault)) << fault;
 }
 
