@@ -116,7 +116,8 @@ TEST(MeasureFrontier, GoesOnWhereAnEarlierRunWasStopped) {
   const auto whole = measure(plan, KeptFrontier(), ignore);
   ASSERT_EQ(resumed.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    EXPECT_EQ(resumed[i].times_ms.size(), whole[i].times_ms.size());
+    // How often a frame is timed depends on how long that takes.
+    EXPECT_EQ(resumed[i].times_ms.empty(), whole[i].times_ms.empty());
     ASSERT_EQ(resumed[i].difference.has_value(), whole[i].difference.has_value());
     if (!whole[i].difference) continue;
     EXPECT_EQ(resumed[i].difference->reference_echoes.num_matched,
