@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/detect/beam_optics.h"
 
 namespace railcast {
 namespace {
 
-// Facets of one surface are one plane if their normals differ by less than 2.5 degrees and the
-// centre of one is as close to the plane of the other as this: the roughness of ballast near the
-// sensor, float32 rounding, and chords of curved surfaces.
-constexpr float kLeastCosine2 = 0.998F;
-constexpr float kStep_m = 0.01F;
-constexpr float kStepPerRange = 3e-4F;
 // Beams with more facets than this are not worth the search for planes.
 constexpr std::size_t kMostPlanes = 8;
 constexpr std::size_t kMostPlanesOfCloserLook = 40;
+// Surfaces that more sub-rays of a closer look meet are known well enough.
+constexpr std::size_t kMostRaysOnThin = 64;
 // In place of the index of a surface.
 constexpr std::uint32_t kSeveralPlanes = 0xFFFFFFFFU;
 
@@ -29,15 +27,19 @@ constexpr float kFewSubRays = 16.0F;
 // than this multiple of it as good as certain.
 constexpr float kHardlyDetected = 0.7F;
 constexpr float kSurelyDetected = 1.3F;
+// Of so few hits on a surface, none may have met the part of it that faces the sensor.
+constexpr float kNumOfAnyStrength = 3.0F;
+// So many cells of sub-rays may be filled with something that none of them meets. With twice as
+// many, a closer look would be taken at two and a half times as many beams of the open line.
+constexpr float kMissedCells = 1.0F;
+// What lies beside all of them fills the margin of the beam at most.
+constexpr float kPassedCells = 0.5F;
 // Where each sub-ray is as strong as this, it does not matter how many they are.
 constexpr float kStrongSubRay = 10.0F;
 // Beams of more parts meet rough surfaces that fill them: four fifths of all beams with a cause for
 // a closer look, which would cost four times as much and find nothing more of thin things.
 constexpr std::size_t kMostParts = 4;
-
-float Dot(const Facet& a, const Facet& b) {
-  return a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
-}
+constexpr std::size_t kMostFacets = 8;
 
 }  // namespace
 
@@ -55,6 +57,7 @@ void FacetParts::Aim(const WideBeams& beams,
   beam_.num_rays = static_cast<std::size_t>(spec_.beam.footprint_rays);
   beam_.num_met = 0;
   beam_.missed_m = std::numeric_limits<float>::infinity();
+  beam_.passed_m = std::numeric_limits<float>::infinity();
   beam_.num_facets = 1;
   beam_.facets[0] = {};
 }
@@ -65,67 +68,18 @@ bool FacetParts::IsOneFacet() const {
                                   [=](std::uint32_t facet) { return facet == last; });
 }
 
-void FacetParts::SumUp() {
-  const std::size_t begin = sums_.size();
-  sums_.resize(begin + beam_.num_facets, Sums{});
-  for (std::size_t i = 0; i < beam_.num_rays; ++i) {
-    Sums& sums = sums_[begin + beam_.facet[i]];
-    if (sums.num++ == 0) {
-      sums.facet = beam_.facets[beam_.facet[i]];
-      sums.base_m = beam_.range_m[i];
-    }
-    const float range_m = beam_.range_m[i] - sums.base_m;
-    sums.range_m += range_m;
-    sums.range2_m2 += range_m * range_m;
-    sums.x += beam_.direction_x[i];
-    sums.y += beam_.direction_y[i];
-    sums.z += beam_.direction_z[i];
-  }
-  std::erase_if(sums_, [](const Sums& sums) { return sums.num == 0; });
-}
-
-void FacetParts::JoinPlanes(std::size_t most_planes) {
-  if (sums_.size() > most_planes) return;
-  const auto are_one_plane = [&](const Sums& a, const Sums& b) {
-    const Facet& plane = a.facet;
-    const Facet& other = b.facet;
-    if (plane.surface != other.surface) return false;
-    const float cosine = Dot(plane, other);
-    const float length2 = Dot(plane, plane);
-    if (cosine * cosine < kLeastCosine2 * length2 * Dot(other, other)) return false;
-    const float range_a =
-        (a.base_m + a.range_m / static_cast<float>(a.num)) / static_cast<float>(a.num);
-    const float range_b =
-        (b.base_m + b.range_m / static_cast<float>(b.num)) / static_cast<float>(b.num);
-    const float off = plane.normal_x * (range_b * b.x - range_a * a.x) +
-                      plane.normal_y * (range_b * b.y - range_a * a.y) +
-                      plane.normal_z * (range_b * b.z - range_a * a.z);
-    const float step_m = kStep_m + kStepPerRange * a.base_m;
-    return off * off <= step_m * step_m * length2;
-  };
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    for (std::size_t k = sums_.size(); --k > i;) {
-      if (!are_one_plane(sums_[i], sums_[k])) continue;
-      Sums& a = sums_[i];
-      const Sums& b = sums_[k];
-      const float shift_m = b.base_m - a.base_m;
-      const auto num = static_cast<float>(b.num);
-      a.range2_m2 += b.range2_m2 + 2.0F * shift_m * b.range_m + num * shift_m * shift_m;
-      a.range_m += b.range_m + num * shift_m;
-      a.x += b.x;
-      a.y += b.y;
-      a.z += b.z;
-      a.num += b.num;
-      sums_.erase(sums_.begin() + static_cast<std::ptrdiff_t>(k));
-    }
-  }
-}
-
-void FacetParts::AddParts(const WideBeams& beams, std::size_t lane, std::size_t num_rays) {
-  const float per_ray = 1.0F / static_cast<float>(num_rays);
-  RayTile& rays = batch_.rays;
+void FacetParts::BeginParts(std::size_t lane) {
   first_part_[lane] = found_.size() + num_in_batch_;
-  for (const Sums& sums : sums_) {
+  num_parts_[lane] = 0;
+  share_on_nothing_[lane] = 0.0F;
+}
+
+void FacetParts::AddParts(const WideBeams& beams,
+                          std::size_t lane,
+                          const FacetSums& all,
+                          float per_ray) {
+  RayTile& rays = batch_.rays;
+  for (const FacetSum& sums : all.all()) {
     const auto num = static_cast<float>(sums.num);
     if (sums.facet.surface == 0) {
       share_on_nothing_[lane] += num * per_ray;
@@ -174,16 +128,22 @@ void FacetParts::StoreLists(std::size_t num_lanes, PartLists& lists) const {
   lists.begin[num_lanes] = lists.parts.size();
 }
 
-// Notes the greatest power that something may send that the sub-rays have missed: a white one that
-// fills the cell of a sub-ray.
+// Notes the greatest power that something may send that the sub-rays have missed: a white one.
 void FacetParts::NoteMissed(const WideBeams& beams, std::size_t lane) {
   missed_ratio_[lane] = 0.0F;
   const bool is_crowd = beam_.num_rays < static_cast<std::size_t>(spec_.beam.footprint_rays);
-  if (is_crowd || !(beam_.missed_m < static_cast<float>(spec_.range_max_m))) return;
-  const float cell = 1.0F / static_cast<float>(beam_.num_rays);
-  const float range_m = std::max(beam_.missed_m, static_cast<float>(spec_.range_min_m));
-  missed_m_[lane] = range_m;
-  missed_ratio_[lane] = beams.detector.PowerRatio(cell, range_m, 0.0F);
+  if (is_crowd) return;
+  const auto note = [&](float cells, float missed_m) {
+    if (!(missed_m < static_cast<float>(spec_.range_max_m))) return;
+    const float share = cells / static_cast<float>(beam_.num_rays);
+    const float range_m = std::max(missed_m, static_cast<float>(spec_.range_min_m));
+    const float ratio = beams.detector.PowerRatio(share, range_m, 0.0F);
+    if (!(ratio > missed_ratio_[lane])) return;
+    missed_m_[lane] = range_m;
+    missed_ratio_[lane] = ratio;
+  };
+  note(kMissedCells, beam_.missed_m);
+  note(kPassedCells, beam_.passed_m);
 }
 
 // Notes that a beam lies on one plane, and how much power that sends if something may be before it.
@@ -193,7 +153,7 @@ void FacetParts::NotePlane(const WideBeams& beams, std::size_t lane, const Facet
   if (plane.surface == 0 || !(missed_ratio_[lane] > 0.0F)) return;
   // Triangles of the plane itself that no sub-ray meets are as far away as it is.
   constexpr float kBefore = 0.9F;
-  if (beam_.missed_m > kBefore * beam_.range_m[0]) {
+  if (missed_m_[lane] > kBefore * beam_.range_m[0]) {
     missed_ratio_[lane] = 0.0F;
     return;
   }
@@ -205,6 +165,13 @@ void FacetParts::NotePlane(const WideBeams& beams, std::size_t lane, const Facet
       beams.detector.PowerRatio(beams.detector.Reflectance(optics, cosine), beam_.range_m[0], 0.0F);
 }
 
+// The power of a part if it faced the sensor and filled the beam.
+float FacetParts::RatioOfFacing(const WideBeams& beams, const Component& part) {
+  if (part.surface == 0) return 0.0F;
+  const LaneOptics& optics = beams.table.optics[beams.table.surfaces[part.surface].material];
+  return beams.detector.PowerRatio(beams.detector.Reflectance(optics, 1.0F), part.range_m, 0.0F);
+}
+
 bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const {
   // A receiver of one return takes the strongest echo.
   const bool is_single = spec_.receiver.return_mode == ReturnMode::kStrongest;
@@ -212,7 +179,7 @@ bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const
   const auto merge_m = 2.0F * static_cast<float>(PulseSigma_m(spec_.beam));
   const Component* const parts = found_.data() + first_part_[lane];
   const std::size_t num_parts = num_parts_[lane];
-  if (num_parts > kMostParts) return false;
+  if (num_parts > kMostFacets) return false;
   float strongest = plane_surface_[lane] == kSeveralPlanes ? 0.0F : plane_ratio_[lane];
   float nearest_m = std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < num_parts; ++i) {
@@ -222,40 +189,109 @@ bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const
   }
   const float least = is_single ? 0.5F * strongest : 0.0F;
   const bool is_before = missed_m_[lane] < nearest_m - merge_m;
-  if (is_before && missed_ratio_[lane] > std::max(least, kHardlyDetected)) return true;
+  if (is_before && num_parts <= kMostParts &&
+      missed_ratio_[lane] > std::max(least, kHardlyDetected))
+    return true;
   for (std::size_t i = 0; i < num_parts; ++i) {
     float num = 0.0F;
     float ratio = 0.0F;
+    std::size_t num_others = 0;
     for (std::size_t k = 0; k < num_parts; ++k) {
-      if (std::fabs(parts[k].range_m - parts[i].range_m) > merge_m) continue;
+      if (std::fabs(parts[k].range_m - parts[i].range_m) > merge_m) {
+        ++num_others;
+        continue;
+      }
       num += num_rays * parts[k].share;
       ratio += parts[k].power_ratio;
     }
     const float of_one = ratio / num;
-    if (ratio < least || num > kFewSubRays || of_one > kStrongSubRay) continue;
-    if (ratio - kShareError * of_one < kSurelyDetected &&
-        ratio + kShareError * of_one > kHardlyDetected) {
+    if (num_others > kMostParts / 2 || num > kFewSubRays || of_one > kStrongSubRay) continue;
+    const float most_of_one =
+        num > kNumOfAnyStrength ? of_one : RatioOfFacing(beams, parts[i]) / num_rays;
+    const float most = ratio + kShareError * most_of_one;
+    if (most > std::max(least, kHardlyDetected) && ratio - kShareError * of_one < kSurelyDetected) {
       return true;
     }
   }
   return false;
 }
 
+bool FacetParts::TraceSet(const WideBeams& beams,
+                          const DetectTile& first,
+                          std::size_t lane,
+                          const BeamSubRays& set) {
+  Aim(beams, first, lane, set);
+  beam_.num_rays = kNumSubRays;
+  beams.caster.CastBeam(beam_);
+  return beam_.num_rays == kNumSubRays;  // Else a crowd, after all.
+}
+
 void FacetParts::LookCloser(const WideBeams& beams, const DetectTile& first, std::size_t lane) {
-  sums_.clear();
+  sums_.Clear();
+  met_.clear();
   for (const BeamSubRays& set : SubRaysOfCloserLook()) {
-    Aim(beams, first, lane, set);
-    beam_.num_rays = kNumSubRays;
-    beams.caster.CastBeam(beam_);
-    if (beam_.num_rays < kNumSubRays) return;  // A crowd, after all.
-    SumUp();
+    if (!TraceSet(beams, first, lane, set)) return;
+    sums_.Add(beam_);
+    for (std::size_t i = 0; i < kNumSubRays; ++i) {
+      const std::uint32_t surface = beam_.facets[beam_.facet[i]].surface;
+      if (surface != 0) met_[surface].push_back({set.h[i], set.v[i]});
+    }
   }
-  JoinPlanes(kMostPlanesOfCloserLook);
-  if (sums_.size() == 1) return;
+  thin_.clear();
+  float share = 1.0F;
+  std::size_t num_rays = kNumCloserSets * kNumSubRays;
+  for (const auto& [surface, places] : met_) {
+    if (places.size() > kMostRaysOnThin || num_rays < 2 * kMostRaysOnThin) continue;
+    ThinSurface thin{.surface = surface};
+    if (!LookAcross(beams, first, lane, places, thin)) continue;
+    num_rays -= sums_.Remove(surface);
+    share -= thin.share;
+    thin_.push_back(std::move(thin));
+  }
+  sums_.JoinPlanes(kMostPlanesOfCloserLook);
+  if (thin_.empty() && sums_.all().size() == 1) {
+    NotePlane(beams, lane, sums_.all()[0].facet);
+    BeginParts(lane);
+    return;
+  }
   plane_surface_[lane] = kSeveralPlanes;
-  num_parts_[lane] = 0;
-  share_on_nothing_[lane] = 0.0F;
-  AddParts(beams, lane, kNumCloserSets * kNumSubRays);
+  BeginParts(lane);
+  AddParts(beams, lane, sums_, share / static_cast<float>(num_rays));
+  for (const ThinSurface& thin : thin_) {
+    AddParts(beams, lane, thin.sums, thin.share / static_cast<float>(thin.num_rays));
+  }
+}
+
+bool FacetParts::LookAcross(const WideBeams& beams,
+                            const DetectTile& first,
+                            std::size_t lane,
+                            std::vector<BeamPlace> places,
+                            ThinSurface& thin) {
+  float share_of_one = 1.0F / (kNumCloserSets * kNumSubRays);
+  for (std::size_t set = 0; set < kNumStripSets; ++set) {
+    // The first set shows where in the strip the surface lies, the others how much of it.
+    if (set < 2) {
+      const std::optional<ThinStrip> strip =
+          FitStrip(places, share_of_one * static_cast<float>(places.size()));
+      if (!strip) return false;
+      strip_ = *strip;
+      share_of_one = strip_.Share() / kNumSubRays;
+      places.clear();
+    }
+    const BeamSubRays rays = SubRaysIn(strip_, set);
+    if (!TraceSet(beams, first, lane, rays)) return false;
+    for (std::size_t i = 0; i < kNumSubRays; ++i) {
+      if (beam_.facets[beam_.facet[i]].surface != thin.surface) continue;
+      places.push_back({rays.h[i], rays.v[i]});
+    }
+    if (set > 0) thin.sums.Add(beam_);
+  }
+  const auto is_at_side = [&](const BeamPlace& place) { return strip_.IsAtSide(place); };
+  if (places.empty() || std::ranges::any_of(places, is_at_side)) return false;
+  thin.sums.RemoveOthers(thin.surface);
+  thin.num_rays = places.size();
+  thin.share = share_of_one * static_cast<float>(places.size()) / (kNumStripSets - 1);
+  return true;
 }
 
 void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
@@ -273,13 +309,14 @@ void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
       NotePlane(beams, lane, beam_.facets[beam_.num_facets - 1]);
       continue;
     }
-    sums_.clear();
-    SumUp();
-    JoinPlanes(kMostPlanes);
-    if (sums_.size() == 1) {
-      NotePlane(beams, lane, sums_[0].facet);
+    sums_.Clear();
+    sums_.Add(beam_);
+    sums_.JoinPlanes(kMostPlanes);
+    if (sums_.all().size() == 1) {
+      NotePlane(beams, lane, sums_.all()[0].facet);
     } else {
-      AddParts(beams, lane, beam_.num_rays);
+      BeginParts(lane);
+      AddParts(beams, lane, sums_, 1.0F / static_cast<float>(beam_.num_rays));
     }
   }
   Flush(beams);
@@ -304,10 +341,11 @@ void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists
     // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
     Aim(beams, first, lane, SubRaysOfBeam());
     beams.caster.CastBeam(beam_);
-    sums_.clear();
-    SumUp();
-    JoinPlanes(kMostPlanes);
-    AddParts(beams, lane, beam_.num_rays);
+    sums_.Clear();
+    sums_.Add(beam_);
+    sums_.JoinPlanes(kMostPlanes);
+    BeginParts(lane);
+    AddParts(beams, lane, sums_, 1.0F / static_cast<float>(beam_.num_rays));
   }
   Flush(beams);
   StoreLists(first.num_rays, lists);

@@ -3,12 +3,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "core/detect/echo_finder.h"
+#include "core/detect/facet_sums.h"
 #include "core/detect/kernels.h"
 #include "core/detect/part_batch.h"
 #include "core/detect/sub_ray_pattern.h"
+#include "core/detect/thin_strip.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 
@@ -20,7 +23,8 @@ namespace railcast {
 /// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
 /// range is their mean, and its spread has the variance among them and the one within the cell of a
 /// sub-ray. Where a small share decides, because few sub-rays or none have met something that may
-/// be detected for its share alone, a closer look with kNumCloserSets times as many tells it. A
+/// be detected for its share alone, a closer look with kNumCloserSets times as many finds it, and
+/// sub-rays across a thin surface tell how much of the beam it takes (core/detect/thin_strip.h). A
 /// beam that lies on one plane as a whole is left to its central ray. Most others need none, so
 /// that the sub-rays come first: Trace(), central rays of those that NeedsCenter(), Find().
 ///
@@ -41,13 +45,12 @@ class FacetParts {
   void Find(const WideBeams& beams, const DetectTile& first, PartLists& lists);
 
  private:
-  /// Sums over the sub-rays on one facet, or on several in one plane. Ranges are counted from
-  /// `base_m`.
-  struct Sums {
-    std::uint32_t num;
-    Facet facet;
-    float base_m, range_m, range2_m2;
-    float x, y, z;
+  /// A thin surface in a beam, and the sub-rays across it that meet it.
+  struct ThinSurface {
+    std::uint32_t surface{};
+    float share{};
+    std::size_t num_rays{};
+    FacetSums sums{};
   };
 
   void Aim(const WideBeams& beams,
@@ -56,20 +59,36 @@ class FacetParts {
            const BeamSubRays& pattern);
   /// Whether all sub-rays are on one facet, or on none.
   [[nodiscard]] bool IsOneFacet() const;
-  void SumUp();
-  void JoinPlanes(std::size_t most_planes);
-  void AddParts(const WideBeams& beams, std::size_t lane, std::size_t num_rays);
+  void BeginParts(std::size_t lane);
+  void AddParts(const WideBeams& beams, std::size_t lane, const FacetSums& all, float per_ray);
   void NoteMissed(const WideBeams& beams, std::size_t lane);
   void NotePlane(const WideBeams& beams, std::size_t lane, const Facet& plane);
+  [[nodiscard]] static float RatioOfFacing(const WideBeams& beams, const Component& part);
   [[nodiscard]] bool NeedsCloserLook(const WideBeams& beams, std::size_t lane) const;
   void LookCloser(const WideBeams& beams, const DetectTile& first, std::size_t lane);
+  /// Traces a set of a closer look. Returns whether all of its sub-rays count.
+  bool TraceSet(const WideBeams& beams,
+                const DetectTile& first,
+                std::size_t lane,
+                const BeamSubRays& set);
+  /// Traces sub-rays across a surface that the sub-rays at some places meet.
+  /// @return whether the surface is thin and `thin` describes it.
+  bool LookAcross(const WideBeams& beams,
+                  const DetectTile& first,
+                  std::size_t lane,
+                  std::vector<BeamPlace> places,
+                  ThinSurface& thin);
   void Flush(const WideBeams& beams);
   void StoreLists(std::size_t num_lanes, PartLists& lists) const;
 
   DetectorSpec spec_;
   Kernels kernels_;
   BeamRays beam_;
-  std::vector<Sums> sums_;
+  FacetSums sums_;
+  // Of a closer look: where sub-rays meet surfaces, and those surfaces that are thin.
+  std::map<std::uint32_t, std::vector<BeamPlace>> met_;
+  std::vector<ThinSurface> thin_;
+  ThinStrip strip_;
   PartBatch batch_;
   std::size_t num_in_batch_{};
   std::vector<Component> found_;  // Responses of the batches so far.

@@ -156,7 +156,7 @@ struct ModelBeam {
 inline void PushChildren(TreePointer pointer,
                          float far,
                          SubRayPlaces& places,
-                         const BeamRays& beam,
+                         BeamRays& beam,
                          ModelBeam& model,
                          Stack& stack) {
   const BeamNode& node = NodeAt(pointer);
@@ -173,6 +173,7 @@ inline void PushChildren(TreePointer pointer,
     if (IsBoxMet(node, k, model.cone.origin, distances.farthest[k], model.probes, probe_far)) {
       Prefetch(node.child[k]);
     } else {
+      beam.passed_m = Least(beam.passed_m, distances.entry[k]);
       children &= ~(1U << k);
     }
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "core/detect/normal_table.h"
 #include "core/fidelity/yardstick.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
@@ -22,10 +23,11 @@
 namespace railcast {
 namespace {
 
-constexpr double kRowHalfAzimuth_deg = 6.0;
+constexpr double kRowHalfAzimuth_deg = 4.0;
 constexpr double kGoldenStep = std::numbers::phi - 1.0;
 constexpr int kManySubRays = 1024;
 constexpr std::uint32_t kWhitePoleLabel = 7;
+constexpr double kWhitePoleRadius_m = 0.005;
 
 /// ThinEchoes of thin objects.
 struct ThinEchoes {
@@ -74,10 +76,18 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
     return ModelOf(pole);
   }
 
+  [[nodiscard]] std::shared_ptr<const Model> WhitePole() const {
+    auto pole = std::make_shared<Model>();
+    pole->name = "white_pole";
+    pole->parts = {{MakeCylinder(kWhitePoleRadius_m, 6.0, 16), materials_.Index("white_paint"),
+                    kWhitePoleLabel}};
+    return pole;
+  }
+
   /// Objects side by side, every one at another place between the beams, with the ground 2.5 m
   /// below the sensor.
-  [[nodiscard]] ThinEchoes CompareRow(const std::shared_ptr<const Model>& model,
-                                      double range_m) const {
+  [[nodiscard]] std::shared_ptr<SimpleWorld> RowOf(const std::shared_ptr<const Model>& model,
+                                                   double range_m) const {
     auto world = std::make_shared<SimpleWorld>();
     world->ground.parts = {
         {MakeFloor(-2.5F, 600.0F), materials_.Index("soil"), labels_.Id("ground")}};
@@ -90,10 +100,20 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
       place.translation() = Vector3(range_m, (i - 0.5 * (num - 1) + shift) * kApart_m, -2.5);
       world->placements.push_back({model, place});
     }
+    return world;
+  }
+
+  [[nodiscard]] Simulator MakeSimulator(const std::shared_ptr<SimpleWorld>& world,
+                                        const EffectSet& effects) const {
     const ScanPattern pattern =
         BuildScanPattern(CutSector(scenario_.lidar.scan, {kRowHalfAzimuth_deg, -20.0, 12.0}));
-    Simulator simulator(world, pattern, materials_,
-                        SpecOf(scenario_.lidar, EffectsOfRung(Fidelity::kFootprint)), 0);
+    return {world, pattern, materials_, SpecOf(scenario_.lidar, effects), 0};
+  }
+
+  [[nodiscard]] ThinEchoes CompareRow(const std::shared_ptr<const Model>& model,
+                                      double range_m) const {
+    const std::shared_ptr<SimpleWorld> row = RowOf(model, range_m);
+    Simulator simulator = MakeSimulator(row, EffectsOfRung(Fidelity::kFootprint));
     Frame rung;
     simulator.Scan(0, rung);
     SimulatorSpec spec = SpecOf(scenario_.lidar, YardstickEffects());
@@ -102,10 +122,9 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
     Frame reference;
     simulator.Scan(0, reference);
     const ThinEchoes echoes = CompareThin(rung, reference, model->parts.front().label);
-    RecordProperty(
-        model->name + "_" + std::to_string(std::lround(range_m)) + "m_" + std::to_string(num),
-        std::to_string(echoes.missed) + " missed, " + std::to_string(echoes.added) + " added, of " +
-            std::to_string(echoes.expected));
+    RecordProperty(model->name + "_" + std::to_string(std::lround(range_m)) + "m",
+                   std::to_string(echoes.missed) + " missed, " + std::to_string(echoes.added) +
+                       " added, of " + std::to_string(echoes.expected));
     return echoes;
   }
 
@@ -119,23 +138,69 @@ TEST_P(ThinObjectsOn, HaveTheEchoesOfTheReferenceBeamByBeam) {
   ObjectSpec wire;
   wire.type = ObjectType::kHangingWire;
   ThinEchoes all;
-  all += CompareRow(ModelOf(wire), 20.0);
-  all += CompareRow(ModelOf(wire), 60.0);
-  all += CompareRow(PoleOf(0.05), 8.0);
-  all += CompareRow(PoleOf(0.01), 10.0);
-  all += CompareRow(PoleOf(0.01), 30.0);
-  ASSERT_GT(all.expected, 300.0);
-  EXPECT_LT(all.missed / all.expected, 0.04);
+  const auto compare = [&](const std::shared_ptr<const Model>& model, double range_m) {
+    SCOPED_TRACE(model->name + " at " + std::to_string(range_m) + " m");
+    const ThinEchoes echoes = CompareRow(model, range_m);
+    EXPECT_LE(echoes.missed, 3.0 + 0.03 * echoes.expected);
+    EXPECT_LE(echoes.added, 3.0 + 0.03 * echoes.expected);
+    all += echoes;
+  };
+  compare(ModelOf(wire), 20.0);
+  compare(ModelOf(wire), 60.0);
+  compare(PoleOf(0.05), 8.0);
+  compare(PoleOf(0.01), 10.0);
+  compare(PoleOf(0.01), 30.0);
+  ASSERT_GT(all.expected, 250.0);
+  EXPECT_LT(all.missed / all.expected, 0.03);
   EXPECT_LT(all.added / all.expected, 0.03);
 }
 
-// White poles of 1 cm at 110 m are at the threshold or below: 24 of them have 24, 33 and 133 echoes
-// in the reference, and 64 sub-rays alone add 33, 44 and 49 that are none.
-TEST_P(ThinObjectsOn, AtTheThresholdAddLessThanSixtyFourSubRaysDo) {
-  auto pole = std::make_shared<Model>();
-  pole->name = "white_pole";
-  pole->parts = {{MakeCylinder(0.005, 6.0, 16), materials_.Index("white_paint"), kWhitePoleLabel}};
-  EXPECT_LE(CompareRow(pole, 110.0).added, 28.0);
+// White poles of 1 cm at 110 m are at the threshold or below: 24 of them have 25, 35 and 128 echoes
+// in a reference of 4,095 sub-rays, and 64 sub-rays alone add 33, 44 and 49 that are none.
+TEST_P(ThinObjectsOn, AtTheThresholdAddHardlyAnyEcho) {
+  EXPECT_LE(CompareRow(WhitePole(), 110.0).added, 9.0);
+}
+
+// An upright pole that passes a beam from end to end takes a strip of its profile.
+TEST_P(ThinObjectsOn, TakeTheShareOfTheClosedForm) {
+  constexpr double kRange_m = 110.0;
+  // Before the sky, and away from the upper ends at 0.032.
+  constexpr double kLow_rad = 0.004, kHigh_rad = 0.025;
+  const std::shared_ptr<SimpleWorld> row = RowOf(WhitePole(), kRange_m);
+  EffectSet effects = EffectsOfRung(Fidelity::kFootprint);
+  effects.noise = effects.range_noise = effects.pointing_jitter = false;  // Directions as aimed.
+  Frame frame;
+  MakeSimulator(row, effects).Scan(0, frame);
+  const BeamSpec beam = SpecOf(scenario_.lidar, YardstickEffects()).detector.beam;
+  const double sigma_rad = 0.25e-3 * beam.divergence_mrad[0];
+  int num = 0;
+  double sum = 0.0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!HasPoint(frame.outcome[slot]) || frame.label[slot] != kWhitePoleLabel) continue;
+    const Eigen::Vector3d point(frame.x[slot], frame.y[slot], frame.z[slot]);
+    const double elevation_rad = std::asin(point.z() / point.norm());
+    if (elevation_rad < kLow_rad || elevation_rad > kHigh_rad) continue;
+    double expected = 0.0;
+    for (const Placement& pole : row->placements) {
+      const Vector3 foot_m = pole.chunk_from_model.translation();
+      const double distance_m = std::hypot(foot_m.x(), foot_m.y());
+      const double aside =
+          std::remainder(std::atan2(point.y(), point.x()) - std::atan2(foot_m.y(), foot_m.x()),
+                         2.0 * std::numbers::pi) *
+          std::cos(elevation_rad) / sigma_rad;
+      const double half = kWhitePoleRadius_m * std::cos(elevation_rad) / distance_m / sigma_rad;
+      if (std::fabs(aside) > 4.0) continue;
+      expected += NormalShare(aside - half, aside + half);
+    }
+    const double ratio = static_cast<double>(frame.footprint_share[slot]) / expected;
+    EXPECT_NEAR(ratio, 1.0, 0.12);
+    sum += ratio;
+    ++num;
+  }
+  RecordProperty("num", num);
+  RecordProperty("mean", std::to_string(sum / num));
+  if (num == 0) GTEST_SKIP() << "no echo of these poles";
+  EXPECT_NEAR(sum / num, 1.0, 0.02);  // Of echoes at the threshold, the stronger are detected.
 }
 
 INSTANTIATE_TEST_SUITE_P(SomeSensors,

@@ -82,6 +82,9 @@ struct alignas(64) BeamRays {
   /// At least this far away is whatever the ellipse of the sub-rays may meet, but none of them
   /// does: something thin, or an edge. A caster that knows of such things lowers it.
   float missed_m = std::numeric_limits<float>::infinity();
+  /// At least this far away are surfaces that the ellipse may meet and that lie beside all groups
+  /// of sub-rays. A caster that leaves such surfaces out lowers it.
+  float passed_m = std::numeric_limits<float>::infinity();
   float origin[3]{};  ///< m
   float axis[3]{};    ///< Direction of the beam's axis; unit length.
   /// The semi-axes of the ellipse that contains all sub-rays: every direction is a multiple of
