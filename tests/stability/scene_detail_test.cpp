@@ -80,6 +80,23 @@ TEST(SceneDetail, KeepsTheEchoesOfBeamsByLabelAndRange) {
               EchoesOf(Demo(Fidelity::kFootprint, SceneDetail::kAuto), 3));
 }
 
+// Blades two thirds as wide as these beams are 8 % brighter between 60 and 120 m.
+TEST(SceneDetail, KeepsTheGrassOfNarrowBeams) {
+  const auto narrow = [](SceneDetail detail) {
+    ScenarioSpec spec = Demo(Fidelity::kFootprint, detail);
+    spec.lidar.scan.pattern = RasterSpec{
+        .horizontal_fov_deg = 16.0, .vertical_fov_deg = 4.0, .angular_resolution_deg = 0.05};
+    spec.lidar.beam.divergence_mrad = {0.9, 0.9};
+    return spec;
+  };
+  const std::pair<std::string, int> place{"grass", 1};
+  const Echoes full = EchoesOf(narrow(SceneDetail::kFull), 10).at(place);
+  const Echoes coarser = EchoesOf(narrow(SceneDetail::kAuto), 10).at(place);
+  ASSERT_GT(full.count, 3000.0);
+  EXPECT_NEAR(coarser.count / full.count, 1.0, 0.02);
+  EXPECT_NEAR(coarser.intensity / coarser.count * full.count / full.intensity, 1.0, 0.03);
+}
+
 TEST(SceneDetail, HoldsForTreesThatSwayInTheWind) {
   ScenarioSpec full = Demo(Fidelity::kSurface, SceneDetail::kFull);
   ScenarioSpec coarser = Demo(Fidelity::kSurface, SceneDetail::kAuto);

@@ -15,9 +15,11 @@ constexpr BladeMerger kBladeMergers[] = {{.num = 2, .area = 0.992},
                                          {.num = 4, .area = 0.96},
                                          {.num = 8, .area = 0.92},
                                          {.num = 16, .area = 0.885}};
-// Where a blade is as wide as 1.8 spacings of the rays, and as two thirds of a beam.
+// Where a blade is as wide as 1.8 spacings of the rays, and as a third of a beam. Blades as wide as
+// two thirds of a beam fill more of one beam and less of the next: those that are detected were up
+// to 8 % brighter.
 constexpr double kRaySpacingPerBlade_m = 0.0061;
-constexpr double kBeamWidthPerBlade_m = 0.0165;
+constexpr double kBeamWidthPerBlade_m = 0.033;
 
 /// A blade that leans over towards its tip.
 Blade MakeBlade(const Vector3& foot_m, double height_m, PlantDice& dice) {
