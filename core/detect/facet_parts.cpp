@@ -190,8 +190,9 @@ bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const
   const float least = is_single ? 0.5F * strongest : 0.0F;
   const bool is_before = missed_m_[lane] < nearest_m - merge_m;
   if (is_before && num_parts <= kMostParts &&
-      missed_ratio_[lane] > std::max(least, kHardlyDetected))
+      missed_ratio_[lane] > std::max(least, kHardlyDetected)) {
     return true;
+  }
   for (std::size_t i = 0; i < num_parts; ++i) {
     float num = 0.0F;
     float ratio = 0.0F;
