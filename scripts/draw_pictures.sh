@@ -173,6 +173,11 @@ import open3d as o3d
 o3d.io.write_image(sys.argv[2], o3d.io.read_image(sys.argv[1]), quality=85)
 PYTHON
 
+# What detect shows of the person whom a train approaches.
+simulate brake scenarios/brake_person.json 285
+(cd "$runs" && "$analyze" detect brake --out detect > detect.txt)
+cp "$runs/detect/charts/seen_person.png" "$images/first_sight.png"
+
 # The report states its date: use that of the commit, so that the picture is reproducible.
 (cd "$runs" && SOURCE_DATE_EPOCH=$(git -C "$images" log -1 --format=%ct) "$analyze" stats demo --out stats > stats.txt)
 chromium --headless --no-sandbox --disable-gpu --no-first-run --user-data-dir="$runs/profile" \

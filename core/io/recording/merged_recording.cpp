@@ -143,6 +143,7 @@ class MergedRecording : public Recording {
       context.output.frame = OutputFrame::kVehicle;
     }
     // Points, poses and boxes are in the vehicle's axes.
+    info_.scenario->lidar.name = "merged";
     info_.scenario->lidar.mount = {.position_m = {0.0, 0.0, 0.0}};
     info_.scenario->lidar.mount_error = {};
     first_sensor_.emplace(ReadSequenceSummary(folder));
