@@ -107,7 +107,7 @@ class MergedRecording : public Recording {
   explicit MergedRecording(const fs::path& directory)
       : clouds_(directory / kMergedFile), poses_(directory / kPosesFile) {
     info_.source = directory;
-    info_.kind = "merged clouds";
+    info_.kind = kMergedKind;
     info_.num_frames = CountLines(directory / kMergedFile);
     static_cast<void>(poses_.Need());  // The names of the columns.
     MergedContext context{.directory = directory, .output = {}};

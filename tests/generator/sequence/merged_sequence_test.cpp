@@ -111,6 +111,7 @@ TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
   const auto merged = OpenRecording(Out("run/merged/"));
   const auto front = OpenRecording(Out("run/front"));
   EXPECT_EQ(merged->info().kind, "merged clouds");
+  EXPECT_EQ(merged->info().scenario->lidar.name, "merged");
   EXPECT_EQ(merged->info().num_frames, 2U);
   ASSERT_TRUE(merged->info().scenario);
   EXPECT_EQ(merged->info().labels.labels(), front->info().labels.labels());
@@ -136,6 +137,24 @@ TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
     }
   }
   EXPECT_FALSE(merged->Next());
+}
+
+TEST_F(MergedClouds, AreNamedWhereTheFolderAboveIsOpened) {
+  const auto message = [&] {
+    try {
+      (void)OpenRecording(Out("run"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ASSERT_EQ(Make("run", "--frames 1").status, 0);
+  const std::string run = Out("run").string();
+  const std::string sensors =
+      run + ": holds several sensors; must be one of " + run + "/front, " + run + "/roof";
+  EXPECT_EQ(message(), sensors);
+  ASSERT_EQ(Make("run", "--frames 1 --merged").status, 0);
+  EXPECT_EQ(message(), sensors + ", " + run + "/merged");
 }
 
 TEST_F(MergedClouds, AreARecordingWithoutTheirSensorsToo) {
