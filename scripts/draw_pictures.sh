@@ -41,7 +41,7 @@ draw view_compare demo --compare fog --frame 32 --show boxes,empty-beams --color
   --color-range 1,20
 draw view_noise demo --frame 40 --camera top --accumulate 32 --color-by noise
 draw view_trace demo --frame 20 --camera driver --select person,wagon \
-  --pick 668,352 --pick 761,431 --trace
+  --pick 618,342 --pick 770,410 --trace
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 simulate throat scenarios/osm_sankt_poelten/station_throat.json 61

@@ -84,10 +84,11 @@ std::vector<PlacedFrame> PickFrames(const SensorSource& sensor) {
   return picked;
 }
 
-/// The last two folders of a path: "000003/front".
+/// The last two parts of a path as it was given: "000003/front", "demo".
 std::string ShortName(const fs::path& path) {
-  const fs::path folder = fs::absolute(path / "").lexically_normal().parent_path();
-  return ShownText((folder.parent_path().filename() / folder.filename()).string());
+  // A path that ends in a slash has an empty last component.
+  const fs::path whole = (path / "").lexically_normal().parent_path();
+  return ShownText((whole.parent_path().filename() / whole.filename()).string());
 }
 
 std::vector<std::string> CloudRow(const SensorSource& sensor) {
