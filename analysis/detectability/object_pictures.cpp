@@ -60,7 +60,7 @@ std::string FrameText(const ShownFrame& shown) {
   return "frame " + NumberText(shown.recorded.frame.index);
 }
 
-std::string ClosePicture(const std::string& what, const ShownFrame& shown) {
+GridPicture ClosePicture(const std::string& what, const ShownFrame& shown) {
   const Transform box = RecordedMotion(shown.recorded, Compensation::kAll).BoxOf(shown.object);
   std::array<char, 64> seen{};
   std::snprintf(seen.data(), seen.size(), ", %.1f m, %u point%s", shown.sighting.distance_m,
@@ -71,7 +71,7 @@ std::string ClosePicture(const std::string& what, const ShownFrame& shown) {
                        .lines = LinesOf(box, shown.object.size_m)});
 }
 
-std::string ScenePicture(const ShownFrame& shown) {
+GridPicture ScenePicture(const ShownFrame& shown) {
   const Transform box = RecordedMotion(shown.recorded, Compensation::kAll).BoxOf(shown.object);
   const SeenWindow window = WindowAbout(box, shown.object.size_m, kMinHalfHeight_deg);
   return CloudPicture(
@@ -80,7 +80,7 @@ std::string ScenePicture(const ShownFrame& shown) {
 }
 
 // The camera's image of the frame or, of a camera with a lower rate, the latest before it.
-std::optional<std::string> SceneImage(const ShownFrame& shown) {
+std::optional<GridPicture> SceneImage(const ShownFrame& shown) {
   if (!shown.info.scenario || !shown.info.scenario->camera) return std::nullopt;
   const std::string& camera = shown.info.scenario->camera->name;
   for (std::uint32_t i = shown.recorded.frame.index + 1; i-- > 0;) {
@@ -97,7 +97,7 @@ std::optional<Picture> PictureOf(const DetectRun& run, const std::string& name) 
   const auto detected = ShownAt(run, name, detection.frame);
   const auto& last = detected ? detected : missed;
   if (!last) return std::nullopt;
-  std::vector<std::string> row;
+  std::vector<GridPicture> row;
   if (auto image = SceneImage(*last)) row.push_back(std::move(*image));
   row.push_back(ScenePicture(*last));
   if (missed) row.push_back(ClosePicture(detected ? "Last missed" : "Never detected", *missed));

@@ -7,7 +7,6 @@
 #include <sstream>
 #include <utility>
 
-#include "analysis/pictures/picture_grid.h"
 #include "analysis/report/chart_script.h"
 #include "core/base/units.h"
 #include "core/io/recorded_motion.h"
@@ -42,19 +41,29 @@ unsigned int ColorOf(unsigned int red, unsigned int green, unsigned int blue) {
   return red << 16U | green << 8U | blue;
 }
 
-unsigned int ColorAt(const RecordedFrame& recorded, const RecordingInfo& info, std::size_t slot) {
-  if (recorded.Has("label")) {
-    const Label* const label = info.labels.Find(recorded.frame.label[slot]);
-    return label == nullptr ? ColorOf(200, 200, 200)
-                            : ColorOf(label->rgb[0], label->rgb[1], label->rgb[2]);
+unsigned int ColorOfLabel(std::uint32_t id, const RecordingInfo& info) {
+  const Label* const label = info.labels.Find(id);
+  return label == nullptr ? ColorOf(200, 200, 200)
+                          : ColorOf(label->rgb[0], label->rgb[1], label->rgb[2]);
+}
+
+// From yellow at the nearest points to blue at the farthest, but for a fiftieth at either end.
+void ColorByRange(std::vector<SeenPoint>& points) {
+  if (points.empty()) return;
+  std::vector<double> ranges_m;
+  for (const SeenPoint& point : points) ranges_m.push_back(point.range_m);
+  std::ranges::sort(ranges_m);
+  const std::size_t fiftieth = ranges_m.size() / 50;
+  const double near_m = std::max(0.1, ranges_m[fiftieth]);
+  const double far_m = std::max(1.5 * near_m, ranges_m[ranges_m.size() - 1 - fiftieth]);
+  for (SeenPoint& point : points) {
+    const double share =
+        std::clamp(std::log(point.range_m / near_m) / std::log(far_m / near_m), 0.0, 1.0);
+    const auto mixed = [&](double near, double far) {
+      return static_cast<unsigned int>(std::lround(near + share * (far - near)));
+    };
+    point.color = ColorOf(mixed(255.0, 40.0), mixed(220.0, 110.0), mixed(60.0, 255.0));
   }
-  // From yellow at 2 m to blue at 200 m.
-  const double share = std::clamp(
-      std::log10(static_cast<double>(recorded.frame.range_m[slot]) / 2.0) / 2.0, 0.0, 1.0);
-  const auto mixed = [&](double near, double far) {
-    return static_cast<unsigned int>(std::lround(near + share * (far - near)));
-  };
-  return ColorOf(mixed(255.0, 40.0), mixed(220.0, 110.0), mixed(60.0, 255.0));
 }
 
 bool IsWithin(const SeenWindow& window, const SeenDirection& at) {
@@ -80,13 +89,16 @@ std::vector<SeenPoint> ShownPointsOf(const RecordedFrame& recorded,
                                      const std::optional<SeenWindow>& window) {
   const Frame& frame = recorded.frame;
   const RecordedMotion motion(recorded, Compensation::kAll);
+  const bool has_labels = recorded.Has("label");
   std::vector<SeenPoint> points;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isfinite(frame.x[slot] + frame.y[slot] + frame.z[slot])) continue;
     const Vector3 point_m = motion.PointOf(slot).cast<double>();
-    points.push_back({DirectionOf(point_m), point_m.norm(), ColorAt(recorded, info, slot)});
+    points.push_back({DirectionOf(point_m), point_m.norm(),
+                      has_labels ? ColorOfLabel(frame.label[slot], info) : 0U});
   }
   KeepShown(window, points);
+  if (!has_labels) ColorByRange(points);
   const std::size_t step = points.size() / kMostPoints + 1;
   std::vector<SeenPoint> kept;
   for (std::size_t i = 0; i < points.size(); i += step) kept.push_back(points[i]);
@@ -161,7 +173,7 @@ std::optional<RecordedFrame> ReadFrameAt(const PlacedFrame& placed, RecordingInf
   return (*reader)();
 }
 
-std::string CloudPicture(const RecordedFrame& recorded,
+GridPicture CloudPicture(const RecordedFrame& recorded,
                          const RecordingInfo& info,
                          const CloudView& view) {
   const std::vector<SeenPoint> points = ShownPointsOf(recorded, info, view.window);
@@ -176,7 +188,8 @@ std::string CloudPicture(const RecordedFrame& recorded,
        << extent.right_deg << "]\nset yrange [" << extent.low_deg << ':' << extent.high_deg
        << "]\nset size ratio -1\n";
   WritePlot(PointSizeOf(extent, points.size()), !points.empty(), !view.lines.empty(), text);
-  return text.str();
+  const double height_px = kPlaceWidth_px * extent.height_deg() / extent.width_deg();
+  return {text.str(), std::min(kPlaceHeight_px, static_cast<int>(std::ceil(height_px)))};
 }
 
 SeenWindow WindowAbout(const Transform& sensor_from_box,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/pictures/picture_grid.h"
 #include "railcast/io/recording.h"
 #include "railcast/transform.h"
 
@@ -47,9 +48,9 @@ struct PlacedFrame {
 [[nodiscard]] std::optional<RecordedFrame> ReadFrameAt(const PlacedFrame& placed,
                                                        RecordingInfo& info);
 
-/// gnuplot commands that draw a frame's points as seen from the sensor, in the colours of their
-/// labels or, without labels, by range. Motion during the scan is undone as far as it is known.
-[[nodiscard]] std::string CloudPicture(const RecordedFrame& recorded,
+/// A frame's points as seen from the sensor, in the colours of their labels or, without labels, by
+/// range. Motion during the scan is undone as far as it is known.
+[[nodiscard]] GridPicture CloudPicture(const RecordedFrame& recorded,
                                        const RecordingInfo& info,
                                        const CloudView& view);
 

@@ -8,18 +8,24 @@
 
 namespace railcast {
 
-/// The size of a picture's place in a grid, without its title.
+/// The size of a picture's place in a grid, without its title; rows may be lower.
 inline constexpr int kPlaceWidth_px = 480;
 inline constexpr int kPlaceHeight_px = 290;
 
-/// gnuplot commands that draw an image in the place.
-[[nodiscard]] std::string ImagePicture(const std::string& title, const std::filesystem::path& png);
+/// What is drawn in one place of a grid.
+struct GridPicture {
+  std::string script{};             ///< gnuplot commands.
+  int height_px = kPlaceHeight_px;  ///< What it needs of its place.
+};
 
-/// gnuplot commands that draw nothing but a title in the place.
-[[nodiscard]] std::string EmptyPicture(const std::string& title);
+/// An image.
+[[nodiscard]] GridPicture ImagePicture(const std::string& title, const std::filesystem::path& png);
 
-/// A picture of pictures in rows, each drawn by its commands.
+/// Nothing but a title.
+[[nodiscard]] GridPicture EmptyPicture(const std::string& title);
+
+/// A picture of pictures in rows, each as high as its highest.
 /// @pre There is a row, and each has a picture.
-[[nodiscard]] Picture GridOf(const std::vector<std::vector<std::string>>& rows);
+[[nodiscard]] Picture GridOf(const std::vector<std::vector<GridPicture>>& rows);
 
 }  // namespace railcast

@@ -84,21 +84,34 @@ std::vector<PlacedFrame> PickFrames(const SensorSource& sensor) {
   return picked;
 }
 
-/// The last two parts of a path as it was given: "000003/front", "demo".
+// The end of a name that would not fit above a picture.
+std::string TailOf(const std::string& text) {
+  constexpr std::size_t kMostBytes = 26;
+  if (text.size() <= kMostBytes) return text;
+  std::size_t begin = text.size() - (kMostBytes - 3);
+  // Do not cut within a UTF-8 character.
+  while (begin < text.size() && (static_cast<unsigned char>(text[begin]) >> 6) == 2) ++begin;
+  return "..." + text.substr(begin);
+}
+
+/// The last two parts of a path as it was given, such as "000003/front", or the last, if they are
+/// too long.
 std::string ShortName(const fs::path& path) {
   // A path that ends in a slash has an empty last component.
   const fs::path whole = (path / "").lexically_normal().parent_path();
-  return ShownText((whole.parent_path().filename() / whole.filename()).string());
+  const std::string both = ShownText((whole.parent_path().filename() / whole.filename()).string());
+  const std::string name = TailOf(both);
+  return name == both ? both : TailOf(ShownText(whole.filename().string()));
 }
 
-std::vector<std::string> CloudRow(const SensorSource& sensor) {
-  std::vector<std::string> row;
+std::vector<GridPicture> CloudRow(const SensorSource& sensor) {
+  std::vector<GridPicture> row;
   for (const PlacedFrame& picked : PickFrames(sensor)) {
     RecordingInfo info;
     const auto recorded = ReadFrameAt(picked, info);
     if (!recorded) break;
     row.push_back(CloudPicture(*recorded, info,
-                               {.title = sensor.name + ": " + ShortName(picked.recording) +
+                               {.title = TailOf(sensor.name) + ": " + ShortName(picked.recording) +
                                          ", frame " + NumberText(recorded->frame.index)}));
   }
   return row;
@@ -110,8 +123,8 @@ std::string FrameOf(const fs::path& image) {
   return name.substr(std::min(name.find_first_not_of('0'), name.size() - 1));
 }
 
-std::vector<std::string> ImageRow(const std::string& camera, const std::vector<fs::path>& images) {
-  std::vector<std::string> row;
+std::vector<GridPicture> ImageRow(const std::string& camera, const std::vector<fs::path>& images) {
+  std::vector<GridPicture> row;
   for (std::size_t i = 0; i < std::min(kColumns, images.size()); ++i) {
     const fs::path& image = images[PlaceOfColumn(i, images.size())];
     // RECORDING/camera/NAME/color/000012.png
@@ -125,7 +138,7 @@ std::vector<std::string> ImageRow(const std::string& camera, const std::vector<f
 }  // namespace
 
 Picture MakeSheet(const std::vector<fs::path>& recordings) {
-  std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<GridPicture>> rows;
   for (const SensorSource& sensor : SensorsOf(recordings)) {
     rows.push_back(CloudRow(sensor));
     for (const auto& [camera, images] : sensor.images) rows.push_back(ImageRow(camera, images));

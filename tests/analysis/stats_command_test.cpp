@@ -128,6 +128,28 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
               HasSubstr("width=\"960\" height=\"960\" src=\"data:image/png;base64,iVBOR"));
 }
 
+// A scan four times as wide as it is high leaves no empty room above it.
+TEST(StatsCommand, ShowsWideScansInLowRows) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(folder);
+  Json wide = Json::parse(ReadFileWhole(scenario));
+  wide["lidar"]["scan"]["pattern"]["horizontal_fov_deg"] = 60;
+  wide["lidar"]["scan"]["pattern"]["vertical_fov_deg"] = 15;
+  wide["lidar"]["mount"]["pitch_deg"] = 10;
+  WriteFileWhole(scenario, wide.dump());
+  const auto run = scenario.parent_path() / "run";
+  const auto out = scenario.parent_path() / "out";
+  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                                run.string() + " --frames 1");
+  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_EQ(Analyze("stats " + run.string() + " --out " + out.string()).status, 0);
+  const auto sheet = DecodePngRgb(ReadFileWhole(out / "charts" / "sheet.png"));
+  EXPECT_EQ(sheet.size.width_px, 480U);
+  // A title of 30 pixels and a quarter of the width; perspective bends the rim of the scan.
+  EXPECT_GT(sheet.size.height_px, 30U + 110U);
+  EXPECT_LT(sheet.size.height_px, 30U + 180U);
+}
+
 TEST(StatsCommand, FailsWhereItsTextIsLost) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
