@@ -1,6 +1,7 @@
 #include "generator/sequence/merged_sequence.h"
 
 #include <gtest/gtest.h>
+#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 
@@ -39,7 +40,9 @@ using Points = pcl::PointCloud<MergedPoint>;
 const fs::path kScenarios = fs::path(RAILCAST_SOURCE_DIR) / "scenarios";
 constexpr std::int64_t kMs = 1'000'000;
 
+// PCL warns where the cloud of a single sensor has no sensor_index.
 Points Read(const fs::path& file) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ERROR);
   Points points;
   EXPECT_EQ(pcl::io::loadPCDFile(file.string(), points), 0) << file;
   return points;
