@@ -89,7 +89,7 @@ std::vector<SeenPoint> ShownPointsOf(const RecordedFrame& recorded,
                                      const std::optional<SeenWindow>& window) {
   const Frame& frame = recorded.frame;
   const RecordedMotion motion(recorded, Compensation::kAll);
-  const bool has_labels = recorded.Has("label");
+  const bool has_labels = recorded.Has("label") && !info.labels.labels().empty();
   std::vector<SeenPoint> points;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isfinite(frame.x[slot] + frame.y[slot] + frame.z[slot])) continue;

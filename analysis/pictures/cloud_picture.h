@@ -48,8 +48,8 @@ struct PlacedFrame {
 [[nodiscard]] std::optional<RecordedFrame> ReadFrameAt(const PlacedFrame& placed,
                                                        RecordingInfo& info);
 
-/// A frame's points as seen from the sensor, in the colours of their labels or, without labels, by
-/// range. Motion during the scan is undone as far as it is known.
+/// A frame's points as seen from the sensor, in the colours of their labels or, where these are not
+/// known, by range. Motion during the scan is undone as far as it is known.
 [[nodiscard]] GridPicture CloudPicture(const RecordedFrame& recorded,
                                        const RecordingInfo& info,
                                        const CloudView& view);
