@@ -7,6 +7,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/detectability/detect_report.h"
+#include "analysis/detectability/object_pictures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
@@ -102,6 +103,13 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
   std::ranges::sort(runs, {}, &DetectRun::seed);
   Report report =
       MakeDetectReport(runs, spec, command_line, FactsOf(infos, num_frames), RungOf(infos));
+  if (!options.output.out.empty()) {
+    Section pictures = MakePictureSection(runs);
+    // Below the verdicts, which come first.
+    if (!pictures.pictures.empty()) {
+      report.sections.insert(report.sections.begin() + 1, std::move(pictures));
+    }
+  }
   AddProvenance(infos, ProgramVersion(), report);
   EmitReport(report, options.output, "detect");
   return kExitSuccess;

@@ -7,7 +7,6 @@
 
 #include "analysis/commands.h"
 #include "analysis/distinct_sources.h"
-#include "analysis/report/draw.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_section.h"
@@ -28,7 +27,6 @@ namespace {
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
   int num_threads = 0;
-  bool has_sheet = false;
   ReportOutput output;
 };
 
@@ -94,7 +92,7 @@ std::vector<MeasuredSource> LookAtSources(const std::vector<std::filesystem::pat
   return sources;
 }
 
-// The sections of data sets come first.
+// The sections of data sets come before all others with figures.
 void AddDatasetSections(const std::vector<MeasuredSource>& sources, Report& report) {
   std::vector<Section> sections;
   for (const MeasuredSource& source : sources) {
@@ -126,21 +124,15 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources, std::size_t nu
   return all;
 }
 
-void WriteSheet(const std::vector<MeasuredSource>& sources, const std::filesystem::path& out) {
+Section SheetSection(const std::vector<MeasuredSource>& sources) {
   std::vector<std::filesystem::path> recordings;
   for (const MeasuredSource& source : sources) {
     recordings.insert(recordings.end(), source.recordings.begin(), source.recordings.end());
   }
-  const SheetScript sheet = MakeSheet(recordings);
-  MakeFolder(out);
-  DrawDarkPng(sheet.text, sheet.width_px, sheet.height_px, out / "sheet.png");
-  std::cout << "sheet.png in " << ShownPath(out) << "\n";
+  return {.key = "sheet", .title = "What is seen", .pictures = {MakeSheet(recordings)}};
 }
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
-  if (options.has_sheet && options.output.out.empty()) {
-    throw InputError("--sheet: must be with --out");
-  }
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::vector<MeasuredSource> sources = LookAtSources(options.sources);
   const SourcesAtFirstSight seen = LookAtRecordings(sources);
@@ -151,9 +143,11 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   }
   Report report = MakeStatisticsReport(all, seen.infos, command_line);
   AddDatasetSections(sources, report);
+  if (!options.output.out.empty()) {
+    report.sections.insert(report.sections.begin(), SheetSection(sources));
+  }
   AddProvenance(seen.infos, ProgramVersion(), report);
   EmitReport(report, options.output, "stats");
-  if (options.has_sheet) WriteSheet(sources, options.output.out);
   return kExitSuccess;
 }
 
@@ -174,8 +168,6 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
-  stats->add_flag("--sheet", options->has_sheet,
-                  "Also draw sheet.png: frames of each sensor and camera side by side");
   AddReportOptions(*stats, options->output);
   stats->callback([&command, options] {
     command = [options](const std::string& line) { return RunStats(*options, line); };

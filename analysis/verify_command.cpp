@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "analysis/commands.h"
+#include "core/base/text.h"
+#include "core/io/sensor_folders.h"
 #include "core/io/verify/dataset_content.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/merged_verification.h"
 #include "core/io/verify/verification.h"
-#include "core/base/text.h"
-#include "core/io/sensor_folders.h"
 #include "core/program/progress_line.h"
 
 namespace railcast {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds README's commands against what scripts/demo.sh builds and makes.
+"""Holds README's commands, and what the demo says at its end, against what scripts/demo.sh builds and makes.
 
 Usage: check_readme.py [--run] [BUILD]        BUILD: the build's folder, default build/release
 
@@ -27,6 +27,8 @@ BLOCK = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 DOCUMENT = re.compile(r"<<'(\w+)'\n.*?^\1$", re.MULTILINE | re.DOTALL)
 PLACE = "build/release"  # The build's folder in README and in the scripts.
 BUILD_SCRIPT = "scripts/build.sh"
+# What the demo says of a file at its end.
+CLAIM = re.compile(r"^  \$PWD/(\S+) +(.*)$", re.MULTILINE)
 PYTHONPATH = f"{PLACE}/python"
 WINDOW_S = 15
 FRONTIER_S = 60
@@ -113,10 +115,33 @@ def command_faults(command, build, built, made):
     made |= {words[place + 1] for place, word in enumerate(words[:-1]) if word in ("--out", "--screenshot")}
 
 
+def demo_faults(demo, made):
+    """What the demo says of files that it does not make, and numbers in it that its commands do not have."""
+    numbers = set(re.findall(r"--frames? (\d+)", demo))
+    for path, words in CLAIM.findall(demo):
+        if not any(path.rstrip("/") == each or path.startswith(f"{each}/") for each in made):
+            yield f"scripts/demo.sh: nothing makes {path}"
+        for number in re.findall(r"\b\d+\b", words):
+            if number not in numbers:
+                yield f"scripts/demo.sh: says {number} of {path}, but no command has --frame or --frames {number}"
+
+
+def claimed_files_faults():
+    """What the demo names and has not made."""
+    for path, words in CLAIM.findall((ROOT / "scripts" / "demo.sh").read_text("utf-8")):
+        if not (ROOT / path).exists():
+            yield f"scripts/demo.sh: has not made {path}"
+        elif path.endswith("/"):
+            num_files, num_claimed = len(list((ROOT / path).iterdir())), int(words.split()[0])
+            if num_files != num_claimed:
+                yield f"scripts/demo.sh: has made {num_files} files in {path} and says {num_claimed}"
+
+
 def faults(text, build):
     demo = (ROOT / "scripts" / "demo.sh").read_text("utf-8")
     built = outputs_of(build, targets_of(demo))
     made = set(re.findall(r"(?:--out|--screenshot) (out/[\w./]+)", demo.replace("\\\n ", "")))
+    yield from demo_faults(demo, made)
     yield from install_faults(build, built)
     module = [file for file in built if re.fullmatch(r"python/railcast/_railcast\..*so", file)]
     if PYTHONPATH in text and not module:
@@ -168,7 +193,7 @@ def main(arguments):
     rest = [argument for argument in arguments if argument != "--run"]
     build = pathlib.Path(rest[0] if rest else ROOT / PLACE).resolve()
     text = (ROOT / "README.md").read_text("utf-8")
-    found = list(run_all(text, build) if is_run else faults(text, build))
+    found = [*claimed_files_faults(), *run_all(text, build)] if is_run else list(faults(text, build))
     for fault in found:
         print(fault, file=sys.stderr)
     return 1 if found else 0

@@ -41,7 +41,7 @@ draw view_compare demo --compare fog --frame 32 --show boxes,empty-beams --color
   --color-range 1,20
 draw view_noise demo --frame 40 --camera top --accumulate 32 --color-by noise
 draw view_trace demo --frame 20 --camera driver --select person,wagon \
-  --pick 668,352 --pick 761,431 --trace
+  --pick 618,342 --pick 770,410 --trace
 draw intensity demo --frame 20 --camera driver --color-by intensity
 draw snow snow --frame 20 --camera driver
 simulate throat scenarios/osm_sankt_poelten/station_throat.json 61
@@ -172,6 +172,11 @@ import open3d as o3d
 
 o3d.io.write_image(sys.argv[2], o3d.io.read_image(sys.argv[1]), quality=85)
 PYTHON
+
+# What detect shows of the person whom a train approaches.
+simulate brake scenarios/brake_person.json 285
+(cd "$runs" && "$analyze" detect brake --out detect > detect.txt)
+cp "$runs/detect/charts/seen_person.png" "$images/first_sight.png"
 
 # The report states its date: use that of the commit, so that the picture is reproducible.
 (cd "$runs" && SOURCE_DATE_EPOCH=$(git -C "$images" log -1 --format=%ct) "$analyze" stats demo --out stats > stats.txt)

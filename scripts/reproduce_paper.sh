@@ -62,11 +62,11 @@ printf '{"version": 1, "file": "%s", "camera": {"width_px": 600, "height_px": 37
   "$PWD/scenarios/st_gallen_approach.json" > "$runs/demo.json"
 "$generate" sequence "$runs/demo.json" --out "$runs/demo" --frames 21 > "$runs/log.txt"
 "$generate" sequence scenarios/parallel_wagons.json --out "$runs/wagons" --frames 60 >> "$runs/log.txt"
-draw published_overview demo --frame 10 --accumulate 11 --show boxes,track \
+draw published_overview demo --image off --frame 10 --accumulate 11 --show boxes,track \
   --eye=-35,-30,28 --target=45,4,-2
 draw published_wagons wagons --size 880x495 --frame 59 --accumulate 60 --color-by intensity \
   --select wagon,person --eye=8,-6,7 --target=32,4,0
-draw published_ego demo --size 600x375 --frame 20 --camera driver
+draw published_ego demo --image off --size 600x375 --frame 20 --camera driver
 cp "$runs/demo/camera/camera/color/000020.png" "$images/published_camera.png"
 dot -T svg docs/images/architecture.dot -o "$images/architecture.svg"
 

@@ -27,6 +27,15 @@ std::optional<std::size_t> FirstDetected(std::span<const Sighting> sightings,
   return std::nullopt;
 }
 
+/// The last frame with fewer points than the rule asks for.
+std::optional<std::uint32_t> LastMissed(std::span<const Sighting> sightings,
+                                        const DetectionRule& rule) {
+  for (std::size_t i = sightings.size(); i-- > 0;) {
+    if (sightings[i].points < rule.min_points) return sightings[i].frame;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ObjectDetection DetectObject(const ObjectCourse& course,
@@ -45,8 +54,10 @@ ObjectDetection DetectObject(const ObjectCourse& course,
   const auto detected = FirstDetected(approach, rule);
   const Sighting& sighting = approach[detected.value_or(0)];
   result.fate = detected ? Fate::kDetected : Fate::kNeverDetected;
+  result.missed_frame = LastMissed(approach.first(detected.value_or(approach.size())), rule);
   if (detected) {
     result.distance_m = sighting.distance_m;
+    result.frame = sighting.frame;
     result.is_from_start = approach.front().frame == 0 && *detected + 1 == rule.min_frames;
   }
   result.speed_mps = speed_mps.value_or(sighting.speed_mps);

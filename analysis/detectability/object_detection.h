@@ -28,6 +28,10 @@ struct ObjectDetection {
   Fate fate{};
   /// Distance at the frame that completes the rule; NaN if not detected.
   double distance_m = std::numeric_limits<double>::quiet_NaN();
+  /// The frame that completes the rule (Sighting::frame); absent if not detected.
+  std::optional<std::uint32_t> frame{};
+  /// The last frame of the approach, before that one, with fewer points than the rule asks for.
+  std::optional<std::uint32_t> missed_frame{};
   /// Whether the object reaches into the gauge of the own track ahead at any time of the approach.
   /// An object that does not is no reason to brake.
   bool is_in_way{};

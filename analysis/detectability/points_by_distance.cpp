@@ -37,9 +37,17 @@ BinsByDistance BinsOf(const std::vector<DetectRun>& runs,
   return bins;
 }
 
-/// Key such as "points_wagon_1", unique for each name, since it becomes a file name.
-std::string KeyOf(const std::string& name) {
-  std::string key = "points_";
+ChartSeries Upright(const std::string& title, double x, double high) {
+  ChartSeries series{title + " " + NumberText(std::round(x)) + " m", SeriesStyle::kLine, {}};
+  constexpr double kLow = 0.1;
+  for (const double y : {kLow, high}) series.points.push_back({.x = x, .y = y});
+  return series;
+}
+
+}  // namespace
+
+std::string KeyOfObject(const std::string& prefix, const std::string& name) {
+  std::string key = prefix;
   for (const char letter : name) {
     const bool is_plain = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
     if (is_plain || letter == '_') {
@@ -51,15 +59,6 @@ std::string KeyOf(const std::string& name) {
   }
   return key;
 }
-
-ChartSeries Upright(const std::string& title, double x, double high) {
-  ChartSeries series{title + " " + NumberText(std::round(x)) + " m", SeriesStyle::kLine, {}};
-  constexpr double kLow = 0.1;
-  for (const double y : {kLow, high}) series.points.push_back({.x = x, .y = y});
-  return series;
-}
-
-}  // namespace
 
 Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule) {
   Table table;
@@ -88,7 +87,7 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
                   const Verdict& verdict,
                   const DetectionRule& rule) {
   Chart chart;
-  chart.key = KeyOf(verdict.name);
+  chart.key = KeyOfObject("points_", verdict.name);
   chart.title = "Points on " + verdict.name + " against distance";
   chart.caption =
       std::string(

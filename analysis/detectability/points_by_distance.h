@@ -18,7 +18,10 @@ inline constexpr double kDistanceBin_m = 10.0;
 /// point.
 [[nodiscard]] Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule);
 
-/// As above for one object, with the rule and the distances needed and reached.
+/// Key such as "points_wagon_1", unique for each name of an object, since it becomes a file name.
+[[nodiscard]] std::string KeyOfObject(const std::string& prefix, const std::string& name);
+
+/// The points of one object, with the rule and the distances needed and reached.
 [[nodiscard]] Chart PointsChart(const std::vector<DetectRun>& runs,
                                 const Verdict& verdict,
                                 const DetectionRule& rule);

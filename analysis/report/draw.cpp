@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
 #include "analysis/report/output.h"
 #include "core/base/error.h"
@@ -110,20 +111,38 @@ void EraseEmptyGroups(std::string& text) {
   }
 }
 
+// gnuplot can report success without having drawn anything.
+void CheckDrawn(const std::string& bytes) {
+  if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
+}
+
+std::string DrawPicture(const Picture& picture, const std::filesystem::path& script) {
+  WriteFileWhole(script, picture.script);
+  const std::string png = GnuplotOutput(
+      script,
+      Joined({"set encoding utf8; set terminal pngcairo noenhanced background '#1b1b1d' size ",
+              std::to_string(picture.width_px), ",", std::to_string(picture.height_px),
+              " font 'sans-serif,12'"}));
+  CheckDrawn(png);
+  return png;
+}
+
 }  // namespace
 
-std::map<std::string, std::string> DrawCharts(const Report& report,
-                                              const std::filesystem::path& folder) {
+std::map<std::string, std::string> DrawAll(const Report& report,
+                                           const std::filesystem::path& folder) {
   const DrawingFolder drawings;
   std::string script;
+  bool has_pictures = false;
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
       script += DrawingOf(chart, drawings.path() / (chart.key + ".svg"),
                           drawings.path() / (chart.key + ".png"));
     }
+    has_pictures = has_pictures || !section.pictures.empty();
   }
-  std::map<std::string, std::string> svgs;
-  if (script.empty()) return svgs;
+  std::map<std::string, std::string> drawn;
+  if (script.empty() && !has_pictures) return drawn;
   WriteFileWhole(drawings.path() / "charts.gnuplot", script);
   (void)GnuplotOutput(drawings.path() / "charts.gnuplot", "set encoding utf8");
   MakeFolder(folder);
@@ -134,10 +153,15 @@ std::map<std::string, std::string> DrawCharts(const Report& report,
       WriteFileWhole(folder / (chart.key + ".svg"), svg);
       WriteFileWhole(folder / (chart.key + ".png"),
                      ReadFileWhole(drawings.path() / (chart.key + ".png")));
-      svgs.emplace(chart.key, svg);
+      drawn.emplace(chart.key, svg);
+    }
+    for (const Picture& picture : section.pictures) {
+      const std::string png = DrawPicture(picture, drawings.path() / "picture.gnuplot");
+      WriteFileWhole(folder / (picture.key + ".png"), png);
+      drawn.emplace(picture.key, png);
     }
   }
-  return svgs;
+  return drawn;
 }
 
 void DrawSheet(const std::vector<Chart>& charts,
@@ -148,27 +172,11 @@ void DrawSheet(const std::vector<Chart>& charts,
   const auto draw = [&](const std::string& terminal, const std::string& ending) {
     const std::string bytes = GnuplotOutput(
         script, "set encoding utf8; set terminal " + terminal + " noenhanced rounded");
-    // gnuplot can report success without having drawn anything.
-    if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
+    CheckDrawn(bytes);
     WriteFileWhole(picture.string() + ending, bytes);
   };
   draw("svg size 1200,900 background '#ffffff' font 'sans-serif,14'", ".svg");
   draw("pngcairo size 1200,900 font 'sans-serif,10'", ".png");
-}
-
-void DrawDarkPng(const std::string& script,
-                 int width_px,
-                 int height_px,
-                 const std::filesystem::path& png) {
-  const DrawingFolder drawings;
-  WriteFileWhole(drawings.path() / "script.gnuplot", script);
-  const std::string size = std::to_string(width_px) + "," + std::to_string(height_px);
-  const std::string bytes = GnuplotOutput(
-      drawings.path() / "script.gnuplot",
-      "set encoding utf8; set terminal pngcairo noenhanced background '#1b1b1d' size " + size +
-          " font 'sans-serif,9'");
-  if (bytes.empty()) throw InputError("gnuplot: failed (the numbers are written)");
-  WriteFileWhole(png, bytes);
 }
 
 std::string CleanSvg(const std::string& gnuplot_svg, const std::string& prefix) {

@@ -79,11 +79,17 @@ Json JsonOf(const Section& section) {
   for (const Table& table : section.tables) tables.push_back(JsonOf(table));
   Json charts = Json::array();
   for (const Chart& chart : section.charts) charts.push_back(JsonOf(chart));
+  Json pictures = Json::array();
+  for (const Picture& picture : section.pictures) {
+    pictures.push_back(
+        {{"key", picture.key}, {"title", picture.title}, {"caption", picture.caption}});
+  }
   return {{"key", section.key},
           {"title", section.title},
           {"paragraphs", section.paragraphs},
           {"tables", std::move(tables)},
-          {"charts", std::move(charts)}};
+          {"charts", std::move(charts)},
+          {"pictures", std::move(pictures)}};
 }
 
 std::string CsvText(const std::string& text) {

@@ -32,8 +32,8 @@ namespace railcast {
 
 /// One self-contained HTML page, in light and dark, that needs no network and no script; on paper
 /// all sections are unfolded.
-/// @param svgs The charts by key (analysis/report/draw.h).
+/// @param drawn Charts and pictures by key (analysis/report/draw.h).
 [[nodiscard]] std::string ReportPage(const Report& report,
-                                     const std::map<std::string, std::string>& svgs);
+                                     const std::map<std::string, std::string>& drawn);
 
 }  // namespace railcast

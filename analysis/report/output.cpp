@@ -17,10 +17,13 @@ namespace {
 
 // Checks the preconditions that report.h states.
 void CheckSound(const Report& report) {
-  std::set<std::string> charts, tables;
+  std::set<std::string> drawings, tables;
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
-      Check(charts.insert(chart.key).second, "keys of charts are unique");
+      Check(drawings.insert(chart.key).second, "keys of charts are unique");
+    }
+    for (const Picture& picture : section.pictures) {
+      Check(drawings.insert(picture.key).second, "keys of pictures are unique");
     }
     for (const Table& table : section.tables) {
       Check(tables.insert(table.key).second, "keys of tables are unique");
@@ -49,7 +52,7 @@ void WriteFiles(const Report& report,
   WriteTables(report, out / "csv");
   // The drawings come last, so that everything else is written even without gnuplot.
   WriteFileWhole(out / "report.html", ReportPage(report, {}));
-  WriteFileWhole(out / "report.html", ReportPage(report, DrawCharts(report, out / "charts")));
+  WriteFileWhole(out / "report.html", ReportPage(report, DrawAll(report, out / "charts")));
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 #include <cstdlib>
 #include <kainjow/mustache.hpp>
 #include <numeric>
@@ -163,22 +165,42 @@ data HeadlineData(const Headline& headline) {
                 {"samples", text.samples}};
 }
 
+// A PNG as the URL that a page shows without asking for anything.
+std::string PngUrl(const std::string& png) {
+  using namespace boost::archive::iterators;
+  using Letters = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  std::string url = "data:image/png;base64,";
+  url.append(Letters(png.begin()), Letters(png.end()));
+  return url.append((3 - png.size() % 3) % 3, '=');
+}
+
+data PictureData(const Picture& picture, const std::map<std::string, std::string>& drawn) {
+  const auto png = drawn.find(picture.key);
+  return object{{"title", picture.title},
+                {"caption", IfAny(picture.caption)},
+                {"width", std::to_string(picture.width_px)},
+                {"height", std::to_string(picture.height_px)},
+                {"url", png == drawn.end() ? data(false) : data(PngUrl(png->second))}};
+}
+
 // The drawing from the attributes of its <svg> element on; the template writes the tag.
-data DrawingData(const Chart& chart, const std::map<std::string, std::string>& svgs) {
-  const auto svg = svgs.find(chart.key);
-  if (svg == svgs.end()) return false;
+data DrawingData(const Chart& chart, const std::map<std::string, std::string>& drawn) {
+  const auto svg = drawn.find(chart.key);
+  if (svg == drawn.end()) return false;
   return svg->second.substr(svg->second.find("<svg") + 4);
 }
 
-data SectionData(const Section& section, const std::map<std::string, std::string>& svgs) {
+data SectionData(const Section& section, const std::map<std::string, std::string>& drawn) {
   const auto chart_data = [&](const Chart& chart) {
     return object{{"title", chart.title},
                   {"caption", IfAny(chart.caption)},
-                  {"drawing", DrawingData(chart, svgs)}};
+                  {"drawing", DrawingData(chart, drawn)}};
   };
+  const auto picture_data = [&](const Picture& picture) { return PictureData(picture, drawn); };
   return object{{"key", section.key},
                 {"title", section.title},
                 {"paragraphs", ListOf(section.paragraphs, [](const auto& text) { return text; })},
+                {"pictures", ListOf(section.pictures, picture_data)},
                 {"has_charts", !section.charts.empty()},
                 {"charts", ListOf(section.charts, chart_data)},
                 {"tables", ListOf(section.tables, TableData)}};
@@ -197,11 +219,11 @@ list Paints() {
 
 }  // namespace
 
-std::string ReportPage(const Report& report, const std::map<std::string, std::string>& svgs) {
+std::string ReportPage(const Report& report, const std::map<std::string, std::string>& drawn) {
   const auto fact_data = [](const auto& fact) {
     return object{{"name", fact.first}, {"fact", fact.second}};
   };
-  const auto section_data = [&](const Section& section) { return SectionData(section, svgs); };
+  const auto section_data = [&](const Section& section) { return SectionData(section, drawn); };
   kainjow::mustache::mustache page(kPageHtml);
   Check(page.is_valid(), "the page's template is sound");
   return page.render(object{{"title", report.title},

@@ -79,12 +79,23 @@ struct Chart {
   std::vector<ChartSeries> series{};
 };
 
+/// A picture of clouds and images on a dark ground.
+struct Picture {
+  std::string key{};      ///< Name of its PNG file, unique among charts and pictures of a report.
+  std::string title{};    ///< What the picture shows, in a few words.
+  std::string caption{};  ///< One or two sentences below it; may be empty.
+  std::string script{};   ///< gnuplot commands that draw it and set neither terminal nor output.
+  int width_px{};
+  int height_px{};
+};
+
 struct Section {
   std::string key{};
   std::string title{};
   std::vector<std::string> paragraphs{};  ///< Plain text: definitions, assumptions, findings.
   std::vector<Chart> charts{};
   std::vector<Table> tables{};
+  std::vector<Picture> pictures{};  ///< Shown before the charts.
 };
 
 /// A key figure for the top of the report.

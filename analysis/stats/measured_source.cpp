@@ -2,12 +2,12 @@
 
 #include <utility>
 
-#include "core/io/verify/dataset_content.h"
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
+#include "core/io/verify/dataset_content.h"
 
 namespace railcast {
 

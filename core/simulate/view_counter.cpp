@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "core/trace/beam_tile.h"
+
 namespace railcast {
 namespace {
 
@@ -24,16 +26,6 @@ void CopyPacket(const RayTile& from, std::size_t first, RayTile& to) {
         &RayTile::direction_y, &RayTile::direction_z, &RayTile::shutter}) {
     copy(member);
   }
-}
-
-void CopyBeam(const BeamRays& from, RayTile& to) {
-  std::fill_n(to.origin_x, kPacketSize, from.origin[0]);
-  std::fill_n(to.origin_y, kPacketSize, from.origin[1]);
-  std::fill_n(to.origin_z, kPacketSize, from.origin[2]);
-  std::copy_n(from.direction_x, kPacketSize, to.direction_x);
-  std::copy_n(from.direction_y, kPacketSize, to.direction_y);
-  std::copy_n(from.direction_z, kPacketSize, to.direction_z);
-  std::fill_n(to.shutter, kPacketSize, from.shutter);
 }
 
 }  // namespace
@@ -62,7 +54,7 @@ void ViewCounter::Add(const BeamTracer& tracer,
     packet.lanes = (1U << kPacketSize) - 1U;
     for (std::size_t lane = 0; lane < num_firings; ++lane) {
       tracer.AimSubRays(work, beam_frame, lane, beam);
-      CopyBeam(beam, packet.rays);
+      CopySubRays(beam, kPacketSize, packet.rays);
       ForgetHits(packet.rays, range_max_m);
       Count(packet);
     }

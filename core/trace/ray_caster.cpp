@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/trace/beam_tile.h"
 
 namespace railcast {
 namespace {
@@ -28,13 +29,7 @@ void RayCaster::CastBeam(BeamRays& beam) const {
   RayTile tile{};
   tile.num_rays = beam.num_rays;
   tile.mask = beam.mask;
-  std::fill_n(tile.origin_x, kNumSubRays, beam.origin[0]);
-  std::fill_n(tile.origin_y, kNumSubRays, beam.origin[1]);
-  std::fill_n(tile.origin_z, kNumSubRays, beam.origin[2]);
-  std::copy_n(beam.direction_x, kNumSubRays, tile.direction_x);
-  std::copy_n(beam.direction_y, kNumSubRays, tile.direction_y);
-  std::copy_n(beam.direction_z, kNumSubRays, tile.direction_z);
-  std::fill_n(tile.shutter, kNumSubRays, beam.shutter);
+  CopySubRays(beam, kNumSubRays, tile);
   std::copy_n(beam.range_m, kNumSubRays, tile.range_m);
   Cast(tile);
   for (std::size_t i = 0; i < beam.num_rays; ++i) {

@@ -1,5 +1,7 @@
 #include "generator/python/held_simulation.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -52,7 +54,8 @@ std::optional<std::uint32_t> TimeOfPoints(const ObjectInFrame& object) {
 HeldSimulation::HeldSimulation(const ScenarioSpec& scenario,
                                std::int64_t num_threads,
                                std::function<bool()> is_interrupted)
-    : is_interrupted_(std::move(is_interrupted)),
+    : made_in_(::getpid()),
+      is_interrupted_(std::move(is_interrupted)),
       labels_(scenario.labels),
       simulators_(MakeSimulators(scenario, CheckedThreads(num_threads))),
       surveys_(simulators_.size()) {
@@ -88,6 +91,19 @@ void HeldSimulation::ChooseEffects() {
   }
 }
 
+bool HeldSimulation::IsOfThisProcess() const {
+  return ::getpid() == made_in_;
+}
+
+// Asks before it locks: another thread may have held the lock when the process was forked.
+std::unique_lock<std::mutex> HeldSimulation::LockHere() {
+  if (!IsOfThisProcess()) {
+    throw InputError(
+        "simulator: must be used in the process that made it (got one forked from that)");
+  }
+  return std::unique_lock(mutex_);
+}
+
 std::size_t HeldSimulation::IndexOf(const Sensor& sensor) const {
   const std::vector<std::string> names = SensorNames(scenario());
   if (const auto* const name = std::get_if<std::string>(&sensor)) {
@@ -112,7 +128,7 @@ std::uint32_t HeldSimulation::FrameOf(std::int64_t frame, std::size_t sensor) co
 std::shared_ptr<RecordedFrame> HeldSimulation::Scan(std::int64_t frame,
                                                     const Sensor& sensor,
                                                     bool has_objects) {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = LockHere();
   const std::size_t index = IndexOf(sensor);
   const std::uint32_t number = FrameOf(frame, index);
   std::shared_ptr<RecordedFrame> made = pools_[index]->Take();
@@ -177,7 +193,7 @@ std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
 std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
                                              const Sensor& sensor,
                                              const RailReach& reach) {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = LockHere();
   CheckLength("behind_m", reach.behind_m);
   CheckLength("ahead_m", reach.ahead_m);
   const std::size_t index = IndexOf(sensor);
@@ -189,7 +205,7 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
 }
 
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
-  const std::lock_guard lock(mutex_);
+  const std::unique_lock lock = LockHere();
   const Command command = CommandOf(line);
   const std::size_t index = IndexOf(sensor);
   const std::int64_t time_ns = simulators_[index]->pattern().StampNs(FrameOf(frame, index));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -60,10 +62,15 @@ class HeldSimulation {
                                              const Sensor& sensor,
                                              const RailReach& reach);
 
+  /// False in a process that was forked after the simulation was made, where its threads are
+  /// missing: the above throw InputError there, and the destructor would wait for them forever.
+  [[nodiscard]] bool IsOfThisProcess() const;
+
   [[nodiscard]] const ScenarioSpec& scenario() const { return run_->scenario(); }
   [[nodiscard]] const LabelTable& labels() const { return labels_; }
 
  private:
+  [[nodiscard]] std::unique_lock<std::mutex> LockHere();
   [[nodiscard]] std::size_t IndexOf(const Sensor& sensor) const;
   [[nodiscard]] std::uint32_t FrameOf(std::int64_t frame, std::size_t sensor) const;
   void WatchForInterruption();
@@ -74,6 +81,7 @@ class HeldSimulation {
                                                      const Frame& frame,
                                                      const std::vector<ObjectView>& views);
 
+  const pid_t made_in_;
   std::mutex mutex_;
   std::function<bool()> is_interrupted_;
   std::atomic<bool> was_interrupted_ = false;

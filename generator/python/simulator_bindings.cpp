@@ -52,11 +52,20 @@ ScenarioSpec ReadScenarioOf(const py::object& scenario, const std::filesystem::p
   return WithoutGil([&] { return ReadScenarioText(text, file); });
 }
 
-std::unique_ptr<HeldSimulation> MakeSimulation(const py::object& scenario,
-                                               const std::filesystem::path& file,
-                                               std::int64_t threads) {
+/// In a process that was forked from the maker's, the simulation lasts until the process ends.
+struct EndWhereMade {
+  void operator()(HeldSimulation* simulation) const {
+    if (simulation->IsOfThisProcess()) delete simulation;
+  }
+};
+using SimulationPointer = std::unique_ptr<HeldSimulation, EndWhereMade>;
+
+SimulationPointer MakeSimulation(const py::object& scenario,
+                                 const std::filesystem::path& file,
+                                 std::int64_t threads) {
   const ScenarioSpec spec = ReadScenarioOf(scenario, file);
-  return WithoutGil([&] { return std::make_unique<HeldSimulation>(spec, threads, IsInterrupted); });
+  return WithoutGil(
+      [&] { return SimulationPointer(new HeldSimulation(spec, threads, IsInterrupted)); });
 }
 
 py::array_t<double> LineArray(const std::vector<Vector3>& line_m) {
@@ -93,7 +102,7 @@ void ApplyCommand(HeldSimulation& self,
   WithoutGil([&] { self.Apply(line, frame, sensor); });
 }
 
-using SimulatorClass = py::class_<HeldSimulation>;
+using SimulatorClass = py::class_<HeldSimulation, SimulationPointer>;
 
 void AddWork(SimulatorClass& simulator) {
   simulator

@@ -1,10 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/io/png_decoder.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
 
@@ -38,7 +41,7 @@ std::filesystem::path MakeApproach(const TemporaryFolder& folder,
   auto out = scenario.parent_path() / name;
   const Ended run =
       RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + out.string() +
-                 " --frames 40 --fields x,y,z --fidelity " + fidelity + " " + options);
+                 " --frames 40 --fields x,y,z,label --fidelity " + fidelity + " " + options);
   if (run.status != 0) throw std::runtime_error(run.said);
   return out;
 }
@@ -81,11 +84,48 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
   const Json& verdicts = report.at("sections").at(0).at("tables").at(0).at("rows");
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts.at(0).at("object"), "box");
-  const Json& beside = report.at("sections").at(1).at("tables").at(0).at("rows");
+  const Json& beside = report.at("sections").at(2).at("tables").at(0).at("rows");
   ASSERT_EQ(beside.size(), 1U);
   EXPECT_EQ(beside.at(0).at("object"), "man");
   EXPECT_THAT(ended.said, HasSubstr("Beside the track, not judged      man\n"));
   EXPECT_TRUE(exists(out / "report.html"));
+}
+
+// The scene, the box with at most 19 points of its colour, and the box with 20 or more.
+TEST(DetectCommand, ShowsWhatWasSeenOfABox) {
+  const TemporaryFolder folder;
+  const auto run = MakeApproach(folder, "run", "");
+  const auto out = run.parent_path() / "report";
+  const Ended ended =
+      Analyze("detect " + run.string() + " --points 20 --frames 1/1 --out " + out.string());
+  ASSERT_EQ(ended.status, 0) << ended.said;
+  const auto seen = DecodePngRgb(ReadFileWhole(out / "charts" / "seen_box.png"));
+  ASSERT_EQ(seen.size.width_px, 3U * 480U);
+  ASSERT_EQ(seen.size.height_px, 320U);
+  const Json labels = Json::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
+  std::array<int, 3> object{};
+  for (const Json& label : labels["labels"]) {
+    if (label["name"] == "object") object = label["rgb"].get<std::array<int, 3>>();
+  }
+  const auto count = [&](std::size_t place, const std::array<int, 3>& rgb) {
+    std::size_t num = 0;
+    for (std::size_t i = 0; i < seen.values.size(); i += 3) {
+      const bool is_there = i / 3 % seen.size.width_px / 480 == place;
+      num += is_there && std::equal(rgb.begin(), rgb.end(),
+                                    seen.values.begin() + static_cast<std::ptrdiff_t>(i))
+                 ? 1
+                 : 0;
+    }
+    return num;
+  };
+  // A point is 6 pixels wide, of which those at its rim have mixed colours.
+  EXPECT_LE(count(1, object), 19U * 36U);
+  EXPECT_GE(count(2, object), 20U * 5U);
+  EXPECT_GT(count(2, object), count(1, object));
+  // The frame in the scene, and the box.
+  for (const std::size_t place : {0U, 1U, 2U}) EXPECT_GT(count(place, {255, 255, 255}), 100U);
+  EXPECT_THAT(ReadFileWhole(out / "report.html"),
+              HasSubstr("<img alt=\"box. Run of seed 1. Outlined: "));
 }
 
 TEST(DetectCommand, SaysWhichRungMadeTheFrames) {

@@ -69,49 +69,85 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   EXPECT_TRUE(std::filesystem::exists(out / "charts" / "dropout_by_range.svg"));
 }
 
-// The straight line's cloud is ground, ballast, rails and sleepers in the colours of their labels,
-// on a dark sheet; the camera's image is mostly sky.
-TEST(StatsCommand, DrawsASheetOfCloudsAndImages) {
+/// Counts the pixels of a part of a picture.
+template <typename IsIt>
+std::size_t NumPixels(const DecodedImage<std::uint8_t>& picture,
+                      std::size_t first_row,
+                      std::size_t num_rows,
+                      const IsIt& is_it) {
+  std::size_t num = 0;
+  for (std::size_t row = first_row; row < first_row + num_rows; ++row) {
+    for (std::size_t column = 0; column < picture.size.width_px; ++column) {
+      const std::size_t i = 3 * (row * picture.size.width_px + column);
+      num +=
+          is_it(std::array<int, 3>{picture.values[i], picture.values[i + 1], picture.values[i + 2]})
+              ? 1
+              : 0;
+    }
+  }
+  return num;
+}
+
+// The straight line's clouds are ground, ballast, rails and sleepers in the colours of their
+// labels; the camera's images are mostly sky.
+TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(
       folder, R"("camera": {"width_px": 64, "height_px": 48, "horizontal_fov_deg": 60},)");
-  const auto sequence = scenario.parent_path() / "sequence";
-  ASSERT_EQ(RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
-                       sequence.string() + " --frames 2")
-                .status,
-            0);
+  Json both = Json::parse(ReadFileWhole(scenario));
+  both["lidars"] = {both["lidar"], both["lidar"]};
+  both["lidars"][0]["name"] = "front";
+  both["lidars"][1]["name"] = "roof";
+  both.erase("lidar");
+  WriteFileWhole(scenario, both.dump());
+  const auto run = scenario.parent_path() / "run";
   const auto out = scenario.parent_path() / "out";
-  const Ended run = Analyze("stats " + sequence.string() + " --sheet --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  EXPECT_THAT(run.said, HasSubstr("sheet.png in "));
-  const auto sheet = DecodePngRgb(ReadFileWhole(out / "sheet.png"));
-  EXPECT_EQ(sheet.size.width_px, 4U * 480U);
-  EXPECT_EQ(sheet.size.height_px, 2U * 300U);
+  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                                run.string() + " --frames 2");
+  ASSERT_EQ(made.status, 0) << made.said;
+  const Ended stats = Analyze("stats " + run.string() + " --out " + out.string());
+  ASSERT_EQ(stats.status, 0) << stats.said;
+  const std::string png = ReadFileWhole(out / "charts" / "sheet.png");
+  const auto sheet = DecodePngRgb(png);
+  EXPECT_EQ(sheet.size.width_px, 2U * 480U);
+  ASSERT_EQ(sheet.size.height_px, 3U * 320U);
   const Json labels = Json::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
   std::array<int, 3> ballast{};
   for (const Json& label : labels["labels"]) {
     if (label["name"] == "ballast") ballast = label["rgb"].get<std::array<int, 3>>();
   }
-  const auto count = [&](std::size_t first_row, std::size_t num_rows, const auto& is_it) {
-    std::size_t num = 0;
-    for (std::size_t row = first_row; row < first_row + num_rows; ++row) {
-      for (std::size_t column = 0; column < sheet.size.width_px; ++column) {
-        const std::size_t i = 3 * (row * sheet.size.width_px + column);
-        num += is_it(sheet.values[i], sheet.values[i + 1], sheet.values[i + 2]) ? 1 : 0;
-      }
-    }
-    return num;
-  };
-  const auto is_ballast = [&](int red, int green, int blue) {
-    return std::array<int, 3>{red, green, blue} == ballast;
-  };
-  EXPECT_GT(count(0, 300, is_ballast), 200U);
-  EXPECT_EQ(count(300, 300, is_ballast), 0U);
-  // Two images of 240 pixels' height, a third of each or more sky.
-  const auto is_bright = [](int red, int green, int blue) { return red + green + blue > 400; };
-  EXPECT_GT(count(300, 300, is_bright), 2U * 300U * 80U);
-  EXPECT_EQ(Analyze("stats " + sequence.string() + " --sheet --format text").said,
-            "--sheet: must be with --out\n");
+  const auto is_ballast = [&](const auto& rgb) { return rgb == ballast; };
+  // Images have 4:3, a third of each or more is sky.
+  const auto is_sky = [](const auto& rgb) { return rgb[0] + rgb[1] + rgb[2] > 400; };
+  // The camera's row is below that of the sensor with which its images are written.
+  EXPECT_GT(NumPixels(sheet, 0, 320, is_ballast), 100U);
+  EXPECT_EQ(NumPixels(sheet, 320, 320, is_ballast), 0U);
+  EXPECT_GT(NumPixels(sheet, 320, 320, is_sky), 2U * 290U * 80U);
+  EXPECT_GT(NumPixels(sheet, 640, 320, is_ballast), 100U);
+  EXPECT_THAT(ReadFileWhole(out / "report.html"),
+              HasSubstr("width=\"960\" height=\"960\" src=\"data:image/png;base64,iVBOR"));
+}
+
+// A scan four times as wide as it is high leaves no empty room above it.
+TEST(StatsCommand, ShowsWideScansInLowRows) {
+  const TemporaryFolder folder;
+  const auto scenario = WriteScenario(folder);
+  Json wide = Json::parse(ReadFileWhole(scenario));
+  wide["lidar"]["scan"]["pattern"]["horizontal_fov_deg"] = 60;
+  wide["lidar"]["scan"]["pattern"]["vertical_fov_deg"] = 15;
+  wide["lidar"]["mount"]["pitch_deg"] = 10;
+  WriteFileWhole(scenario, wide.dump());
+  const auto run = scenario.parent_path() / "run";
+  const auto out = scenario.parent_path() / "out";
+  const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
+                                run.string() + " --frames 1");
+  ASSERT_EQ(made.status, 0) << made.said;
+  ASSERT_EQ(Analyze("stats " + run.string() + " --out " + out.string()).status, 0);
+  const auto sheet = DecodePngRgb(ReadFileWhole(out / "charts" / "sheet.png"));
+  EXPECT_EQ(sheet.size.width_px, 480U);
+  // A title of 30 pixels and a quarter of the width; perspective bends the rim of the scan.
+  EXPECT_GT(sheet.size.height_px, 30U + 110U);
+  EXPECT_LT(sheet.size.height_px, 30U + 180U);
 }
 
 TEST(StatsCommand, FailsWhereItsTextIsLost) {
@@ -251,8 +287,9 @@ TEST(StatsCommand, SumsUpADataSetAndShowsItsReportFirst) {
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (data set)");
   const Json manifest = Json::parse(ReadFileWhole(set / "manifest.json"));
   EXPECT_EQ(stats["facts"]["Data hash"], manifest["data_xxh3"]);
-  EXPECT_EQ(stats["sections"][0]["key"], "dataset");
-  EXPECT_EQ(stats["sections"][1]["key"], "classes");
+  EXPECT_EQ(stats["sections"][0]["key"], "sheet");
+  EXPECT_EQ(stats["sections"][1]["key"], "dataset");
+  EXPECT_EQ(stats["sections"][2]["key"], "classes");
   // The clouds hold what the generator counted.
   std::map<std::string, std::uint64_t> counted, found;
   for (const Json& row : JsonTableOf(stats, "points_by_label")["rows"]) {
@@ -282,7 +319,8 @@ TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
   const Json stats = StatsOf(set, set.parent_path() / "out");
   EXPECT_EQ(stats["facts"]["Frames"], "4");
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (shard 1/2 of a data set)");
-  EXPECT_EQ(stats["sections"][0]["key"], "classes");
+  EXPECT_EQ(stats["sections"][0]["key"], "sheet");
+  EXPECT_EQ(stats["sections"][1]["key"], "classes");
 }
 
 // Two runs joined as SemanticKITTI has its sequences.

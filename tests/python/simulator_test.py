@@ -48,6 +48,25 @@ time.sleep({seconds})
 """
 
 
+# A child that is forked while a simulator is alive, which is deleted there, too.
+FORKED = """
+import os, sys
+import railcast
+simulator = railcast.Simulator("{scenario}")
+frame = simulator.scan(0)
+child = os.fork()
+if child == 0:
+    try:
+        simulator.scan(0)
+    except railcast.InputError as error:
+        print(error)
+    print("of its own", railcast.Simulator("{scenario}").scan(0).num_points == frame.num_points)
+    sys.exit(0)
+print("child ended", os.waitpid(child, 0)[1])
+print(simulator.scan(0).num_points == frame.num_points)
+"""
+
+
 class SameFramesAsASequence(unittest.TestCase):
 
     @classmethod
@@ -224,6 +243,14 @@ class Misuse(unittest.TestCase):
             program = ABANDONED.format(scenario=str(SCENARIO), seconds=begun)
             ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
             self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "last\n", ""))
+
+
+    def test_a_forked_process_ends_and_makes_simulators_of_its_own(self):
+        program = FORKED.format(scenario=str(ROOT / "scenarios" / "minimal.json"))
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(ended.stderr, "")
+        self.assertEqual(ended.stdout, "simulator: must be used in the process that made it (got one forked from that)\n"
+                                       "of its own True\nchild ended 0\nTrue\n")
 
 
 class Compensated(unittest.TestCase):

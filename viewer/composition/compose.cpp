@@ -5,6 +5,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/io/recording/recording_kinds.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 #include "viewer/color/coloring.h"
@@ -92,6 +93,9 @@ std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) c
   if (choices.empty_beams && !shown.recorded->is_grid) {
     return "beams without return need a frame in which every firing has its place";
   }
+  if (overlays.frustum && info_.kind == kMergedKind) {
+    return "the frustum needs the frames of one sensor, and these are of several";
+  }
   if (overlays.frustum && !world_ && !MakeScanTable(shown.frame())) {
     return "the frustum needs the scenario or a grid of firings";
   }
@@ -119,7 +123,7 @@ void Composer::AddOverlays(const ShownFrame& shown,
                          world_ ? std::optional(info_.scenario->lidar.mount) : std::nullopt),
           composition.overlays);
   }
-  if (choices.frustum) {
+  if (choices.frustum && info_.kind != kMergedKind) {
     const auto table = world_ ? MakeScanTable(world_->pattern) : MakeScanTable(recorded.frame);
     const double range_m = world_ ? info_.scenario->lidar.range_max_m : kUnknownRange_m;
     if (table) AddTo(DrawSensorFrustum(*table, range_m), composition.overlays);
@@ -134,6 +138,7 @@ void Composer::AddOverlays(const ShownFrame& shown,
 Composition Composer::Compose(const ShownFrames& frames, const Choices& choices) {
   Composition composition;
   composition.labels = info_.labels;
+  composition.is_origin_on_rails = info_.kind == kMergedKind;
   if (frames.empty()) return composition;
   const ShownFrame& latest = *frames.front();
   for (const auto& shown : frames) {

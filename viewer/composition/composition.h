@@ -36,7 +36,8 @@ struct Composition {
   Overlay empty_beams;
   std::vector<Category> beam_kinds;  ///< The colours of empty beams, their meaning and number.
   std::vector<PlacedParts> surfaces;
-  LabelTable labels;                               ///< Names and colours for the surfaces.
+  LabelTable labels;                ///< Names and colours for the surfaces.
+  bool is_origin_on_rails = false;  ///< As that of merged clouds is, in place of a sensor.
   std::shared_ptr<const CameraPicture> picture{};  ///< The camera's image; null: none.
   std::string picture_fault{};                     ///< Why it cannot be read; empty if it can.
   std::string status;  ///< Lines of text: frame, stamp, points, dropout, ...

@@ -12,6 +12,7 @@ namespace railcast {
 namespace {
 
 constexpr double kViewAngle_deg = 36.0;
+constexpr double kDriverHeight_m = 2.2;  // Where most of our scenarios have their sensor.
 
 CameraPlace AtOrigin(std::string_view name) {
   if (name == "driver") return {{-1.0, 0.0, 0.3}, {60.0, 0.0, -1.5}};
@@ -88,10 +89,16 @@ CameraPlace UprightCamera(const std::array<double, 3>& eye_m,
   return place;
 }
 
-CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m) {
+CameraPlace PresetCamera(std::string_view name,
+                         std::span<const float> positions_m,
+                         bool is_origin_on_rails) {
   if (name == "all" && !positions_m.empty()) return PlaceForAll(positions_m);
   const std::array<double, 3> origin_m = OriginOf(positions_m);
   CameraPlace place = AtOrigin(name);
+  if (name == "driver" && is_origin_on_rails) {
+    place.eye_m[2] += kDriverHeight_m;
+    place.target_m[2] += kDriverHeight_m;
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     place.eye_m[axis] += origin_m[axis];
     place.target_m[axis] += origin_m[axis];

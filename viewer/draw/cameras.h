@@ -31,7 +31,10 @@ inline constexpr std::array<std::string_view, 5> kCameraNames = {"driver", "top"
 /// middle of the cloud is taken instead.
 /// @param name One of kCameraNames.
 /// @param positions_m x, y, z of each point in turn; may be empty.
-[[nodiscard]] CameraPlace PresetCamera(std::string_view name, std::span<const float> positions_m);
+/// @param is_origin_on_rails Whether "driver" must look from above the origin, not from beside it.
+[[nodiscard]] CameraPlace PresetCamera(std::string_view name,
+                                       std::span<const float> positions_m,
+                                       bool is_origin_on_rails);
 
 void PlaceCamera(const CameraPlace& place, vtkCamera& camera);
 [[nodiscard]] CameraPlace PlaceOf(vtkCamera& camera);

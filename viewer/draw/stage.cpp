@@ -23,7 +23,7 @@ Stage::Stage(const std::array<int, 2>& size_px)
   plates_renderer_->SetLayer(1);
   plates_renderer_->InteractiveOff();
   window_->AddRenderer(plates_renderer_);
-  PlaceCamera(PresetCamera(preset_, {}), *camera_);
+  PlaceCamera(PresetCamera(preset_, {}, false), *camera_);
   SetViews(1);
 }
 
@@ -72,7 +72,8 @@ void Stage::PlaceNow() {
   const std::span<const float> positions_m = composition.clouds.empty()
                                                  ? std::span<const float>()
                                                  : composition.clouds[0].shown->positions_m;
-  PlaceCamera(place_ ? *place_ : PresetCamera(preset_, positions_m), *camera_);
+  PlaceCamera(place_ ? *place_ : PresetCamera(preset_, positions_m, composition.is_origin_on_rails),
+              *camera_);
   for (const auto& view : views_) view->renderer().ResetCameraClippingRange();
   is_placed_ = !composition.clouds.empty();
 }

@@ -107,7 +107,7 @@ class MergedRecording : public Recording {
   explicit MergedRecording(const fs::path& directory)
       : clouds_(directory / kMergedFile), poses_(directory / kPosesFile) {
     info_.source = directory;
-    info_.kind = "merged clouds";
+    info_.kind = kMergedKind;
     info_.num_frames = CountLines(directory / kMergedFile);
     static_cast<void>(poses_.Need());  // The names of the columns.
     MergedContext context{.directory = directory, .output = {}};
@@ -143,6 +143,7 @@ class MergedRecording : public Recording {
       context.output.frame = OutputFrame::kVehicle;
     }
     // Points, poses and boxes are in the vehicle's axes.
+    info_.scenario->lidar.name = "merged";
     info_.scenario->lidar.mount = {.position_m = {0.0, 0.0, 0.0}};
     info_.scenario->lidar.mount_error = {};
     first_sensor_.emplace(ReadSequenceSummary(folder));

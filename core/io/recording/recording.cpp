@@ -6,12 +6,24 @@
 #include "core/base/text.h"
 #include "core/io/merged_files.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/sensor_folders.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
+
+/// Throws an error that names what to open instead if the directory is of a run of several sensors.
+void CheckIsOfOneSensor(const std::filesystem::path& directory) {
+  const auto folders = SensorFoldersIn(directory);
+  if (folders.empty()) return;
+  std::string all;
+  for (const std::filesystem::path& folder : folders) all += ShownPath(folder) + ", ";
+  const auto merged = MergedFolderIn(directory);
+  throw InputError(ShownPath(directory) + ": holds several sensors; must be one of " +
+                   (merged ? all + ShownPath(merged->folder) : all.substr(0, all.size() - 2)));
+}
 
 /// Opens a directory of clouds: side by side, or in the layout of a sequence, of merged clouds, of
 /// a received stream or of KITTI.
@@ -22,6 +34,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
   if (exists(directory / kMergedFile)) return OpenMerged(directory);
   if (exists(directory / "frames.csv")) return OpenReceived(directory);
+  CheckIsOfOneSensor(directory);
   for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
     auto files = CloudFilesIn(place);
     if (files.empty()) continue;

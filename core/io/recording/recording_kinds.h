@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "railcast/io/recording.h"
@@ -57,6 +58,9 @@ namespace railcast {
 /// it was written; those of a frame are checked when the frame is read.
 /// @throws InputError with one line if a file cannot be read or has changed since it was written.
 [[nodiscard]] std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory);
+
+/// What OpenMerged() calls its recordings.
+inline constexpr std::string_view kMergedKind = "merged clouds";
 
 /// Opens the folder of the merged clouds of a run with several sensors (docs/files.md), checked
 /// against their hashes. Points, poses and boxes are in the axes of the vehicle, which stands for

@@ -61,12 +61,23 @@ TEST(ObjectDetection, ComesWithTheFrameThatCompletesTheRule) {
   const ObjectDetection detection = Detect(CourseOf({0, 4, 5, 0, 9, 4, 5, 0, 0, 0}));
   EXPECT_EQ(detection.fate, Fate::kDetected);
   EXPECT_EQ(detection.distance_m, 94.0);
+  EXPECT_EQ(detection.frame, 6U);
+  EXPECT_EQ(detection.missed_frame, 5U);
   EXPECT_FALSE(detection.is_from_start);
   EXPECT_EQ(detection.speed_mps, 10.0);
   EXPECT_EQ(detection.stop_m, 120.0);
   EXPECT_EQ(detection.needed_m, 135.0);
   EXPECT_EQ(detection.spare_m(), -41.0);
   EXPECT_FALSE(detection.is_in_time());
+}
+
+TEST(ObjectDetection, KnowsTheLastFrameWithTooFewPoints) {
+  const ObjectDetection never = Detect(CourseOf({5, 0, 0, 5, 0, 5}));
+  EXPECT_EQ(never.frame, std::nullopt);
+  EXPECT_EQ(never.missed_frame, 4U);
+  const ObjectDetection at_once = Detect(CourseOf({5, 5, 5, 0}));
+  EXPECT_EQ(at_once.frame, 2U);
+  EXPECT_EQ(at_once.missed_frame, std::nullopt);
 }
 
 TEST(ObjectDetection, NeedsItsFramesTogether) {

@@ -31,6 +31,7 @@ document.getElementById("probe").textContent = "PROBE" + JSON.stringify({
       return r.left >= b.left - 1 && r.right <= b.right + 1 && r.top >= b.top - 1 && r.bottom <= b.bottom + 1;
     });
   }),
+  pictures: [...document.images].map(i => i.naturalWidth),
   requests: performance.getEntriesByType("resource").map(r => r.name).filter(n => !n.startsWith("data:")),
   width: document.documentElement.clientWidth, needed: document.documentElement.scrollWidth,
   ground: style("body", "backgroundColor"), ink: style(".chart", "color"),
@@ -99,6 +100,7 @@ TEST_F(ReportInBrowser, ShowsEveryChartInLightAndDark) {
       EXPECT_GT(page["drawn"][i], 300) << i;
       EXPECT_TRUE(page["texts"][i]) << "chart " << i << " cuts its text off";
     }
+    EXPECT_EQ(page["pictures"], Json::array({200}));
     EXPECT_EQ(page["requests"], Json::array());
   }
   EXPECT_NE(light["ground"], dark["ground"]);

@@ -35,7 +35,7 @@ std::string Drawn(Chart chart, const TemporaryFolder& folder) {
   Report report;
   report.sections.push_back({"s", "S", {}, {std::move(chart)}, {}});
   const auto here = folder.Write("here", "").parent_path() / "charts";
-  const auto svgs = DrawCharts(report, here);
+  const auto svgs = DrawAll(report, here);
   EXPECT_THAT(ReadFileWhole(here / "chart.png"), StartsWith("\x89PNG\r\n"));
   EXPECT_EQ(ReadFileWhole(here / "chart.svg"), svgs.at("chart"));
   return svgs.at("chart");
@@ -86,14 +86,14 @@ TEST(AxisRange, IsNoneWithoutAPointThatHasAPlace) {
   EXPECT_FALSE(RangeOfX({"", "", "", {}, {}, {}}));
 }
 
-TEST(DrawCharts, DrawsOneElementForEveryPoint) {
+TEST(DrawAll, DrawsOneElementForEveryPoint) {
   const TemporaryFolder folder;
   const std::string svg = Drawn(
       {"", "", "", {}, {}, {{"", kPoints, {{0, 1}, {1, 2}, {2, kNoFigure}, {3, 5}}}}}, folder);
   EXPECT_EQ(CountOf(svg, " color='#0072b2'"), 3);
 }
 
-TEST(DrawCharts, SaysThatThereIsNotEnoughData) {
+TEST(DrawAll, SaysThatThereIsNotEnoughData) {
   const TemporaryFolder folder;
   for (const Chart& chart : MadeCharts()) {
     const bool is_empty = chart.key == "empty" || chart.key == "all_absent";
@@ -102,14 +102,14 @@ TEST(DrawCharts, SaysThatThereIsNotEnoughData) {
   }
 }
 
-TEST(DrawCharts, DrawsNothingThatIsNoNumber) {
+TEST(DrawAll, DrawsNothingThatIsNoNumber) {
   const TemporaryFolder folder;
   for (const Chart& chart : MadeCharts()) {
     EXPECT_THAT(Drawn(chart, folder), Not(HasSubstr("nan"))) << chart.key;
   }
 }
 
-TEST(DrawCharts, SetsTextAsItIs) {
+TEST(DrawAll, SetsTextAsItIs) {
   const TemporaryFolder folder;
   Chart chart = {"",
                  "",
@@ -123,7 +123,7 @@ TEST(DrawCharts, SetsTextAsItIs) {
   EXPECT_THAT(svg, HasSubstr("@macro $(x) \\n \"q\""));
 }
 
-TEST(DrawCharts, PutsLongNamesInFull) {
+TEST(DrawAll, PutsLongNamesInFull) {
   const TemporaryFolder folder;
   const std::string svg = Drawn(MadeCharts()[3], folder);
   EXPECT_THAT(svg, HasSubstr("<text>sensor_dropout</text>"));
@@ -139,7 +139,7 @@ Chart LabelledChart() {
   return chart;
 }
 
-TEST(DrawCharts, SetsLabelsBesideTheirPoints) {
+TEST(DrawAll, SetsLabelsBesideTheirPoints) {
   const TemporaryFolder folder;
   const std::string svg = Drawn(LabelledChart(), folder);
   EXPECT_EQ(CountOf(svg, "it's first"), 1);
@@ -248,8 +248,8 @@ TEST(DrawSheet, SaysThatGnuplotFailed) {
   ::setenv("PATH", path.c_str(), 1);
 }
 
-TEST(DrawCharts, DrawsNothingWithoutCharts) {
-  EXPECT_TRUE(DrawCharts({}, "/no/such/folder").empty());
+TEST(DrawAll, DrawsNothingWithoutCharts) {
+  EXPECT_TRUE(DrawAll({}, "/no/such/folder").empty());
 }
 
 TEST(CleanSvg, TakesTheColourOfTheTextAround) {

@@ -109,6 +109,15 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
   return charts;
 }
 
+[[nodiscard]] inline Picture MadePicture() {
+  return {.key = "seen",
+          .title = "What is <seen>",
+          .caption = "A line \"upwards\".",
+          .script = "unset border\nunset tics\nplot x linecolor rgb '#ff0000' notitle\n",
+          .width_px = 200,
+          .height_px = 100};
+}
+
 [[nodiscard]] inline Report MadeReport() {
   Report report;
   report.title = "Statistics of <out/demo> & \"more\"";
@@ -129,7 +138,7 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
                              MadeCharts(),
                              {MadeTable()}});
   report.sections.push_back(
-      {"words", "Words & little else", {"A <paragraph>."}, {}, {MadeWideTable()}});
+      {"words", "Words & little else", {"A <paragraph>."}, {}, {MadeWideTable()}, {MadePicture()}});
   return report;
 }
 

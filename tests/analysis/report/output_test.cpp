@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/io/png_decoder.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/report/made_report.h"
 #include "tests/core/scenario/scenario_files.h"
@@ -52,6 +53,16 @@ TEST(EmitReport, WritesEveryFile) {
     EXPECT_TRUE(std::filesystem::exists(out / "charts" / (chart.key + ".svg"))) << chart.key;
     EXPECT_TRUE(std::filesystem::exists(out / "charts" / (chart.key + ".png"))) << chart.key;
   }
+  // A red line from one corner to the other on a dark ground.
+  const auto seen = DecodePngRgb(ReadFileWhole(out / "charts" / "seen.png"));
+  EXPECT_EQ(seen.size.width_px, 200U);
+  EXPECT_EQ(seen.size.height_px, 100U);
+  std::size_t num_red = 0;
+  for (std::size_t i = 0; i < seen.values.size(); i += 3) {
+    num_red += seen.values[i] > 200 && seen.values[i + 1] < 60 ? 1 : 0;
+  }
+  EXPECT_GT(num_red, 50U);
+  EXPECT_LT(num_red, 1000U);
 }
 
 TEST(EmitReport, PrintsAndWritesNoFiles) {
@@ -75,7 +86,8 @@ TEST(EmitReport, GivesTheSameBytesAgain) {
   EmitReport(MadeReport(), {here / "a", false}, "made");
   EmitReport(MadeReport(), {here / "b", false}, "made");
   testing::internal::GetCapturedStdout();
-  for (const char* const name : {"report.html", "made.json", "charts/lines.png"}) {
+  for (const char* const name :
+       {"report.html", "made.json", "charts/lines.png", "charts/seen.png"}) {
     EXPECT_EQ(ReadFileWhole(here / "a" / name), ReadFileWhole(here / "b" / name)) << name;
   }
 }

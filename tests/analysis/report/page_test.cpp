@@ -70,6 +70,20 @@ TEST(ReportPage, PutsChartsInWithoutTheirFilesHead) {
   EXPECT_THAT(page, Not(HasSubstr("<?xml")));
 }
 
+// The examples of RFC 4648, section 10.
+TEST(ReportPage, HoldsPicturesThemselves) {
+  const std::map<std::string, std::string> examples = {
+      {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [png, letters] : examples) {
+    EXPECT_THAT(ReportPage(MadeReport(), {{"seen", png}}),
+                HasSubstr("<img alt=\"What is &lt;seen&gt;. A line &quot;upwards&quot;.\" "
+                          "width=\"200\" height=\"100\" src=\"data:image/png;base64," +
+                          letters + "\">"));
+  }
+  // Without gnuplot there are titles only.
+  EXPECT_THAT(ReportPage(MadeReport(), {}), Not(HasSubstr("<img")));
+}
+
 TEST(ReportPage, LinksEverySection) {
   const std::string page = MadePage();
   EXPECT_THAT(page, HasSubstr("<a href=\"#section-words\">Words &amp; little else</a>"));

@@ -1,6 +1,7 @@
 #include "generator/sequence/merged_sequence.h"
 
 #include <gtest/gtest.h>
+#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 
@@ -39,7 +40,9 @@ using Points = pcl::PointCloud<MergedPoint>;
 const fs::path kScenarios = fs::path(RAILCAST_SOURCE_DIR) / "scenarios";
 constexpr std::int64_t kMs = 1'000'000;
 
+// PCL warns where the cloud of a single sensor has no sensor_index.
 Points Read(const fs::path& file) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ERROR);
   Points points;
   EXPECT_EQ(pcl::io::loadPCDFile(file.string(), points), 0) << file;
   return points;
@@ -111,6 +114,7 @@ TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
   const auto merged = OpenRecording(Out("run/merged/"));
   const auto front = OpenRecording(Out("run/front"));
   EXPECT_EQ(merged->info().kind, "merged clouds");
+  EXPECT_EQ(merged->info().scenario->lidar.name, "merged");
   EXPECT_EQ(merged->info().num_frames, 2U);
   ASSERT_TRUE(merged->info().scenario);
   EXPECT_EQ(merged->info().labels.labels(), front->info().labels.labels());
@@ -136,6 +140,24 @@ TEST_F(MergedClouds, AreARecordingWithTheirNumbersPosesAndBoxes) {
     }
   }
   EXPECT_FALSE(merged->Next());
+}
+
+TEST_F(MergedClouds, AreNamedWhereTheFolderAboveIsOpened) {
+  const auto message = [&] {
+    try {
+      (void)OpenRecording(Out("run"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  ASSERT_EQ(Make("run", "--frames 1").status, 0);
+  const std::string run = Out("run").string();
+  const std::string sensors =
+      run + ": holds several sensors; must be one of " + run + "/front, " + run + "/roof";
+  EXPECT_EQ(message(), sensors);
+  ASSERT_EQ(Make("run", "--frames 1 --merged").status, 0);
+  EXPECT_EQ(message(), sensors + ", " + run + "/merged");
 }
 
 TEST_F(MergedClouds, AreARecordingWithoutTheirSensorsToo) {

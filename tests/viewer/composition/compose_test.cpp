@@ -218,6 +218,23 @@ TEST(Compose, SaysWhatCannotBeDrawnAndWhy) {
   EXPECT_EQ(without_scenario.Missing(*bare, {.overlays = {.axes = true, .rings = true}}), "");
 }
 
+TEST(Compose, KnowsThatMergedCloudsHaveNoSingleSensor) {
+  MovingRun run;
+  const Choices choices = [] {
+    Choices with = By("label");
+    with.overlays.frustum = true;
+    return with;
+  }();
+  EXPECT_FALSE(Composer(run.info).Compose({run.frames[0]}, choices).is_origin_on_rails);
+  run.info.kind = "merged clouds";
+  Composer composer(run.info);
+  EXPECT_EQ(composer.Missing(*run.frames[0], choices),
+            "the frustum needs the frames of one sensor, and these are of several");
+  const Composition composition = composer.Compose({run.frames[0]}, choices);
+  EXPECT_TRUE(composition.is_origin_on_rails);
+  EXPECT_THAT(composition.overlays.segments, IsEmpty());
+}
+
 TEST(Compose, LeavesOutOverlaysThatCannotBeDrawn) {
   Composer composer{RecordingInfo{}};
   Choices choices = By("height");
