@@ -16,11 +16,16 @@ double Distance_m(const Alignment& alignment, double s_m, const Eigen::Vector2d&
   return (alignment.At(s_m).position_m.head<2>() - place_m).norm();
 }
 
+/// No ground is so wide.
+constexpr double kFar_m = 2000.0;
+
 /// Chainages of the line so close to each other that the nearest places of the line are beside some
 /// of them, near enough for PlaceOnLine().
 std::vector<double> ChainagesNear_m(const Alignment& alignment, const Eigen::Vector2d& place_m) {
   // The tightest arc of a line has a radius of 10 m.
   constexpr double kSpacing_m = 5.0;
+  // Within such steps the distance changes by a hundred-thousandth at most.
+  constexpr double kStepOfFar = 0.01;
   struct Sample {
     double s_m{};
     double distance_m{};
@@ -34,7 +39,9 @@ std::vector<double> ChainagesNear_m(const Alignment& alignment, const Eigen::Vec
     if (distance_m <= least_m + kSpacing_m) samples.push_back({s_m, distance_m});
     if (!(s_m < alignment.length_m())) break;
     // Chainage is arc length in plan, so that the line comes no nearer any faster.
-    s_m = std::min(s_m + std::max(kSpacing_m, distance_m - least_m), alignment.length_m());
+    const double step_m =
+        std::max({kSpacing_m, distance_m - least_m, kStepOfFar * (distance_m - kFar_m)});
+    s_m = std::min(s_m + step_m, alignment.length_m());
   }
   std::vector<double> near_s_m;
   for (const Sample& sample : samples) {
@@ -70,9 +77,12 @@ std::vector<PlaceBesideLine> NearestOnLine(const Alignment& alignment,
     PlaceBesideLine place;
     double distance_m{};
   };
+  const std::vector<double> chainages_m = ChainagesNear_m(alignment, place_m);
+  const double about_m = Distance_m(alignment, chainages_m.front(), place_m);
+  if (about_m > kFar_m) return {{.s_m = chainages_m.front(), .d_m = about_m}};
   std::vector<Found> all;
   double least_m = std::numeric_limits<double>::infinity();
-  for (const double near_s_m : ChainagesNear_m(alignment, place_m)) {
+  for (const double near_s_m : chainages_m) {
     const PlaceBesideLine place = PlaceOnLine(alignment, {place_m.x(), place_m.y(), 0.0}, near_s_m);
     const double on_line_m = std::clamp(place.s_m, 0.0, alignment.length_m());
     all.push_back({place, Distance_m(alignment, on_line_m, place_m)});

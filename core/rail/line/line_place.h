@@ -27,7 +27,8 @@ inline constexpr double kTie_m = 0.01;
 
 /// Where the line is nearest to a place in plan, in the order of chainages: usually one place, and
 /// several if these are equally near, as in the middle of an arc. Beyond an end, on the straight
-/// that continues it.
+/// that continues it. Of what is farther away than 2 km, which no ground is, only about where, with
+/// the distance to either side as d_m.
 /// @pre The place is finite.
 [[nodiscard]] std::vector<PlaceBesideLine> NearestOnLine(const Alignment& alignment,
                                                          const Eigen::Vector2d& place_m);

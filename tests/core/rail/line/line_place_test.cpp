@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,21 @@ TEST(NearestOnLine, FindsTheLegOfAHairpinBesideWhichAPlaceLies) {
       EXPECT_NEAR(found.front().s_m, s_m, 1e-5) << d_m;
       EXPECT_NEAR(found.front().d_m, d_m, 1e-5) << s_m;
     }
+  }
+}
+
+TEST(NearestOnLine, SaysAboutHowFarAwayAPlaceIs) {
+  const Alignment line = TwoLegs();
+  for (const Eigen::Vector2d& place_m :
+       {Eigen::Vector2d(-3e6, 1e6), Eigen::Vector2d(500.0, -9e7), Eigen::Vector2d(9e3, 100.0)}) {
+    double least_m = 1e9;
+    for (double s_m = 0.0; s_m <= line.length_m(); s_m += 1.0) {
+      least_m = std::min(least_m, (line.At(s_m).position_m.head<2>() - place_m).norm());
+    }
+    const auto found = NearestOnLine(line, place_m);
+    ASSERT_EQ(found.size(), 1U);
+    // Candidates may be 5 m farther away, and places between two steps a hundred-thousandth.
+    EXPECT_NEAR(found.front().d_m, least_m, 6.0 + 2e-5 * least_m);
   }
 }
 
