@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <cstdint>
 #include <string>
 #include <system_error>
 
@@ -54,6 +55,18 @@ std::ifstream OpenInput(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file, errno);
   return stream;
+}
+
+std::string ReadFileWhole(const std::filesystem::path& file) {
+  std::ifstream stream = OpenInput(file);
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) throw FileError(file, error.value());
+  std::string bytes(size, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (stream.bad()) throw FileError(file, errno);
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
 }
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <string_view>
 
 #include "core/base/error.h"
@@ -27,5 +28,9 @@ void CheckIsReadable(const std::filesystem::path& file);
 /// Opens a file for reading in binary mode.
 /// @throws InputError as CheckIsReadable does, or if the system refuses.
 [[nodiscard]] std::ifstream OpenInput(const std::filesystem::path& file);
+
+/// Returns the bytes of a whole file.
+/// @throws InputError as OpenInput does, or if the system refuses to read it.
+[[nodiscard]] std::string ReadFileWhole(const std::filesystem::path& file);
 
 }  // namespace railcast

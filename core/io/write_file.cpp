@@ -103,22 +103,4 @@ void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes) {
   throw FileError(file, error_number);
 }
 
-std::string ReadFileWhole(const std::filesystem::path& file) {
-  CheckIsReadable(file);
-  const Descriptor input(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status {};
-  if (input.number() < 0 || ::fstat(input.number(), &status) != 0) throw FileError(file, errno);
-  std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t count = ::read(input.number(), bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw FileError(file, errno);
-    if (count == 0) break;
-    done += static_cast<std::size_t>(count);
-  }
-  bytes.resize(done);
-  return bytes;
-}
-
 }  // namespace railcast

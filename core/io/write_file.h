@@ -28,8 +28,4 @@ void CheckCanWrite(const std::filesystem::path& file);
 ///   left.
 void WriteFileWhole(const std::filesystem::path& file, std::string_view bytes);
 
-/// Returns the bytes of a whole file.
-/// @throws InputError if it is not a regular file or cannot be read.
-[[nodiscard]] std::string ReadFileWhole(const std::filesystem::path& file);
-
 }  // namespace railcast

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -140,11 +138,6 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
   return mesh;
 }
 
-std::string WholeFile(const std::filesystem::path& file) {
-  std::ifstream in = OpenInput(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Whether a name is that of a file in the folder where it is looked for.
 bool IsNameBeside(const std::string& name) {
   return !name.empty() && name != "." && name != ".." &&
@@ -168,7 +161,7 @@ std::vector<FileBeside> BuffersBeside(const std::string& bytes, const std::files
     if (!std::filesystem::is_regular_file(beside, error)) {
       throw InputError(shown + ": names " + Quoted(name) + ", which must be a file beside it");
     }
-    files.push_back({name, WholeFile(beside)});
+    files.push_back({name, ReadFileWhole(beside)});
   }
   return files;
 }
@@ -183,7 +176,8 @@ std::vector<FileBeside> LibrariesBeside(const std::string& bytes,
     if (!IsNameBeside(name) || std::ranges::any_of(files, is_same)) continue;
     const std::filesystem::path beside = file.parent_path() / name;
     std::error_code error;
-    if (std::filesystem::is_regular_file(beside, error)) files.push_back({name, WholeFile(beside)});
+    if (std::filesystem::is_regular_file(beside, error))
+      files.push_back({name, ReadFileWhole(beside)});
   }
   return files;
 }
@@ -205,7 +199,7 @@ std::vector<FileBeside> FilesBesideMesh(const std::string& bytes,
 }
 
 ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units) {
-  std::string bytes = WholeFile(file);
+  std::string bytes = ReadFileWhole(file);
   std::vector<FileBeside> beside = FilesBesideMesh(bytes, file);
   return ParseSource({.bytes = std::move(bytes), .file = file, .beside = std::move(beside)}, units);
 }

@@ -23,6 +23,7 @@
 #include "core/rail/land/landform.h"
 #include "core/rail/line/network.h"
 #include "core/rail/line/track_path.h"
+#include "core/rail/map_placing.h"
 #include "core/rail/object_way.h"
 #include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/ride/ride.h"
@@ -246,12 +247,15 @@ std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_n
       new RailWorld(line_, std::make_shared<const Things>(std::move(changed))));
 }
 
-std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
+std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
                                                        std::int64_t from_ns) const {
   const std::string pointer = "/object";
   WorldFaults faults;
   const std::vector<std::optional<TrackCourse>> courses(line_->network.courses.begin(),
                                                         line_->network.courses.end());
+  const NetworkDraft network{courses, line_->network.turnouts};
+  ObjectSpec object = given;
+  PlaceFromMap({line_->world, network, &line_->alignment}, pointer, object, faults);
   CheckObject(line_->world, object, pointer, {line_->Measures(), courses}, faults);
   const auto has_its_name = [&](const SceneObject& other) { return other.name == object.name; };
   if (object.name == "ego" || std::any_of(objects().begin(), objects().end(), has_its_name)) {
@@ -264,7 +268,6 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& object,
     faults.Add(pointer, "must be one of at most " + std::to_string(kFirstMastInstance - 1) +
                             " objects of a run, those that were removed included");
   }
-  const NetworkDraft network{courses, line_->network.turnouts};
   auto path = DraftPath({line_->world, network}, object, pointer, from_ns, faults);
   RailSurfaces surfaces = *line_->surfaces;
   WorldSpec only_this;

@@ -16,6 +16,7 @@
 #include "core/rail/line/speed_profile.h"
 #include "core/rail/line/turnout_place.h"
 #include "core/rail/line/yard.h"
+#include "core/rail/map_placing.h"
 #include "core/rail/network_check.h"
 #include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/train/bogies.h"
@@ -329,13 +330,20 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
     if (faults.errors.size() == num_faults) draft.world = WithTracksOfYards(source.world);
   }
   const WorldSpec& world = draft.world;
+  const std::size_t num_faults_before = faults.errors.size();
   draft.alignment = DraftAlignment(world, faults);
+  const bool is_line_known =
+      faults.errors.size() == num_faults_before && faults.AreKnown({"/world/alignment"});
   // If the line is unknown, no chainage can be beyond it.
   constexpr double kEndless_m = std::numeric_limits<double>::infinity();
   const LineMeasures line = draft.alignment ? LineMeasures{draft.alignment->length_m(),
                                                            draft.alignment->tightest_radius_m()}
                                             : LineMeasures{kEndless_m, kEndless_m};
   draft.network = DraftNetwork(world, line.length_m, faults);
+  for (std::size_t i = 0; i < world.objects.size(); ++i) {
+    PlaceFromMap({world, draft.network, is_line_known ? &*draft.alignment : nullptr},
+                 "/world/objects/" + std::to_string(i), draft.world.objects[i], faults);
+  }
   CheckWorld(world, source.vehicle, {line, draft.network.courses}, faults);
   CheckNetwork(world, draft.network, draft.alignment, faults);
   if (faults.AreKnown({"/labels", "/materials"})) {

@@ -113,6 +113,23 @@ void Describe(Archive& a, ChainageValue& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, MapSpec& s) {
+  a.Optional("origin_m", s.origin_m,
+             "Easting and northing in the map's projection of the world's origin.",
+             CoordinateLimits());
+  a.Required("longitude_deg", s.longitude_deg,
+             "Middle (WGS 84) of the transverse Mercator with scale 1 that makes metres of "
+             "longitudes and latitudes.",
+             Within(-180, 180));
+  a.Required("latitude_deg", s.latitude_deg, "As above.", Within(-90, 90));
+  a.Optional("coefficients_m", s.coefficients_m,
+             "Empty if that is the map's projection. Otherwise the world's x and y are polynomials "
+             "of its easting e and northing n in 100 km: the coefficients (x, y) of 1, e, n, e^2, "
+             "e n, n^2, e^3 and so on.",
+             EachNumber{.limits = CoordinateLimits()});
+}
+
+template <class Archive>
 void Describe(Archive& a, AlignmentSpec& s) {
   a.Required("course", s.course, "The line in plan.");
   a.Optional("attribution", s.attribution, "Where the figures come from.");
@@ -140,6 +157,7 @@ void Describe(Archive& a, AlignmentSpec& s) {
   a.Optional("cant_max_mm", s.cant_max_mm, "Greatest cant.", Within(0, 300));
   a.Optional("cant_ramp_m", s.cant_ramp_m, "Length over which cant is averaged.",
              SmoothingLimits());
+  a.Optional("map", s.map, "Where on the Earth the world lies; absent = unknown.");
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/scenario/describe_alignment.h"
@@ -40,18 +41,42 @@ void Describe(Archive& a, SpeedPoint& s) {
            "must have either time_s or s_m");
 }
 
+/// Describes where something is on the map: ObjectSpec, PathPoint.
+template <class Archive, class Placed>
+void DescribeMapPlace(Archive& a, Placed& s) {
+  a.Optional("x_m", s.x_m,
+             "With y_m instead of s_m and d_m: easting in the projection of the alignment's map, "
+             "or x of the world if it has none.",
+             CoordinateLimits());
+  a.Optional("y_m", s.y_m, "Northing, or y of the world.", CoordinateLimits());
+  a.Optional("longitude_deg", s.longitude_deg,
+             "With latitude_deg instead of s_m and d_m (WGS 84); needs the alignment's map.",
+             Within(-180, 180));
+  a.Optional("latitude_deg", s.latitude_deg, "Latitude.", Within(-90, 90));
+}
+
+/// Whether a place is given in exactly one of three ways.
+/// @param is_in_track Whether what is needed of s_m and d_m is given.
+/// @param is_free_of_track Whether nothing of it is given.
+template <class Placed>
+[[nodiscard]] bool HasOnePlace(bool is_in_track, bool is_free_of_track, const Placed& s) {
+  const int num_projected = (s.x_m ? 1 : 0) + (s.y_m ? 1 : 0);
+  const int num_geographic = (s.longitude_deg ? 1 : 0) + (s.latitude_deg ? 1 : 0);
+  return (is_in_track && num_projected + num_geographic == 0) ||
+         (is_free_of_track && std::max(num_projected, num_geographic) == 2 &&
+          std::min(num_projected, num_geographic) == 0);
+}
+
 template <class Archive>
 void Describe(Archive& a, PathPoint& s) {
   a.Optional("s_m", s.s_m, "Chainage.", PlaceLimits());
   a.Optional("d_m", s.d_m, "Left of its track's axis.", Within(-1000, 1000));
-  a.Optional("x_m", s.x_m, "In the world, instead of s_m and d_m.", Within(-1e8, 1e8));
-  a.Optional("y_m", s.y_m, "In the world, instead of s_m and d_m.", Within(-1e8, 1e8));
+  DescribeMapPlace(a, s);
   a.Optional("speed_mps", s.speed_mps, "On the way there; absent = the path's.", PositiveUpTo(200));
   a.Optional("wait_s", s.wait_s, "How long it stands there; 0 = it does not stop.", Within(0, 1e9));
-  const bool is_in_track = s.s_m && s.d_m && !s.x_m && !s.y_m;
-  const bool is_in_world = s.x_m && s.y_m && !s.s_m && !s.d_m;
-  a.Ensure({"", "s_m", "d_m", "x_m", "y_m"}, is_in_track != is_in_world,
-           "must have either s_m and d_m or x_m and y_m");
+  a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
+           HasOnePlace(s.s_m && s.d_m, !s.s_m && !s.d_m, s),
+           "must have either s_m and d_m, or x_m and y_m, or longitude_deg and latitude_deg");
 }
 
 template <class Archive>
@@ -113,13 +138,34 @@ void Describe(Archive& a, PersonSpec& s) {
   a.Optional("luggage", s.luggage, "What it pulls or pushes.");
 }
 
+class JsonReader;
+
+/// Describes where an object is.
+template <class Archive>
+void DescribePlace(Archive& a, ObjectSpec& s) {
+  // What the reader is to fill has no place yet, not the one at 0.
+  const bool has_track_place = !std::is_same_v<Archive, JsonReader> && !s.x_m && !s.longitude_deg;
+  std::optional<double> s_m;
+  std::optional<double> d_m;
+  if (has_track_place) s_m = s.s_m;
+  if (has_track_place) d_m = s.d_m;
+  a.Optional("s_m", s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
+  a.Optional("d_m", d_m, "With s_m: distance from the track's axis, left positive; absent = 0.",
+             Within(-1000, 1000));
+  DescribeMapPlace(a, s);
+  a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
+           HasOnePlace(s_m.has_value(), !s_m && !d_m, s),
+           "must have either s_m (and d_m), or x_m and y_m, or longitude_deg and latitude_deg");
+  s.s_m = s_m.value_or(0.0);
+  s.d_m = d_m.value_or(0.0);
+}
+
 template <class Archive>
 void Describe(Archive& a, ObjectSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("type", s.type, "What it is.");
   DescribeTracks(a, s.track, s.route);
-  a.Required("s_m", s.s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
-  a.Optional("d_m", s.d_m, "Distance from the track's axis, left positive.", Within(-1000, 1000));
+  DescribePlace(a, s);
   a.Optional(
       "h_m", s.h_m,
       "Above top of rail; absent: rail vehicles and drag shoes are on the rails, all else is on "

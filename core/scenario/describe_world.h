@@ -176,7 +176,7 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("terrain", s.terrain, "The ground.");
   a.Optional("vegetation", s.vegetation, "Trees and grass.");
   a.Optional("structures", s.structures, "Platforms and the like, by chainage along a track.");
-  a.Optional("objects", s.objects, "Things placed by track coordinates.");
+  a.Optional("objects", s.objects, "Things placed beside tracks or on the map.");
   a.Optional("trains", s.trains, "Coupled vehicles that stand on the tracks or run along them.");
   a.Optional(
       "detail", s.detail,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <set>
 
 #include "core/base/input_file.h"
@@ -186,8 +185,7 @@ void JsonSource::Missing(const Node& object, std::string_view key) {
 }
 
 std::optional<Node> JsonSource::Load(SourceFile file, std::string resolved_pointer) {
-  std::ifstream stream(file.absolute, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string text = ReadFileWhole(file.absolute);
   return Parse(text, std::move(file), std::move(resolved_pointer));
 }
 

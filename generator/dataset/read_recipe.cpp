@@ -49,7 +49,7 @@ void ReadValue(JsonSource& source, const Node& node, ChoiceWeights& weights, Any
 void ReadValue(JsonSource& source, const Node& node, ObjectTemplate& object, Anything) {
   if (!node.json->is_object()) return source.Fault(node, "must be an object");
   object.json = *node.json;
-  for (const char* const key : {"name", "s_m"}) {
+  for (const char* const key : {"name", "s_m", "x_m", "y_m", "longitude_deg", "latitude_deg"}) {
     if (!node.json->contains(key)) continue;
     source.FaultWithoutValue(node.Child(key), "must not be given: it is drawn");
   }

@@ -302,7 +302,8 @@ int RunImport(const ImportCommandOptions& options) {
   WriteTables(options.out, lines, worlds, coverages, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
-            << ") m\n\n"
+            << ") m; longitudes and latitudes in scenarios are right to "
+            << ShortText(projection.geographic_error_m) << " m\n\n"
             << QualityTable(lines) << '\n'
             << CoverageTable(lines, coverages) << '\n'
             << LeftOutLinesText(left_out) << "Wrote " << lines.size() << " lines to "

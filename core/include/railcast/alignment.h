@@ -76,6 +76,24 @@ struct ChainageValue {
   bool operator==(const ChainageValue&) const = default;
 };
 
+/// Where a world lies on the Earth: its x axis points to the east of a map's projection, its y axis
+/// to the north.
+struct MapSpec {
+  /// Easting and northing in the map's projection of the world's origin.
+  std::array<double, 2> origin_m{0, 0};
+  /// Middle (WGS 84) of the transverse Mercator with scale 1 that takes longitudes and latitudes to
+  /// metres (core/rail/line/map_place.h).
+  double longitude_deg{};
+  double latitude_deg{};
+  /// Empty if that is the map's projection. Otherwise the world's x and y are polynomials of its
+  /// easting and northing in units of kUnit_m: the coefficients (x, y) of 1, e, n, e^2, e n, n^2,
+  /// e^3 and so on.
+  std::vector<std::array<double, 2>> coefficients_m;
+  static constexpr double kUnit_m = 1e5;
+
+  bool operator==(const MapSpec&) const = default;
+};
+
 /// Geometry of the line's axis: plan, gradients, and the speed limits that determine the cant.
 /// The gauge that is most common, of which all turnouts and wagons are, and the limits of what a
 /// line may have: from field railways to broader than India's 1676 mm.
@@ -113,6 +131,8 @@ struct AlignmentSpec {
   double cant_deficiency_mm = 60.0;
   double cant_max_mm = 150.0;
   double cant_ramp_m = 60.0;
+
+  std::optional<MapSpec> map{};  ///< Absent: it is not known where on the Earth the world lies.
 
   bool operator==(const AlignmentSpec&) const = default;
 };

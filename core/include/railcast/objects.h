@@ -20,15 +20,17 @@ struct SpeedPoint {
   bool operator==(const SpeedPoint&) const = default;
 };
 
-/// A place that a path leads to, either in track coordinates (s_m and d_m) or in those of the world
-/// (x_m and y_m).
+/// A place that a path leads to: in track coordinates (s_m and d_m), in those of the map's
+/// projection (x_m and y_m) or on the Earth (longitude_deg and latitude_deg), as for ObjectSpec.
 struct PathPoint {
   std::optional<double> s_m;        ///< Chainage.
   std::optional<double> d_m;        ///< Left of the axis of the object's track.
-  std::optional<double> x_m;        ///< In the world.
-  std::optional<double> y_m;        ///< In the world.
+  std::optional<double> x_m;        ///< Easting.
+  std::optional<double> y_m;        ///< Northing.
   std::optional<double> speed_mps;  ///< On the way there; absent = the path's.
   double wait_s = 0.0;              ///< How long the object stands there; 0 = it does not stop.
+  std::optional<double> longitude_deg{};
+  std::optional<double> latitude_deg{};
 
   bool operator==(const PathPoint&) const = default;
 };
@@ -220,9 +222,10 @@ struct PersonSpec {
   bool operator==(const PersonSpec&) const = default;
 };
 
-/// An object placed in track coordinates. Unless `follow` says otherwise, rail vehicles follow
-/// gradient and cant, and all other objects stand upright. An object that moves along its track
-/// keeps its lateral distance from it, and its speed is measured along the chainage.
+/// An object placed in track coordinates or on the map (core/rail/map_placing.h). Unless `follow`
+/// says otherwise, rail vehicles follow gradient and cant, and all other objects stand upright. An
+/// object that moves along its track keeps its lateral distance from it, and its speed is measured
+/// along the chainage.
 struct ObjectSpec {
   std::string name;  ///< Unique.
   ObjectType type{};
@@ -256,6 +259,13 @@ struct ObjectSpec {
   std::optional<PersonSpec> person{};  ///< Persons only; absent = all defaults.
   /// Meshes only: how far their simplified surfaces may be from those of the file; 0 = as they are.
   double tolerance_mm{};
+  /// Instead of s_m and d_m: easting and northing of the alignment's map (MapSpec), or x and y of
+  /// the world if that has none.
+  std::optional<double> x_m{};
+  std::optional<double> y_m{};
+  /// Instead of s_m and d_m: WGS 84; needs the alignment's map.
+  std::optional<double> longitude_deg{};
+  std::optional<double> latitude_deg{};
 
   bool operator==(const ObjectSpec&) const = default;
 };

@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <map>
 
@@ -126,14 +125,6 @@ double SizeOfCell(const HeaderValue& entry) {
   return entry.value;
 }
 
-std::string ReadWhole(const std::filesystem::path& file) {
-  return WithinMemory([&] { return ReadingText(file); },
-                      [&] {
-                        std::ifstream stream = OpenInput(file);
-                        return std::string(std::istreambuf_iterator<char>(stream), {});
-                      });
-}
-
 /// Weights of four neighbouring heights at `t` between the second and the third: Keys' cubic with
 /// a = -1/2.
 std::array<double, 4> CubicWeights(double t) {
@@ -144,7 +135,9 @@ std::array<double, 4> CubicWeights(double t) {
 }  // namespace
 
 ElevationGrid::ElevationGrid(const std::filesystem::path& file)
-    : ElevationGrid(ReadWhole(file), ShownPath(file.filename())) {}
+    : ElevationGrid(
+          WithinMemory([&] { return ReadingText(file); }, [&] { return ReadFileWhole(file); }),
+          ShownPath(file.filename())) {}
 
 ElevationGrid::ElevationGrid(std::string_view text, const std::string& shown) {
   Words words(text, shown);

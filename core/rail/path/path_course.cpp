@@ -21,23 +21,6 @@ Eigen::Vector2d PlaceInPlan(const PathCourse::Start& start, double s_m, double d
   return start.course.WorldFromTrack(start.alignment, s_m, d_m, 0.0).translation().head<2>();
 }
 
-/// The chainage of the nearest of points of the axis that are close enough together for
-/// PlaceOnLine().
-double NearestChainage_m(const Alignment& alignment, const Eigen::Vector2d& position_m) {
-  constexpr double kSpacing_m = 20.0;
-  double nearest_s_m = 0.0;
-  double least_m2 = (alignment.At(0.0).position_m.head<2>() - position_m).squaredNorm();
-  const auto num_steps = static_cast<int>(std::ceil(alignment.length_m() / kSpacing_m));
-  for (int i = 1; i <= num_steps; ++i) {
-    const double s_m = alignment.length_m() * i / num_steps;
-    const double distance_m2 = (alignment.At(s_m).position_m.head<2>() - position_m).squaredNorm();
-    if (distance_m2 >= least_m2) continue;
-    least_m2 = distance_m2;
-    nearest_s_m = s_m;
-  }
-  return nearest_s_m;
-}
-
 std::vector<Node> NodesOf(const PathCourse::Start& start, const PathSpec& path) {
   std::vector<Node> nodes;
   nodes.push_back(
@@ -48,7 +31,8 @@ std::vector<Node> NodesOf(const PathCourse::Start& start, const PathSpec& path) 
                        Eigen::Vector2d(*point.s_m, *point.d_m)});
     } else {
       const Eigen::Vector2d position_m(*point.x_m, *point.y_m);
-      nodes.push_back({position_m, NearestChainage_m(start.alignment, position_m), std::nullopt});
+      const double s_m = NearestOnLine(start.alignment, position_m).front().s_m;
+      nodes.push_back({position_m, s_m, std::nullopt});
     }
   }
   return nodes;

@@ -31,6 +31,21 @@ LineJson ElementJson(const AlignmentElement& element) {
   return json;
 }
 
+/// With one coefficient to a line of text.
+std::string MapText(const MapProjection& projection) {
+  const MapSpec map = MapSpecOf(projection);
+  const LineJson json = {{"origin_m", map.origin_m},
+                         {"longitude_deg", map.longitude_deg},
+                         {"latitude_deg", map.latitude_deg}};
+  std::string text = json.dump();
+  if (map.coefficients_m.empty()) return text;
+  text.pop_back();
+  return text + ",\n    \"coefficients_m\": " +
+         ListText(map.coefficients_m, "    ",
+                  [](const std::array<double, 2>& pair) { return LineJson(pair); }) +
+         "}";
+}
+
 }  // namespace
 
 std::string AlignmentFileText(const ImportedLine& line, const MapProjection& projection) {
@@ -48,6 +63,7 @@ std::string AlignmentFileText(const ImportedLine& line, const MapProjection& pro
   const auto& elements = std::get<AlignmentElementsSpec>(alignment.course).elements;
   std::string text = "{\n  \"version\": 1,\n";
   text += "  \"attribution\": " + LineJson(attribution).dump() + ",\n";
+  text += "  \"map\": " + MapText(projection) + ",\n";
   text += "  \"origin_m\": " +
           LineJson({alignment.origin_m[0], alignment.origin_m[1], alignment.origin_m[2]}).dump() +
           ",\n";

@@ -3,6 +3,7 @@
 #include <geodesic.h>
 #include <proj.h>
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/line/map_place.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
 namespace {
@@ -108,7 +111,83 @@ double ScaleAt(const Eigen::Vector2d& place_deg, const Project& project) {
   return scale;
 }
 
+/// The terms of MapSpec::coefficients_m up to the fifth order.
+Eigen::RowVectorXd PolynomialTerms(const Eigen::Vector2d& place) {
+  constexpr int kOrder = 5;
+  Eigen::RowVectorXd terms((kOrder + 1) * (kOrder + 2) / 2);
+  Eigen::Index i = 0;
+  for (int order = 0; order <= kOrder; ++order) {
+    for (int of_y = 0; of_y <= order; ++of_y) {
+      terms[i++] = std::pow(place.x(), order - of_y) * std::pow(place.y(), of_y);
+    }
+  }
+  return terms;
+}
+
+/// Fits the polynomial that makes the world's metres of those of the transverse Mercator about the
+/// middle of the map, to a grid over the map and at least 20 km about its middle.
+/// @param world_from_deg Not finite where the projection cannot be used.
+template <typename Project>
+std::vector<std::array<double, 2>> FittedPolynomial_m(const Eigen::Vector2d& middle_deg,
+                                                      const Eigen::AlignedBox2d& bounds_deg,
+                                                      const Project& world_from_deg) {
+  constexpr int kNumSteps = 10;
+  constexpr double kLeast_deg = 0.2;
+  const MapSpec local{{0.0, 0.0}, middle_deg.x(), middle_deg.y(), {}};
+  const Eigen::Vector2d half_deg = (0.5 * bounds_deg.sizes()).cwiseMax(kLeast_deg);
+  std::vector<Eigen::RowVectorXd> terms;
+  std::vector<Eigen::RowVector2d> places_m;
+  for (int i = 0; i <= kNumSteps; ++i) {
+    for (int j = 0; j <= kNumSteps; ++j) {
+      const Eigen::Vector2d share(2.0 * i / kNumSteps - 1.0, 2.0 * j / kNumSteps - 1.0);
+      const Eigen::Vector2d place_deg = middle_deg + half_deg.cwiseProduct(share);
+      const Eigen::Vector2d place_m = world_from_deg(place_deg);
+      const Eigen::Vector2d local_m = WorldFromGeographic(local, place_deg.x(), place_deg.y());
+      if (!place_m.allFinite() || !local_m.allFinite()) continue;
+      terms.push_back(PolynomialTerms(local_m / MapSpec::kUnit_m));
+      places_m.emplace_back(place_m);
+    }
+  }
+  if (terms.empty()) return {};
+  const auto num_rows = static_cast<Eigen::Index>(terms.size());
+  Eigen::MatrixXd left(num_rows, terms.front().size());
+  Eigen::MatrixXd right_m(num_rows, 2);
+  for (Eigen::Index row = 0; row < num_rows; ++row) {
+    left.row(row) = terms[static_cast<std::size_t>(row)];
+    right_m.row(row) = places_m[static_cast<std::size_t>(row)];
+  }
+  // Columns of like size, since those of the highest order are small on a small map.
+  const Eigen::RowVectorXd sizes = left.colwise().norm();
+  const Eigen::MatrixXd fitted_m =
+      (left * sizes.cwiseInverse().asDiagonal()).colPivHouseholderQr().solve(right_m);
+  std::vector<std::array<double, 2>> coefficients_m;
+  for (Eigen::Index i = 0; i < fitted_m.rows(); ++i) {
+    coefficients_m.push_back({fitted_m(i, 0) / sizes[i], fitted_m(i, 1) / sizes[i]});
+  }
+  return coefficients_m;
+}
+
+/// The greatest distance of a node from where a scenario's longitudes and latitudes would place it.
+double LargestError_m(const MapProjection& projection, const RailMap& map) {
+  const MapSpec spec = MapSpecOf(projection);
+  double largest_m = 0.0;
+  for (const MapNode& node : map.nodes) {
+    const Eigen::Vector2d& there_deg = node.geographic_deg;
+    const double error_m =
+        (WorldFromGeographic(spec, there_deg.x(), there_deg.y()) - node.place_m).norm();
+    if (!(error_m <= largest_m)) largest_m = error_m;
+  }
+  return largest_m;
+}
+
 }  // namespace
+
+MapSpec MapSpecOf(const MapProjection& projection) {
+  return {.origin_m = {projection.origin_m.x(), projection.origin_m.y()},
+          .longitude_deg = projection.middle_deg.x(),
+          .latitude_deg = projection.middle_deg.y(),
+          .coefficients_m = projection.coefficients_m};
+}
 
 MapProjection ProjectMap(const std::string& definition, RailMap& map) {
   const ProjContext context(proj_context_create());
@@ -117,7 +196,8 @@ MapProjection ProjectMap(const std::string& definition, RailMap& map) {
   const bool is_local = definition.empty();
   const Eigen::AlignedBox2d bounds_deg = BoundsOf_deg(map);
   const Eigen::Vector2d middle_deg = MiddleOf_deg(bounds_deg);
-  MapProjection projection{is_local ? LocalDefinition(middle_deg) : definition, {0.0, 0.0}};
+  MapProjection projection{.definition = is_local ? LocalDefinition(middle_deg) : definition,
+                           .middle_deg = middle_deg};
   const ProjObject projected_from_geographic =
       TransformationTo(context.get(), projection.definition, bounds_deg);
   const auto project = [&](const Eigen::Vector2d& place_deg) -> Eigen::Vector2d {
@@ -152,6 +232,19 @@ MapProjection ProjectMap(const std::string& definition, RailMap& map) {
   if (!is_local && !(std::abs(scale - 1.0) <= kLargestDifference)) {
     RefuseSystem("must have a scale from 0.99 to 1.01 in the middle of the map",
                  ShownText(projection.definition) + " with " + ShortText(scale));
+  }
+  if (!is_local) {
+    projection.coefficients_m =
+        FittedPolynomial_m(middle_deg, bounds_deg, [&](const Eigen::Vector2d& place_deg) {
+          return Eigen::Vector2d(project(place_deg) - projection.origin_m);
+        });
+  }
+  constexpr double kLargestError_m = 1.0;
+  projection.geographic_error_m = LargestError_m(projection, map);
+  if (!is_local && !(projection.geographic_error_m <= kLargestError_m)) {
+    RefuseSystem("must be smooth over the map, a polynomial of the fifth order to 1 m",
+                 ShownText(projection.definition) + " with " +
+                     ShortText(projection.geographic_error_m) + " m");
   }
   return projection;
 }

@@ -51,6 +51,22 @@ TEST(OpenInput, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(Opening(loop), loop.string() + ": too many levels of symbolic links");
 }
 
+TEST(ReadFileWhole, GivesTheBytesAsTheyAre) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "a";
+  for (const std::string& bytes : {std::string(), std::string("a\r\n\0\x1a\xff\n", 8)}) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    EXPECT_EQ(ReadFileWhole(file), bytes);
+  }
+}
+
+TEST(ReadFileWhole, SaysWhyItCannot) {
+  EXPECT_EQ(MessageOf([] { static_cast<void>(ReadFileWhole("/")); }),
+            "/: must be a regular file (got a directory)");
+  EXPECT_EQ(MessageOf([] { static_cast<void>(ReadFileWhole("/no/such/file")); }),
+            "/no/such/file: no such file or directory");
+}
+
 TEST(FileError, StaysOneLineWhateverTheFileIsCalled) {
   EXPECT_STREQ(FileError("a\nb\x1b[2J\xff", ENOENT).what(),
                "a\\nb\\u001b[2J\\xff: no such file or directory");

@@ -151,5 +151,20 @@ TEST(ResolvedScenario, HoldsOtherCoursesAndPatterns) {
   EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
 }
 
+TEST(ResolvedScenario, HoldsPlacesOnTheMapAsTheyWereGiven) {
+  const TemporaryFolder folder;
+  ScenarioSpec spec = UnusualScenario(folder.Write("x.obj", "").string());
+  spec.world.alignment.map = MapSpec{{1, 2}, 15.5, 48.25, {{3, 4}, {5, 6}}};
+  ObjectSpec& object = spec.world.objects.front();
+  object.s_m = object.d_m = 0.0;
+  object.x_m = 50;
+  object.y_m = 5;
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+  object.x_m = object.y_m = {};
+  object.longitude_deg = 15.5;
+  object.latitude_deg = 48.25;
+  EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+}
+
 }  // namespace
 }  // namespace railcast

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/core/rail/test_line.h"
 
@@ -23,6 +25,92 @@ TEST(PlaceOnLine, FindsWhereAPlaceBesideTheLineLies) {
     EXPECT_NEAR(found.s_m, 317.0, 1e-6) << d_m;
     EXPECT_NEAR(found.d_m, d_m, 1e-6) << d_m;
     EXPECT_NEAR(found.h_m, 5.5, 1e-6) << d_m;
+  }
+}
+
+Eigen::Vector2d InPlan(const Alignment& alignment, double s_m, double d_m) {
+  return alignment.WorldFromTrack(s_m, d_m).translation().head<2>();
+}
+
+/// Two straights of 500 m side by side with 200 m between them, joined by half a circle.
+Alignment TwoLegs() {
+  AlignmentSpec spec;
+  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 500.0, {}},
+                                       {ElementType::kArc, 100.0 * std::numbers::pi, 100.0},
+                                       {ElementType::kStraight, 500.0, {}}}};
+  spec.curvature_smoothing_m = 1e-3;
+  return Alignment(spec);
+}
+
+TEST(NearestOnLine, FindsTheLegOfAHairpinBesideWhichAPlaceLies) {
+  const Alignment line = TwoLegs();
+  const double length_m = line.length_m();
+  for (const double s_m : {0.0, 3.0, 250.0, 499.0, 600.0, 700.0, length_m - 250.0, length_m}) {
+    for (const double d_m : {-400.0, -70.0, 0.0, 70.0}) {
+      const auto found = NearestOnLine(line, InPlan(line, s_m, d_m));
+      ASSERT_EQ(found.size(), 1U) << s_m << " " << d_m;
+      EXPECT_NEAR(found.front().s_m, s_m, 1e-5) << d_m;
+      EXPECT_NEAR(found.front().d_m, d_m, 1e-5) << s_m;
+    }
+  }
+}
+
+TEST(NearestOnLine, SaysAboutHowFarAwayAPlaceIs) {
+  const Alignment line = TwoLegs();
+  for (const Eigen::Vector2d& place_m :
+       {Eigen::Vector2d(-3e6, 1e6), Eigen::Vector2d(500.0, -9e7), Eigen::Vector2d(9e3, 100.0)}) {
+    double least_m = 1e9;
+    for (double s_m = 0.0; s_m <= line.length_m(); s_m += 1.0) {
+      least_m = std::min(least_m, (line.At(s_m).position_m.head<2>() - place_m).norm());
+    }
+    const auto found = NearestOnLine(line, place_m);
+    ASSERT_EQ(found.size(), 1U);
+    // Candidates may be 5 m farther away, and places between two steps a hundred-thousandth.
+    EXPECT_NEAR(found.front().d_m, least_m, 6.0 + 2e-5 * least_m);
+  }
+}
+
+TEST(NearestOnLine, SaysThatAPlaceMidwayBetweenTwoLegsIsBesideBoth) {
+  const Alignment line = TwoLegs();
+  const auto found = NearestOnLine(line, InPlan(line, 200.0, 100.0));
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(found.front().s_m, 200.0, 1e-3);
+  EXPECT_NEAR(found.back().s_m, line.length_m() - 200.0, 1e-3);
+}
+
+TEST(NearestOnLine, SaysThatTheCentreOfAnArcIsBesideAllOfIt) {
+  const Alignment line = TwoLegs();
+  EXPECT_GT(NearestOnLine(line, InPlan(line, 600.0, 100.0)).size(), 2U);
+}
+
+TEST(NearestOnLine, GoesStraightOnBeyondTheEnds) {
+  const Alignment line(CantedArc(400.0, 300.0).alignment);
+  for (const double s_m : {-30.0, 430.0}) {
+    const auto found = NearestOnLine(line, InPlan(line, s_m, -6.0));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found.front().s_m, s_m, 1e-5);
+    EXPECT_NEAR(found.front().d_m, -6.0, 1e-5);
+  }
+}
+
+TEST(PlaceOnTrack, IsTheInverseOfTheTracksFrameAlsoInATurnout) {
+  WorldSpec spec = CantedArc(600.0, 400.0);
+  TrackSpec branch;
+  branch.name = "branch";
+  branch.begin = TurnoutSpec{.track = "main", .s_m = 100.0, .turnout = TurnoutType::k9_300};
+  branch.offset_m = -4.5;
+  spec.tracks.push_back(branch);
+  const TestLine line(spec);
+  const TrackCourse& course = line.network().courses.at(1);
+  for (const double s_m : {100.0, 112.0, 127.0, 140.0, 170.0, 300.0}) {
+    for (const double d_m : {-30.0, -1.0, 0.0, 2.0, 40.0}) {
+      const Eigen::Vector2d place_m =
+          course.WorldFromTrack(line.alignment(), s_m, d_m).translation().head<2>();
+      const double near_s_m = NearestOnLine(line.alignment(), place_m).front().s_m;
+      const PlaceBesideTrack found = PlaceOnTrack(line.alignment(), course, place_m, near_s_m);
+      EXPECT_NEAR(found.s_m, s_m, 1e-5) << d_m;
+      EXPECT_NEAR(found.d_m, d_m, 1e-5) << s_m;
+    }
   }
 }
 
