@@ -111,7 +111,7 @@ class ChangeSearch {
   }
   [[nodiscard]] Change Best();
   /// The cheapest change with fewer flat arcs that leaves no point farther off than a tolerance, or
-  /// than the farthest one was before; absent if there is none.
+  /// than it was before; absent if there is none.
   [[nodiscard]] std::optional<LineDraft::Part> WithFewerFlatArcs(double tolerance_m);
 
  private:
@@ -140,20 +140,25 @@ std::ptrdiff_t NumFlatArcs(const PlanModel& plan) {
   return std::ranges::count_if(plan.plateaus, IsFlatArc);
 }
 
-/// The largest distance of a window's points from its plan.
-double FarthestOff_m(const PlanWindow& window) {
+/// The distances of a window's points from its plan.
+std::vector<double> DistancesOf_m(const PlanWindow& window) {
   const PlanCourse course = window.plan.Course();
   const double length_m = window.plan.length_m();
-  double farthest_m = 0.0;
+  std::vector<double> distances_m;
   for (std::size_t i = 0; i < window.points_m.size(); ++i) {
     const Foot foot = FootOn(course, length_m, window.points_m[i], window.feet_m[i]);
-    farthest_m = std::max(farthest_m, std::abs(foot.offset_m));
+    distances_m.push_back(std::abs(foot.offset_m));
   }
-  return farthest_m;
+  return distances_m;
 }
 
 std::optional<LineDraft::Part> ChangeSearch::WithFewerFlatArcs(double tolerance_m) {
-  const double most_m = std::max(tolerance_m, FarthestOff_m(before_.window));
+  const std::vector<double> before_m = DistancesOf_m(before_.window);
+  const auto leaves_points = [&](const PlanWindow& window) {
+    return !std::ranges::equal(DistancesOf_m(window), before_m, [&](double now_m, double was_m) {
+      return now_m <= std::max(tolerance_m, was_m);
+    });
+  };
   const std::ptrdiff_t num_flat = NumFlatArcs(before_.window.plan);
   std::optional<LineDraft::Part> best;
   double least_cost = 0.0;
@@ -161,7 +166,7 @@ std::optional<LineDraft::Part> ChangeSearch::WithFewerFlatArcs(double tolerance_
     LineDraft::Part part = before_;
     work(part.window);
     const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
-    if (NumFlatArcs(part.window.plan) >= num_flat || FarthestOff_m(part.window) > most_m) return;
+    if (NumFlatArcs(part.window.plan) >= num_flat || leaves_points(part.window)) return;
     if (best && cost >= least_cost) return;
     best = std::move(part);
     least_cost = cost;
@@ -274,7 +279,7 @@ void Improve(LineDraft& line, double price_of_flat_arc, const TellShare& tell) {
   }
 }
 
-/// Makes flat arcs straight wherever no point is then farther off than a tolerance, or than one was
+/// Makes flat arcs straight wherever no point is then farther off than a tolerance, or than it was
 /// before. Each change leaves fewer of them.
 void StraightenFlatArcs(LineDraft& line, double tolerance_m) {
   for (std::size_t i = 0; i < line.num_plateaus();) {

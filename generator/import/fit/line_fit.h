@@ -45,7 +45,7 @@ using TellShare = std::function<void(double share)>;
 /// 2 distances. There are at most 10 changes for each of the first arcs, and 100 more. At last
 /// the radius of an arc flatter than 20 km has four times the price: points that are some
 /// decimetres off together, as mapped ones are, would make one. What is left of such arcs becomes
-/// straight wherever this leaves no point more than 2 sigma off, or more than one was.
+/// straight wherever this leaves no point more than 2 sigma off, or more than it was.
 ///
 /// @param points_m At least two, in order along the line, no two neighbours equal.
 ///
