@@ -20,6 +20,7 @@
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/track/sweep.h"
 #include "core/rail/train/train_places.h"
+#include "generator/check/clipped_polygon.h"
 
 namespace railcast {
 namespace {
@@ -38,7 +39,6 @@ constexpr double kAboutEdge_m = 0.12;
 constexpr double kGaugeReach_m = 2.5;
 
 using Triangle = std::array<Vector3, 3>;
-using Polygon = std::vector<Eigen::Vector2d>;
 
 /// A point of a triangle, in the world and as seen from the line.
 struct Corner {
@@ -61,21 +61,14 @@ double CornerHeight_m(const Corner& corner) {
   return corner.line.h_m;
 }
 
-/// The part of a polygon on one side of a line parallel to an axis (Sutherland, Hodgman 1974).
-Polygon Clipped(const Polygon& polygon, int axis, double limit, double sign) {
-  Polygon inside;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d& a = polygon[i];
-    const Eigen::Vector2d& b = polygon[(i + 1) % polygon.size()];
-    const double from_a = sign * (limit - a[axis]);
-    const double from_b = sign * (limit - b[axis]);
-    if (from_a >= 0.0) inside.push_back(a);
-    if ((from_a >= 0.0) != (from_b >= 0.0)) {
-      inside.emplace_back(a + from_a / (from_a - from_b) * (b - a));
-    }
-  }
-  return inside;
-}
+/// From where to where a thing reaches, as seen from the line.
+struct Extent {
+  double begin_s_m = std::numeric_limits<double>::infinity();
+  double end_s_m = -std::numeric_limits<double>::infinity();
+  double right_d_m = std::numeric_limits<double>::infinity();
+  double left_d_m = -std::numeric_limits<double>::infinity();
+  double sagitta_m = 0.0;  ///< By which its triangles may reach farther, as chords of curves.
+};
 
 /// Collects what one thing has in the gauge of one track.
 class GaugeProbe {
@@ -93,7 +86,45 @@ class GaugeProbe {
     for (const GaugePart& part : gauge_) top_m_ = std::max(top_m_, part.top_m);
   }
 
+  /// Whether something that reaches from place to place may be in the gauge anywhere. Until the
+  /// next call, all triangles must be parts of that.
+  bool MayReach(const Extent& extent) {
+    const double begin_s_m = std::max(extent.begin_s_m, course_.begin_s_m());
+    const double end_s_m = std::min(extent.end_s_m, course_.end_s_m());
+    if (begin_s_m > end_s_m) return false;
+    const auto at_m = [&](double step, double num_steps) {
+      return num_steps > 0.0 ? std::lerp(begin_s_m, end_s_m, step / num_steps) : begin_s_m;
+    };
+    constexpr double kStep_m = 5.0;
+    double least_m = std::numeric_limits<double>::infinity();
+    double most_m = -least_m;
+    const double num_steps = std::ceil((end_s_m - begin_s_m) / kStep_m);
+    for (double step = 0.0; step <= num_steps; ++step) {
+      const double d_m = course_.OffsetWithin_m(at_m(step, num_steps));
+      least_m = std::min(least_m, d_m);
+      most_m = std::max(most_m, d_m);
+    }
+    // What differs between its places and the track's cross-sections: their angle, cant, gradients,
+    // and what a track goes aside between samples.
+    constexpr double kMargin_m = 6.0;
+    const double reach_m = kGaugeReach_m + kMargin_m + extent.sagitta_m;
+    if (extent.right_d_m > most_m + reach_m || extent.left_d_m < least_m - reach_m) return false;
+    constexpr double kCurveStep_m = 2.0;
+    constexpr double kBetweenSamples = 1.2;
+    sharpest_per_m_ = 0.0;
+    const double num_curves = std::ceil((end_s_m - begin_s_m) / kCurveStep_m);
+    for (double step = 0.0; step <= num_curves; ++step) {
+      const double curvature_per_m = course_.CurvatureAt(alignment_, at_m(step, num_curves));
+      sharpest_per_m_ = std::max(sharpest_per_m_, kBetweenSamples * std::abs(curvature_per_m));
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::size_t num_comparisons() const { return num_comparisons_; }
+
+  /// @pre MayReach was true for what it is a part of.
   void Add(const Corners& triangle) {
+    ++num_comparisons_;
     const auto [first, last] = std::ranges::minmax(triangle, {}, &CornerChainage_m);
     if (last.line.s_m < course_.begin_s_m() || first.line.s_m > course_.end_s_m()) return;
     const double length_m = last.line.s_m - first.line.s_m;
@@ -103,7 +134,7 @@ class GaugeProbe {
     Triangle here;
     std::ranges::transform(triangle, here.begin(),
                            [&](const Corner& corner) { return track_from_world * corner.place_m; });
-    if (IsFar(here, length_m)) return;
+    if (IsFar(here)) return;
     if (length_m > kLongestPiece_m) return Divide(triangle);
     for (const GaugePart& part : gauge_) Measure(here, part, middle_s_m);
     if (platform_ != nullptr) MeasurePlatform(here, middle_s_m);
@@ -140,9 +171,19 @@ class GaugeProbe {
     const double lowest_m = std::ranges::min(triangle, {}, &CornerHeight_m).line.h_m;
     return lowest_m > top_m_ + kMargin_m + kSteepest * (length_m + width_m);
   }
-  /// Whether the triangle is on one side of the gauge, allowing for a curve along its length.
-  [[nodiscard]] bool IsFar(const Triangle& here, double length_m) const {
-    const double reach_m = kGaugeReach_m + length_m * length_m / alignment_.tightest_radius_m();
+  /// Whether the triangle is on one side of the gauge, allowing for a curve along its length: an
+  /// arc that touches the track's axis is k x^2 / (1 + sqrt(1 - k^2 x^2)) beside it after x m, that
+  /// is L^2 / 8 R at both ends of a chord of L, and the gauge is turned by as much as its
+  /// direction.
+  [[nodiscard]] bool IsFar(const Triangle& here) const {
+    constexpr double kMargin_m = 0.1;
+    constexpr double kSharpestTurn = 0.7;
+    double along_m = 0.0;
+    for (const Vector3& corner : here) along_m = std::max(along_m, std::abs(corner.x()));
+    const double turn = sharpest_per_m_ * along_m;
+    if (turn > kSharpestTurn) return false;
+    const double cosine = std::sqrt(1.0 - turn * turn);
+    const double reach_m = kGaugeReach_m / cosine + turn * along_m / (1.0 + cosine) + kMargin_m;
     const auto is_beyond = [&](double sign) {
       return std::ranges::all_of(
           here, [&](const Vector3& corner) { return sign * corner.y() > reach_m; });
@@ -182,7 +223,7 @@ class GaugeProbe {
   }
 
   void Measure(const Triangle& here, const GaugePart& part, double s_m) {
-    Polygon polygon;
+    std::vector<Eigen::Vector2d> polygon;
     for (const Vector3& corner : here) polygon.emplace_back(corner.y(), corner.z());
     polygon = Clipped(polygon, 0, part.half_width_m, 1.0);
     polygon = Clipped(polygon, 0, -part.half_width_m, -1.0);
@@ -227,6 +268,8 @@ class GaugeProbe {
   const PlatformSpec* platform_;
   std::vector<GaugePart> gauge_;
   double top_m_ = 0.0;
+  double sharpest_per_m_ = 0.0;  ///< Of the track where it is compared with something.
+  std::size_t num_comparisons_ = 0;
   GaugeEntry entry_;
   std::set<int> metres_;  ///< Of chainage, with something of it in the gauge.
 };
@@ -256,10 +299,20 @@ class Probes {
             CornerAt(alignment_, world_from_model * vertex.cast<double>(), guess_s_m));
         guess_s_m = corners.back().line.s_m;
       }
-      for (const auto& [a, b, c] : part.mesh.triangles) {
-        for (GaugeProbe& probe : probes_) probe.Add({corners[a], corners[b], corners[c]});
+      const Extent extent = ExtentOf(corners, part.mesh.triangles);
+      for (GaugeProbe& probe : probes_) {
+        if (!probe.MayReach(extent)) continue;
+        for (const auto& [a, b, c] : part.mesh.triangles) {
+          probe.Add({corners[a], corners[b], corners[c]});
+        }
       }
     }
+  }
+
+  [[nodiscard]] std::size_t num_comparisons() const {
+    std::size_t num = 0;
+    for (const GaugeProbe& probe : probes_) num += probe.num_comparisons();
+    return num;
   }
 
   void Report(const std::string& name, std::vector<GaugeEntry>& entries) const {
@@ -269,6 +322,26 @@ class Probes {
   }
 
  private:
+  template <class Triangles>
+  [[nodiscard]] Extent ExtentOf(const std::vector<Corner>& corners,
+                                const Triangles& triangles) const {
+    Extent extent;
+    for (const Corner& corner : corners) {
+      extent.begin_s_m = std::min(extent.begin_s_m, corner.line.s_m);
+      extent.end_s_m = std::max(extent.end_s_m, corner.line.s_m);
+      extent.right_d_m = std::min(extent.right_d_m, corner.line.d_m);
+      extent.left_d_m = std::max(extent.left_d_m, corner.line.d_m);
+    }
+    double longest_m = 0.0;
+    for (const auto& [a, b, c] : triangles) {
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        longest_m = std::max(longest_m, (corners[to].place_m - corners[from].place_m).norm());
+      }
+    }
+    extent.sagitta_m = longest_m * longest_m / (8.0 * alignment_.tightest_radius_m());
+    return extent;
+  }
+
   const Alignment& alignment_;
   std::vector<GaugeProbe> probes_;
 };
@@ -285,6 +358,10 @@ void ProbeStructure(const Structure& structure,
   if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
     first_s_m = structure.begin_s_m;
     last_s_m = structure.end_s_m;
+  } else if constexpr (std::is_base_of_v<PointSpec, Structure>) {
+    // It stands in the chunk of its place, and reaches a few metres along the track.
+    first_s_m = structure.s_m - RailWorld::kChunkLength_m;
+    last_s_m = structure.s_m + RailWorld::kChunkLength_m;
   }
   const int last = grid.ChunkAt(last_s_m);
   for (int chunk = grid.ChunkAt(first_s_m); chunk <= last; ++chunk) {
@@ -367,12 +444,12 @@ std::vector<GaugeEntry> FindObjectInGauge(const WorldSpec& given_spec,
   return EntriesOfObject(tracks, world, object, is_on_its_track, time_ns);
 }
 
-std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
-                                              const Alignment& alignment,
-                                              std::span<const TrackCourse> courses) {
+StructuresInGauge FindStructuresInGauge(const WorldSpec& spec,
+                                        const Alignment& alignment,
+                                        std::span<const TrackCourse> courses) {
   const WorldTracks tracks{spec, courses};
   const ChunkGrid grid(alignment, RailWorld::kChunkLength_m, spec.terrain.half_width_m);
-  std::vector<std::vector<GaugeEntry>> of_structures(spec.structures.size());
+  std::vector<StructuresInGauge> of_structures(spec.structures.size());
   oneapi::tbb::parallel_for(std::size_t{0}, spec.structures.size(), [&](std::size_t i) {
     std::visit(
         [&]<class Structure>(const Structure& given) {
@@ -382,15 +459,17 @@ std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
           if constexpr (std::is_same_v<Structure, PlatformSpec>) platform = &given;
           Probes probes(tracks, alignment, own_tracks, platform);
           ProbeStructure(AtRest(given), tracks, alignment, grid, probes);
-          probes.Report(given.name, of_structures[i]);
+          probes.Report(given.name, of_structures[i].entries);
+          of_structures[i].num_comparisons = probes.num_comparisons();
         },
         spec.structures[i]);
   });
-  std::vector<GaugeEntry> entries;
-  for (const std::vector<GaugeEntry>& some : of_structures) {
-    entries.insert(entries.end(), some.begin(), some.end());
+  StructuresInGauge all;
+  for (const StructuresInGauge& some : of_structures) {
+    all.entries.insert(all.entries.end(), some.entries.begin(), some.entries.end());
+    all.num_comparisons += some.num_comparisons;
   }
-  return entries;
+  return all;
 }
 
 std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const RailWorld& world) {
@@ -398,7 +477,7 @@ std::vector<GaugeEntry> FindGaugeEntries(const WorldSpec& given_spec, const Rail
   spec.tracks = world.tracks();
   const WorldTracks tracks{spec, world.network().courses};
   std::vector<GaugeEntry> entries =
-      FindStructuresInGauge(spec, world.alignment(), world.network().courses);
+      FindStructuresInGauge(spec, world.alignment(), world.network().courses).entries;
   const std::size_t num_objects = spec.objects.size();
   for (std::size_t i = 0; i < num_objects + NumVehicles(spec.trains); ++i) {
     if (world.objects()[i].moves) continue;

@@ -45,11 +45,18 @@ struct GaugeEntry {
                                                         bool is_on_its_track,
                                                         std::int64_t time_ns);
 
+struct StructuresInGauge {
+  std::vector<GaugeEntry> entries;
+  /// Of triangles with tracks, which is what it costs: in proportion to the structures, since each
+  /// is compared with the tracks that are near it.
+  std::size_t num_comparisons = 0;
+};
+
 /// The same for the structures alone.
 /// @param spec With all tracks, also those of yards.
 /// @param courses Of the tracks, in their order.
-[[nodiscard]] std::vector<GaugeEntry> FindStructuresInGauge(const WorldSpec& spec,
-                                                            const Alignment& alignment,
-                                                            std::span<const TrackCourse> courses);
+[[nodiscard]] StructuresInGauge FindStructuresInGauge(const WorldSpec& spec,
+                                                      const Alignment& alignment,
+                                                      std::span<const TrackCourse> courses);
 
 }  // namespace railcast

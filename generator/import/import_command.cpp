@@ -11,6 +11,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/attempt.h"
@@ -27,6 +28,7 @@
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_world.h"
+#include "generator/import/lines/sharp_arcs.h"
 #include "generator/import/lines/standing_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/crop_map.h"
@@ -107,23 +109,47 @@ void WorkOnLines(const RailMap& map,
 }
 
 /// Fits all lines at once, and shows how far that is. Lines that no alignment can have are left out
-/// of both lists.
+/// of both lists; those with arcs that are too sharp are cut there, and what is left of them comes
+/// last.
 std::vector<ImportedLine> ImportLines(const RailMap& map,
-                                      const ImportOptions& options,
+                                      const ImportCommandOptions& options,
                                       std::vector<TrackLine>& tracks,
                                       std::vector<LeftOutLine>& left_out) {
-  std::vector<ImportedLine> lines(tracks.size());
-  std::vector<std::optional<std::string>> reasons(tracks.size());
-  WorkOnLines(map, tracks, "fit", [&](std::size_t i, const TellShare& tell) {
-    try {
-      lines[i] = ImportLine(map, tracks[i], options, tell);
-    } catch (const InputError& error) {
-      reasons[i] = error.what();
+  std::vector<ImportedLine> lines;
+  std::vector<TrackLine> open = std::exchange(tracks, {});
+  while (!open.empty()) {
+    std::vector<ImportedLine> fitted(open.size());
+    std::vector<std::optional<std::string>> reasons(open.size());
+    WorkOnLines(map, open, "fit", [&](std::size_t i, const TellShare& tell) {
+      try {
+        fitted[i] = ImportLine(map, open[i], options.fit, tell);
+      } catch (const InputError& error) {
+        reasons[i] = error.what();
+      }
+    });
+    LeaveOutLines(map, open, reasons, left_out);
+    EraseWhere(reasons, open);
+    EraseWhere(reasons, fitted);
+    std::vector<TrackLine> parts;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const auto cut = CutAtSharpArcs(map, open[i], fitted[i]);
+      if (!cut) {
+        tracks.push_back(std::move(open[i]));
+        lines.push_back(std::move(fitted[i]));
+        continue;
+      }
+      left_out.push_back({open[i].name, cut->cut_m, cut->reason});
+      for (const TrackLine& part : cut->parts) {
+        const double length_m = LengthOf_m(map, part);
+        if (length_m >= options.min_length_m) {
+          parts.push_back(part);
+        } else {
+          left_out.push_back({part.name, length_m, "it is shorter than --min-length"});
+        }
+      }
     }
-  });
-  LeaveOutLines(map, tracks, reasons, left_out);
-  EraseWhere(reasons, tracks);
-  EraseWhere(reasons, lines);
+    open = std::move(parts);
+  }
   return lines;
 }
 
@@ -141,8 +167,7 @@ std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
   WorkOnLines(map, tracks, "tracks and structures", [&](std::size_t i, const TellShare& /*tell*/) {
     worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
     if (!options.is_main_only) {
-      worlds[i].beside =
-          AddSideTracks(map, tracks[i], lines[i], options.fit.sigma_m, worlds[i].world);
+      worlds[i].beside = AddSideTracks(map, tracks[i], lines[i], options.fit, worlds[i].world);
     }
     AddStructures(map, tracks[i], lines[i], worlds[i].world);
   });
@@ -167,7 +192,7 @@ std::string TracksCsv(const std::vector<ImportedLine>& lines,
       return values_m.empty() ? 0.0 : values_m[static_cast<std::size_t>(share * last)];
     };
     csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.num_switches
-        << ',' << q.num_made << ',' << quantile_m(q.shifts_m, 0.5) << ','
+        << ',' << q.made.size() << ',' << quantile_m(q.shifts_m, 0.5) << ','
         << quantile_m(q.shifts_m, 0.95) << ',' << q.length_m << ',' << q.distances_m.size() << ','
         << quantile_m(q.distances_m, 0.5) << ',' << quantile_m(q.distances_m, 0.99) << '\n';
   }
@@ -244,6 +269,7 @@ void WriteTables(const std::filesystem::path& out,
                  const std::vector<MapCoverage>& coverages,
                  const std::vector<LeftOutLine>& left_out) {
   WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, lines, WorldsOf(worlds)));
+  WriteFileWhole(out / "moved.csv", MovedCsv(lines, WorldsOf(worlds)));
   WriteFileWhole(out / "tracks.csv", TracksCsv(lines, worlds));
   WriteFileWhole(out / "coverage.csv", CoverageCsv(lines, coverages));
   WriteFileWhole(out / "heights.csv", HeightsCsv(lines));
@@ -268,7 +294,7 @@ int RunImport(const ImportCommandOptions& options) {
   // Before minutes of fitting.
   CheckCanWrite(options.out / "lines.csv");
   std::vector<LeftOutLine> left_out;
-  std::vector<ImportedLine> lines = ImportLines(map, options.fit, tracks, left_out);
+  std::vector<ImportedLine> lines = ImportLines(map, options, tracks, left_out);
   std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
   const ProgressLine progress;
   std::vector<MapCoverage> coverages;
@@ -287,6 +313,7 @@ int RunImport(const ImportCommandOptions& options) {
     SetCants(map, tracks[i], lines[i]);
     ClearStructures(lines[i].alignment, worlds[i].world);
     reasons[i] = MakeStand(lines[i].alignment, elevation_file, worlds[i].world);
+    KeepStanding(worlds[i].world, worlds[i].beside);
     coverages.push_back(CoverageOf(map, worlds[i].world, worlds[i].beside));
     if (!reasons[i]) {
       WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
@@ -306,6 +333,7 @@ int RunImport(const ImportCommandOptions& options) {
             << ShortText(projection.geographic_error_m) << " m\n\n"
             << QualityTable(lines) << '\n'
             << CoverageTable(lines, coverages) << '\n'
+            << SwitchReasonsText(WorldsOf(worlds)) << MovedText(WorldsOf(worlds))
             << LeftOutLinesText(left_out) << "Wrote " << lines.size() << " lines to "
             << ShownPath(options.out) << '\n';
   return kExitSuccess;

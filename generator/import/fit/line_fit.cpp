@@ -17,6 +17,8 @@ namespace {
 /// asks for ln(number of points), some 6; mapped points err together, and half as many elements
 /// explain them nearly as well.
 constexpr double kPrice = 10.0;
+/// Of points, in units of sigma: within it an element explains them.
+constexpr double kTolerance = 2.0;
 /// A changed plateau is fitted with this many on either side.
 constexpr std::size_t kReach = 2;
 
@@ -108,6 +110,9 @@ class ChangeSearch {
     return std::ranges::any_of(before_.window.plan.plateaus, IsFlatArc);
   }
   [[nodiscard]] Change Best();
+  /// The cheapest change with fewer flat arcs that leaves no point farther off than a tolerance, or
+  /// than it was before; absent if there is none.
+  [[nodiscard]] std::optional<LineDraft::Part> WithFewerFlatArcs(double tolerance_m);
 
  private:
   [[nodiscard]] bool IsWhole(std::size_t i) const {
@@ -130,6 +135,60 @@ class ChangeSearch {
   double cost_{};
   Change best_;
 };
+
+std::ptrdiff_t NumFlatArcs(const PlanModel& plan) {
+  return std::ranges::count_if(plan.plateaus, IsFlatArc);
+}
+
+/// The distances of a window's points from its plan.
+std::vector<double> DistancesOf_m(const PlanWindow& window) {
+  const PlanCourse course = window.plan.Course();
+  const double length_m = window.plan.length_m();
+  std::vector<double> distances_m;
+  for (std::size_t i = 0; i < window.points_m.size(); ++i) {
+    const Foot foot = FootOn(course, length_m, window.points_m[i], window.feet_m[i]);
+    distances_m.push_back(std::abs(foot.offset_m));
+  }
+  return distances_m;
+}
+
+std::optional<LineDraft::Part> ChangeSearch::WithFewerFlatArcs(double tolerance_m) {
+  const std::vector<double> before_m = DistancesOf_m(before_.window);
+  const auto leaves_points = [&](const PlanWindow& window) {
+    return !std::ranges::equal(DistancesOf_m(window), before_m, [&](double now_m, double was_m) {
+      return now_m <= std::max(tolerance_m, was_m);
+    });
+  };
+  const std::ptrdiff_t num_flat = NumFlatArcs(before_.window.plan);
+  std::optional<LineDraft::Part> best;
+  double least_cost = 0.0;
+  const auto consider = [&](const auto& work) {
+    LineDraft::Part part = before_;
+    work(part.window);
+    const double cost = part.window.Fit() + PriceOf(part.window.plan, price_of_flat_arc_);
+    if (NumFlatArcs(part.window.plan) >= num_flat || leaves_points(part.window)) return;
+    if (best && cost >= least_cost) return;
+    best = std::move(part);
+    least_cost = cost;
+  };
+  const auto straighten = [](PlanWindow& window, std::size_t i) {
+    window.plan.plateaus[i].curvature_per_m = 0.0;
+    window.has_fixed_curvature[i] = true;
+  };
+  const std::size_t num_plateaus = before_.window.plan.plateaus.size();
+  consider([&](PlanWindow& window) { straighten(window, at_); });
+  if (at_ > 0 && at_ + 1 < num_plateaus) {
+    consider([&](PlanWindow& window) { Remove(window, at_); });
+  }
+  for (std::size_t first = at_ - std::min<std::size_t>(at_, 1); first <= at_; ++first) {
+    if (first + 1 >= num_plateaus || !IsWhole(first) || !IsWhole(first + 1)) continue;
+    consider([&](PlanWindow& window) {
+      Join(window, first);
+      straighten(window, first);
+    });
+  }
+  return best;
+}
 
 Change ChangeSearch::Best() {
   cost_ = before_.window.Fit() + PriceOf(before_.window.plan, price_of_flat_arc_);
@@ -168,8 +227,7 @@ void ChangeSearch::TryDivisions() {
     worst_m = foot.offset_m;
     worst_s_m = foot.s_m;
   }
-  constexpr double kWorthwhile = 2.0;
-  if (std::abs(worst_m) < kWorthwhile * window.sigma_m) return;
+  if (std::abs(worst_m) < kTolerance * window.sigma_m) return;
   const double share = (worst_s_m - begin_m) / length_m;
   const double turn_rad = 4.0 * std::abs(worst_m) / length_m;
   Try([&](PlanWindow& changed) { Divide(changed, at_, share, turn_rad); });
@@ -221,6 +279,20 @@ void Improve(LineDraft& line, double price_of_flat_arc, const TellShare& tell) {
   }
 }
 
+/// Makes flat arcs straight wherever no point is then farther off than a tolerance, or than it was
+/// before. Each change leaves fewer of them.
+void StraightenFlatArcs(LineDraft& line, double tolerance_m) {
+  for (std::size_t i = 0; i < line.num_plateaus();) {
+    std::optional<LineDraft::Part> part;
+    if (IsFlatArc(line.plan().plateaus[i])) {
+      part = ChangeSearch(line, i, kPriceOfFlatArc).WithFewerFlatArcs(tolerance_m);
+    }
+    if (part) line.Replace(*part);
+    // What was not possible before may be now, but only beside a change.
+    i = part ? i - std::min(i, 2 * kReach) : i + 1;
+  }
+}
+
 }  // namespace
 
 LineFit MeasureFit(const PlanModel& plan,
@@ -244,6 +316,7 @@ LineFit FitLine(std::span<const Eigen::Vector2d> points_m,
   Improve(line, kPrice, tell);
   // Only now, since a line that is not found yet has flat arcs where it will have none.
   Improve(line, kPriceOfFlatArc, {});
+  StraightenFlatArcs(line, kTolerance * prior.sigma_m);
   return MeasureFit(line.plan(), points_m, line.feet_m());
 }
 

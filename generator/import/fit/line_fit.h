@@ -44,7 +44,8 @@ using TellShare = std::function<void(double share)>;
 /// what it costs does not depend on the line's length. An arc of n points is found with some n^2 /
 /// 2 distances. There are at most 10 changes for each of the first arcs, and 100 more. At last
 /// the radius of an arc flatter than 20 km has four times the price: points that are some
-/// decimetres off together, as mapped ones are, would make one.
+/// decimetres off together, as mapped ones are, would make one. What is left of such arcs becomes
+/// straight wherever this leaves no point more than 2 sigma off, or more than it was.
 ///
 /// @param points_m At least two, in order along the line, no two neighbours equal.
 ///

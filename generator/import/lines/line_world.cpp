@@ -98,4 +98,16 @@ std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
   return csv.str();
 }
 
+std::string MovedCsv(const std::vector<ImportedLine>& lines, const std::vector<LineWorld>& worlds) {
+  std::ostringstream csv;
+  csv << "line,track,from_s_m,to_s_m,moved_m\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const MovedTrack& moved : worlds[i].moved) {
+      csv << lines[i].name << ',' << moved.name << ',' << RoundedTo(moved.begin_s_m, 100.0) << ','
+          << RoundedTo(moved.end_s_m, 100.0) << ',' << RoundedTo(moved.most_m, 100.0) << '\n';
+    }
+  }
+  return csv.str();
+}
+
 }  // namespace railcast

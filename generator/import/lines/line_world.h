@@ -27,11 +27,21 @@ struct WorldTrack {
   std::vector<LineStretch> ways;  ///< Of the map, from point to point; they may reach farther.
 };
 
+/// A stretch of a track that was moved away from others, to which the map has it too near.
+struct MovedTrack {
+  std::string name;
+  double begin_s_m{};
+  double end_s_m{};
+  double most_m{};  ///< By which it was moved.
+};
+
 /// What a world has besides its alignment.
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
   std::vector<StructureSpec> structures;
-  std::vector<TrackRun> runs;  ///< The tracks of the map beside the line, made or not.
+  /// The tracks of the map beside the line, made or not, and where they were moved to.
+  std::vector<TrackRun> runs;
+  std::vector<MovedTrack> moved;
   std::vector<LeftOut> left_out;
 };
 
@@ -57,5 +67,9 @@ struct LeftOutLine {
 [[nodiscard]] std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
                                      const std::vector<ImportedLine>& lines,
                                      const std::vector<LineWorld>& worlds);
+
+/// The stretches of tracks that were moved away from others, as CSV.
+[[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
+                                   const std::vector<LineWorld>& worlds);
 
 }  // namespace railcast

@@ -74,6 +74,11 @@ std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
         return errors.lines().front();
       }
     }
+    for (const std::size_t track : tracks) {
+      std::erase_if(world.moved, [&](const MovedTrack& moved) {
+        return moved.name == world.tracks[track].draft.spec.name;
+      });
+    }
     EraseNumbered(tracks, world.tracks);
     EraseNumbered(structures, world.structures);
   }

@@ -27,9 +27,9 @@ std::optional<double> CrossingOf(const TrackRun& run, double d_m, bool is_last) 
 std::optional<TurnoutSpec> TurnoutTowards(const TrackNetwork& network,
                                           const TrackRun& run,
                                           double level_m,
-                                          const Meeting& meeting,
-                                          TurnoutType type) {
+                                          const Meeting& meeting) {
   const TrackDraft& other = network.tracks()[meeting.track];
+  const TurnoutType type = TurnoutFor(SpeedOfRun_kmph(run, meeting.s_m));
   const TurnoutGeometry shape = GeometryOf(type);
   const double forwards = meeting.opens_ahead ? 1.0 : -1.0;
   // Other tracks may be a little oblique: their offset half way counts.
@@ -116,10 +116,9 @@ std::optional<TrackDraft> LevelTrackOf(const TrackNetwork& network,
                                        const std::optional<Meeting>& end) {
   const std::optional<TrackLevels> levels = LevelsOf(run);
   if (!levels) return std::nullopt;
-  const TurnoutType type = TurnoutFor(run.speed_kmph);
   Ends ends;
-  if (begin) ends.begin = TurnoutTowards(network, run, levels->levels.front().d_m, *begin, type);
-  if (end) ends.end = TurnoutTowards(network, run, levels->levels.back().d_m, *end, type);
+  if (begin) ends.begin = TurnoutTowards(network, run, levels->levels.front().d_m, *begin);
+  if (end) ends.end = TurnoutTowards(network, run, levels->levels.back().d_m, *end);
   for (const auto& [has_begin, has_end] : {std::pair(true, true), std::pair(true, false),
                                            std::pair(false, true), std::pair(false, false)}) {
     if ((has_begin && !ends.begin) || (has_end && !ends.end)) continue;

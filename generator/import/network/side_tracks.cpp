@@ -8,11 +8,14 @@
 #include <utility>
 #include <variant>
 
+#include "core/base/text.h"
 #include "core/rail/chainage_range.h"
 #include "core/rail/line/alignment_course.h"
 #include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/line_places.h"
 #include "generator/import/network/level_tracks.h"
+#include "generator/import/network/moved_run.h"
+#include "generator/import/network/run_parts.h"
 #include "generator/import/network/switch_nodes.h"
 #include "generator/import/network/track_network.h"
 #include "generator/import/network/track_runs.h"
@@ -25,32 +28,20 @@ namespace {
 struct MeetingPoint {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   std::optional<double> turnout_s_m;
+  std::string branch;  ///< Name of the track that begins or ends in the turnout.
 };
 
 /// A run that is being made, and the tracks that it meets.
 struct OpenRun {
-  TrackRun run;
+  TrackRun run;                    ///< Where it is made.
+  const TrackRun& mapped;          ///< Where the map has it.
+  std::vector<MovedPlace> places;  ///< At which the two differ.
+  double sigma_m{};                ///< Of its points.
   std::optional<Meeting> begin;
   std::optional<Meeting> end;
 
   [[nodiscard]] std::size_t num_meetings() const { return (begin ? 1U : 0U) + (end ? 1U : 0U); }
 };
-
-/// The part of a run between two chainages of it; absent if it is short.
-std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double to_s_m) {
-  constexpr double kShortest_m = 30.0;
-  constexpr double kSame_m = 0.5;
-  if (to_s_m - from_s_m < kShortest_m) return std::nullopt;
-  TrackRun part = run;
-  part.points_m = {{from_s_m, OffsetOf_m(run, from_s_m)}};
-  for (const Eigen::Vector2d& point_m : run.points_m) {
-    if (point_m.x() > from_s_m + kSame_m && point_m.x() < to_s_m - kSame_m) {
-      part.points_m.push_back(point_m);
-    }
-  }
-  part.points_m.emplace_back(to_s_m, OffsetOf_m(run, to_s_m));
-  return part;
-}
 
 /// A cut is this far from where a track comes too near to others, and sought in these steps.
 constexpr double kCutMargin_m = 1.0;
@@ -72,33 +63,23 @@ double BeginBehind_m(const RunFit& fit, double conflict_s_m) {
   return fit.OutOfClothoid_m(at_m, false);
 }
 
+/// A point of a plan of chainage and offset, as tracks have it.
+TrackOffset OffsetAtPoint(const PlanPoint& at) {
+  const double slope = std::tan(at.heading_rad);
+  return {at.y_m, slope, at.curvature_per_m * std::pow(1.0 + slope * slope, 1.5)};
+}
+
 class SideTrackSearch {
  public:
   SideTrackSearch(TrackNetwork network, const ImportedLine& line, double sigma_m, LineWorld& world)
       : network_(std::move(network)),
-        has_turnouts_(line.alignment.gauge_mm == kStandardGauge_mm),
+        gauge_mm_(line.alignment.gauge_mm),
+        has_turnouts_(gauge_mm_ == kStandardGauge_mm),
         sigma_m_(sigma_m),
         world_(world) {}
 
-  void Take(const TrackRun& run) {
-    OpenRun open{run, MeetingAt(run.points_m.front(), true), MeetingAt(run.points_m.back(), false)};
-    for (const auto& [meeting, point_m] :
-         {std::pair(open.begin, run.points_m.front()), std::pair(open.end, run.points_m.back())}) {
-      if (meeting) meetings_.push_back({point_m, std::nullopt});
-    }
-    std::optional<TrackDraft> level = LevelTrackOf(network_, run, open.begin, open.end);
-    if (level && level->turnouts.size() == open.num_meetings()) {
-      Accept(run, std::move(*level));
-      return;
-    }
-    const RunFit fit(run, sigma_m_);
-    if (open.num_meetings() > 0 && TakeWhole(open, fit)) return;
-    if (level && (!level->turnouts.empty() || open.num_meetings() == 0)) {
-      Accept(run, std::move(*level));
-      return;
-    }
-    TakeParts(std::move(open), fit, std::move(level));
-  }
+  /// @returns The run where it was moved to, if it was.
+  std::optional<TrackRun> Take(const TrackRun& run);
 
   /// Says which of the map's switches on the world's tracks are no turnouts.
   void CountSwitches(const std::vector<SwitchNode>& switches);
@@ -106,8 +87,13 @@ class SideTrackSearch {
   [[nodiscard]] SideTrackQuality& quality() { return quality_; }
 
  private:
+  /// The track on which a point lies.
+  [[nodiscard]] std::optional<std::size_t> TrackAt(const Eigen::Vector2d& point_m) const;
   [[nodiscard]] std::optional<Meeting> MeetingAt(const Eigen::Vector2d& point_m,
                                                  bool opens_ahead) const;
+  /// Makes one track of a run with turnouts wherever it meets others, or else with as many as
+  /// possible, if it is parallel to the line.
+  bool TakeAtOnce(const OpenRun& open, const RunFit& fit, std::optional<TrackDraft>& level);
   /// Makes a track of the whole run with turnouts wherever it meets others.
   bool TakeWhole(const OpenRun& open, const RunFit& fit);
   void TakeParts(OpenRun open, const RunFit& fit, std::optional<TrackDraft> level);
@@ -124,22 +110,23 @@ class SideTrackSearch {
   /// @return Where it ends.
   std::optional<double> TakeFromOneEnd(const OpenRun& open, const RunFit& fit, bool is_begin);
   /// Makes tracks without turnouts of all stretches of a run that are apart from others.
-  void TakeFree(const TrackRun& run);
+  void TakeFree(const OpenRun& open);
   /// @param stretch Of the fit.
   /// @param made_up_to_s_m Chainage up to which it is known what becomes of the run.
-  void TakeStretch(const TrackRun& run,
+  void TakeStretch(const OpenRun& open,
                    const RunFit& fit,
                    const ChainageRange& stretch,
                    double& made_up_to_s_m);
-  void Accept(const TrackRun& run, TrackDraft draft);
-  void LeaveOutBetween(const TrackRun& run, double from_s_m, double to_s_m) {
-    constexpr double kLeast_m = 2.0;
-    if (to_s_m - from_s_m < kLeast_m) return;
-    world_.left_out.push_back({run.kind + " track", from_s_m, to_s_m,
-                               "it is nearer than 3 m to others there, too sharp, or too short"});
-  }
+  void Accept(const OpenRun& open, TrackDraft draft);
+  void NoteMoved(const OpenRun& open, const TrackDraft& draft);
+  void LeaveOutBetween(const OpenRun& open, const RunFit& fit, const ChainageRange& stretch);
+  /// Why the greater part of a stretch of a run is no track.
+  [[nodiscard]] std::string ReasonAgainst(const OpenRun& open,
+                                          const RunFit& fit,
+                                          const ChainageRange& stretch) const;
 
   TrackNetwork network_;
+  double gauge_mm_;
   bool has_turnouts_;  ///< There are none of other gauges.
   double sigma_m_;
   LineWorld& world_;
@@ -148,11 +135,41 @@ class SideTrackSearch {
   SideTrackQuality quality_;
 };
 
-std::optional<Meeting> SideTrackSearch::MeetingAt(const Eigen::Vector2d& point_m,
-                                                  bool opens_ahead) const {
-  if (!has_turnouts_) return std::nullopt;
+std::optional<TrackRun> SideTrackSearch::Take(const TrackRun& run) {
+  OpenRun open{run,
+               run,
+               {},
+               sigma_m_,
+               MeetingAt(run.points_m.front(), true),
+               MeetingAt(run.points_m.back(), false)};
+  for (const auto& [meeting, point_m] :
+       {std::pair(open.begin, run.points_m.front()), std::pair(open.end, run.points_m.back())}) {
+    if (meeting) meetings_.push_back({point_m, std::nullopt, ""});
+  }
+  std::optional<TrackDraft> level = LevelTrackOf(network_, run, open.begin, open.end);
+  if (level && level->turnouts.size() == open.num_meetings()) {
+    Accept(open, std::move(*level));
+    return std::nullopt;
+  }
+  const RunFit fit(run, sigma_m_);
+  if (TakeAtOnce(open, fit, level)) return std::nullopt;
+  std::optional<MovedRun> moved = MovedApart(network_, run, fit);
+  if (!moved) {
+    TakeParts(std::move(open), fit, std::move(level));
+    return std::nullopt;
+  }
+  open.run = moved->run;
+  open.places = std::move(moved->places);
+  open.sigma_m = kMovedSigma_m;
+  const RunFit moved_fit(open.run, open.sigma_m);
+  level = LevelTrackOf(network_, open.run, open.begin, open.end);
+  if (!TakeAtOnce(open, moved_fit, level)) TakeParts(std::move(open), moved_fit, std::move(level));
+  return std::move(moved->run);
+}
+
+std::optional<std::size_t> SideTrackSearch::TrackAt(const Eigen::Vector2d& point_m) const {
   constexpr double kFarthest_m = 1.5;
-  std::optional<Meeting> nearest;
+  std::optional<std::size_t> nearest;
   double least_m = kFarthest_m;
   for (std::size_t i = 0; i < network_.tracks().size(); ++i) {
     const TrackDraft& track = network_.tracks()[i];
@@ -160,9 +177,26 @@ std::optional<Meeting> SideTrackSearch::MeetingAt(const Eigen::Vector2d& point_m
     const double off_m = std::abs(track.course.OffsetAt(point_m.x()).d_m - point_m.y());
     if (off_m >= least_m) continue;
     least_m = off_m;
-    nearest = Meeting{i, point_m.x(), opens_ahead};
+    nearest = i;
   }
   return nearest;
+}
+
+std::optional<Meeting> SideTrackSearch::MeetingAt(const Eigen::Vector2d& point_m,
+                                                  bool opens_ahead) const {
+  if (!has_turnouts_) return std::nullopt;
+  const auto track = TrackAt(point_m);
+  return track ? std::optional(Meeting{*track, point_m.x(), opens_ahead}) : std::nullopt;
+}
+
+bool SideTrackSearch::TakeAtOnce(const OpenRun& open,
+                                 const RunFit& fit,
+                                 std::optional<TrackDraft>& level) {
+  const bool is_complete = level && level->turnouts.size() == open.num_meetings();
+  if (!is_complete && open.num_meetings() > 0 && TakeWhole(open, fit)) return true;
+  if (!level || (level->turnouts.empty() && open.num_meetings() > 0)) return false;
+  Accept(open, std::move(*level));
+  return true;
 }
 
 bool SideTrackSearch::TakeWhole(const OpenRun& open, const RunFit& fit) {
@@ -176,7 +210,7 @@ bool SideTrackSearch::TakeWhole(const OpenRun& open, const RunFit& fit) {
        TracksBetween(fit, open.begin ? &begins : nullptr, open.end ? &ends : nullptr, free_end_m)) {
     std::optional<TrackDraft> draft = network_.Make(spec);
     if (!draft || !Follows(*draft, open.run) || network_.FirstConflict_m(*draft)) continue;
-    Accept(open.run, std::move(*draft));
+    Accept(open, std::move(*draft));
     return true;
   }
   return false;
@@ -218,7 +252,7 @@ std::optional<double> SideTrackSearch::TakeFromOneEnd(const OpenRun& open,
     if (best.draft) {
       const TrackCourse& course = best.draft->course;
       const double end_s_m = is_begin ? course.end_s_m() : course.begin_s_m();
-      Accept(open.run, std::move(*best.draft));
+      Accept(open, std::move(*best.draft));
       return end_s_m;
     }
     if (!best.conflict_m) return std::nullopt;
@@ -239,41 +273,35 @@ void SideTrackSearch::TakeParts(OpenRun open, const RunFit& fit, std::optional<T
   }
   const bool is_untouched =
       from_s_m == open.run.points_m.front().x() && to_s_m == open.run.points_m.back().x();
-  if (is_untouched && level) {
-    Accept(open.run, std::move(*level));
-    return;
+  if (is_untouched && level) return Accept(open, std::move(*level));
+  if (!is_untouched) {
+    const auto rest = PartOfRun(open.run, from_s_m, to_s_m);
+    if (!rest) return LeaveOutBetween(open, fit, {from_s_m, to_s_m});
+    open.run = *rest;
   }
-  if (is_untouched) {
-    TakeFree(open.run);
-  } else if (const auto rest = PartOfRun(open.run, from_s_m, to_s_m)) {
-    TakeFree(*rest);
-  } else {
-    LeaveOutBetween(open.run, from_s_m, to_s_m);
-  }
+  TakeFree(open);
 }
 
-void SideTrackSearch::TakeFree(const TrackRun& run) {
-  const RunFit fit(run, sigma_m_);
+void SideTrackSearch::TakeFree(const OpenRun& open) {
+  const RunFit fit(open.run, open.sigma_m);
   // Stretches that are apart from all others, with ends at whole metres of the fit.
   std::vector<ChainageRange> free;
   bool goes_on = false;
   for (double at_m = 0.0; at_m <= fit.plan.length_m(); ++at_m) {
     const PlanPoint at = fit.course.At(at_m);
-    const double slope = std::tan(at.heading_rad);
-    const TrackOffset offset{at.y_m, slope,
-                             at.curvature_per_m * std::pow(1.0 + slope * slope, 1.5)};
     const bool fits = at.x_m >= 0.0 && at.x_m <= network_.length_m() &&
-                      network_.IsApartAt(at.x_m, at.y_m) && network_.HasRoom(at.x_m, offset);
+                      network_.IsApartAt(at.x_m, at.y_m) &&
+                      network_.HasRoom(at.x_m, OffsetAtPoint(at));
     if (fits && !goes_on) free.push_back({at_m, at_m});
     if (fits) free.back().end_s_m = at_m;
     goes_on = fits;
   }
-  double made_up_to_s_m = run.points_m.front().x();
-  for (const ChainageRange& stretch : free) TakeStretch(run, fit, stretch, made_up_to_s_m);
-  LeaveOutBetween(run, made_up_to_s_m, run.points_m.back().x());
+  double made_up_to_s_m = open.run.points_m.front().x();
+  for (const ChainageRange& stretch : free) TakeStretch(open, fit, stretch, made_up_to_s_m);
+  LeaveOutBetween(open, fit, {made_up_to_s_m, open.run.points_m.back().x()});
 }
 
-void SideTrackSearch::TakeStretch(const TrackRun& run,
+void SideTrackSearch::TakeStretch(const OpenRun& open,
                                   const RunFit& fit,
                                   const ChainageRange& stretch,
                                   double& made_up_to_s_m) {
@@ -284,19 +312,21 @@ void SideTrackSearch::TakeStretch(const TrackRun& run,
   std::optional<TrackDraft> draft = network_.Make(TrackOfPart(fit, from_m, to_m));
   if (!draft) return;
   if (const auto conflict_s_m = network_.FirstConflict_m(*draft)) {
-    TakeStretch(run, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)}, made_up_to_s_m);
+    TakeStretch(open, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)}, made_up_to_s_m);
     const double behind_m = BeginBehind_m(fit, *conflict_s_m);
-    if (behind_m > from_m) TakeStretch(run, fit, {behind_m, to_m}, made_up_to_s_m);
+    if (behind_m > from_m) TakeStretch(open, fit, {behind_m, to_m}, made_up_to_s_m);
     return;
   }
-  LeaveOutBetween(run, made_up_to_s_m, draft->course.begin_s_m());
+  LeaveOutBetween(open, fit, {made_up_to_s_m, draft->course.begin_s_m()});
   made_up_to_s_m = draft->course.end_s_m();
-  Accept(run, std::move(*draft));
+  Accept(open, std::move(*draft));
 }
 
-void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
+void SideTrackSearch::Accept(const OpenRun& open, TrackDraft draft) {
+  const TrackRun& run = open.mapped;
   draft.spec.name = run.kind + "_" + std::to_string(++num_of_kind_[run.kind]);
   draft.spec.electrified = run.is_electrified;
+  NoteMoved(open, draft);
   world_.tracks.push_back({draft, run.ways});
   for (const Eigen::Vector2d& point_m : run.points_m) {
     if (!draft.Has(point_m.x())) continue;
@@ -306,7 +336,9 @@ void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
     const Eigen::Vector2d& place_m =
         turnout.opens_ahead() ? run.points_m.front() : run.points_m.back();
     for (MeetingPoint& meeting : meetings_) {
-      if (meeting.place_m == place_m) meeting.turnout_s_m = turnout.s_m;
+      if (meeting.place_m != place_m) continue;
+      meeting.turnout_s_m = turnout.s_m;
+      meeting.branch = draft.spec.name;
     }
   }
   ++quality_.num_tracks;
@@ -315,25 +347,80 @@ void SideTrackSearch::Accept(const TrackRun& run, TrackDraft draft) {
   network_.Add(std::move(draft));
 }
 
+void SideTrackSearch::NoteMoved(const OpenRun& open, const TrackDraft& draft) {
+  constexpr double kGap_m = 30.0;
+  std::vector<MovedTrack> moved;
+  for (const MovedPlace& place : open.places) {
+    if (!draft.Has(place.s_m)) continue;
+    if (moved.empty() || place.s_m > moved.back().end_s_m + kGap_m) {
+      moved.push_back({draft.spec.name, place.s_m, place.s_m, 0.0});
+    }
+    moved.back().end_s_m = place.s_m;
+    moved.back().most_m = std::max(moved.back().most_m, place.by_m);
+  }
+  world_.moved.insert(world_.moved.end(), moved.begin(), moved.end());
+}
+
+void SideTrackSearch::LeaveOutBetween(const OpenRun& open,
+                                      const RunFit& fit,
+                                      const ChainageRange& stretch) {
+  constexpr double kLeast_m = 2.0;
+  if (stretch.end_s_m - stretch.begin_s_m < kLeast_m) return;
+  world_.left_out.push_back({open.mapped.kind + " track", stretch.begin_s_m, stretch.end_s_m,
+                             ReasonAgainst(open, fit, stretch)});
+}
+
+std::string SideTrackSearch::ReasonAgainst(const OpenRun& open,
+                                           const RunFit& fit,
+                                           const ChainageRange& stretch) const {
+  std::map<std::string, int> metres;
+  for (double at_m = 0.0; at_m <= fit.plan.length_m(); ++at_m) {
+    const PlanPoint at = fit.course.At(at_m);
+    if (at.x_m < stretch.begin_s_m || at.x_m > stretch.end_s_m) continue;
+    if (const auto near = network_.TrackNear(at.x_m, at.y_m)) {
+      const auto meets_at = [&](const Eigen::Vector2d& point_m) {
+        return std::abs(at.x_m - point_m.x()) < kMeeting_m && TrackAt(point_m) == near;
+      };
+      const bool meets =
+          meets_at(open.mapped.points_m.front()) || meets_at(open.mapped.points_m.back());
+      const std::string& name = network_.tracks()[*near].spec.name;
+      ++metres[meets ? "it leaves track " + name + " there, and no turnout fits"
+                     : "it is nearer than 3.15 m to track " + name + " and has no room beside it"];
+    } else if (!network_.IsOnGround(at.x_m, at.y_m)) {
+      ++metres["it leaves the ground of the line"];
+    } else if (!network_.HasRoom(at.x_m, OffsetAtPoint(at))) {
+      ++metres["its radius would be too small"];
+    }
+  }
+  if (metres.empty()) return "what is left of it there is too short";
+  return std::ranges::max_element(metres, {}, [](const auto& entry) { return entry.second; })
+      ->first;
+}
+
 void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
   quality_.num_on_map = switches.size();
   constexpr double kSame_m = 0.6;  // Nodes nearer than 0.5 m to the one before are left out.
   for (const SwitchNode& node : switches) {
-    const auto leave_out = [&](const char* reason) {
+    const auto leave_out = [&](const std::string& reason) {
       world_.left_out.push_back({"switch", node.place_m.x(), node.place_m.x(), reason});
     };
-    if (!MeetingAt(node.place_m, true)) {
+    if (!TrackAt(node.place_m)) {
       leave_out("it lies on no track of the world");
       continue;
     }
     ++quality_.num_switches;
+    if (!has_turnouts_) {
+      leave_out("there are turnouts of " + NumberText(kStandardGauge_mm) +
+                " mm gauge only, and the line has " + NumberText(gauge_mm_) + " mm");
+      continue;
+    }
     const MeetingPoint* met = nullptr;
     for (const MeetingPoint& meeting : meetings_) {
       if ((meeting.place_m - node.place_m).norm() > kSame_m) continue;
       if (!met || !met->turnout_s_m) met = &meeting;
     }
     if (met && met->turnout_s_m) {
-      ++quality_.num_made;
+      quality_.made.push_back(met->branch);
       quality_.shifts_m.push_back(std::abs(*met->turnout_s_m - node.place_m.x()));
     } else if (node.num_ways < 3) {
       leave_out("the map has no branch there");
@@ -353,15 +440,36 @@ void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
 SideTrackQuality AddSideTracks(const RailMap& map,
                                const TrackLine& track,
                                const ImportedLine& line,
-                               double sigma_m,
+                               const ImportOptions& options,
                                LineWorld& world) {
   const LinePlaces places(map, track, line);
-  SideTrackSearch search(TrackNetwork(line.alignment), line, sigma_m, world);
-  world.runs = FindRuns(map, track, places);
-  for (const TrackRun& run : world.runs) search.Take(run);
+  SideTrackSearch search(TrackNetwork(line.alignment), line, options.sigma_m, world);
+  world.runs = FindRuns(map, track, places, options.otherwise_kmph);
+  for (TrackRun& run : world.runs) {
+    const auto below = TunnelsBelowLine(map, world.tracks.front().ways, run);
+    for (const ChainageRange& tunnel : below) {
+      for (const std::string& what : {run.kind + " track", std::string("tunnel")}) {
+        world.left_out.push_back({what, tunnel.begin_s_m, tunnel.end_s_m,
+                                  "it runs below track main, and all tracks of a world have the "
+                                  "height of their line"});
+      }
+    }
+    if (!below.empty()) {
+      for (const TrackRun& part : PartsBetween(run, below)) static_cast<void>(search.Take(part));
+    } else if (auto moved = search.Take(run)) {
+      run = std::move(*moved);
+    }
+  }
   search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
   std::ranges::sort(search.quality().distances_m);
   return search.quality();
+}
+
+void KeepStanding(const LineWorld& world, SideTrackQuality& quality) {
+  std::erase_if(quality.made, [&](const std::string& branch) {
+    return std::ranges::none_of(
+        world.tracks, [&](const WorldTrack& track) { return track.draft.spec.name == branch; });
+  });
 }
 
 }  // namespace railcast

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
@@ -15,7 +17,8 @@ struct SideTrackQuality {
   std::size_t num_turnouts{};
   std::size_t num_on_map{};    ///< Switches of the map beside the line.
   std::size_t num_switches{};  ///< Of the map, on tracks of the world.
-  std::size_t num_made{};      ///< Of these, those that are turnouts of the world.
+  /// Of these, those that are turnouts of the world: the names of their branches.
+  std::vector<std::string> made;
   double length_m{};
   std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
   /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
@@ -31,14 +34,19 @@ struct SideTrackQuality {
 ///   other tracks;
 /// - straights, arcs and clothoids in the plane of chainage and offset (FitLine), with turnouts at
 ///   such ends, to which arcs lead (TurnoutChoices);
-/// - two such tracks, one from each end, or one without turnouts, as far as they are 3 m from all
-///   others.
-/// What cannot be done is left out of the world and says so, and so do switches of the map on its
-/// tracks that are no turnouts.
+/// - the same moved away from tracks to which the map has it too near (MovedApart);
+/// - two such tracks, one from each end, and ones without turnouts, as far as they are apart from
+///   all others.
+/// Tunnels of a run in which it crosses below the line are left out with their track. What cannot
+/// be done is left out of the world and says so, and so do switches of the map on its tracks that
+/// are no turnouts.
 [[nodiscard]] SideTrackQuality AddSideTracks(const RailMap& map,
                                              const TrackLine& track,
                                              const ImportedLine& line,
-                                             double sigma_m,
+                                             const ImportOptions& options,
                                              LineWorld& world);
+
+/// Forgets turnouts of tracks that the world no longer has.
+void KeepStanding(const LineWorld& world, SideTrackQuality& quality);
 
 }  // namespace railcast

@@ -142,23 +142,33 @@ std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, boo
   return std::nullopt;
 }
 
-bool TrackNetwork::IsApartAt(double s_m, double d_m) const {
-  constexpr double kSlack_m = 0.13;  // For what is cut, and rounded, later.
-  return std::ranges::none_of(tracks_, [&](const TrackDraft& track) {
-    if (!track.Has(s_m) || track.offsets_m.empty()) return false;
+std::optional<std::size_t> TrackNetwork::TrackNear(double s_m, double d_m) const {
+  std::optional<std::size_t> near;
+  double least_m = kApart_m;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const TrackDraft& track = tracks_[i];
+    if (!track.Has(s_m) || track.offsets_m.empty()) continue;
     const auto nearest_m =
         std::clamp(static_cast<int>(std::lround(s_m)), track.first_m, track.end_m() - 1);
-    return std::abs(track.offsets_m[static_cast<std::size_t>(nearest_m - track.first_m)] - d_m) <
-           kLeastApart_m + kSlack_m;
-  });
+    const double apart_m =
+        std::abs(track.offsets_m[static_cast<std::size_t>(nearest_m - track.first_m)] - d_m);
+    if (apart_m >= least_m) continue;
+    least_m = apart_m;
+    near = i;
+  }
+  return near;
+}
+
+bool TrackNetwork::IsOnGround(double s_m, double d_m) const {
+  constexpr double kEdge_m = kFormationEdge_m + 0.5;  // The ground is known every 5 m.
+  return ground_.RoomAt_m(s_m, d_m) >= kEdge_m;
 }
 
 bool TrackNetwork::HasRoom(double s_m, const TrackOffset& at) const {
-  constexpr double kEdge_m = kFormationEdge_m + 0.5;  // The ground is known every 5 m.
   constexpr double kSharpest_per_m = 0.01;
   constexpr double kSharperThanLine = 1.5;
   constexpr double kEver_per_m = 0.9 / kSmallestRadius_m;
-  if (ground_.RoomAt_m(s_m, at.d_m) < kEdge_m) return false;
+  if (!IsOnGround(s_m, at.d_m)) return false;
   const double line_per_m = curvature_.Value(s_m);
   const double most_per_m = std::max(kSharpest_per_m, kSharperThanLine * std::abs(line_per_m));
   return std::abs(CurvatureBeside_per_m(line_per_m, at)) <= std::min(most_per_m, kEver_per_m);

@@ -14,6 +14,10 @@
 
 namespace railcast {
 
+/// So far apart are the axes of tracks that no turnout joins. Half the gauge's width of either one
+/// (StructureGauge) are 3.15 m, so that trains on them pass each other.
+inline constexpr double kApart_m = 3.15;
+
 /// A track as it would be in a world.
 struct TrackDraft {
   TrackSpec spec;
@@ -50,10 +54,14 @@ class TrackNetwork {
   /// or is too near to a track that no turnout joins to it.
   [[nodiscard]] std::optional<double> FirstConflict_m(const TrackDraft& draft,
                                                       bool backwards = false) const;
+  /// A track that is nearer to a place than kApart_m: the nearest one.
+  [[nodiscard]] std::optional<std::size_t> TrackNear(double s_m, double d_m) const;
   /// Whether a place is far enough from all tracks for a track that no turnout joins to them.
-  [[nodiscard]] bool IsApartAt(double s_m, double d_m) const;
-  /// Whether a track may be at a place beside the line: on its ground, with all of its formation,
-  /// and with a radius of at least 100 m, or of two thirds of the line's there.
+  [[nodiscard]] bool IsApartAt(double s_m, double d_m) const { return !TrackNear(s_m, d_m); }
+  /// Whether a place lies on the line's ground with all of a track's formation.
+  [[nodiscard]] bool IsOnGround(double s_m, double d_m) const;
+  /// Whether a track may be at a place beside the line: on its ground, and with a radius of at
+  /// least 100 m, or of two thirds of the line's there.
   [[nodiscard]] bool HasRoom(double s_m, const TrackOffset& at) const;
   void Add(TrackDraft draft);
 

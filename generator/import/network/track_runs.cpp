@@ -52,8 +52,17 @@ std::string CommonTag(const RailMap& map,
 
 class RunCutter {
  public:
-  RunCutter(const OtherWays& others, const LinePlaces& places, std::vector<TrackRun>& runs)
-      : map_(others.map), ways_(others.ways), places_(places), runs_(runs) {}
+  RunCutter(const RailMap& whole,
+            const OtherWays& others,
+            const LinePlaces& places,
+            double running_kmph)
+      : whole_(whole),
+        map_(others.map),
+        ways_(others.ways),
+        places_(places),
+        running_kmph_(running_kmph) {}
+
+  [[nodiscard]] std::vector<TrackRun>& runs() { return runs_; }
 
   void Cut(const TrackLine& chain) {
     std::size_t first = 0;
@@ -112,29 +121,56 @@ class RunCutter {
     if (!is_name) run.kind = "other";
     const std::string electrified = CommonTag(map_, begin, end, "electrified");
     run.is_electrified = electrified != "no" && electrified != "rail";
-    constexpr double kUsualRunning_kmph = 80.0;
-    constexpr double kUsual_kmph = 40.0;
-    run.speed_kmph = SpeedOf_kmph(CommonTag(map_, begin, end, "maxspeed"))
-                         .value_or(service.empty() ? kUsualRunning_kmph : kUsual_kmph);
     const auto node = chain.nodes.begin() + static_cast<std::ptrdiff_t>(first);
     run.nodes.assign(node, node + static_cast<std::ptrdiff_t>(points_m.size()));
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
       const auto [from_s_m, to_s_m] = std::minmax(points_m[i].x(), points_m[i + 1].x());
       run.ways.push_back({from_s_m, to_s_m, ways_[*(begin + static_cast<std::ptrdiff_t>(i))]});
     }
+    run.speeds_kmph = SpeedsOf_kmph(run);
     if (points_m.back().x() < points_m.front().x()) {
       std::ranges::reverse(points_m);
       std::ranges::reverse(run.nodes);
       std::ranges::reverse(run.ways);
+      std::ranges::reverse(run.speeds_kmph);
     }
     run.points_m = std::move(points_m);
     runs_.push_back(std::move(run));
   }
 
-  const RailMap& map_;
+  [[nodiscard]] std::vector<double> SpeedsOf_kmph(const TrackRun& run) const {
+    TrackLine line{{}, run.nodes, {}};
+    for (const LineStretch& way : run.ways) line.ways.push_back(way.way);
+    std::vector<Eigen::Vector2d> places_m;
+    std::vector<double> along_m;
+    for (const std::size_t node : run.nodes) {
+      const Eigen::Vector2d& place_m = whole_.nodes[node].place_m;
+      along_m.push_back(along_m.empty() ? 0.0
+                                        : along_m.back() + (place_m - places_m.back()).norm());
+      places_m.push_back(place_m);
+    }
+    const std::vector<StepSpeed> of_ways = SpeedsAlong(whole_, line, running_kmph_);
+    const std::vector<double> of_curves_kmph = SpeedsOfCurves_kmph(places_m, along_m);
+    std::vector<double> speeds_kmph;
+    for (std::size_t i = 0; i < of_ways.size(); ++i) {
+      const MapTags& tags = whole_.ways[line.ways[i]].tags;
+      double speed_kmph = of_ways[i].speed_kmph;
+      if (!of_ways[i].is_mapped) {
+        // A siding has nothing of the running track into which it goes on.
+        if (!TagOf(tags, "service").empty()) speed_kmph = UsualSpeed_kmph(tags, running_kmph_);
+        speed_kmph = std::min(speed_kmph, of_curves_kmph[i]);
+      }
+      speeds_kmph.push_back(speed_kmph);
+    }
+    return speeds_kmph;
+  }
+
+  const RailMap& whole_;
+  const RailMap& map_;  ///< Without the ways of the line.
   const std::vector<std::size_t>& ways_;
   const LinePlaces& places_;
-  std::vector<TrackRun>& runs_;
+  double running_kmph_;
+  std::vector<TrackRun> runs_;
 };
 
 /// For each run those within which it begins or ends.
@@ -190,15 +226,23 @@ std::vector<TrackRun> InOrderOfMeetings(std::vector<TrackRun> runs) {
 
 std::vector<TrackRun> FindRuns(const RailMap& map,
                                const TrackLine& line,
-                               const LinePlaces& places) {
+                               const LinePlaces& places,
+                               double running_kmph) {
   const OtherWays others = OthersThan(map, line);
-  std::vector<TrackRun> runs;
-  RunCutter cutter(others, places, runs);
+  RunCutter cutter(map, others, places, running_kmph);
   for (const TrackLine& chain : FindLines(others.map, 0.0)) cutter.Cut(chain);
+  std::vector<TrackRun> runs = std::move(cutter.runs());
   std::ranges::stable_sort(runs, std::ranges::greater{}, [](const TrackRun& run) {
     return run.points_m.back().x() - run.points_m.front().x();
   });
   return InOrderOfMeetings(std::move(runs));
+}
+
+double SpeedOfRun_kmph(const TrackRun& run, double s_m) {
+  const auto way = std::ranges::partition_point(
+      run.ways, [&](const LineStretch& one) { return one.end_s_m <= s_m; });
+  const auto i = static_cast<std::size_t>(way - run.ways.begin());
+  return run.speeds_kmph[std::min(i, run.speeds_kmph.size() - 1)];
 }
 
 double OffsetOf_m(const TrackRun& run, double s_m) {

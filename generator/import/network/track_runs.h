@@ -19,7 +19,9 @@ struct TrackRun {
   std::vector<Eigen::Vector2d> points_m;
   std::vector<std::size_t> nodes;  ///< Of the map, one for each point.
   std::vector<LineStretch> ways;   ///< From point to point.
-  double speed_kmph{};
+  /// From point to point: that of the map or else the usual one of its kind, but no more than its
+  /// curves allow.
+  std::vector<double> speeds_kmph;
   bool is_electrified = true;
 };
 
@@ -28,13 +30,18 @@ inline constexpr double kRunStrip_m = 60.0;
 
 /// All runs beside a line. The longest come first, but none before those within which it begins or
 /// ends; of runs that begin or end in each other, the longest comes first.
+/// @param running_kmph Of running tracks for which the map has no speed.
 [[nodiscard]] std::vector<TrackRun> FindRuns(const RailMap& map,
                                              const TrackLine& line,
-                                             const LinePlaces& places);
+                                             const LinePlaces& places,
+                                             double running_kmph);
 
 /// The offset of a run at a chainage, along the lines between its points; beyond its ends, along
 /// the first and the last of them.
 [[nodiscard]] double OffsetOf_m(const TrackRun& run, double s_m);
+
+/// The speed of a run at a chainage; beyond its ends, as at these.
+[[nodiscard]] double SpeedOfRun_kmph(const TrackRun& run, double s_m);
 
 /// The part of a plan between two lengths along it; its start is not set.
 [[nodiscard]] PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m);

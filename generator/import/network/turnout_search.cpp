@@ -161,7 +161,11 @@ TurnoutType TurnoutFor(double speed_kmph) {
 
 RunFit::RunFit(const TrackRun& run, double sigma_m)
     : plan(FitLine(run.points_m,
-                   {.sigma_m = sigma_m, .speed_kmph = [&](double) { return run.speed_kmph; }})
+                   {.sigma_m = sigma_m,
+                    .speed_kmph =
+                        [&](double along_m) {
+                          return SpeedOfRun_kmph(run, run.points_m.front().x() + along_m);
+                        }})
                .plan),
       course(plan.Course()) {}
 
@@ -186,7 +190,7 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
   const TrackDraft& track = network.tracks()[meeting.track];
   const double forwards = meeting.opens_ahead ? 1.0 : -1.0;
   std::vector<TurnoutChoice> choices;
-  const auto wished = static_cast<double>(TurnoutIndexFor(run.speed_kmph));
+  const auto wished = static_cast<double>(TurnoutIndexFor(SpeedOfRun_kmph(run, meeting.s_m)));
   constexpr double kAside_m = 28.0;
   const double reach_m = run.points_m.back().x() - run.points_m.front().x();
   const double aside_s_m = meeting.s_m + forwards * std::min(kAside_m, 0.5 * reach_m);

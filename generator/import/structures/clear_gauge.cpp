@@ -138,7 +138,7 @@ class StructureClearing {
       if (tunnel != nullptr) tunnel->has_portals = has_portals;
     }
     std::map<std::size_t, std::vector<GaugeEntry>> entries;
-    for (GaugeEntry& entry : FindStructuresInGauge(spec_, alignment_, network_.courses)) {
+    for (GaugeEntry& entry : FindStructuresInGauge(spec_, alignment_, network_.courses).entries) {
       entries[std::stoul(entry.name)].push_back(std::move(entry));
     }
     return entries;

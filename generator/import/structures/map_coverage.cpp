@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -132,7 +133,8 @@ MapCoverage CoverageOf(const RailMap& map, const LineWorld& world, const SideTra
                      run.kind == "running" ? &covered.second_tracks_km : &covered.other_tracks_km,
                      covered);
   }
-  covered.switches = {static_cast<double>(beside.num_on_map), static_cast<double>(beside.num_made)};
+  covered.switches = {static_cast<double>(beside.num_on_map),
+                      static_cast<double>(beside.made.size())};
   return covered;
 }
 
@@ -165,6 +167,40 @@ std::string CoverageTable(const std::vector<ImportedLine>& lines,
     table << " |\n";
   }
   return table.str();
+}
+
+std::string SwitchReasonsText(const std::vector<LineWorld>& worlds) {
+  std::map<std::string, int> numbers;
+  for (const LineWorld& world : worlds) {
+    for (const LeftOut& thing : world.left_out) {
+      if (thing.what == "switch") ++numbers[thing.reason];
+    }
+  }
+  if (numbers.empty()) return "";
+  std::string text = "switches without a turnout (left_out.csv):\n";
+  for (const auto& [reason, number] : numbers) {
+    text += "  " + std::to_string(number) + ": " + reason + "\n";
+  }
+  return text + "\n";
+}
+
+std::string MovedText(const std::vector<LineWorld>& worlds) {
+  double length_m = 0.0;
+  double most_m = 0.0;
+  std::size_t num_stretches = 0;
+  for (const LineWorld& world : worlds) {
+    num_stretches += world.moved.size();
+    for (const MovedTrack& moved : world.moved) {
+      length_m += moved.end_s_m - moved.begin_s_m;
+      most_m = std::max(most_m, moved.most_m);
+    }
+  }
+  if (num_stretches == 0) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2)
+       << "moved away from other tracks (moved.csv): " << kKmPerStep * length_m << " km in "
+       << num_stretches << " stretches, by " << most_m << " m at most\n\n";
+  return text.str();
 }
 
 }  // namespace railcast

@@ -39,4 +39,9 @@ struct MapCoverage {
 [[nodiscard]] std::string CoverageTable(const std::vector<ImportedLine>& lines,
                                         const std::vector<MapCoverage>& coverages);
 
+/// How many switches of the map are no turnouts, by their reasons, a line each; empty if all are.
+[[nodiscard]] std::string SwitchReasonsText(const std::vector<LineWorld>& worlds);
+/// How much of the worlds' tracks was moved away from others; empty if nothing was.
+[[nodiscard]] std::string MovedText(const std::vector<LineWorld>& worlds);
+
 }  // namespace railcast

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -26,6 +27,8 @@ constexpr double kWider_m = 1.0;
 /// the lining, and one that runs at the limit does not change rows at every metre.
 constexpr double kStays_m = 0.3;
 constexpr double kSame_m = 0.005;
+/// Of offsets, which are linear between whole metres here.
+constexpr double kRounding_m = 0.01;
 
 /// Tracks beside each other, from right to left, between two chainages.
 struct Row {
@@ -151,7 +154,9 @@ class TunnelRows {
       const bool goes_on = i > 0 && [&] {
         const auto pair = std::minmax(across[i - 1].second, across[i].second);
         const double stays_m = linked.contains(pair) ? kStays_m : 0.0;
-        if (across[i].first - across[i - 1].first > kSharedTunnel_m + stays_m) return false;
+        if (Distance_m(pair, begin_s_m, end_s_m) > kSharedTunnel_m + kRounding_m + stays_m) {
+          return false;
+        }
         links.insert(pair);
         return true;
       }();
@@ -167,6 +172,19 @@ class TunnelRows {
       std::ranges::sort(row.tracks);
     }
     return rows;
+  }
+
+  /// The least distance of two tracks between two chainages. A tunnel of one of them would take the
+  /// other one in wherever it is near enough, were it for a millimetre.
+  [[nodiscard]] double Distance_m(const std::pair<std::size_t, std::size_t>& tracks,
+                                  double begin_s_m,
+                                  double end_s_m) const {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (const double s_m : {begin_s_m, 0.5 * (begin_s_m + end_s_m), end_s_m}) {
+      least_m = std::min(least_m, std::abs(world_.tracks[tracks.first].draft.OffsetNear_m(s_m) -
+                                           world_.tracks[tracks.second].draft.OffsetNear_m(s_m)));
+    }
+    return least_m;
   }
 
   [[nodiscard]] std::optional<std::size_t> StrangerIn(const Row& row, double s_m) const {

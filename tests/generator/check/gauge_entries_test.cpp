@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "core/rail/line/network.h"
 #include "generator/check/check_report.h"
 #include "railcast/scenario.h"
 
@@ -219,6 +221,66 @@ TEST(GaugeEntries, SayBetweenWhichChainagesAThingReachesIn) {
     EXPECT_NEAR(entries[0].stretches[static_cast<std::size_t>(i)].begin_s_m, 76.0 + 120.0 * i, 8.0);
     EXPECT_NEAR(entries[0].stretches[static_cast<std::size_t>(i)].end_s_m, 134.0 + 120.0 * i, 8.0);
   }
+}
+
+/// A line of curves, each 500 m with a siding of its own, a platform at it and a bridge.
+WorldSpec LineOfSidings(int num_sidings) {
+  WorldSpec world;
+  AlignmentElementsSpec course;
+  for (int i = 0; i < num_sidings; ++i) {
+    const double begin_s_m = 500.0 * i;
+    course.elements.push_back({ElementType::kArc, 460.0, i % 2 == 0 ? 600.0 : -600.0});
+    course.elements.push_back({ElementType::kClothoid, 40.0, {}});
+    const std::string name = "siding_" + std::to_string(i);
+    TrackSpec siding{.name = name, .offset_m = 4.5, .end_s_m = begin_s_m + 400.0};
+    siding.start_s_m = begin_s_m + 100.0;
+    world.tracks.push_back(siding);
+    PlatformSpec platform = PlatformAt(i == 1 ? 1.5 : 1.65);
+    platform.name = "platform_" + std::to_string(i);
+    platform.begin_s_m = begin_s_m + 150.0;
+    platform.end_s_m = begin_s_m + 350.0;
+    world.structures.emplace_back(platform);
+    BridgeSpec bridge;
+    bridge.name = "bridge_" + std::to_string(i);
+    bridge.begin_s_m = begin_s_m + 200.0;
+    bridge.end_s_m = begin_s_m + 300.0;
+    world.structures.emplace_back(bridge);
+  }
+  course.elements.push_back({ElementType::kArc, 100.0, 600.0});
+  world.alignment.course = course;
+  return world;
+}
+
+StructuresInGauge InGaugeOfSidings(int num_sidings) {
+  const WorldSpec world = LineOfSidings(num_sidings);
+  const Alignment alignment(world.alignment);
+  return FindStructuresInGauge(world, alignment, MakeNetwork(world, alignment.length_m()).courses);
+}
+
+TEST(GaugeEntries, CostTwiceAsMuchForTwiceTheLine) {
+  const StructuresInGauge once = InGaugeOfSidings(6);
+  const StructuresInGauge twice = InGaugeOfSidings(12);
+  // Were each structure compared with each track, it would be four times.
+  EXPECT_NEAR(
+      static_cast<double>(twice.num_comparisons) / static_cast<double>(once.num_comparisons), 2.0,
+      0.05);
+  ASSERT_EQ(once.entries.size(), 1U);
+  EXPECT_EQ(once.entries[0].name, "platform_1");
+  EXPECT_EQ(twice.entries.size(), 1U);
+}
+
+/// Of a track 20 m beside a bridge in a curve, no triangle of the bridge is divided.
+TEST(GaugeEntries, CompareAnArcOfTheLineWithWhatIsBesideItByItsSagitta) {
+  WorldSpec world = LineOfSidings(1);
+  world.tracks.push_back({.name = "aside", .offset_m = 25.0, .end_s_m = {}});
+  const Alignment alignment(world.alignment);
+  const auto comparisons = [&] {
+    const Network network = MakeNetwork(world, alignment.length_m());
+    return FindStructuresInGauge(world, alignment, network.courses).num_comparisons;
+  };
+  const std::size_t with_it = comparisons();
+  world.tracks.pop_back();
+  EXPECT_EQ(with_it, comparisons());
 }
 
 }  // namespace

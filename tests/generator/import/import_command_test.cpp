@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,48 @@ TEST(Import, WritesAnAlignmentAndTheReports) {
   EXPECT_THAT(run.said, HasSubstr("| hill-line | 0.00 of 0.00 |"));
 }
 
+/// A tram's straights of 600 m about a street corner of 5 m radius, with a point every 10 m.
+std::string StreetCornerMap() {
+  constexpr double kPerMetre_deg = 1.0 / 111e3;
+  std::string points;
+  const auto add = [&](double x_m, double y_m) {
+    points += (points.empty() ? "[" : ", [") + std::to_string(x_m * kPerMetre_deg) + ", " +
+              std::to_string(y_m * kPerMetre_deg) + "]";
+  };
+  for (double x_m = -600.0; x_m < 0.0; x_m += 10.0) add(x_m, 0.0);
+  for (double rad = 0.0; rad < 1.58; rad += 0.262) {
+    add(5.0 * std::sin(rad), 5.0 - 5.0 * std::cos(rad));
+  }
+  for (double y_m = 15.0; y_m <= 600.0; y_m += 10.0) add(5.0, y_m);
+  return R"({"type": "Feature", "properties": {"railway": "tram", "name": "Tram"},
+    "geometry": {"type": "LineString", "coordinates": [)" +
+         points + "]}}";
+}
+
+TEST(Import, CutsALineAtAnArcThatIsTooSharpForVehicles) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  const fs::path out = directory.path() / "out";
+  WriteFileWhole(map, StreetCornerMap());
+  const Ended run = Generate("import " + map.string() + " --min-length 400 --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("Wrote 2 lines"));
+  EXPECT_THAT(run.said, ::testing::ContainsRegex("left out line tram of [0-9]+ m: arc of 10 m "
+                                                 "radius at [0-9]+ m: vehicles need 10.4 m"));
+  double length_m = 0.0;
+  for (const char* part : {"tram-part-1", "tram-part-2"}) {
+    const auto json =
+        nlohmann::json::parse(ReadFileWhole(out / (std::string(part) + ".alignment.json")));
+    for (const auto& element : json["course"]["elements"]) {
+      length_m += element["length_m"].get<double>();
+      if (element.contains("radius_m")) {
+        EXPECT_GE(std::abs(element["radius_m"].get<double>()), 10.4) << part;
+      }
+    }
+  }
+  EXPECT_GT(length_m, 1200.0 - 60.0);
+}
+
 TEST(Import, GivesTheSameBytesAgain) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
@@ -58,7 +101,7 @@ TEST(Import, GivesTheSameBytesAgain) {
       texts[run][file.path().filename()] = ReadFileWhole(file.path());
     }
   }
-  EXPECT_THAT(texts[0], ::testing::SizeIs(12)) << "two files of each line and six reports";
+  EXPECT_THAT(texts[0], ::testing::SizeIs(13)) << "two files of each line and seven reports";
   EXPECT_EQ(texts[0], texts[1]);
 }
 

@@ -223,6 +223,27 @@ TEST(LineFit, MakesNoFlatArcsOfPointsThatAreOffTogether) {
   EXPECT_THAT(RadiiOf_m(fit.plan), ::testing::Each(::testing::Lt(20e3)));
 }
 
+/// A straight track of 2 km whose points swing to one side and back, every 5 m.
+std::vector<Eigen::Vector2d> SwingingPoints(double most_m) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 0.0; x_m <= 2000.0; x_m += 5.0) {
+    const double inside_m = std::clamp(x_m - 400.0, 0.0, 1200.0);
+    points_m.emplace_back(x_m, 0.5 * most_m * (1.0 - std::cos(2.0 * M_PI * inside_m / 1200.0)));
+  }
+  return points_m;
+}
+
+TEST(LineFit, KeepsAFlatArcOnlyWhereAStraightWouldLeaveThePoints) {
+  // However many points show a swing: within 2 sigma of 0.3 m, a straight explains them.
+  for (const double most_m : {0.45, 0.6}) {
+    const LineFit fit = FitLine(SwingingPoints(most_m), ForSpeed(160.0, 0.3));
+    EXPECT_THAT(RadiiOf_m(fit.plan), ::testing::Each(::testing::Lt(20e3))) << most_m;
+    for (const double offset_m : fit.offsets_m) EXPECT_LE(std::abs(offset_m), 0.6) << most_m;
+  }
+  const LineFit fit = FitLine(SwingingPoints(3.0), ForSpeed(160.0, 0.3));
+  EXPECT_THAT(RadiiOf_m(fit.plan), ::testing::Contains(::testing::Gt(20e3)));
+}
+
 TEST(LineFit, KeepsAFlatArcThatManyPointsShow) {
   PlanModel truth;
   truth.plateaus = {{0.0, 2000.0}, {1.0 / 30e3, 2500.0}, {0.0, 2000.0}};

@@ -55,7 +55,7 @@ class MadeMap {
     runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
     line_ = ImportLine(map_, track, {});
     world_ = MakeLineWorld(map_, track, line_);
-    beside_ = AddSideTracks(map_, track, line_, 0.3, world_);
+    beside_ = AddSideTracks(map_, track, line_, {}, world_);
     AddStructures(map_, track, line_, world_);
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -12,7 +13,9 @@
 #include "core/rail/line/turnout_geometry.h"
 #include "generator/import/lines/standing_world.h"
 #include "generator/import/lines/track_lines.h"
+#include "generator/import/network/moved_run.h"
 #include "generator/import/network/track_json.h"
+#include "generator/import/structures/map_coverage.h"
 
 namespace railcast {
 namespace {
@@ -72,7 +75,7 @@ class BesideALine : public ::testing::Test {
     runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
     const ImportedLine line = ImportLine(map_, track, {});
     world_ = MakeLineWorld(map_, track, line);
-    quality_ = AddSideTracks(map_, track, line, 0.3, world_);
+    quality_ = AddSideTracks(map_, track, line, {}, world_);
     for (const WorldTrack& made : world_.tracks) tracks_.push_back(JsonOf(made.draft.spec));
   }
 
@@ -143,7 +146,7 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
   Add(siding_m, {{"service", "siding"}});
   Make();
   EXPECT_EQ(quality_.num_switches, 5U);
-  EXPECT_EQ(quality_.num_made, 5U);
+  EXPECT_EQ(quality_.made.size(), 5U);
   EXPECT_EQ(quality_.num_turnouts, 5U);
   // Places are sought in steps of 1 m, for 1:9-300 as well, and points are fitted to 0.1 m at 1:9.
   constexpr double kOff_m = 2.0;
@@ -154,8 +157,8 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
               ElementsAre(DoubleNear(647.0, kOff_m), DoubleNear(903.0, kOff_m)));
 }
 
-TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
-  // It leaves the line too slowly for any turnout, and goes on doing so.
+TEST_F(BesideALine, ATrackThatLeavesTooSlowlyIsMovedToWhereATurnoutLeads) {
+  // Such a branch is 3.15 m from the line after 400 m, and no turnout is as slender.
   std::vector<Eigen::Vector2d> points_m;
   for (double x_m = 300.0; x_m <= 1500.0; x_m += 25.0) {
     points_m.emplace_back(x_m, 2e-5 * std::pow(x_m - 300.0, 2.0));
@@ -164,16 +167,23 @@ TEST_F(BesideALine, ATrackThatCannotBeJoinedIsCutAndSaysSo) {
   Make();
   ASSERT_THAT(tracks_, SizeIs(2));
   EXPECT_TRUE(tracks_[1].contains("elements"));
-  EXPECT_GE(std::abs(tracks_[1]["offset_m"].get<double>()), 3.0);
-  ASSERT_THAT(world_.left_out, SizeIs(2));
-  EXPECT_EQ(world_.left_out[0].reason,
-            "it is nearer than 3 m to others there, too sharp, or too short");
-  EXPECT_EQ(world_.left_out[1].what, "switch");
-  EXPECT_EQ(world_.left_out[1].reason,
-            "no turnout fits there that leads to the branch, apart from others");
+  ASSERT_THAT(world_.moved, SizeIs(1));
+  // Between a turnout with the arcs behind it, 100 m or less, and where the map has 3.15 m.
+  EXPECT_NEAR(world_.moved[0].end_s_m - world_.moved[0].begin_s_m, 350.0, 60.0);
+  EXPECT_NEAR(world_.moved[0].most_m, kMovedApart_m - 2e-5 * kMeeting_m * kMeeting_m,
+              kMostRaised_m);
 }
 
-TEST_F(BesideALine, EveryPieceOfATrackIsKeptThatComesTooNearInPlaces) {
+/// Offsets of a track of the world at every metre of it.
+std::vector<double> OffsetsOf_m(const TrackDraft& track) {
+  std::vector<double> offsets_m;
+  for (double s_m = track.course.begin_s_m(); s_m <= track.course.end_s_m(); ++s_m) {
+    offsets_m.push_back(std::abs(track.course.OffsetAt(s_m).d_m));
+  }
+  return offsets_m;
+}
+
+TEST_F(BesideALine, ATrackThatComesTooNearInPlacesIsMovedAwayThereAndSaysSo) {
   std::vector<Eigen::Vector2d> points_m;
   for (double x_m = 100.0; x_m <= 1900.0; x_m += 25.0) {
     const double to_narrow_m = std::min(std::abs(x_m - 600.0), std::abs(x_m - 1400.0));
@@ -181,16 +191,123 @@ TEST_F(BesideALine, EveryPieceOfATrackIsKeptThatComesTooNearInPlaces) {
   }
   Add(points_m, {{"maxspeed", "80"}});
   Make();
-  ASSERT_THAT(tracks_, SizeIs(4));
-  // Of 1800 m, 200 m are too near in either place, and the fit needs some on either side to get
-  // there.
-  EXPECT_GT(quality_.length_m, 1800.0 - 2.0 * 330.0);
-  ASSERT_THAT(world_.left_out, SizeIs(2));
-  for (const LeftOut& thing : world_.left_out) {
-    EXPECT_EQ(thing.what, "running track");
-    EXPECT_GT(thing.end_s_m - thing.begin_s_m, 190.0);
-    EXPECT_LT(thing.end_s_m - thing.begin_s_m, 330.0);
+  ASSERT_THAT(world_.tracks, SizeIs(2)) << "one whole track";
+  EXPECT_NEAR(quality_.length_m, 1800.0, 1.0);
+  EXPECT_THAT(world_.left_out, ::testing::IsEmpty());
+  const std::vector<double> offsets_m = OffsetsOf_m(world_.tracks[1].draft);
+  EXPECT_GE(std::ranges::min(offsets_m), 3.0);
+  EXPECT_LT(std::ranges::max(offsets_m), 4.5 + 0.4);
+  ASSERT_THAT(world_.moved, SizeIs(2));
+  for (const MovedTrack& moved : world_.moved) {
+    EXPECT_EQ(moved.name, "running_1");
+    // Drawn at 2 m for 200 m, and nearer than 3.15 m for half of the 25 m on either side.
+    EXPECT_NEAR(moved.end_s_m - moved.begin_s_m, 223.0, 60.0);
+    // The fit rounds the corners of the map by 0.1 m.
+    EXPECT_GT(moved.most_m, kMovedApart_m - 2.0 - 0.1);
+    EXPECT_LT(moved.most_m, kMovedApart_m - 2.0 + 0.1 + kMostRaised_m);
   }
+}
+
+TEST_F(BesideALine, TracksAreMovedOneAfterTheOther) {
+  Add({{50.0, 2.5}, {1950.0, 2.5}}, {{"maxspeed", "80"}});
+  Add({{100.0, 5.0}, {1900.0, 5.0}}, {{"maxspeed", "80"}});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(3));
+  EXPECT_THAT(OffsetsOf_m(world_.tracks[1].draft), ::testing::Each(DoubleNear(3.25, 0.1)));
+  EXPECT_THAT(OffsetsOf_m(world_.tracks[2].draft), ::testing::Each(DoubleNear(6.5, 0.2)));
+  EXPECT_THAT(world_.left_out, ::testing::IsEmpty());
+}
+
+TEST_F(BesideALine, ATrackBetweenTwoOthersWithoutRoomIsCutThereAndSaysSo) {
+  // Two tracks 9 m from each other, and nearer in the middle, where a third one is between them.
+  Add({{50.0, 9.0}, {800.0, 9.0}, {900.0, 5.5}, {1100.0, 5.5}, {1200.0, 9.0}, {1950.0, 9.0}},
+      {{"maxspeed", "80"}});
+  Add({{100.0, 4.5}, {850.0, 4.5}, {900.0, 2.7}, {1100.0, 2.7}, {1150.0, 4.5}, {1900.0, 4.5}},
+      {{"maxspeed", "80"}});
+  Make();
+  ASSERT_THAT(tracks_, SizeIs(4)) << "a piece on either side";
+  ASSERT_THAT(world_.left_out, SizeIs(1));
+  EXPECT_THAT(world_.left_out[0].reason,
+              ::testing::MatchesRegex("it is nearer than 3.15 m to track (main|running_1) and has "
+                                      "no room beside it"));
+  EXPECT_GT(world_.left_out[0].end_s_m - world_.left_out[0].begin_s_m, 200.0);
+  EXPECT_LT(world_.left_out[0].end_s_m - world_.left_out[0].begin_s_m, 400.0);
+}
+
+TEST_F(BesideALine, ATrackInATunnelBelowTheLineIsNotAtItsHeight) {
+  // It crosses the line below ground: at the line's height there is neither track nor tunnel.
+  const auto at = [](double x_m) { return Eigen::Vector2d(x_m, 0.1 * (x_m - 1000.0)); };
+  Add({at(500.0), at(600.0), at(700.0)}, {});
+  Add({at(700.0), at(900.0), at(1100.0), at(1300.0)}, {{"tunnel", "yes"}});
+  Add({at(1300.0), at(1400.0), at(1500.0)}, {});
+  Make();
+  ASSERT_THAT(world_.tracks, SizeIs(3)) << "before and behind the tunnel";
+  for (std::size_t i = 1; i < 3; ++i) {
+    for (const double offset_m : OffsetsOf_m(world_.tracks[i].draft)) EXPECT_GT(offset_m, 29.0);
+  }
+  std::vector<std::string> left_out;
+  for (const LeftOut& thing : world_.left_out) {
+    EXPECT_EQ(thing.reason,
+              "it runs below track main, and all tracks of a world have the height of their line");
+    EXPECT_NEAR(thing.end_s_m - thing.begin_s_m, 600.0, 1.0);
+    left_out.push_back(thing.what);
+  }
+  EXPECT_THAT(left_out, ::testing::UnorderedElementsAre("running track", "tunnel"));
+}
+
+TEST_F(BesideALine, ThereAreNoTurnoutsOfAnotherGaugeWhichEachSwitchSays) {
+  for (MapWay& way : map_.ways) way.tags["gauge"] = "1520";
+  AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}, {"gauge", "1520"}});
+  Make();
+  EXPECT_EQ(quality_.num_switches, 1U);
+  EXPECT_THAT(quality_.made, ::testing::IsEmpty());
+  ASSERT_THAT(tracks_, SizeIs(2));
+  const auto of_switch = std::ranges::find(world_.left_out, "switch", &LeftOut::what);
+  ASSERT_NE(of_switch, world_.left_out.end());
+  EXPECT_EQ(of_switch->reason,
+            "there are turnouts of 1435 mm gauge only, and the line has 1520 mm");
+  EXPECT_EQ(SwitchReasonsText({world_, world_}),
+            "switches without a turnout (left_out.csv):\n"
+            "  2: there are turnouts of 1435 mm gauge only, and the line has 1520 mm\n\n");
+}
+
+TEST_F(BesideALine, SwitchesOfTracksThatDoNotStandAreNotCounted) {
+  AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
+  Make();
+  ASSERT_THAT(quality_.made, ElementsAre("siding_1"));
+  KeepStanding(world_, quality_);
+  EXPECT_THAT(quality_.made, ElementsAre("siding_1"));
+  world_.tracks.pop_back();
+  KeepStanding(world_, quality_);
+  EXPECT_THAT(quality_.made, ::testing::IsEmpty());
+}
+
+/// The speeds of a run beside the line, from point to point.
+TEST_F(BesideALine, TracksHaveTheSpeedOfTheirKindAndTheirCurves) {
+  Add({{100.0, 10.0}, {900.0, 10.0}}, {{"railway", "tram"}});
+  Add({{100.0, 20.0}, {800.0, 20.0}}, {{"railway", "rail"}, {"service", "yard"}});
+  Add({{100.0, 30.0}, {700.0, 30.0}}, {{"railway", "rail"}, {"maxspeed", "100"}});
+  Add({{100.0, 40.0}, {600.0, 40.0}}, {{"railway", "rail"}});
+  std::vector<Eigen::Vector2d> bend_m;  // To 100 m radius and back, within 200 m.
+  for (double x_m = 0.0; x_m <= 120.0; x_m += 10.0) {
+    bend_m.emplace_back(1200.0 + x_m, 20.0 + 20.0 * (1.0 - std::cos(2.0 * M_PI * x_m / 280.0)));
+  }
+  Add(bend_m, {{"railway", "rail"}});
+  const TrackLine track = FindLines(map_, 1500.0).front();
+  const ImportedLine line = ImportLine(map_, track, {});
+  const LinePlaces places(map_, track, line);
+  std::map<std::string, std::vector<double>> speeds_kmph;
+  for (const TrackRun& run : FindRuns(map_, track, places, 60.0)) {
+    const double y_m = map_.nodes[run.nodes.front()].place_m.y();
+    const bool is_bend = map_.nodes[run.nodes.front()].place_m.x() > 1100.0;
+    speeds_kmph[is_bend ? "bend" : std::to_string(std::lround(y_m))] = run.speeds_kmph;
+  }
+  EXPECT_THAT(speeds_kmph["10"], ElementsAre(50.0));
+  EXPECT_THAT(speeds_kmph["20"], ElementsAre(40.0));
+  EXPECT_THAT(speeds_kmph["30"], ElementsAre(100.0));
+  EXPECT_THAT(speeds_kmph["40"], ElementsAre(60.0));
+  ASSERT_FALSE(speeds_kmph["bend"].empty());
+  EXPECT_LT(std::ranges::min(speeds_kmph["bend"]), 55.0);
 }
 
 /// A line that turns by 90 degrees with 60 m radius, and a track that leads along its first
@@ -219,11 +336,12 @@ TEST(SideTracks, EndBeforeTheMiddleOfACurve) {
   const TrackLine track = FindLines(map, 500.0).front();
   const ImportedLine line = ImportLine(map, track, {});
   LineWorld world = MakeLineWorld(map, track, line);
-  static_cast<void>(AddSideTracks(map, track, line, 0.3, world));
+  static_cast<void>(AddSideTracks(map, track, line, {}, world));
   ASSERT_GE(world.tracks.size(), 3U) << "one on either straight";
   EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
   for (const LeftOut& thing : world.left_out) {
-    EXPECT_EQ(thing.reason, "it is nearer than 3 m to others there, too sharp, or too short");
+    EXPECT_THAT(thing.reason, ::testing::AnyOf("its radius would be too small",
+                                               "it leaves the ground of the line"));
   }
 }
 

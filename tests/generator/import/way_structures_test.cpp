@@ -72,6 +72,22 @@ TEST(WayStructures, ThereIsNoTunnelInWhichTheLineWouldRunThoughItIsOutside) {
   EXPECT_EQ(coverage.tunnels_km.made, 0.0);
 }
 
+/// At 7.4 m, tracks in one row become tracks in two. That is within the tunnel here, some
+/// millimetres before, at or behind a whole metre.
+TEST(WayStructures, TracksThatComeNearerThanTwoLiningsNeedLoseNoTunnel) {
+  for (double end_y_m = 6.0; end_y_m < 6.025; end_y_m += 0.01) {
+    MadeMap map;
+    map.AddTrack(0.0, kInTunnel);
+    map.AddWay({{100.0, 20.0 + end_y_m}, {450.0, 13.0 + end_y_m}, {800.0, 6.0 + end_y_m}}, {});
+    map.AddWay({{800.0, 6.0 + end_y_m}, {1000.0, 2.0 + end_y_m}, {1100.0, end_y_m}}, kInTunnel);
+    map.AddWay({{1100.0, end_y_m}, {1600.0, end_y_m}, {1900.0, end_y_m}}, {});
+    map.Make();
+    ClearStructures(map.line().alignment, map.world());
+    EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty()) << end_y_m;
+    EXPECT_NEAR(map.Coverage().tunnels_km.made, 0.7, 0.01) << end_y_m;
+  }
+}
+
 /// Two linings for one track each are 11.2 m wide under a contact line, and the gauge of the other
 /// track is 1.575 m wide.
 TEST(WayStructures, TracksTooNearForTwoLiningsShareOne) {
