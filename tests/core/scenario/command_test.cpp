@@ -18,11 +18,16 @@ std::vector<Command> OneOfEach() {
   place.object.size_m = {0.5, 0.5, 1.9};
   place.object.material = "clothing";
   place.object.motion = MotionSpec{{{0.0, std::nullopt, 1.25}}, true};
+  PlaceObject on_map;
+  on_map.object.name = "b";
+  on_map.object.type = ObjectType::kPerson;
+  on_map.object.longitude_deg = 15.7528944;
+  on_map.object.latitude_deg = 48.2396283;
   SetWeather weather;
   weather.weather.visibility_m = 80.0;
   weather.weather.snow_rate_mmph = 1.5;
   weather.weather.sun.illuminance_klx = 60.0;
-  return {SetSpeed{11.1, 0.3},   Brake{0.7}, Stop{}, place,
+  return {SetSpeed{11.1, 0.3},   Brake{0.7}, Stop{}, place,  on_map,
           RemoveObject{"wagon"}, weather,    Step{}, Reset{}};
 }
 
