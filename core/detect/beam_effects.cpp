@@ -30,12 +30,12 @@ std::vector<Effect> BeamEffects() {
        .rungs = {Fidelity::kFootprint, Fidelity::kReference},
        .has_cause = HasWidth,
        .text = &FootprintText,
-       .instructions = 22765.0},
+       .instructions = 27919.0},
       {.name = "thin_conductors",
        .is_on = &EffectSet::thin_conductors,
        .rungs = {Fidelity::kFootprint},
        .has_cause = HasWidth,
-       .instructions = 190.0},
+       .instructions = 10.0},
       // It extends the footprint, and it samples the triangles of wires, which thin_conductors
       // would count a second time.
       {.name = "dense_footprint",

@@ -173,6 +173,8 @@ float FacetParts::RatioOfFacing(const WideBeams& beams, const Component& part) {
 }
 
 bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const {
+  // Fewer sub-rays are for those who can do without: looks would cost more than the others save.
+  if (spec_.beam.footprint_rays < static_cast<int>(kNumSubRays)) return false;
   // A receiver of one return takes the strongest echo.
   const bool is_single = spec_.receiver.return_mode == ReturnMode::kStrongest;
   const auto num_rays = static_cast<float>(spec_.beam.footprint_rays);

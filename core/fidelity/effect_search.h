@@ -51,7 +51,7 @@ inline constexpr PartQuantity kPartQuantities[] = {
                                     const ToleranceSpec& tolerance);
 
 /// Instructions per firing of Simulator::Scan without any effect (Effect::instructions).
-inline constexpr double kInstructionsOfGeometry = 2594.0;
+inline constexpr double kInstructionsOfGeometry = 2677.0;
 /// What kNumSubRays sub-rays of effect `footprint` cost more than kNumCrowdedSubRays; counted in
 /// the same way.
 inline constexpr double kInstructionsOfMoreSubRays = 6625.0;
