@@ -25,8 +25,8 @@ struct MeasuredSource {
 /// @throws InputError with one line if it is an unfinished or damaged data set.
 [[nodiscard]] MeasuredSource LookAtSource(const std::filesystem::path& source);
 
-/// What reports say of a source whose recordings they do not list.
-/// @param first Of its recordings.
+/// The description of a whole source, for reports that do not list its recordings one by one.
+/// @param first The description of the first recording of the source.
 [[nodiscard]] RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& first);
 
 }  // namespace railcast

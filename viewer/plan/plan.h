@@ -33,7 +33,7 @@ struct Plan {
   /// A triangle of fixed size on paper, its tip at `at_m`, or a square about it.
   struct Mark {
     Eigen::Vector2d at_m;
-    Eigen::Vector2d from_tip;  ///< Where the triangle's base lies, of length 1; 0 for squares.
+    Eigen::Vector2d from_tip;  ///< Unit vector from the tip to the base; 0 for squares.
     Rgb rgb{};
   };
   /// A word above its place, or to the right of it.

@@ -31,8 +31,8 @@ constexpr double kCrossRodSpacing_m = 0.2;
 constexpr double kWireRadius_m = 0.0015;
 constexpr int kNumWires = 6;
 constexpr double kFencePostWidth_m = 0.06;
-constexpr double kFenceFoot_m = 0.3;  ///< Of posts below the ground.
-constexpr double kFenceGap_m = 0.05;  ///< Of mats above the ground.
+constexpr double kFenceFoot_m = 0.3;  ///< How far posts reach below the ground.
+constexpr double kFenceGap_m = 0.05;  ///< Between the ground and the mats.
 
 ClearedArea BesideTrack(const SideStretchSpec& wall, double near_m, double far_m) {
   const double side = SignOf(wall.side);
