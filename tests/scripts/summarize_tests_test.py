@@ -1,0 +1,43 @@
+"""What scripts/summarize_tests.py says of the results of GoogleTest."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import summarize_tests  # noqa: E402 (found through the line above)
+
+RESULTS = """<?xml version="1.0" encoding="UTF-8"?>
+<testsuites tests="4" failures="0" disabled="1" errors="0" time="3.5" name="AllTests">
+  <testsuite name="Rails" tests="4" failures="0" disabled="1" skipped="1" errors="0" time="3.5">
+    <testcase name="AreParallel" status="run" result="completed" time="0.5" classname="Rails" />
+    <testcase name="EndAtBuffers" status="run" result="completed" time="3" classname="Rails" />
+    <testcase name="AreThoseOfAMap" status="run" result="skipped" time="0" classname="Rails">
+      <skipped message="/source/rails_test.cpp:7&#x0A;the shared map is not there"><![CDATA[...]]></skipped>
+    </testcase>
+    <testcase name="DISABLED_Bend" status="notrun" result="suppressed" time="0" classname="Rails" />
+  </testsuite>
+</testsuites>
+"""
+SUMMARY = """\
+2 tests of the test programs ran; skipped: 1
+  the shared map is not there: Rails.AreThoseOfAMap
+the slowest:
+     3.0 s  Rails.EndAtBuffers
+     0.5 s  Rails.AreParallel
+     0.0 s  Rails.AreThoseOfAMap"""
+
+
+class SummarizeTests(unittest.TestCase):
+
+    def test_counts_names_what_was_skipped_and_lists_the_slowest(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "rails_test.xml").write_text(RESULTS, encoding="utf-8")
+            self.assertEqual(summarize_tests.summary_of(summarize_tests.read_tests(folder)), SUMMARY)
+
+
+if __name__ == "__main__":
+    unittest.main()
