@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Says how many tests of the test programs passed, which were skipped and why, and which took longest.
+"""Says how many tests of the test programs ran, which were skipped and why, and which took longest.
 
 Usage: summarize_tests.py FOLDER        FOLDER: what the programs wrote with GTEST_OUTPUT=xml:FOLDER/
 """
