@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-constexpr const char* kMap = R"({"type": "FeatureCollection", "features": [
+constexpr const char* kMapOfLine = R"({"type": "FeatureCollection", "features": [
   {"type": "Feature", "properties": {"railway": "rail", "name": "Hill Line", "maxspeed": "60"},
    "geometry": {"type": "LineString", "coordinates":
     [[15.60, 48.20], [15.61, 48.20], [15.62, 48.2003], [15.63, 48.201]]}}]})";
@@ -48,7 +48,7 @@ TEST(PlacedOnMap, APersonStandsAtANodeOfTheMapInEveryWayOfPlacing) {
     const TemporaryDirectory directory;
     const fs::path file = directory.path() / "map.geojson";
     const fs::path out = directory.path() / "out";
-    WriteFileWhole(file, kMap);
+    WriteFileWhole(file, kMapOfLine);
     const Ended run = Generate("import " + file.string() + " --out " + out.string() +
                                (crs.empty() ? "" : " --crs " + crs));
     ASSERT_EQ(run.status, 0) << run.said;
