@@ -54,7 +54,7 @@ inline constexpr PartQuantity kPartQuantities[] = {
 inline constexpr double kInstructionsOfGeometry = 2677.0;
 /// What kNumSubRays sub-rays of effect `footprint` cost more than kNumCrowdedSubRays; counted in
 /// the same way.
-inline constexpr double kInstructionsOfMoreSubRays = 6625.0;
+inline constexpr double kInstructionsOfMoreSubRays = 12274.0;
 
 /// Estimated instructions per firing of Simulator::Scan with a set of effects.
 [[nodiscard]] double InstructionsOf(const EffectSet& effects, int footprint_rays);
