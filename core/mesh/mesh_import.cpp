@@ -176,8 +176,9 @@ std::vector<FileBeside> LibrariesBeside(const std::string& bytes,
     if (!IsNameBeside(name) || std::ranges::any_of(files, is_same)) continue;
     const std::filesystem::path beside = file.parent_path() / name;
     std::error_code error;
-    if (std::filesystem::is_regular_file(beside, error))
+    if (std::filesystem::is_regular_file(beside, error)) {
       files.push_back({name, ReadFileWhole(beside)});
+    }
   }
   return files;
 }

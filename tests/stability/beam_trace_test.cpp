@@ -13,6 +13,7 @@
 #include "core/detect/sub_ray_pattern.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
+#include "core/trace/beam_tile.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -46,13 +47,7 @@ RayTile TileOf(const BeamRays& beam, float range_max_m) {
   RayTile tile{};
   tile.num_rays = kNumSubRays;
   tile.mask = beam.mask;
-  std::fill_n(tile.origin_x, kNumSubRays, beam.origin[0]);
-  std::fill_n(tile.origin_y, kNumSubRays, beam.origin[1]);
-  std::fill_n(tile.origin_z, kNumSubRays, beam.origin[2]);
-  std::copy_n(beam.direction_x, kNumSubRays, tile.direction_x);
-  std::copy_n(beam.direction_y, kNumSubRays, tile.direction_y);
-  std::copy_n(beam.direction_z, kNumSubRays, tile.direction_z);
-  std::fill_n(tile.shutter, kNumSubRays, beam.shutter);
+  CopySubRays(beam, kNumSubRays, tile);
   std::fill_n(tile.range_m, kNumSubRays, range_max_m);
   return tile;
 }
