@@ -247,7 +247,8 @@ void FacetParts::LookCloser(const WideBeams& beams, const DetectTile& first, std
     if (places.size() > kMostRaysOnThin || num_rays < 2 * kMostRaysOnThin) continue;
     ThinSurface thin{.surface = surface};
     if (!LookAcross(beams, first, lane, places, thin)) continue;
-    num_rays -= sums_.Remove(surface);
+    sums_.Remove(surface);
+    num_rays -= places.size();
     share -= thin.share;
     thin_.push_back(std::move(thin));
   }

@@ -70,11 +70,8 @@ void FacetSums::JoinPlanes(std::size_t most_planes) {
   }
 }
 
-std::uint32_t FacetSums::Remove(std::uint32_t surface) {
-  std::uint32_t num = 0;
-  for (const FacetSum& sums : sums_) num += sums.facet.surface == surface ? sums.num : 0;
+void FacetSums::Remove(std::uint32_t surface) {
   std::erase_if(sums_, [=](const FacetSum& sums) { return sums.facet.surface == surface; });
-  return num;
 }
 
 void FacetSums::RemoveOthers(std::uint32_t surface) {

@@ -30,8 +30,8 @@ class FacetSums {
   /// Adds up facets that are one plane, unless they are more than these.
   void JoinPlanes(std::size_t most_planes);
   /// Takes out the facets of a surface.
-  /// @return the number of their sub-rays.
-  std::uint32_t Remove(std::uint32_t surface);
+  void Remove(std::uint32_t surface);
+  /// Takes out all facets but those of a surface.
   void RemoveOthers(std::uint32_t surface);
 
   [[nodiscard]] const std::vector<FacetSum>& all() const { return sums_; }
