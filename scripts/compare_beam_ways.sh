@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Times ways of tracing the beams of effect `footprint` beside the one that railcast uses:
 # compare_beam_ways.sh [TURNS]. Installs and builds what it needs and prints tables in Markdown, for
-# docs/effects.md. Takes some minutes.
+# docs/notes/beam_trace.md. Takes some minutes.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh

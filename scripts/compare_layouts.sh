@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Times ways of giving scenes and rays to Embree beside the one that railcast uses:
 # compare_layouts.sh [TURNS]. Installs and builds what it needs and prints a table in Markdown, for
-# docs/performance.md. Takes ten minutes and 8 GB of memory.
+# docs/notes/embree.md. Takes ten minutes and 8 GB of memory.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh

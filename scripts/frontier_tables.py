@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the tables of sensors in README.md and docs/frontier.md from what draw_frontiers.sh
+"""Prints the tables of sensors in docs/frontier.md from what draw_frontiers.sh
 measured.
 
 usage: frontier_tables.py out/frontier
