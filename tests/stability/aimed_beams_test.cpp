@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
@@ -108,6 +109,8 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
   }
 
   void ExpectItIsReturned(bool moves) const {
+    RecordRegime("a beam aimed at each type of object, standing and moving",
+                 {"-", "says what it is"});
     const auto world = WorldWith(Object(moves));
     ASSERT_EQ(world->objects().front().moves, moves);
     const ScanPattern pattern = MakeRaster(1.0, 1.0, 1.0);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -12,6 +11,7 @@
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/track/rail_section.h"
 #include "core/rail/track/sweep.h"
+#include "tests/stability/regime.h"
 #include "tests/support/alignment_faults.h"
 
 namespace railcast {
@@ -142,8 +142,9 @@ TEST(AlignmentAtItsLimits, ChainageIsArcLengthToAMillimetreOverAThousandKilometr
     before_m = position_m;
   }
   const double float_error_m = std::abs(static_cast<double>(sum_in_float_m) - 1e6);
-  std::cout << "arc length of 1,000 km: ours off by " << 1e3 * worst_m
-            << " mm, summed in float32 by " << float_error_m << " m\n";
+  RecordRegime("chainage over 1,000 km",
+               {"summed in float32: " + TwoDigits(1e-3 * float_error_m) + " km off",
+                TwoDigits(1e6 * worst_m) + " µm off"});
   EXPECT_LE(worst_m, 1e-3);
   EXPECT_GT(float_error_m, 1.0);
 }
@@ -206,8 +207,10 @@ TEST(AlignmentAtItsLimits, TheEndOfAThousandKilometresIsRightToAMicrometre) {
   const double ours_m = (end.position_m - truth_m).norm();
   const double euler_m = (ByEuler<double>(line) - truth_m.head<2>()).norm();
   const double float_m = (ByEuler<float>(line).cast<double>() - truth_m.head<2>()).norm();
-  std::cout << "end of 1,000 km: ours off by " << 1e6 * ours_m << " um, Euler's steps of 1 m by "
-            << euler_m << " m, in float32 by " << float_m << " m\n";
+  RecordRegime("the end of a line of 1,000 km",
+               {"Euler's steps of 1 m: " + TwoDigits(euler_m) + " m off, in float32 " +
+                    TwoDigits(float_m) + " m",
+                TwoDigits(1e6 * ours_m) + " µm off"});
   EXPECT_NEAR(end.heading_rad, static_cast<double>(truth.heading_rad), 1e-12);
   EXPECT_LE(ours_m, 1e-6);
   EXPECT_GT(euler_m, 0.1);

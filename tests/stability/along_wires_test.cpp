@@ -9,6 +9,7 @@
 
 #include "core/fidelity/yardstick.h"
 #include "railcast/effects.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -78,6 +79,12 @@ TEST(AlongWires, TheContactWireHidesTheDroppersStraightBehindIt) {
   EXPECT_EQ(expected.droppers, 0.0);
   EXPECT_EQ(found.droppers, 0.0);
   EXPECT_NEAR(found.contact_wire / expected.contact_wire, 1.0, 0.05) << expected.contact_wire;
+  RecordRegime(
+      "a contact wire in line with its droppers",
+      {"all or nothing, as a ray meets it",
+       TwoDigits(found.droppers) + " droppers seen, of the contact wire " +
+           TwoDigits(100.0 * found.contact_wire / expected.contact_wire) + " % of the echoes",
+       TwoDigits(expected.droppers) + " droppers seen"});
 }
 
 TEST(AlongWires, DroppersBesideTheContactWireAreSeen) {

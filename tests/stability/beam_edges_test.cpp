@@ -11,6 +11,7 @@
 
 #include "core/base/units.h"
 #include "core/detect/beam_optics.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
@@ -111,8 +112,12 @@ TEST_P(EdgesOn, AreNoticedWhereAPlateEndsSixMetresBeforeAWall) {
       num_noticed += frames.rung.mixed_share[slot] > 1e-3F ? 1 : 0;
     }
   }
-  RecordProperty("mixed", static_cast<int>(num_mixed));
-  RecordProperty("noticed", static_cast<int>(num_noticed));
+  RecordRegime(
+      "a plate's top edge 6 m before a wall",
+      {"sees one of the two",
+       TwoDigits(100.0 * static_cast<double>(num_noticed) / static_cast<double>(num_mixed)) +
+           " % of the mixed beams noticed",
+       "the yardstick"});
   EXPECT_GE(num_mixed, 25U);
   EXPECT_GE(static_cast<double>(num_noticed), 0.95 * static_cast<double>(num_mixed))
       << num_noticed << " of " << num_mixed;
@@ -160,9 +165,12 @@ TEST_P(EdgesOn, MixRangesWhereAPlateIsATenthToHalfAMetreBeforeAWall) {
   const auto middle =
       mixed.range_errors_m.begin() + static_cast<std::ptrdiff_t>(mixed.range_errors_m.size() / 2);
   std::nth_element(mixed.range_errors_m.begin(), middle, mixed.range_errors_m.end());
-  RecordProperty("mixed", static_cast<int>(mixed.num));
-  RecordProperty("found", static_cast<int>(mixed.num_found));
-  RecordProperty("median_error_m", std::to_string(*middle));
+  RecordRegime(
+      "a plate's corner 0.1 to 0.5 m before a wall",
+      {"ranges one of the two",
+       TwoDigits(100.0 * static_cast<double>(mixed.num_found) / static_cast<double>(mixed.num)) +
+           " % of the mixed echoes, median error " + TwoDigits(1e3 * *middle) + " mm",
+       "the yardstick"});
   EXPECT_GE(static_cast<double>(mixed.num_found), 0.9 * static_cast<double>(mixed.num))
       << mixed.num_found << " of " << mixed.num;
   EXPECT_LE(*middle, 0.010);
@@ -195,10 +203,10 @@ TEST_P(EdgesOn, LetARetroreflectorBesideABeamOutshineTheWallThatItsCentreMeets) 
     }
     SCOPED_TRACE(step_m);
     ASSERT_GE(num_beams, 8U);
-    const std::string at = "_" + std::to_string(static_cast<int>(100.0 * step_m)) + "cm";
-    RecordProperty("beams" + at, static_cast<int>(num_beams));
-    RecordProperty("expected" + at, std::to_string(expected / static_cast<double>(num_beams)));
-    RecordProperty("found" + at, std::to_string(found / static_cast<double>(num_beams)));
+    RecordRegime("a retroreflector 0.5 mrad beside a beam's centre, " +
+                     std::to_string(std::lround(100.0 * step_m)) + " cm before a wall",
+                 {"does not see it", TwoDigits(100.0 * found / expected) + " % of the intensity",
+                  "the yardstick"});
     // An edge cuts some 8 of 64 cells, which are counted whole: sqrt(8 / 12) / 64 of the beam where
     // the sheet fills 16 to 25 % of it, so 8 % of one beam's intensity. The radii of the cells are
     // the same in every beam: 3 %.

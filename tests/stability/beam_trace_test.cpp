@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "core/simulate/frame_scene.h"
 #include "core/trace/beam_tile.h"
 #include "railcast/scenario.h"
+#include "tests/stability/regime.h"
 
 namespace railcast {
 namespace {
@@ -90,9 +90,11 @@ Agreement AgreementOn(const std::string& scenario_name,
       agreement.Compare(beam, tile);
     }
   }
-  std::cout << scenario_name << ": " << agreement.num_rays << " sub-rays, "
-            << agreement.num_elsewhere << " elsewhere, " << agreement.num_lost
-            << " lost, the others within " << 1000.0F * agreement.worst_m << " mm\n";
+  RecordRegime(
+      std::string("sub-rays through our own trees, `") + scenario_name + "`",
+      {"-", std::to_string(agreement.num_elsewhere) + " of " + std::to_string(agreement.num_rays) +
+                " meet something else than Embree's rays, the others within " +
+                TwoDigits(1e3 * static_cast<double>(agreement.worst_m)) + " mm"});
   return agreement;
 }
 

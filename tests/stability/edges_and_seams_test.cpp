@@ -4,17 +4,18 @@
 #include <gtest/gtest.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+#include <string>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
-#include <iostream>
 #include <vector>
 
 #include "core/rail/chunk_context.h"
 #include "core/scene/shapes.h"
+#include "tests/stability/regime.h"
 #include "tests/stability/tunnel.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/plain_embree.h"
@@ -106,8 +107,10 @@ TEST(EdgesAndSeams, AnExactSeamLeaksBeamsAimedAtIt) {
            static_cast<double>(kNumBeams);
   };
   const double exact = leaking_share(0.0);
-  std::cout << "beams aimed at the seam that escape: exact seam " << 100.0 * exact
-            << " %, 1 mm of overlap " << 100.0 * leaking_share(kChunkOverlap_m) << " %\n";
+  RecordRegime(
+      "beams aimed at the seam of two chunks",
+      {"chunks that end exactly at the seam: " + TwoDigits(100.0 * exact) + " % escape",
+       "1 mm of overlap: " + TwoDigits(100.0 * leaking_share(kChunkOverlap_m)) + " % escape"});
   EXPECT_GT(exact, 0.001);
   EXPECT_EQ(leaking_share(kChunkOverlap_m), 0.0);
 }
@@ -151,9 +154,9 @@ TEST(EdgesAndSeams, RobustTraversalClosesEdgesThatPlainTraversalLeavesOpen) {
     const std::vector<Ray> rays = FromInside(sphere.parts[0].mesh, at_vertices);
     const double ours = LostShare(CastRays(*scene, rays, 1000.0F));
     const double simple = LostShare(plain.Cast(rays));
-    std::cout << "beams aimed at " << (at_vertices ? "vertices" : "edges")
-              << " that are lost: plain " << 100.0 * simple << " %, ours " << 100.0 * ours
-              << " %\n";
+    RecordRegime(std::string("beams aimed at ") + (at_vertices ? "vertices" : "edges"),
+                 {"plain traversal: " + TwoDigits(100.0 * simple) + " % lost",
+                  TwoDigits(100.0 * ours) + " % lost"});
     EXPECT_LE(ours, at_vertices ? 0.005 : 0.0);
     const std::vector<RayHit> hits = CastRays(with_foliage, rays, 1000.0F);
     const auto is_on_ball = [](const RayHit& hit) { return hit.surface == 1; };

@@ -11,6 +11,7 @@
 
 #include "railcast/effects.h"
 #include "railcast/simulator.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
 #include "tests/support/scan_once.h"
@@ -167,6 +168,9 @@ void ExpectSoundBeams(const Frame& frame, const SimulatorSpec& spec) {
 }
 
 TEST(Extremes, GiveSoundFramesOnEveryRung) {
+  RecordRegime("every parameter at its limits",
+               {"-", std::to_string(Settings().size()) +
+                         " settings: finite points, shares of a beam that add up to 1 at most"});
   for (const Setting& setting : Settings()) {
     for (const Fidelity rung : kPhysicalRungs) {
       SCOPED_TRACE(setting.name + " on " + std::string(NameOf(rung)));

@@ -13,6 +13,7 @@
 #include "core/base/units.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/simple_world.h"
@@ -84,8 +85,9 @@ class FarTargetsOn : public testing::TestWithParam<std::string> {
   void ExpectAgreement(const Points& points, const std::string& what) {
     SCOPED_TRACE(what + ": " + std::to_string(points.found) + " of " +
                  std::to_string(points.expected));
-    RecordProperty(what, std::to_string(points.found) + "/" + std::to_string(points.expected));
     if (points.expected < 100.0) return;
+    RecordRegime(what, {"-", TwoDigits(100.0 * points.found / points.expected) + " % of the points",
+                        "the yardstick"});
     ++num_judged_;
     EXPECT_NEAR(points.found / points.expected, 1.0, 0.05);
   }
@@ -129,8 +131,9 @@ class FarTargetsOn : public testing::TestWithParam<std::string> {
     world.placements.push_back({person_, place});
   }
 
-  [[nodiscard]] static std::string NameAt(const char* what, double range_m) {
-    return std::string(what) + "_" + std::to_string(std::lround(range_m)) + "m";
+  [[nodiscard]] static std::string PersonAt(const char* before, double range_m) {
+    return "persons before the " + std::string(before) + " at " +
+           std::to_string(std::lround(range_m)) + " m";
   }
 
   [[nodiscard]] std::shared_ptr<const Model> Person() const {
@@ -170,21 +173,22 @@ TEST_P(FarTargetsOn, APoleBeforeTheSkyHasAsManyPointsAsInTheReference) {
       }
       points += Count(world, {kHalfAzimuth_deg, -10.0, 10.0}, kPoleLabel);
     }
-    ExpectAgreement(points, "poles_" + std::to_string(std::lround(100.0 * diameter_m)) + "cm");
+    ExpectAgreement(points, "poles of " + std::to_string(std::lround(100.0 * diameter_m)) +
+                                " cm at 60 to 100 m");
   }
   EXPECT_GE(num_judged_, 1);
 }
 
 TEST_P(FarTargetsOn, APersonBeforeTheSkyHasAsManyPointsAsInTheReference) {
   for (const double range_m : {50.0, 100.0, 150.0}) {
-    if (Reaches(range_m)) ExpectAgreement(CountBeforeSky(range_m), NameAt("sky", range_m));
+    if (Reaches(range_m)) ExpectAgreement(CountBeforeSky(range_m), PersonAt("sky", range_m));
   }
   EXPECT_GE(num_judged_, 1);
 }
 
 TEST_P(FarTargetsOn, APersonBeforeTheGroundHasAsManyPointsAsInTheReference) {
   for (const double range_m : {50.0, 100.0, 150.0}) {
-    if (Reaches(range_m)) ExpectAgreement(CountBeforeGround(range_m), NameAt("ground", range_m));
+    if (Reaches(range_m)) ExpectAgreement(CountBeforeGround(range_m), PersonAt("ground", range_m));
   }
   EXPECT_GE(num_judged_, 1);
 }
@@ -211,7 +215,9 @@ TEST_P(FarTargetsByRaysOn, APersonHasTooFewPointsOrTooMany) {
   for (const ShareOfRays& known : shares) {
     if (known.sensor != GetParam()) continue;
     const Points points = CountBeforeSky(known.range_m);
-    RecordProperty(NameAt("sky", known.range_m), std::to_string(points.found / points.expected));
+    RecordRegime(PersonAt("sky", known.range_m) + ", " + known.sensor,
+                 {TwoDigits(100.0 * points.found / points.expected) + " % of the points",
+                  "as for all sensors", "the yardstick"});
     // The same draws on both sides: only beams at the edge of a hit differ between machines, one
     // or two of 1000 points, or of 77.
     EXPECT_NEAR(points.found / points.expected, known.share, 0.04 * known.share) << known.range_m;

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <vector>
 
 #include "core/base/random.h"
 #include "core/scene/shapes.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
 #include "tests/support/ray_cast.h"
@@ -94,9 +94,11 @@ TEST(InsideOut, ARendererLosesFacesOrTurnsTheCosineNegative) {
   const auto percent = [&](std::size_t count) {
     return 100.0 * static_cast<double>(count) / static_cast<double>(num_hits);
   };
-  std::cout << "mixed winding: back faces dropped, " << percent(num_wrong)
-            << " % of the hits lost or behind; signed normals, " << percent(num_negative)
-            << " % of the cosines negative; ours none\n";
+  RecordRegime("meshes of mixed winding",
+               {"back faces dropped: " + TwoDigits(percent(num_wrong)) +
+                    " % of the hits wrong; signed normals: " + TwoDigits(percent(num_negative)) +
+                    " % of the cosines negative",
+                "as if all were wound alike"});
   EXPECT_GT(percent(num_wrong), 20.0);
   EXPECT_GT(percent(num_negative), 20.0);
 }
@@ -165,6 +167,8 @@ TEST(InsideOut, AStartAwayFromTheSensorLooksThroughWhatBlocksIt) {
   EXPECT_FLOAT_EQ(hits[0].range_m, 0.005F);
   EXPECT_EQ(hits[0].surface, 1U);
   EXPECT_EQ(hits[1].surface, 2U);
+  RecordRegime("something 5 mm before the sensor",
+               {"rays that start 1 cm away see what is behind it", "blocked: `near_range`"});
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
+#include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
@@ -86,12 +86,13 @@ RangeErrors ErrorsOn(const ObjectSpec& spec) {
 }
 
 /// Beams at the very edge of a piece may pass it here and meet it there.
-void ExpectEachPieceAtItsTime(const RangeErrors& errors, double tolerance_m) {
+void ExpectEachPieceAtItsTime(const char* what, const RangeErrors& errors, double tolerance_m) {
   ASSERT_GT(errors.scan_m.size(), 100U);
   const double of_scan_m = RangeErrors::Quantile(errors.scan_m, 0.98);
   const double of_one_pose_m = RangeErrors::Quantile(errors.one_pose_m, 0.5);
-  std::cout << errors.scan_m.size() << " hits: 98 % within " << 1e3 * of_scan_m
-            << " mm; with one pose a frame, half are beyond " << 1e3 * of_one_pose_m << " mm\n";
+  RecordRegime(what, {"one pose a frame: half of the hits off by more than " +
+                          TwoDigits(1e3 * of_one_pose_m) + " mm",
+                      "98 % of the hits within " + TwoDigits(1e3 * of_scan_m) + " mm"});
   EXPECT_LT(of_scan_m, tolerance_m);
   EXPECT_GT(of_one_pose_m, 5.0 * tolerance_m);
 }
@@ -111,7 +112,7 @@ TEST(MovingPieces, OfARunningPersonAreHitAtTheirTimes) {
   path.speed_mps = 2.5;
   path.acceleration_mps2 = 5.0;
   person.motion->path = path;
-  ExpectEachPieceAtItsTime(ErrorsOn(person), 2e-3);
+  ExpectEachPieceAtItsTime("limbs of a person who runs", ErrorsOn(person), 2e-3);
 }
 
 TEST(MovingPieces, OfAWagonInACurveAreHitAtTheirTimes) {
@@ -122,7 +123,7 @@ TEST(MovingPieces, OfAWagonInACurveAreHitAtTheirTimes) {
   wagon.s_m = 390.0;
   wagon.motion = MotionSpec{};
   wagon.motion->profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 20.0}};
-  ExpectEachPieceAtItsTime(ErrorsOn(wagon), 2e-3);
+  ExpectEachPieceAtItsTime("bogies of a wagon in a curve", ErrorsOn(wagon), 2e-3);
 }
 
 }  // namespace

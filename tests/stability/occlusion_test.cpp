@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/simple_world.h"
@@ -109,6 +110,8 @@ class OcclusionOn : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(OcclusionOn, IsZeroForAFreePerson) {
+  RecordRegime("hidden share of a person who stands free, beams with a width",
+               {"visible beams counted against central rays: shares below 0", "0"});
   for (const double range_m : {kNear_m, 50.0, 80.0, 140.0}) {
     if (range_m + 1.0 > scenario_.lidar.range_max_m) continue;
     for (const bool moves : {false, true}) {

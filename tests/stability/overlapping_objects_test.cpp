@@ -9,6 +9,7 @@
 #include "core/fidelity/yardstick.h"
 #include "core/scene/shapes.h"
 #include "railcast/effects.h"
+#include "tests/stability/regime.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -51,6 +52,7 @@ Frame ScanBlocks(const EffectSet& effects, int num_threads = 0) {
 }
 
 TEST(OverlappingObjects, ShowNothingThatIsInsideOfAnother) {
+  RecordRegime("objects that stand inside each other", {"-", "nothing inside of another is seen"});
   for (const Fidelity rung : {Fidelity::kGeometry, Fidelity::kSurface, Fidelity::kFootprint}) {
     const Frame frame = ScanBlocks(EffectsOfRung(rung));
     std::size_t num_points = 0;

@@ -8,12 +8,12 @@
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/base/random.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -133,6 +133,11 @@ TEST(RandomNumbers, HaveAsManyRunsOverBeamsAndOverFramesAsChanceHas) {
 TEST(RandomNumbers, OfAGeneratorSeededByTheBeamAreCorrelated) {
   const Draws beams = Draw([](std::uint32_t i) { return 1664525U * i + 1013904223U; });
   EXPECT_GT(std::abs(RunsStatistic(beams)), 10.0 * kNumSigmas);
+  const Draws ours = Draw([](std::uint32_t i) { return RandomWords(9, kUses[0], 0, i, 0)[0]; });
+  RecordRegime("draws of neighbouring beams",
+               {"a generator seeded by the beam: " + TwoDigits(std::abs(RunsStatistic(beams))) +
+                    " σ from the runs of chance",
+                TwoDigits(std::abs(RunsStatistic(ours))) + " σ"});
 }
 
 // Equal words of 128 bits would mean equal counters: a million of them collide by chance once in
@@ -302,8 +307,10 @@ TEST(RandomNumbers, OfASharedGeneratorMoveWhenAnEffectIsSwitchedOn) {
     ++num_kept;
     num_same += with[beam] == without[beam] ? 1 : 0;
   }
-  std::cout << "beams that rain does not touch and whose noise stays: shared generator " << num_same
-            << " of " << num_kept << ", ours all\n";
+  RecordRegime("an effect switched on",
+               {"a shared generator: the noise of " + std::to_string(num_same) + " of " +
+                    std::to_string(num_kept) + " beams that it does not touch stays",
+                "that of all stays, bit for bit"});
   EXPECT_LT(num_same, num_kept / 100);
 }
 

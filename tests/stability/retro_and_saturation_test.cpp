@@ -8,6 +8,7 @@
 
 #include "core/base/units.h"
 #include "railcast/simulator.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"
 #include "tests/support/scan_once.h"
@@ -102,6 +103,8 @@ TEST(Retroreflector, GivesABeamOnItsEdgeItsShareOfTheLight) {
 }
 
 TEST(Retroreflector, IsNeitherClampedNorInfinite) {
+  RecordRegime("a retroreflector 10,000 times as bright as the wall behind",
+               {"-", "intensity neither clamped nor infinite; no light in beams beyond 3.6 σ"});
   for (const Rung rung : kPhysicalRungs) {
     for (const double range_m : {0.6, 10.0, 1000.0}) {
       const Frame frame = ScanAt(range_m, Spec(rung));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "railcast/scenario.h"
+#include "tests/stability/regime.h"
 
 namespace railcast {
 namespace {
@@ -71,6 +72,9 @@ void ExpectAlike(const EchoesByPlace& full, const EchoesByPlace& coarser) {
 }
 
 TEST(SceneDetail, KeepsTheEchoesOfRaysByLabelAndRange) {
+  RecordRegime(
+      "plants and ground coarser far away",
+      {"-", "numbers and intensities of echoes within 5 % and chance, by class and range"});
   ExpectAlike(EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kFull), 6),
               EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kAuto), 6));
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "railcast/scenario.h"
+#include "tests/stability/regime.h"
 #include "tests/stability/tunnel.h"
 #include "tests/support/ray_cast.h"
 
@@ -97,6 +98,7 @@ class Seams {
 };
 
 TEST(SurfaceSeams, LetNoBeamThroughWhereTheFormOfChunksChanges) {
+  RecordRegime("seams between fine and coarse ground", {"-", "none of 400,000 beams escapes"});
   for (const bool begins_coarse : {false, true}) {
     const Seams seams(kDemo, begins_coarse);
     EXPECT_EQ(seams.CountEscapes(200'000, [&](std::uint64_t beam) { return seams.Aim(beam); }), 0U)

@@ -16,6 +16,7 @@
 #include "core/fidelity/yardstick.h"
 #include "core/rail/objects/object_models.h"
 #include "core/rail/rail_surfaces.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/simple_world.h"
@@ -122,9 +123,6 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
     Frame reference;
     simulator.Scan(0, reference);
     const ThinEchoes echoes = CompareThin(rung, reference, model->parts.front().label);
-    RecordProperty(model->name + "_" + std::to_string(std::lround(range_m)) + "m",
-                   std::to_string(echoes.missed) + " missed, " + std::to_string(echoes.added) +
-                       " added, of " + std::to_string(echoes.expected));
     return echoes;
   }
 
@@ -151,6 +149,11 @@ TEST_P(ThinObjectsOn, HaveTheEchoesOfTheReferenceBeamByBeam) {
   compare(PoleOf(0.01), 10.0);
   compare(PoleOf(0.01), 30.0);
   ASSERT_GT(all.expected, 250.0);
+  RecordRegime("hanging wires at 20 and 60 m, poles of 5 cm at 8 m, of 1 cm at 10 and 30 m",
+               {"all or nothing, as a ray meets it",
+                TwoDigits(100.0 * all.missed / all.expected) + " % of the echoes missed, " +
+                    TwoDigits(100.0 * all.added / all.expected) + " % added",
+                "the yardstick"});
   EXPECT_LT(all.missed / all.expected, 0.03);
   EXPECT_LT(all.added / all.expected, 0.03);
 }
@@ -158,7 +161,11 @@ TEST_P(ThinObjectsOn, HaveTheEchoesOfTheReferenceBeamByBeam) {
 // White poles of 1 cm at 110 m are at the threshold or below: 24 of them have 25, 35 and 128 echoes
 // in a reference of 4,095 sub-rays, and 64 sub-rays alone add 33, 44 and 49 that are none.
 TEST_P(ThinObjectsOn, AtTheThresholdAddHardlyAnyEcho) {
-  EXPECT_LE(CompareRow(WhitePole(), 110.0).added, 9.0);
+  const double added = CompareRow(WhitePole(), 110.0).added;
+  RecordRegime("24 white poles of 1 cm at 110 m, at the detection threshold",
+               {"all or nothing, as a ray meets it",
+                std::to_string(std::lround(added)) + " echoes added", "the yardstick"});
+  EXPECT_LE(added, 9.0);
 }
 
 // An upright pole that passes a beam from end to end takes a strip of its profile.
@@ -197,8 +204,6 @@ TEST_P(ThinObjectsOn, TakeTheShareOfTheClosedForm) {
     sum += ratio;
     ++num;
   }
-  RecordProperty("num", num);
-  RecordProperty("mean", std::to_string(sum / num));
   if (num == 0) GTEST_SKIP() << "no echo of these poles";
   EXPECT_NEAR(sum / num, 1.0, 0.02);  // Of echoes at the threshold, the stronger are detected.
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "railcast/effects.h"
+#include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -38,6 +39,9 @@ Frame BetweenFloorAndCeiling(bool is_inwards, Fidelity rung, double snow_cover) 
 }
 
 TEST(Undersides, CarryNoSnow) {
+  RecordRegime("lying snow and meshes wound either way",
+               {"the sign of the normal: snow on ceilings and the undersides of bridges",
+                "on upper sides alone"});
   for (const Fidelity rung : {Fidelity::kSurface, Fidelity::kFootprint, Fidelity::kReference}) {
     for (const bool is_inwards : {false, true}) {
       const Frame bare = BetweenFloorAndCeiling(is_inwards, rung, 0.0);
