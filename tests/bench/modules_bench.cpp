@@ -104,8 +104,8 @@ std::vector<Row> RowsOf(ScanModules& modules) {
 
 void Print(const std::vector<Row>& rows) {
   std::printf(
-      "| | mean ms | sd | min | max | p50 of all | p99 of all | speed-up | published mean ms | "
-      "speed-up |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| module | mean ms | sd | min | max | p50 of all | p99 of all | speed-up | "
+      "published mean ms | published speed-up |\n|---|---|---|---|---|---|---|---|---|---|\n");
   const double first_ms = Quantile(rows.front().times_ms, 0.5);
   for (const Row& row : rows) {
     const std::size_t num_first = std::min(kPublishedScans, row.times_ms.size());
