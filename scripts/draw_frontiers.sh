@@ -1,19 +1,23 @@
 #!/usr/bin/env bash
 # Measures time against accuracy on four scenarios, with the published raster, with three sensors
-# whose beams lie otherwise and with a narrow view, and copies the raster's charts to where docs/frontier.md shows them:
-# draw_frontiers.sh [OPTION OF railcast-analyze frontier...]. The options are for the raster. Prints
-# the reports, and at the end the tables of README and docs. Takes long; for timings worth quoting
-# nothing else may run on the machine.
+# whose beams lie otherwise and with a narrow view, into out/frontier, and copies the raster's charts
+# to where docs/frontier.md shows them: draw_frontiers.sh [OPTION OF railcast-analyze frontier...].
+# The options are for the raster. What the same program has measured already is left as it is. Takes
+# an hour; for timings worth quoting nothing else may run on the machine. Called by
+# measure_results.py, which makes tables of it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scenes=(open_line parallel_wagons forest_rain fog_yard)
 sensors=(pandar64 vls128 rosette)
+version="$(build/release/analysis/railcast-analyze --version)"
+version="${version#railcast }"
 
 # frontier NAME SCENARIO [OPTION...]
 frontier() {
   local name="$1" scenario="$2"
   shift 2
+  if grep --quiet --no-messages "\"version\": \"$version\"" "out/frontier/$name/frontier.json"; then return; fi
   build/release/analysis/railcast-analyze frontier "$scenario" --out "out/frontier/$name" "$@"
 }
 
@@ -48,5 +52,3 @@ for scene in "${scenes[@]}"; do
   frontier "${scene}_narrow" "$scenario" --frames 1 \
     --rows surface,surface+thin_conductors,footprint,brute_force_64
 done
-
-scripts/frontier_tables.py out/frontier

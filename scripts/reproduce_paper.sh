@@ -22,12 +22,7 @@ if (($# != 1)) || [[ "$1" == -* ]]; then
   exit 2
 fi
 install_packages "${build_packages[@]}" "${display_packages[@]}" "${paper_packages[@]}"
-# Not in every version of the project.
-settings=()
-if grep --quiet 'add_executable(railcast-settings' tests/bench/CMakeLists.txt; then
-  settings=(railcast-settings)
-fi
-scripts/build.sh railcast-generate railcast-analyze railcast-view railcast-modules "${settings[@]}"
+scripts/build.sh railcast-generate railcast-analyze railcast-view railcast-modules railcast-settings
 
 mkdir -p "$1/images"
 out=$(realpath "$1")
@@ -47,14 +42,7 @@ draw() {
 
 echo "Tables 1 and 2"
 build/release/tests/bench/railcast-modules --scans "$scans" > "$runs/modules.md"
-if ((${#settings[@]})); then
-  {
-    printf '`build/release/tests/bench/railcast-settings --turns %s`\n\n' "$turns"
-    build/release/tests/bench/railcast-settings --turns "$turns"
-  } > "$runs/settings.md"
-else
-  echo "Not made: this version has no \`railcast-settings\`." > "$runs/settings.md"
-fi
+build/release/tests/bench/railcast-settings --turns "$turns" > "$runs/settings.md"
 
 echo "Figures"
 printf '{"version": 1, "file": "%s", "camera": {"width_px": 600, "height_px": 375,
@@ -88,6 +76,8 @@ docs/published.md explains the tables and pictures and says what differs.
 $(cat "$runs/modules.md")
 
 ## Table 2: the settings
+
+\`build/release/tests/bench/railcast-settings --turns $turns\`
 
 $(cat "$runs/settings.md")
 

@@ -1,4 +1,4 @@
-"""The scenarios of scripts/draw_performance.py: the demo, with one thing of it varied."""
+"""The scenarios of scripts/growth.py: the demo, with one thing of it varied."""
 
 import copy
 import json

@@ -1,36 +1,22 @@
-#!/usr/bin/env python3
-"""Measures how the time of a frame grows, and draws docs/performance.md's charts and tables.
+"""How the time of a frame grows: the charts and tables of docs/performance.md, for measure_results.py.
 
-  scripts/draw_performance.py [CHART...] [--redraw] [--build build/release]
-
-Each chart varies one thing of the demo (scripts/performance_scenarios.py), in turns in one process
-(railcast-scaling) or run by run (railcast-generate sequence), and keeps the least of the times; on
-one thread, of the times that the processor spent on it.
-The figures are kept as docs/reports/performance/CHART.tsv, the charts as
-docs/images/performance_CHART.png, the tables between the page's markers. --redraw measures nothing
-and draws the kept figures. Takes a quarter of an hour; for figures worth quoting nothing else may
-run on the machine, and the page says what did.
+Each chart varies one thing of the demo (scripts/growth_scenarios.py), in turns in one process (railcast-scaling) or
+run by run (railcast-generate sequence), and keeps the least of the times; on one thread, of the times that the
+processor spent on it. The charts are docs/images/performance_NAME.png.
 """
 
-import argparse
 import csv
-import datetime
 import json
 import math
 import os
 import pathlib
-import re
 import subprocess
 import tempfile
 import time
 
-import performance_scenarios as scenarios
+import growth_scenarios as scenarios
 
 ROOT = scenarios.ROOT
-PAGE = ROOT / "docs/performance.md"
-FIELDS = ("x y z intensity power_ratio range_m time_ns ring column return_index return_count label "
-          "instance outcome true_range_m incidence_rad material footprint_share "
-          "mixed_share").split()
 FORMATS = ("pcd", "pcd-compressed", "pcd-ascii", "ply", "kitti")
 FRAMES = 100  # Of a sequence.
 
@@ -77,10 +63,6 @@ def charts():
                       [(n, scenarios.line(n)) for n in (1, 10, 100, 1000)],
                       table=["build_s", "memory_mb"]),
     }
-
-
-def load():
-    return os.getloadavg()[0]
 
 
 def measure_scaling(build, chart):
@@ -150,15 +132,6 @@ def plain_write(folder, size):
         return 1e3 * (time.perf_counter() - begin) / FRAMES
 
 
-def measure_fields(build, file):
-    counts = [3, 6, 9, 12, 15, 19]
-    jobs = [lambda n=n: run_sequence(build, file, "/dev/shm", ["--fields", ",".join(FIELDS[:n])])
-            for n in counts]
-    raw_ms = raw_trace_ms(build)
-    return [{"fields": n, "bytes": size, "raw_ms": raw_ms, "frame_ms": ms}
-            for n, (ms, size) in zip(counts, least_of_turns(3, jobs))]
-
-
 def measure_sequence(build, file):
     """By the number of threads."""
     jobs = [lambda n=n: run_sequence(build, file, "/dev/shm", ["--threads", str(n)])
@@ -215,7 +188,7 @@ def fit(shape, points):
 
 
 def draw(name, chart, lines):
-    """Writes the chart; returns its fits in words."""
+    """Writes the chart."""
     points = {key: [(line[chart.column], line[key]) for line in lines]
               for key in ("raw_ms", "frame_ms")}
     fits = {key: fit(chart.shape, values) for key, values in points.items()}
@@ -244,14 +217,6 @@ def draw(name, chart, lines):
                   f"{fits[key][0]} lc rgb '{color}' dt 2 title '{fits[key][1]}'"]
     script.append("plot " + ", ".join(plots))
     subprocess.run(["gnuplot"], input="\n".join(script), text=True, check=True)
-    return {key: words.replace("^{", "^").replace("}", "") for key, (_, words) in fits.items()}
-
-
-def serial_share(lines):
-    """Fits frame_ms = serial + parallel / threads; the serial part and its share of one thread's."""
-    serial_ms, parallel_ms = fit_line([(1.0 / line["threads"], line["frame_ms"])
-                                       for line in lines])
-    return max(0.0, serial_ms), max(0.0, serial_ms) / (max(0.0, serial_ms) + parallel_ms)
 
 
 def draw_disk(lines):
@@ -280,112 +245,46 @@ def shown(value):
     return f"{value:.3g}"
 
 
-def table(columns, lines):
-    heads = {"raw_ms": "raw trace ms", "frame_ms": "frame ms", "ratio": "x raw trace",
-             "firings": "beams", "memory_mb": "memory MB", "build_s": "build s",
-             "length_km": "km", "write_ms": "bytes alone ms", "disk_ms": "frame on disk ms",
-             "bytes": "bytes a frame", "per_s": "frames/s", "stage_ms": "ms",
-             "share": "x raw trace"}
-    text = "| " + " | ".join(heads.get(c, c) for c in columns) + " |\n" + "|---" * len(columns)
+HEADS = {"raw_ms": "raw trace ms", "frame_ms": "frame ms", "ratio": "time x raw trace", "firings": "beams",
+         "memory_mb": "memory MB", "build_s": "build s", "length_km": "km", "write_ms": "bytes alone ms",
+         "disk_ms": "frame on disk ms", "bytes": "bytes a frame", "per_s": "frames/s", "stage_ms": "ms",
+         "share": "time x raw trace"}
+# Those that are not charts of railcast-scaling: what measures them, and their columns.
+OF_THE_DEMO = {"sequence": (measure_sequence, ["threads", "raw_ms", "frame_ms", "per_s", "ratio"]),
+               "stages": (measure_stages, ["stage", "stage_ms", "share"]),
+               "disk": (measure_disk, ["format", "bytes", "raw_ms", "write_ms", "frame_ms", "disk_ms"])}
+NAMES = [*charts(), *OF_THE_DEMO]
+
+
+def columns_of(name):
+    if name in OF_THE_DEMO:
+        return OF_THE_DEMO[name][1]
+    chart = charts()[name]
+    return [chart.column, "raw_ms", "frame_ms", "ratio", *chart.table]
+
+
+def table(name, lines):
+    """The lines of a chart as a table of docs/results.json."""
+    columns, rows = columns_of(name), []
     for line in lines:
         values = dict(line)
         if "frame_ms" in line:
             values.update(ratio=line["frame_ms"] / line["raw_ms"], per_s=1e3 / line["frame_ms"])
-        text += "|\n| " + " | ".join(shown(values[c]) for c in columns) + " "
-    return text + "|"
+        rows.append([shown(values[column]) for column in columns])
+    return {"keys": 1, "columns": [HEADS.get(column, column) for column in columns], "rows": rows}
 
 
-def keep(name, lines, note):
-    file = ROOT / f"docs/reports/performance/{name}.tsv"
-    file.parent.mkdir(exist_ok=True)
-    with open(file, "w", encoding="utf-8") as out:
-        out.write(f"# {note}\n")
-        writer = csv.DictWriter(out, list(lines[0]), delimiter="\t", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(lines)
-
-
-def kept(name):
-    with open(ROOT / f"docs/reports/performance/{name}.tsv", encoding="utf-8") as file:
-        note = file.readline()[2:].strip()
-        lines = list(csv.DictReader(file, delimiter="\t"))
-    number = lambda key, text: text if key in ("format", "stage") else float(text)
-    return [{k: number(k, v) for k, v in line.items()} for line in lines], note
-
-
-def put(name, text):
-    """Replaces what stands between the page's markers of that name."""
-    begin, end = f"<!-- draw_performance.py: {name} -->", "<!-- end -->"
-    page = PAGE.read_text(encoding="utf-8")
-    before, rest = page.split(begin, 1)
-    after = rest.split(end, 1)[1]
-    PAGE.write_text(f"{before}{begin}\n{text}\n{end}{after}", encoding="utf-8")
-
-
-def measure(name, build):
-    before = load()
+def measured(name, build):
+    """Measures and draws a chart, and returns its table."""
     if name in OF_THE_DEMO:
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "demo.json"
             file.write_text(json.dumps(scenarios.demo()))
-            lines = OF_THE_DEMO[name](build, file)
+            lines = OF_THE_DEMO[name][0](build, file)
     else:
         lines = measure_scaling(build, charts()[name])
-    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text()).group(1)
-    own = len(all_threads())
-    busy = " **while other programs ran**," if before > 0.5 else ""
-    keep(name, lines, f"{own} cores of {model}, {datetime.date.today()},{busy} load of the machine "
-                      f"before: {before:.1f}")
-
-
-def show(name):
-    lines, note = kept(name)
-    if name == "stages":
-        put(name, f"{table(['stage', 'stage_ms', 'share'], lines)}\n\n*{note}.*")
-        return
-    if name == "sequence":
-        chart = Chart("sequence", "threads", "threads", [])
-        draw(name, chart, lines)
-        serial_ms, share = serial_share(lines)
-        text = table(["threads", "raw_ms", "frame_ms", "per_s", "ratio"], lines)
-        fits = (f" Fitted: {serial_ms:.2f} ms of a frame do not shrink with the number of threads, "
-                f"{100 * share:.0f} % of its time on one.")
-    elif name == "disk":
+    if name == "disk":
         draw_disk(lines)
-        text = table(["format", "bytes", "raw_ms", "write_ms", "frame_ms", "disk_ms"], lines)
-        fits = ""
-    else:
-        chart = charts().get(name) or Chart("fields", "fields", "fields", [], shape="line",
-                                            table=["bytes"])
-        words = draw(name, chart, lines)
-        columns = [chart.column, "raw_ms", "frame_ms", "ratio", *chart.table]
-        text = table(columns, lines)
-        fits = f" Fitted: frame {words['frame_ms']}, raw trace {words['raw_ms']}."
-        if name in ("threads", "fields") and "while other programs ran" in note:
-            fits = " Times by the clock do not show a growth while other programs run."
-    put(name, f"![{name}](images/performance_{name}.png)\n\n{text}\n\n*{note}.*{fits}")
-
-
-OF_THE_DEMO = {"sequence": measure_sequence, "stages": measure_stages, "fields": measure_fields,
-               "disk": measure_disk}
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    names = [*charts(), *OF_THE_DEMO]
-    parser.add_argument("charts", nargs="*", metavar="CHART", help=", ".join(names))
-    parser.add_argument("--redraw", action="store_true", help="draw the kept figures")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    arguments = parser.parse_args()
-    unknown = [name for name in arguments.charts if name not in names]
-    if unknown:
-        parser.error(f"CHART: must be one of {', '.join(names)} (got {unknown[0]})")
-    for name in arguments.charts or names:
-        if not arguments.redraw:
-            measure(name, arguments.build)
-        show(name)
-        print(f"{name}: {PAGE}")
-
-
-if __name__ == "__main__":
-    main()
+    elif name != "stages":
+        draw(name, charts().get(name) or Chart(name, "threads", "threads", []), lines)
+    return {name: table(name, lines)}

@@ -1,0 +1,104 @@
+"""Each test plants a page and a file of results and reads what scripts/results.py says, or makes, of them."""
+
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import measure_results  # noqa: E402 (found through the line above)
+import results  # noqa: E402
+
+MADE = {"machine": "2 cores of X", "date": "2026-01-02", "revision": "abc", "note": "nothing else ran"}
+TABLE = {"keys": 1, "columns": ["row", "time", "error %"],
+         "rows": [["`a`", "11.39", "4.91"], ["`b`", "1.05", "-"], ["c", "1,209.6", "2 to 3"]]}
+HEAD = "<!-- results: p/t -->\n| row | time | error % | own |\n|---|---|---|---|\n"
+
+
+def planted(text, run):
+    """What `run` gives for a tree of which README.md has this text."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        (root / "docs").mkdir()
+        (root / "scenarios").mkdir()
+        (root / "README.md").write_text(text, encoding="utf-8")
+        (root / results.FILE).write_text(json.dumps({"p": {"made": MADE, "tables": {"t": TABLE}}}), encoding="utf-8")
+        return run(root)
+
+
+def faults_of(text):
+    return planted(text, lambda root: list(results.lint(root)))
+
+
+def filled(text):
+    def run(root):
+        results.fill(root)
+        return (root / "README.md").read_text(encoding="utf-8")
+    return planted(text, run)
+
+
+class Check(unittest.TestCase):
+
+    def test_a_table_has_the_files_figures_with_as_many_digits_as_it_shows(self):
+        self.assertEqual(faults_of(HEAD + "| `a` | 11.4 | 4.91 | x |\n| c | 1,210 | 2 to 3 | y |\n"), [])
+        self.assertEqual(faults_of(HEAD + "| `a` | 11.5 | 4.91 | x |\n"),
+                         ["README.md:4: figures are those of docs/results.json "
+                          "(| `a` | 11.5 | 4.91 | x | instead of | `a` | 11.4 | 4.91 | x |)"])
+
+    def test_a_number_in_a_sentence_is_that_of_its_cell(self):
+        self.assertEqual(faults_of("takes 11<!-- r: p/t | a | time --> times\n"), [])
+        self.assertEqual(faults_of("takes 12<!-- r: p/t | a | time --> times\n"),
+                         ["README.md:1: figures are those of docs/results.json (takes 12<!-- r: p/t | a | time --> times "
+                          "instead of takes 11<!-- r: p/t | a | time --> times)"])
+
+    def test_a_page_says_where_and_when_a_part_was_measured(self):
+        self.assertEqual(faults_of("<!-- made: p -->\n*2 cores of X; 2026-01-02; revision abc; nothing else ran.*\n"), [])
+        self.assertEqual(len(faults_of("<!-- made: p -->\n*3 cores of X.*\n")), 1)
+
+    def test_a_mark_without_an_answer_is_a_fault(self):
+        self.assertEqual(faults_of("1<!-- r: p/u | a | time -->\n2<!-- r: p/t | d | time -->\n"
+                                   "3<!-- r: p/t | a | times -->\n"),
+                         ["README.md:1: the file has the table (p/u)", "README.md:2: the file has the row (d)",
+                          "README.md:3: the file has the column (times)"])
+        self.assertEqual(faults_of("no number<!-- r: p/t | a | time -->\n"),
+                         ["README.md:1: every mark stands at a table, after a number or above a line (1 do not)"])
+
+    def test_a_column_of_the_pages_own_has_no_figures(self):
+        self.assertEqual(faults_of(HEAD + "| `a` | 11.39 | 4.91 | 7 mm |\n"),
+                         ["README.md:1: figures stand in columns of the file (a: 7 mm)"])
+
+
+class Fill(unittest.TestCase):
+
+    def test_a_table_of_all_rows_gets_the_files(self):
+        text = "<!-- results: p/t all -->\n| row | error % |\n|---|---|\n| gone | 1 |\n"
+        self.assertEqual(filled(text).splitlines()[3:], ["| `a` | 4.91 |", "| `b` | - |", "| c | 2 to 3 |"])
+        self.assertEqual(faults_of(filled(text)), [])
+
+    def test_digits_and_units_stay_those_of_the_page(self):
+        self.assertIn("| `a` | 11.4 | 4.91 | x |", filled(HEAD + "| `a` | 99.0 | | x |\n"))
+
+
+class Measured(unittest.TestCase):
+
+    def test_several_sensors_are_one_row_with_a_span_of_figures(self):
+        test = lambda name, text: {"name": name, "regime: steps": text}
+        report = json.dumps({"testsuites": [{"name": "All/EdgesOn", "testsuite": [
+            test("Mix/a", "one | 90 % of 3 | yes"), test("Mix/b", "one | 100 % of 3 | yes")]}]})
+        self.assertEqual(measure_results.regimes(report),
+                         [["steps", "one", "90 to 100 % of 3", "yes", "`EdgesOn.*`"]])
+
+    def test_the_change_farthest_beyond_its_interval_counts(self):
+        cells = [("0 m", "+5.0 ± 4.9"), ("30 m", "-1.5 ± 0.2"), ("60 m", "")]
+        self.assertEqual(measure_results.largest_change(cells), "-1.5 ± 0.2 from 30 m")
+        self.assertEqual(measure_results.largest_change([("0 m", "")]), "-")
+
+    def test_tables_of_a_text_are_found(self):
+        self.assertEqual(measure_results.tables_in("x\n| a | b |\n|---|---|\n| 1 | 2 |\n\ny\n"),
+                         [[["a", "b"], ["1", "2"]]])
+
+
+if __name__ == "__main__":
+    unittest.main()
