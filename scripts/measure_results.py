@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -26,6 +27,7 @@ import results
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FILE = ROOT / results.FILE
 IDLE_LOAD = 0.5
+BUSY = "other programs ran, to be measured again"
 SCENES = ("open_line", "parallel_wagons", "forest_rain", "fog_yard")
 SENSORS = {"pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette", "narrow": "narrow view"}
 
@@ -115,8 +117,8 @@ def frontier(_):
 
 def instructions(build):
     """Instructions a firing, counted by callgrind."""
-    counted = re.findall(r"^(\w+) (\d+)", said("scripts/measure_effect_costs.sh", build / "generator/railcast-generate"),
-                         re.M)
+    text = said("scripts/measure_effect_costs.sh", build / "generator/railcast-generate")
+    counted = re.findall(r"^([\w.]+) (\d+)", text, re.M)
     return {"firing": table(1, ["what", "instructions"], [[f"`{name}`", f"{int(num):,}"] for name, num in counted])}
 
 
@@ -142,26 +144,17 @@ NAMES = {"vir2rail": "raster", **SENSORS}
 
 def detail(_):
     """The largest changes by coarser plants and ground, and the times."""
-    echoes, times, what = [], [], None
-    for line in said("scripts/measure_detail.sh").splitlines():
-        if re.fullmatch(r"\w+, \w+", line):
-            sensor, rung = line.split(", ")
-            what, columns = [NAMES.get(sensor, sensor), rung], None
-        elif line.startswith("| range"):
-            columns, rows = results.cells_of(line), []
-        elif line.startswith("|---"):
-            pass
-        elif line.startswith("| ") and columns:
-            rows.append(results.cells_of(line))
-            group = ""
-        elif columns:
+    echoes, times = [], []
+    parts = re.split(r"^(\w+), (\w+)$", said("scripts/measure_detail.sh"), flags=re.M)
+    for name, rung, text in zip(parts[1::3], parts[2::3], parts[3::3]):
+        for columns, *rows in tables_in(text):
+            group = ""  # A column without a group is of that before it.
             for i, column in enumerate(columns[1:], 1):
                 group, _, figure = column.rpartition(": ") if ": " in column else (group, "", column)
-                echoes.append([what[0], f"`{what[1]}`", f"{group}: {figure}",
+                echoes.append([NAMES.get(name, name), f"`{rung}`", f"{group}: {figure}",
                                largest_change([(row[0], row[i]) for row in rows])])
-            columns = None
-        elif line.startswith("x raw trace"):
-            times.append([f"`{what[0]}`", f"`{what[1]}`", *re.findall(r"\d+(?:\.\d+)?", line)])
+        for ratios in re.findall(r"^x raw trace(.*)", text, re.M):
+            times.append([f"`{name}`", f"`{rung}`", *re.findall(r"\d+(?:\.\d+)?", ratios)])
     return {"echoes": table(3, ["sensor", "rung", "of", "largest change %"], echoes),
             "times": table(2, ["scenario", "rung", "raw trace, auto", "raw trace, without plants", "frame, full",
                                "frame, auto", "frame, without plants"], times)}
@@ -181,14 +174,21 @@ def settings(build):
     return {"settings": of_printed(1, build / "tests/bench/railcast-settings", "--turns", 100)}
 
 
-def plants(_):
+def drawn(keys, script):
+    """The table of a script that draws pictures, which go to docs/images."""
     with tempfile.TemporaryDirectory() as out:
-        return {"landscape": of_printed(1, "scripts/draw_plants.sh", out)}
+        printed = of_printed(keys, script, out)
+        for picture in (pathlib.Path(out) / "images").iterdir():
+            shutil.copy(picture, ROOT / "docs/images")
+    return printed
+
+
+def plants(_):
+    return {"landscape": drawn(1, "scripts/draw_plants.sh")}
 
 
 def weather(_):
-    with tempfile.TemporaryDirectory() as out:
-        return {"weather": of_printed(2, "scripts/draw_weather.sh", out)}
+    return {"weather": drawn(2, "scripts/draw_weather.sh")}
 
 
 def merged(texts):
@@ -234,11 +234,32 @@ def python(build):
                           [[f"`{pathlib.Path(name).name}`", *cells] for name, *cells in lines])}
 
 
+def live(build):
+    """Runs on loopback; the rates that each rung sustains."""
+    text = said("scripts/measure_live.py", build, "steady", "limits", "late", "fast")
+    quantiles = (r"compute: p50 ([\d.]+), p99 ([\d.]+).*\n  send: p50 ([\d.]+).*\n"
+                 r"  lateness: p50 ([\d.]+), p99 ([\d.]+), max ([\d.]+)")
+    steady = re.findall(r"^published scan, (\d+ Hz, \w+), .*: (\d+) frames, (\d+) late.*\n  " + quantiles, text, re.M)
+    rates = re.findall(r"^(\w+): (\d+) Hz for", text, re.M)
+    runs = re.findall(r"^(.+), [\d.]+ s: (\d+) frames, (\d+) late; compute p50 ([\d.]+), p99 ([\d.]+)", text, re.M)
+    return {"steady": table(1, ["published scan", "frames", "late", "compute p50 ms", "compute p99 ms", "send p50 ms",
+                                "lateness p50 ms", "lateness p99 ms", "lateness max ms"], list(map(list, steady))),
+            "rates": table(1, ["rung", "Hz"], [[f"`{rung}`", rate] for rung, rate in rates]),
+            "runs": table(1, ["run", "frames", "late", "compute p50 ms", "compute p99 ms"], list(map(list, runs)))}
+
+
+def situations(build):
+    """The table of scenarios/README.md, which has its own check."""
+    said("scripts/measure_situations.py", build, "--write")
+    return {}
+
+
 # Each with the minutes that it takes on two cores.
 PARTS = {"frontier": (frontier, 60), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 15), "plants": (plants, 2), "weather": (weather, 5),
-         "stability": (stability, 4), "python": (python, 2),
+         "stability": (stability, 4), "python": (python, 2), "live": (live, 40), "situations": (situations, 10),
          **{name: (lambda build, name=name: growth.measured(name, build), 3) for name in growth.NAMES}}
+UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
 
 
 def machine():
@@ -259,7 +280,7 @@ def write(measured):
 
 
 def keep(measured, name, tables, load):
-    note = "nothing else ran" if load < IDLE_LOAD else "other programs ran, to be measured again"
+    note = "counts and errors, no times" if name in UNTIMED else "nothing else ran" if load < IDLE_LOAD else BUSY
     measured[name] = {"made": {"machine": machine(), "date": str(datetime.date.today()), "revision": revision(),
                                "note": note}, "tables": tables}
     write(measured)
@@ -268,7 +289,7 @@ def keep(measured, name, tables, load):
 
 def is_done(measured, name):
     made = measured.get(name, {}).get("made", {})
-    return made.get("revision") == revision() and made.get("note") == "nothing else ran"
+    return made.get("revision") == revision() and made.get("note") != BUSY
 
 
 def main():

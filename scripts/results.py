@@ -8,8 +8,8 @@ A page takes figures in three ways:
 
     <!-- results: PART/TABLE -->       the table below has the file's figures in the columns and rows that it names.
                                        With "all" after the table's name it has all of the file's rows.
-    6.7<!-- r: PART/TABLE | ROW | COLUMN -->   the number before the mark is a cell of the file; rows with several
-                                               keys are named by all of them, divided by |
+    6.7<!-- r: PART/TABLE ; ROW ; COLUMN -->   the number before the mark is a cell of the file; rows with several
+                                               keys are named by all of them, divided by ;
     <!-- made: PART -->                the line below says where and when the part was measured
 
 The page decides how many digits it shows: the file's figure is rounded to as many. A column that the file's table
@@ -25,7 +25,7 @@ import sys
 FILE = "docs/results.json"
 NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
 TABLE = re.compile(r"<!-- results: (\S+?)( all)? -->\n(?:\n)?((?:\|.*\n)+)")
-INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r: (\S+) \| ([^>]*?) \| ([^|>]*?) -->")
+INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r: (\S+) ; ([^>]*?) ; ([^;>]*?) -->")
 MADE = re.compile(r"<!-- made: (\S+) -->\n(?:\*.*\*\n)?")
 MARK = re.compile(r"<!-- (?:results|r|made): ")
 
@@ -134,7 +134,7 @@ def filled(text, results, complain):
         return head + "\n".join(table_as_measured(results, match[1], match[2], lines)) + "\n"
 
     def inline(match):
-        keys = [plain(each) for each in match[3].split("|")]
+        keys = [plain(each) for each in match[3].split(";")]
         found = table_of(results, match[2])
         figure = row_of(found, keys)[column_of(found, match[4])]
         if not NUMBER.fullmatch(figure):

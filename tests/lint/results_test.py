@@ -48,21 +48,22 @@ class Check(unittest.TestCase):
                           "(| `a` | 11.5 | 4.91 | x | instead of | `a` | 11.4 | 4.91 | x |)"])
 
     def test_a_number_in_a_sentence_is_that_of_its_cell(self):
-        self.assertEqual(faults_of("takes 11<!-- r: p/t | a | time --> times\n"), [])
-        self.assertEqual(faults_of("takes 12<!-- r: p/t | a | time --> times\n"),
-                         ["README.md:1: figures are those of docs/results.json (takes 12<!-- r: p/t | a | time --> times "
-                          "instead of takes 11<!-- r: p/t | a | time --> times)"])
+        self.assertEqual(faults_of("takes 11<!-- r: p/t ; a ; time --> times\n"), [])
+        self.assertEqual(faults_of("takes 12<!-- r: p/t ; a ; time --> times\n"),
+                         ["README.md:1: figures are those of docs/results.json "
+                          "(takes 12<!-- r: p/t ; a ; time --> times instead of takes 11<!-- r: p/t ; a ; time --> times)"])
 
     def test_a_page_says_where_and_when_a_part_was_measured(self):
-        self.assertEqual(faults_of("<!-- made: p -->\n*2 cores of X; 2026-01-02; revision abc; nothing else ran.*\n"), [])
+        line = "*2 cores of X; 2026-01-02; revision abc; nothing else ran.*"
+        self.assertEqual(faults_of(f"<!-- made: p -->\n{line}\n"), [])
         self.assertEqual(len(faults_of("<!-- made: p -->\n*3 cores of X.*\n")), 1)
 
     def test_a_mark_without_an_answer_is_a_fault(self):
-        self.assertEqual(faults_of("1<!-- r: p/u | a | time -->\n2<!-- r: p/t | d | time -->\n"
-                                   "3<!-- r: p/t | a | times -->\n"),
+        self.assertEqual(faults_of("1<!-- r: p/u ; a ; time -->\n2<!-- r: p/t ; d ; time -->\n"
+                                   "3<!-- r: p/t ; a ; times -->\n"),
                          ["README.md:1: the file has the table (p/u)", "README.md:2: the file has the row (d)",
                           "README.md:3: the file has the column (times)"])
-        self.assertEqual(faults_of("no number<!-- r: p/t | a | time -->\n"),
+        self.assertEqual(faults_of("no number<!-- r: p/t ; a ; time -->\n"),
                          ["README.md:1: every mark stands at a table, after a number or above a line (1 do not)"])
 
     def test_a_column_of_the_pages_own_has_no_figures(self):
