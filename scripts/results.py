@@ -25,9 +25,9 @@ import sys
 FILE = "docs/results.json"
 NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
 TABLE = re.compile(r"<!-- results: (\S+?)( all)? -->\n(?:\n)?((?:\|.*\n)+)")
-INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r: (\S+) ; ([^>]*?) ; ([^;>]*?) -->")
+INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r:\s+(\S+)\s+;\s+([^>]*?)\s+;\s+([^;>]*?)\s+-->")
 MADE = re.compile(r"<!-- made: (\S+) -->\n(?:\*.*\*\n)?")
-MARK = re.compile(r"<!-- (?:results|r|made): ")
+MARK = re.compile(r"<!-- (?:results|r|made):\s")
 
 
 class Fault(Exception):
@@ -58,7 +58,7 @@ def cells_of(line):
 
 
 def plain(cell):
-    return cell.replace("`", "").strip()
+    return " ".join(cell.replace("`", "").split())
 
 
 def table_of(results, name):
