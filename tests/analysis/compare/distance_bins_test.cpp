@@ -1,4 +1,4 @@
-#include "analysis/compare/distances.h"
+#include "analysis/compare/distance_bins.h"
 
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>

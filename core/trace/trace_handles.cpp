@@ -1,4 +1,4 @@
-#include "core/trace/embree_error.h"
+#include "core/trace/trace_handles.h"
 
 #include <stdexcept>
 

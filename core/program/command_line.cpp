@@ -1,4 +1,4 @@
-#include "core/program/option_rules.h"
+#include "core/program/command_line.h"
 
 #include <charconv>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "viewer/overlays/empty_beams.h"
+#include "viewer/overlays/beams.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
