@@ -6,6 +6,7 @@ usage: write_reference.py [SCHEMA] > docs/reference.md
 SCHEMA is scenarios/schema/scenario.schema.json unless given.
 """
 
+import itertools
 import json
 import pathlib
 import sys
@@ -16,15 +17,14 @@ HEAD = """# Reference: every key of a scenario
 
 <!-- Written by scripts/write_reference.py from scenarios/schema/scenario.schema.json: do not edit. -->
 
-The tables follow the JSON Schema, which follows the reader; `railcast-generate check` holds a file to them.
-[scenario.md](scenario.md) explains how keys work together and how a file is read, [effects.md](effects.md) and
-[world.md](world.md) what they do.
+[scenario.md](scenario.md) explains how keys work together and how a file is read. [effects.md](effects.md) describes
+the effects, [world.md](world.md) and the pages that it leads to describe the world.
 
-- Keys that have a default may be left out. Unknown keys are errors.
-- `…[]` stands for every element of a list.
-- Each section, and each object or list in it that is marked *or file*, can be the name of a file that holds it. An
-  object that is marked so can also have a key `file`: the file has those keys that are not given beside it
-  ([inclusion](scenario.md#inclusion)). Then nothing else is required.
+- Keys with a default may be left out. Unknown keys are errors. A range such as *0 to 1* is that of a number.
+- `…[]` stands for every element of a list. An object whose heading ends in parentheses has the required key `type`
+  with that value.
+- What is marked *or file* can be the name of a file that holds it. Such an object can also have a key `file`: the file
+  has the keys that are not given beside it ([inclusion](scenario.md#inclusion)), and nothing else is required.
 - A file has `"version": 1`, and may name its schema with `$schema`.
 """
 INCLUSION = "Has the keys that are not given here."  # Of a key `file`.
@@ -34,10 +34,10 @@ EXPLAINED_IN = {
     "lidar": "scenario.md#sensors", "lidars[]": "scenario.md#several-sensors",
     "lidar.plausibility": "effects.md#threshold", "lidar.cover": "effects.md#cover",
     "weather": "scenario.md#weather", "interfaces": "live.md", "camera": "camera.md",
-    "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "world.md#contact-line",
-    "world.terrain": "world.md#ground-and-vegetation", "world.vegetation": "world.md#ground-and-vegetation",
-    "world.structures[]": "world.md#structures", "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
-    "output": "files.md#fields", "materials[]": "scenario.md#materials",
+    "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "structures.md#contact-line",
+    "world.terrain": "land.md#terrain", "world.vegetation": "land.md#ground-and-vegetation",
+    "world.structures[]": "structures.md#structures", "world.objects[]": "scenario.md#objects",
+    "vehicle": "world.md#movement", "output": "files.md#fields", "materials[]": "scenario.md#materials",
 }
 
 
@@ -135,15 +135,38 @@ def is_explained_in_head(key, schema):
     return key in ("$schema", "version") or (key == "file" and schema["description"] == INCLUSION)
 
 
-def table(schema):
-    lines = ["| key | value | default | limits | meaning |", "|---|---|---|---|---|"]
-    for key, value in schema["properties"].items():
-        if is_explained_in_head(key, value):
-            continue
-        cells = (f"`{key}`", kind(value), default_of(schema, key), value_limits(value),
-                 description(value) + excluded(schema, key))
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+def value_of(schema):
+    """What a key takes: its kind with its limits, or the names to choose from."""
+    what, bounds = kind(schema), value_limits(schema)
+    if not bounds:
+        return what
+    return bounds if what in ("text", "number") else f"{what}, {bounds}"
+
+
+def rows(schema):
+    """{key: its cells} without what the head explains and the `type` that a heading names."""
+    return {key: (value_of(value), default_of(schema, key), description(value) + excluded(schema, key))
+            for key, value in schema["properties"].items()
+            if not is_explained_in_head(key, value) and "const" not in value}
+
+
+def table(cells_of):
+    """Neighbouring keys of which the same is to be said share a line."""
+    lines = ["| key | value | default | meaning |", "|---|---|---|---|"]
+    for cells, keys in itertools.groupby(cells_of, key=cells_of.get):
+        names = ", ".join(f"`{key}`" for key in keys)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in (names, *cells)) + " |")
     return "\n".join(lines)
+
+
+def given_before(cells_of, choices):
+    """{name of a choice: keys that it has alike}, of the earlier choices that have a key of this one."""
+    found = {}
+    for key, cells in cells_of.items():
+        name = next((name for name, others in choices.items() if others.get(key) == cells), None)
+        if name is not None:
+            found.setdefault(name, []).append(key)
+    return found
 
 
 def see_of(path):
@@ -164,19 +187,28 @@ class Writer:
             path += "[]"
             schema, _ = without_file(schema["items"])
         if "oneOf" in schema:
+            before = {}
             for choice in schema["oneOf"]:
-                self.write_object(f"{path} ({choice['properties']['type']['const']})", choice)
+                name = choice["properties"]["type"]["const"]
+                self.write_object(f"{path} ({name})", choice, before)
+                before[name] = rows(choice)
         elif schema.get("type") == "object":
             self.write_object(path, schema)
 
-    def write_object(self, path, schema):
+    def write_object(self, path, schema, choices=None):
+        """`choices`: {name: rows} of the choices that come before this one."""
         text = json.dumps(schema["properties"], sort_keys=True)
         title = f"{'###' if '.' in path else '##'} `{path}`"
         if text in self.seen:
             self.parts += [title, f"As `{self.seen[text]}`. {see_of(path)}".rstrip()]
             return
         self.seen[text] = path
-        self.parts += [part for part in (title, see_of(path), table(schema)) if part]
+        cells_of, known = rows(schema), given_before(rows(schema), choices or {})
+        left = {key: cells for key, cells in cells_of.items() if not any(key in keys for keys in known.values())}
+        as_others = "; ".join(", ".join(f"`{key}`" for key in keys) + f" as of `{name}`"
+                              for name, keys in known.items())
+        self.parts += [part for part in (title, see_of(path), table(left) if left else "",
+                                         f"Also {as_others}." if as_others else "") if part]
         for key, value in schema["properties"].items():
             self.write(f"{path}.{key}", value)
 
@@ -186,7 +218,7 @@ def reference_of(schema):
     for key, value in schema["properties"].items():
         if not is_explained_in_head(key, value):
             writer.write(key, value)
-    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{table(schema)}", *writer.parts]) + "\n"
+    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{table(rows(schema))}", *writer.parts]) + "\n"
 
 
 def main(arguments):
