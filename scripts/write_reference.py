@@ -143,11 +143,33 @@ def value_of(schema):
     return bounds if what in ("text", "number") else f"{what}, {bounds}"
 
 
-def rows(schema):
-    """{key: its cells} without what the head explains and the `type` that a heading names."""
-    return {key: (value_of(value), default_of(schema, key), description(value) + excluded(schema, key))
-            for key, value in schema["properties"].items()
-            if not is_explained_in_head(key, value) and "const" not in value}
+def cells(schema, key, as_path=None):
+    """What the table says of a key; `as_path`: of the object that has the same keys."""
+    value = schema["properties"][key]
+    what = value_of(value) + (f", as `{as_path}`" if as_path else "")
+    return what, default_of(schema, key), description(value) + excluded(schema, key)
+
+
+def in_table(schema):
+    """The keys that a table has: neither what the head explains nor the `type` that a heading names."""
+    return [key for key, value in schema["properties"].items()
+            if not is_explained_in_head(key, value) and "const" not in value]
+
+
+def element(path, schema):
+    """(path, schema) of an object, or of the elements of a list of any depth."""
+    schema, _ = without_file(schema)
+    while schema.get("type") == "array":
+        path += "[]"
+        schema, _ = without_file(schema["items"])
+    return path, schema
+
+
+def is_small(schema):
+    """Whether an object has no table of its own: up to four keys, none of them an object."""
+    keys = in_table(schema)
+    return len(keys) <= 4 and not any({"properties", "oneOf"} & element("", schema["properties"][key])[1].keys()
+                                      for key in keys)
 
 
 def table(cells_of):
@@ -182,43 +204,64 @@ class Writer:
         self.parts = []
 
     def write(self, path, schema):
-        schema, _ = without_file(schema)
-        while schema.get("type") == "array":
-            path += "[]"
-            schema, _ = without_file(schema["items"])
         if "oneOf" in schema:
             before = {}
             for choice in schema["oneOf"]:
                 name = choice["properties"]["type"]["const"]
-                self.write_object(f"{path} ({name})", choice, before)
-                before[name] = rows(choice)
-        elif schema.get("type") == "object":
-            self.write_object(path, schema)
+                before[name] = self.write_object(f"{path} ({name})", choice, before)
+        else:
+            self.write_object(path, schema, {})
 
-    def write_object(self, path, schema, choices=None):
-        """`choices`: {name: rows} of the choices that come before this one."""
-        text = json.dumps(schema["properties"], sort_keys=True)
+    def rows(self, path, schema):
+        """({key: cells}, [(path, schema)] of what has tables of its own)."""
+        cells_of, others = {}, []
+        for key in in_table(schema):
+            inner_path, inner = element(f"{path}.{key}", schema["properties"][key])
+            cells_of[key] = cells(schema, key)
+            if inner_path in EXPLAINED_IN or "oneOf" in inner:
+                others.append((inner_path, inner))
+            elif "properties" in inner:
+                first = self.seen.setdefault(text_of(inner), inner_path)
+                if first != inner_path:
+                    cells_of[key] = cells(schema, key, first)
+                elif is_small(inner):
+                    of_list = inner_path.removeprefix(f"{path}.")
+                    cells_of |= {f"{of_list}.{name}": cells(inner, name) for name in in_table(inner)}
+                else:
+                    others.append((inner_path, inner))
+        return cells_of, others
+
+    def write_object(self, path, schema, choices):
+        """Returns the rows. `choices`: {name: rows} of the choices that come before this one."""
         title = f"{'###' if '.' in path else '##'} `{path}`"
-        if text in self.seen:
-            self.parts += [title, f"As `{self.seen[text]}`. {see_of(path)}".rstrip()]
-            return
-        self.seen[text] = path
-        cells_of, known = rows(schema), given_before(rows(schema), choices or {})
-        left = {key: cells for key, cells in cells_of.items() if not any(key in keys for keys in known.values())}
+        first = self.seen.setdefault(text_of(schema), path)
+        if first != path:
+            self.parts += [title, f"As `{first}`. {see_of(path)}".rstrip()]
+            return {}
+        cells_of, others = self.rows(path, schema)
+        known = given_before(cells_of, choices)
+        left = {key: row for key, row in cells_of.items() if not any(key in keys for keys in known.values())}
         as_others = "; ".join(", ".join(f"`{key}`" for key in keys) + f" as of `{name}`"
                               for name, keys in known.items())
         self.parts += [part for part in (title, see_of(path), table(left) if left else "",
                                          f"Also {as_others}." if as_others else "") if part]
-        for key, value in schema["properties"].items():
-            self.write(f"{path}.{key}", value)
+        for inner_path, inner in others:
+            self.write(inner_path, inner)
+        return cells_of
+
+
+def text_of(schema):
+    return json.dumps(schema["properties"], sort_keys=True)
 
 
 def reference_of(schema):
-    writer = Writer()
-    for key, value in schema["properties"].items():
-        if not is_explained_in_head(key, value):
-            writer.write(key, value)
-    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{table(rows(schema))}", *writer.parts]) + "\n"
+    writer, keys = Writer(), in_table(schema)
+    for key in keys:
+        path, inner = element(key, schema["properties"][key])
+        if {"properties", "oneOf"} & inner.keys():
+            writer.write(path, inner)
+    of_scenario = table({key: cells(schema, key) for key in keys})
+    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{of_scenario}", *writer.parts]) + "\n"
 
 
 def main(arguments):

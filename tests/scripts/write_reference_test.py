@@ -85,6 +85,13 @@ class Reference(unittest.TestCase):
             "## `one (bar)`", "| `is_long` | true, false |  |  |", "Also `size` as of `dot`.",
             "## `one (dash)`", "Also `size` as of `dot`."])
 
+    def test_a_small_object_has_no_table_of_its_own(self):
+        point = {"type": "object", "properties": {"s_m": {"type": "number"}}}
+        points = {"type": "array", "items": point}
+        self.assertEqual(lines_of({"way": {"type": "object", "properties": {"from": points, "to": point}}})[1:], [
+            "| `way` | object |  |  |", "## `way`", "| `from` | list of objects |  |  |",
+            "| `from[].s_m` | number |  |  |", "| `to` | object, as `way.from[]` |  |  |"])
+
     def test_what_has_been_described_is_not_described_again(self):
         part = {"type": "object", "properties": {"b": {"type": "boolean"}}}
         self.assertEqual(lines_of({"p": part, "q": part})[-2:], ["## `q`", "As `p`."])
