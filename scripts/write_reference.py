@@ -20,7 +20,7 @@ HEAD = """# Reference: every key of a scenario
 [scenario.md](scenario.md) explains how keys work together and how a file is read. [effects.md](effects.md) describes
 the effects, [world.md](world.md) and the pages that it leads to describe the world.
 
-- Keys with a default may be left out. Unknown keys are errors. A range such as *0 to 1* is that of a number.
+- Keys may be left out unless *required* is in brackets. Unknown keys are errors. A range such as *0 to 1* is that of a number.
 - `…[]` stands for every element of a list. An object whose heading ends in parentheses has the required key `type`
   with that value.
 - What is marked *or file* can be the name of a file that holds it. Such an object can also have a key `file`: the file
@@ -145,9 +145,9 @@ def value_of(schema):
 
 def cells(schema, key, as_path=None):
     """What the table says of a key; `as_path`: of the object that has the same keys."""
-    value = schema["properties"][key]
+    value, default = schema["properties"][key], default_of(schema, key)
     what = value_of(value) + (f", as `{as_path}`" if as_path else "")
-    return what, default_of(schema, key), description(value) + excluded(schema, key)
+    return what + (f" ({default})" if default else ""), description(value) + excluded(schema, key)
 
 
 def in_table(schema):
@@ -174,7 +174,7 @@ def is_small(schema):
 
 def table(cells_of):
     """Neighbouring keys of which the same is to be said share a line."""
-    lines = ["| key | value | default | meaning |", "|---|---|---|---|"]
+    lines = ["| key | value (default) | meaning |", "|---|---|---|"]
     for cells, keys in itertools.groupby(cells_of, key=cells_of.get):
         names = ", ".join(f"`{key}`" for key in keys)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in (names, *cells)) + " |")
