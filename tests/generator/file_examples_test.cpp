@@ -11,13 +11,10 @@
 namespace railcast {
 namespace {
 
-// Returns the Python code of docs/files.md from the line after `begin` to the end of that block.
-std::string PythonOfThePage(const std::string& begin) {
-  const std::string page = ReadFileWhole(std::string(RAILCAST_SOURCE_DIR) + "/docs/files.md");
-  const std::size_t at = page.find("```python\n" + begin);
-  if (at == std::string::npos) return "raise SystemExit('docs/files.md has no such block')\n";
-  const std::size_t first = page.find('\n', at) + 1;
-  return page.substr(first, page.find("```", first) - first);
+// The beginning of a program that uses what a program of examples/ defines.
+std::string Import(const std::string& name) {
+  return "import sys\nsys.path.insert(0, '" RAILCAST_SOURCE_DIR "/examples')\nfrom " + name +
+         " import *\n";
 }
 
 bool HasNumpy() {
@@ -58,18 +55,17 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
   })";
 }
 
-// Returns the output of the page's Python code, followed by `more`, run in a folder in which `out`
-// is a sequence of that scenario.
-std::string RunThePage(const std::string& scenario, const std::string& more) {
+// Returns the output of examples/points_in_boxes.py, followed by `more`, run in a folder in which
+// `out` is a sequence of that scenario.
+std::string RunTheExample(const std::string& scenario, const std::string& more) {
   const TemporaryDirectory directory;
   const std::string folder = directory.path().string();
   WriteFileWhole(directory.path() / "scenario.json", scenario);
   const Ended made =
       Generate("sequence " + folder + "/scenario.json --frames 2 --out " + folder + "/out");
   EXPECT_EQ(made.status, 0) << made.said;
-  WriteFileWhole(directory.path() / "page.py",
-                 PythonOfThePage("import numpy as np\n") + PythonOfThePage("import json\n") + more);
-  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -W ignore page.py");
+  WriteFileWhole(directory.path() / "program.py", Import("points_in_boxes") + more);
+  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -BW ignore program.py");
   EXPECT_EQ(run.status, 0) << run.said;
   return run.said;
 }
@@ -88,12 +84,12 @@ void ExpectAllPointsInTheirBoxes(const std::string& said) {
   }
 }
 
-TEST(FilesPage, ShowsHowPointsOfAMovingSceneComeToLieInTheirBoxes) {
+TEST(FileExamples, PutThePointsOfAMovingSceneIntoTheirBoxes) {
   if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
-  ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(R"({"frame": "sensor"})", true), ""));
+  ExpectAllPointsInTheirBoxes(RunTheExample(CurveWithTraffic(R"({"frame": "sensor"})", true), ""));
 }
 
-TEST(FilesPage, ReadsCompressedPcdAsItReadsBinary) {
+TEST(FileExamples, ReadCompressedPcdAsTheyReadBinary) {
   if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
   const TemporaryDirectory directory;
   const std::string folder = directory.path().string();
@@ -104,17 +100,18 @@ TEST(FilesPage, ReadsCompressedPcdAsItReadsBinary) {
         Generate("sequence " + folder + "/scenario.json --frames 1 --out " + folder + "/" + to);
     ASSERT_EQ(made.status, 0) << made.said;
   }
-  WriteFileWhole(directory.path() / "page.py",
-                 PythonOfThePage("import numpy as np\n") +
+  WriteFileWhole(directory.path() / "program.py",
+                 Import("read_pcd") +
+                     "frame = read_pcd('out/frames/000000.pcd')\n"
                      "other = read_pcd('compressed/frames/000000.pcd')\n"
                      "print('same', other.dtype == frame.dtype, other.shape == frame.shape,\n"
                      "      other.tobytes() == frame.tobytes())\n");
-  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -W ignore page.py");
+  const Ended run = RunCommand("cd " + folder + " && /usr/bin/python3 -BW ignore program.py");
   EXPECT_EQ(run.status, 0) << run.said;
   EXPECT_NE(run.said.find("same True True True"), std::string::npos) << run.said;
 }
 
-TEST(FilesPage, SaysThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
+TEST(FileExamples, ShowThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
   if (!HasNumpy()) GTEST_SKIP() << "/usr/bin/python3 has no numpy";
   const std::string check_output_boxes =
       "for thing in lines('objects')[k]['objects']:\n"
@@ -128,7 +125,8 @@ TEST(FilesPage, SaysThatPointsOfAStandingSceneLieInTheirOutputBoxesAsTheyAre) {
       const std::string output =
           R"({"frame": )" + std::string(axes) + R"(, "handedness": )" + handedness + "}";
       SCOPED_TRACE(output);
-      ExpectAllPointsInTheirBoxes(RunThePage(CurveWithTraffic(output, false), check_output_boxes));
+      ExpectAllPointsInTheirBoxes(
+          RunTheExample(CurveWithTraffic(output, false), check_output_boxes));
     }
   }
 }
