@@ -14,7 +14,6 @@
 
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
-#include "analysis/receive/received_files.h"
 #include "core/base/attempt.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"

@@ -19,7 +19,7 @@ for scenario in brake_wagon brake_person; do
     options=()
     [[ $weather == clear ]] || options=(--weather "scenarios/weather/$weather.json")
     printf '%-13s %-11s ' "$scenario" "$weather" | tee -a "$runs"
-    { scripts/brake_client.py --lockstep "${options[@]}" || true; } | tee -a "$runs"
+    { examples/brake_client.py --lockstep "${options[@]}" || true; } | tee -a "$runs"
     kill -INT "$simulation"
     wait "$simulation"
     simulation=

@@ -3,7 +3,7 @@
 
 usage: brake_table.py RUNS PAGE
 
-RUNS has a line per run: scenario, weather and the report of scripts/brake_client.py. The rows of the
+RUNS has a line per run: scenario, weather and the report of examples/brake_client.py. The rows of the
 first table behind PAGE's line <!-- figures: scripts/brake_runs.sh --> are replaced.
 """
 

@@ -6,8 +6,9 @@
 
 TTOBench states gradient, radius and speed limit by chainage, but not where the line lies. A positive
 radius turns right, as current files of TTOBench say (tracks/README.md of version 1.4; version 1.2,
-from which our line is, did not say so, and the map gave the same answer: docs/world.md). railcast
-counts left as positive, so radii change their sign here.
+from which our line is, did not say so, and the map gave the same answer: placed there with both ends
+fixed, the line passes within 0.7 km of four stations, which it misses by 2.5 to 5.5 km with left).
+railcast counts left as positive, so radii change their sign here.
 
 The line's start is put at --origin (east, north), at the altitude of the file, or at height 0 if it
 states none. scenarios/alignments/st_gallen_wil.json was made with --heading-deg 226.18, which leads

@@ -5,14 +5,15 @@ Usage: lint_docs.py [ROOT]
 
 Prints one line per fault, "file:line: rule (what was found)", and exits 1 if there is any: links to
 files or headings that do not exist, pages of docs that docs/index.md has no link to, pictures of
-docs/images that no page shows or that lack words of their source, and scripts of figures that do
-not exist.
+docs/images that no page shows or that lack words of their source, scripts of figures that do not
+exist, and quotes that are not in the file that they are from.
 """
 
 import html
 import pathlib
 import re
 import sys
+import textwrap
 import urllib.parse
 
 START = "docs/index.md"
@@ -22,6 +23,7 @@ FENCE = re.compile(r"^(```+|~~~+).*?^\1[ \t]*$", re.MULTILINE | re.DOTALL)
 INLINE_CODE = re.compile(r"(`+)(?!`).+?(?<!`)\1(?!`)")
 LINK = re.compile(r"\]\(\s*<?([^()\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 MADE_BY = re.compile(r"<!-- figures: (scripts/\S+)")  # Beside a table: what made its figures.
+QUOTE = re.compile(r"<!-- from (\S+) -->\n(?:```\w*\n(.*?)^```)?", re.MULTILINE | re.DOTALL)  # Above a quote: whose.
 LABEL = re.compile(r'label="([^"]*)"')  # In a text for graphviz.
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t]*#*$", re.MULTILINE)
 
@@ -118,11 +120,23 @@ def lint_figures(root, pages):
                        f"that exists ({match[1]})")
 
 
+def lint_quotes(root, pages):
+    """Yields the quotes that are no lines of their file, be they indented there or not."""
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for match in QUOTE.finditer(text):
+            name, quote = match[1], match[2]
+            whole = "\n" + (root / name).read_text(encoding="utf-8") if (root / name).exists() else ""
+            if not quote or not any("\n" + textwrap.indent(quote, " " * n) in whole for n in range(9)):
+                line = text.count("\n", 0, match.start()) + 1
+                yield f"{path.relative_to(root).as_posix()}:{line}: a quote stands in its file ({name})"
+
+
 def lint(root):
     """Every fault of the pages in the tree at `root`."""
     pages = read_pages(root)
     return [*lint_links(root, pages), *lint_start_page(root, pages), *lint_pictures(root, pages),
-            *lint_drawings(root), *lint_figures(root, pages)]
+            *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages)]
 
 
 def main(arguments):

@@ -1,21 +1,14 @@
 #!/usr/bin/env bash
-# The statistics of four real sensors' captures (see docs/validation.md), as OUT/NAME.html.
-# Usage: scripts/report_captures.sh CAPTURES OUT [BUILD]
+# Makes the statistics of four real sensors' captures in out/captures (see docs/validation.md).
+# Usage: scripts/report_captures.sh CAPTURES [BUILD]
 #   CAPTURES  folder with vlp16_dual.pcap, vlp32c_single.pcap, pandar64.pcap and vls128_single.pcap
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-usage="usage: scripts/report_captures.sh CAPTURES OUT [BUILD]"
-captures=${1:?$usage}
-out=${2:?$usage}
-build=${3:-build/release}
+captures=${1:?usage: scripts/report_captures.sh CAPTURES [BUILD]}
+build=${2:-build/release}
 
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-mkdir -p "$out"
+mkdir -p out/captures
 for capture in vlp16_dual vlp32c_single pandar64 vls128_single; do
-  # Link without a folder, since the page states its source.
-  ln -s "$(realpath "$captures/$capture.pcap")" "$scratch/$capture.pcap"
-  (cd "$scratch" && "$OLDPWD/$build/analysis/railcast-analyze" stats "$capture.pcap" --out out)
-  cp "$scratch/out/report.html" "$out/$capture.html"
+  "$build/analysis/railcast-analyze" stats "$captures/$capture.pcap" --out "out/captures/$capture"
 done

@@ -6,6 +6,7 @@ usage: write_reference.py [SCHEMA] > docs/reference.md
 SCHEMA is scenarios/schema/scenario.schema.json unless given.
 """
 
+import itertools
 import json
 import pathlib
 import sys
@@ -16,15 +17,14 @@ HEAD = """# Reference: every key of a scenario
 
 <!-- Written by scripts/write_reference.py from scenarios/schema/scenario.schema.json: do not edit. -->
 
-The tables follow the JSON Schema, which follows the reader; `railcast-generate check` holds a file to them.
-[scenario.md](scenario.md) explains how keys work together and how a file is read, [effects.md](effects.md) and
-[world.md](world.md) what they do.
+[scenario.md](scenario.md) explains how keys work together and how a file is read. [effects.md](effects.md) describes
+the effects, [world.md](world.md) and the pages that it leads to describe the world.
 
-- Keys that have a default may be left out. Unknown keys are errors.
-- `…[]` stands for every element of a list.
-- Each section, and each object or list in it that is marked *or file*, can be the name of a file that holds it. An
-  object that is marked so can also have a key `file`: the file has those keys that are not given beside it
-  ([inclusion](scenario.md#inclusion)). Then nothing else is required.
+- Keys may be left out unless *required* is in brackets. Unknown keys are errors. A range such as *0 to 1* is that of a number.
+- `…[]` stands for every element of a list. An object whose heading ends in parentheses has the required key `type`
+  with that value.
+- What is marked *or file* can be the name of a file that holds it. Such an object can also have a key `file`: the file
+  has the keys that are not given beside it ([inclusion](scenario.md#inclusion)), and nothing else is required.
 - A file has `"version": 1`, and may name its schema with `$schema`.
 """
 INCLUSION = "Has the keys that are not given here."  # Of a key `file`.
@@ -34,10 +34,10 @@ EXPLAINED_IN = {
     "lidar": "scenario.md#sensors", "lidars[]": "scenario.md#several-sensors",
     "lidar.plausibility": "effects.md#threshold", "lidar.cover": "effects.md#cover",
     "weather": "scenario.md#weather", "interfaces": "live.md", "camera": "camera.md",
-    "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "world.md#contact-line",
-    "world.terrain": "world.md#ground-and-vegetation", "world.vegetation": "world.md#ground-and-vegetation",
-    "world.structures[]": "world.md#structures", "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
-    "output": "files.md#fields", "materials[]": "scenario.md#materials",
+    "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "structures.md#contact-line",
+    "world.terrain": "land.md#terrain", "world.vegetation": "land.md#ground-and-vegetation",
+    "world.structures[]": "structures.md#structures", "world.objects[]": "scenario.md#objects",
+    "vehicle": "world.md#movement", "output": "files.md#fields", "materials[]": "scenario.md#materials",
 }
 
 
@@ -135,15 +135,60 @@ def is_explained_in_head(key, schema):
     return key in ("$schema", "version") or (key == "file" and schema["description"] == INCLUSION)
 
 
-def table(schema):
-    lines = ["| key | value | default | limits | meaning |", "|---|---|---|---|---|"]
-    for key, value in schema["properties"].items():
-        if is_explained_in_head(key, value):
-            continue
-        cells = (f"`{key}`", kind(value), default_of(schema, key), value_limits(value),
-                 description(value) + excluded(schema, key))
-        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+def value_of(schema):
+    """What a key takes: its kind with its limits, or the names to choose from."""
+    what, bounds = kind(schema), value_limits(schema)
+    if not bounds:
+        return what
+    return bounds if what in ("text", "number") else f"{what}, {bounds}"
+
+
+def cells(schema, key, as_path=None):
+    """What the table says of a key; `as_path`: of the object that has the same keys."""
+    value, default = schema["properties"][key], default_of(schema, key)
+    what = value_of(value) + (f", as `{as_path}`" if as_path else "")
+    return what + (f" ({default})" if default else ""), description(value) + excluded(schema, key)
+
+
+def in_table(schema):
+    """The keys that a table has: neither what the head explains nor the `type` that a heading names."""
+    return [key for key, value in schema["properties"].items()
+            if not is_explained_in_head(key, value) and "const" not in value]
+
+
+def element(path, schema):
+    """(path, schema) of an object, or of the elements of a list of any depth."""
+    schema, _ = without_file(schema)
+    while schema.get("type") == "array":
+        path += "[]"
+        schema, _ = without_file(schema["items"])
+    return path, schema
+
+
+def is_small(schema):
+    """Whether an object has no table of its own: up to four keys, none of them an object."""
+    keys = in_table(schema)
+    return len(keys) <= 4 and not any({"properties", "oneOf"} & element("", schema["properties"][key])[1].keys()
+                                      for key in keys)
+
+
+def table(cells_of):
+    """Neighbouring keys of which the same is to be said share a line."""
+    lines = ["| key | value (default) | meaning |", "|---|---|---|"]
+    for cells, keys in itertools.groupby(cells_of, key=cells_of.get):
+        names = ", ".join(f"`{key}`" for key in keys)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in (names, *cells)) + " |")
     return "\n".join(lines)
+
+
+def given_before(cells_of, choices):
+    """{name of a choice: keys that it has alike}, of the earlier choices that have a key of this one."""
+    found = {}
+    for key, cells in cells_of.items():
+        name = next((name for name, others in choices.items() if others.get(key) == cells), None)
+        if name is not None:
+            found.setdefault(name, []).append(key)
+    return found
 
 
 def see_of(path):
@@ -159,34 +204,64 @@ class Writer:
         self.parts = []
 
     def write(self, path, schema):
-        schema, _ = without_file(schema)
-        while schema.get("type") == "array":
-            path += "[]"
-            schema, _ = without_file(schema["items"])
         if "oneOf" in schema:
+            before = {}
             for choice in schema["oneOf"]:
-                self.write_object(f"{path} ({choice['properties']['type']['const']})", choice)
-        elif schema.get("type") == "object":
-            self.write_object(path, schema)
+                name = choice["properties"]["type"]["const"]
+                before[name] = self.write_object(f"{path} ({name})", choice, before)
+        else:
+            self.write_object(path, schema, {})
 
-    def write_object(self, path, schema):
-        text = json.dumps(schema["properties"], sort_keys=True)
+    def rows(self, path, schema):
+        """({key: cells}, [(path, schema)] of what has tables of its own)."""
+        cells_of, others = {}, []
+        for key in in_table(schema):
+            inner_path, inner = element(f"{path}.{key}", schema["properties"][key])
+            cells_of[key] = cells(schema, key)
+            if inner_path in EXPLAINED_IN or "oneOf" in inner:
+                others.append((inner_path, inner))
+            elif "properties" in inner:
+                first = self.seen.setdefault(text_of(inner), inner_path)
+                if first != inner_path:
+                    cells_of[key] = cells(schema, key, first)
+                elif is_small(inner):
+                    of_list = inner_path.removeprefix(f"{path}.")
+                    cells_of |= {f"{of_list}.{name}": cells(inner, name) for name in in_table(inner)}
+                else:
+                    others.append((inner_path, inner))
+        return cells_of, others
+
+    def write_object(self, path, schema, choices):
+        """Returns the rows. `choices`: {name: rows} of the choices that come before this one."""
         title = f"{'###' if '.' in path else '##'} `{path}`"
-        if text in self.seen:
-            self.parts += [title, f"As `{self.seen[text]}`. {see_of(path)}".rstrip()]
-            return
-        self.seen[text] = path
-        self.parts += [part for part in (title, see_of(path), table(schema)) if part]
-        for key, value in schema["properties"].items():
-            self.write(f"{path}.{key}", value)
+        first = self.seen.setdefault(text_of(schema), path)
+        if first != path:
+            self.parts += [title, f"As `{first}`. {see_of(path)}".rstrip()]
+            return {}
+        cells_of, others = self.rows(path, schema)
+        known = given_before(cells_of, choices)
+        left = {key: row for key, row in cells_of.items() if not any(key in keys for keys in known.values())}
+        as_others = "; ".join(", ".join(f"`{key}`" for key in keys) + f" as of `{name}`"
+                              for name, keys in known.items())
+        self.parts += [part for part in (title, see_of(path), table(left) if left else "",
+                                         f"Also {as_others}." if as_others else "") if part]
+        for inner_path, inner in others:
+            self.write(inner_path, inner)
+        return cells_of
+
+
+def text_of(schema):
+    return json.dumps(schema["properties"], sort_keys=True)
 
 
 def reference_of(schema):
-    writer = Writer()
-    for key, value in schema["properties"].items():
-        if not is_explained_in_head(key, value):
-            writer.write(key, value)
-    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{table(schema)}", *writer.parts]) + "\n"
+    writer, keys = Writer(), in_table(schema)
+    for key in keys:
+        path, inner = element(key, schema["properties"][key])
+        if {"properties", "oneOf"} & inner.keys():
+            writer.write(path, inner)
+    of_scenario = table({key: cells(schema, key) for key in keys})
+    return "\n\n".join([HEAD.rstrip(), f"## The scenario\n\n{of_scenario}", *writer.parts]) + "\n"
 
 
 def main(arguments):

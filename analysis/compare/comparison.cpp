@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "analysis/compare/distances.h"
+#include "analysis/compare/distance_bins.h"
 #include "analysis/report/cell_text.h"
 #include "core/base/text.h"
 

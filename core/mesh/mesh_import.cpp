@@ -12,7 +12,6 @@
 #include "core/base/text.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mesh_format.h"
-#include "core/mesh/mtl_reader.h"
 #include "core/mesh/obj_reader.h"
 #include "core/mesh/off_reader.h"
 #include "core/mesh/ply_mesh_reader.h"

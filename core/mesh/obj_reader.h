@@ -2,13 +2,31 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mesh/line_faults.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {
+
+/// The names in the `mtllib` lines of an OBJ file, in their order. A line may name several files,
+/// or one with blanks in its name: it gives the whole rest of the line and, if there are several,
+/// each word of it.
+[[nodiscard]] std::vector<std::string> MaterialLibrariesOf(const std::string& obj);
+
+/// Reads from a Wavefront MTL file the luminance of each material's diffuse colour (`Kd`), if it
+/// has one and no picture (`map_Kd`) changes it, and adds it to `luminances`. A material that
+/// another file has described already keeps that.
+///
+/// The format's description calls Kd a reflectivity, so it is taken to be linear.
+/// @param shown Name of the file in error messages.
+/// @throws InputError "shown: line N: rule (got value)" for each Kd line with a fault.
+void ReadMtl(const std::string& shown,
+             const std::string& bytes,
+             std::map<std::string, double>& luminances);
 
 /// Reads a Wavefront OBJ file: `v` and `f` lines, with negative indices and continued lines; the
 /// names of `usemtl`, and of `g` or else `o`. Normals, texture coordinates, lines and points are

@@ -1,16 +1,17 @@
 #include "core/program/progress_line.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
+#include <system_error>
+#include <utility>
+
+#include <unistd.h>
 
 #include "core/base/text.h"
-#include "core/program/regular_lines.h"
 
 namespace railcast {
 namespace {
@@ -35,6 +36,41 @@ std::shared_ptr<const int> NewJob() {
 }
 
 }  // namespace
+
+RegularLines::RegularLines(std::chrono::milliseconds interval,
+                           std::function<void(const std::string& line)> print)
+    : interval_(interval), print_(std::move(print)) {}
+
+void RegularLines::Show(int job, std::string_view text) {
+  const std::scoped_lock lock(mutex_);
+  if (text.empty()) {
+    texts_.erase(job);
+    return;
+  }
+  texts_[job] = text;
+  if (!std::exchange(has_started_, true)) Start();
+}
+
+void RegularLines::Start() {
+  try {
+    thread_ = std::jthread([this](const std::stop_token& stop) { Run(stop); });
+  } catch (const std::system_error&) {
+    // Where no further thread can be started, the work itself goes on without these lines.
+  }
+}
+
+void RegularLines::Run(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    wake_.wait_for(lock, stop, interval_, [] { return false; });
+    if (stop.stop_requested() || texts_.empty()) continue;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+    std::string line = "after " + DurationText(elapsed.count());
+    const char* separator = ": ";
+    for (const auto& [job, text] : texts_) line += std::exchange(separator, "; ") + text;
+    print_(line);
+  }
+}
 
 std::string DurationText(double duration_s) {
   const auto seconds = static_cast<std::uint64_t>(std::ceil(duration_s));

@@ -43,7 +43,7 @@ struct GaugePart {
 /// verifiable figures. The same applies to the cut-off corners c and d of Tabelle 1, so corners are
 /// square here. The widening in curves below 250 m (Anlage 2) is omitted. Anything inside this
 /// gauge obstructs trains; something outside it may still be closer than the regulation permits.
-/// scripts/brake_client.py uses a different box for obstacles: half width 1.43 m, from 0.35 m to
+/// examples/brake_client.py uses a different box for obstacles: half width 1.43 m, from 0.35 m to
 /// 4.5 m above top of rail.
 /// @param contact_height_m Absent = no contact line.
 [[nodiscard]] std::vector<GaugePart> StructureGauge(std::optional<double> contact_height_m);

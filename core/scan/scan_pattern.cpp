@@ -1,18 +1,73 @@
-#include "railcast/lidar.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
 #include <tuple>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
-#include "core/scan/packet_order.h"
+#include "railcast/lidar.h"
 
 namespace railcast {
 namespace {
+
+/// Number of firings, in order of elevation, that form a band as high as the square covered by the
+/// firings of one packet.
+///
+/// If n firings cover a x e (azimuth x elevation), each takes a e / n. A square of p firings has
+/// the side sqrt(p a e / n), and a band of that height holds n / e times as many: sqrt(p n a / e).
+std::size_t BandSize(const FiringGrid& grid) {
+  const auto [left, right] = std::ranges::minmax(grid.firings, {}, &Firing::azimuth_rad);
+  const auto [low, high] = std::ranges::minmax(grid.firings, {}, &Firing::elevation_rad);
+  const double width_rad = right.azimuth_rad - left.azimuth_rad;
+  const double height_rad = high.elevation_rad - low.elevation_rad;
+  const auto num_firings = static_cast<double>(grid.firings.size());
+  const double whole_rows = grid.rows > 1 ? grid.columns : 1;
+  const double size = std::sqrt(kPacketSize * num_firings * width_rad / height_rad);
+  if (!(size < num_firings)) return grid.firings.size();  // True also if the height is 0.
+  return static_cast<std::size_t>(std::max(1.0, std::round(size / whole_rows)) * whole_rows);
+}
+
+// Assigns firings to packets (see ScanPattern::packet_order): every index of `grid.firings` once,
+// with the last packet padded with its last firing.
+//
+// Firings are sorted by elevation and cut into bands about as high as the square that 16 firings
+// cover on average. If the pattern is a grid, bands consist of whole rows: 4 rows of a uniform
+// raster, 1 to 3 rows of a spinning sensor, whose channels are spaced wider than its columns. Each
+// band is sorted by azimuth, alternately leftwards and rightwards, and the sequence of all bands
+// is cut into packets. Every packet is therefore full, even where blocks of whole rows and columns
+// would not fit, and compact, even if the channels of one column differ by several degrees in
+// azimuth.
+std::vector<std::uint32_t> PacketOrder(const FiringGrid& grid) {
+  const std::vector<Firing>& firings = grid.firings;
+  std::vector<std::uint32_t> order(firings.size());
+  std::iota(order.begin(), order.end(), 0U);
+  if (order.empty()) return order;
+
+  std::ranges::sort(order, {}, [&](std::uint32_t i) {
+    return std::tuple(firings[i].elevation_rad, firings[i].row, i);
+  });
+  const std::size_t band_size = BandSize(grid);
+  bool leftward = false;
+  for (std::size_t begin = 0; begin < order.size(); begin += band_size) {
+    const std::size_t end = std::min(begin + band_size, order.size());
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+              order.begin() + static_cast<std::ptrdiff_t>(end),
+              [&](std::uint32_t i, std::uint32_t j) {
+                const double to_right_rad = firings[j].azimuth_rad - firings[i].azimuth_rad;
+                if (to_right_rad != 0.0) return leftward ? to_right_rad > 0.0 : to_right_rad < 0.0;
+                return i < j;
+              });
+    leftward = !leftward;
+  }
+  const std::uint32_t last = order.back();
+  while (order.size() % kPacketSize != 0) order.push_back(last);
+  return order;
+}
 
 FiringGrid MakeFirings(const ScanSpec& spec, ErrorList& errors) {
   if (const auto* raster = std::get_if<RasterSpec>(&spec.pattern)) {

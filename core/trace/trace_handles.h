@@ -1,7 +1,5 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <mutex>
 #include <new>
@@ -9,12 +7,38 @@
 #include <type_traits>
 #include <vector>
 
+#include <embree3/rtcore.h>
+#include <tbb/task_arena.h>
+
 #include "core/base/error.h"
+#include "core/base/out_of_memory.h"
 #include "core/trace/beam_tree_build.h"
-#include "core/trace/embree_error.h"
 #include "core/trace/trace_scene.h"
 
 namespace railcast {
+
+/// Throws if the calling thread's last use of Embree failed. Embree does not throw but records the
+/// first error of each thread. If it were not queried, a scene that did not fit into memory would
+/// let all rays pass through.
+/// @param device Null: asks why no device could be made.
+/// @param doing Words after "while", as for WithinMemory().
+/// @throws InputError if memory ran out.
+void ThrowIfEmbreeFailed(RTCDevice device, const std::string& doing);
+
+/// Runs `build`, which uses Embree, with a single thread: the order of primitives in the leaves
+/// decides what a ray on an edge hits, and that order must not depend on how the work was shared.
+/// @param doing As for WithinMemory().
+/// @throws InputError if memory runs out.
+template <typename Doing, typename Build>
+void BuildWithEmbree(RTCDevice device, const Doing& doing, const Build& build) {
+  // Clear an error left by an earlier failed build.
+  static_cast<void>(rtcGetDeviceError(device));
+  WithinMemory(doing, [&] {
+    tbb::task_arena one_thread(1);
+    one_thread.execute(build);
+  });
+  ThrowIfEmbreeFailed(device, doing());
+}
 
 struct TraceDevice::Handle {
   explicit Handle(const std::string& config) : device(rtcNewDevice(config.c_str())) {

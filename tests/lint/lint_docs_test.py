@@ -72,6 +72,16 @@ class Pages(unittest.TestCase):
                                             "<!-- figures: build/c -->", "scripts/b.sh": ""}),
                          ["a.md:2: figures are made by a script that exists (scripts/a.sh)"])
 
+    def test_quotes_stand_in_their_files(self):
+        program = "int main() {\n  f();\n\n  g();\n}\n"
+        for quote in ("int main() {\n", "f();\n\ng();\n", program):
+            self.assertEqual(faults_of({"a.md": f"<!-- from b.c -->\n```c\n{quote}```\n", "b.c": program}), [])
+        for quote in ("```c\ng();\n\nf();\n```", "```c\nmain() {\n```", "```c\n```", ""):
+            self.assertEqual(faults_of({"a.md": f"\n<!-- from b.c -->\n{quote}\n", "b.c": program}),
+                             ["a.md:2: a quote stands in its file (b.c)"])
+        self.assertEqual(faults_of({"a.md": "<!-- from b.c -->\n```c\nf();\n```\n"}),
+                         ["a.md:1: a quote stands in its file (b.c)"])
+
 
 if __name__ == "__main__":
     unittest.main()

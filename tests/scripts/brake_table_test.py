@@ -1,4 +1,4 @@
-"""What scripts/brake_table.py makes of the reports of scripts/brake_client.py."""
+"""What scripts/brake_table.py makes of the reports of examples/brake_client.py."""
 
 import pathlib
 import sys

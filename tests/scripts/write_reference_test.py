@@ -48,8 +48,13 @@ class Reference(unittest.TestCase):
             "a_m": {"type": "number", "exclusiveMinimum": 0.0, "maximum": 1e9, "default": 2.5,
                     "description": "Length."},
             "kind": {"type": "string", "enum": ["x", "y"], "default": "x", "description": "Or."},
-        })[1:], ["| `a_m` | number | `2.5` | above 0 to 1000000000 | Length. |",
-                 '| `kind` | text | `"x"` | `x`, `y` | Or. |'])
+        })[1:], ["| `a_m` | above 0 to 1000000000 (`2.5`) | Length. |",
+                 '| `kind` | `x`, `y` (`"x"`) | Or. |'])
+
+    def test_neighbouring_keys_of_which_the_same_is_to_be_said_share_a_line(self):
+        switch = {"type": "boolean", "description": "On or off."}
+        self.assertEqual(lines_of({"a": switch, "b": switch, "c": {"type": "boolean"}})[1:], [
+            "| `a`, `b` | true, false | On or off. |", "| `c` | true, false |  |"])
 
     def test_what_a_file_can_hold_says_so_and_its_keys_follow(self):
         part = held_by_file({"type": "object", "properties": {
@@ -57,17 +62,35 @@ class Reference(unittest.TestCase):
             "b": {"type": "boolean", "description": "B."}},
             "anyOf": [{"required": ["file"]}, {"required": ["b"]}]})
         self.assertEqual(lines_of({"part": {**part, "description": "Part."}})[1:], [
-            "| `part` | object, or file |  |  | Part. |", "## `part`",
-            "| `b` | true, false | required |  | B. |"])
+            "| `part` | object, or file | Part. |", "## `part`",
+            "| `b` | true, false (required) | B. |"])
 
     def test_elements_of_lists_and_choices_have_tables_of_their_own(self):
-        choice = {"type": "object", "properties": {"type": {"const": "dot"}}, "required": ["type"]}
+        choice = {"type": "object", "properties": {"type": {"const": "dot"}, "b": {"type": "boolean"}},
+                  "required": ["type"]}
         lines = lines_of({"all": {"type": "array", "minItems": 1, "description": "All.", "items": {
             "type": "object", "properties": {"one": {"oneOf": [choice], "description": "One."}}}}})
         self.assertEqual(lines[1:], [
-            "| `all` | list of 1 or more objects |  |  | All. |", "## `all[]`",
-            "| `one` | object |  |  | One. |", "### `all[].one (dot)`",
-            "| `type` | `dot` | required |  |  |"])
+            "| `all` | list of 1 or more objects | All. |", "## `all[]`",
+            "| `one` | object | One. |", "### `all[].one (dot)`", "| `b` | true, false |  |"])
+
+    def test_a_choice_names_the_keys_that_it_has_as_an_earlier_one(self):
+        def choice(name, **keys):
+            return {"type": "object", "properties": {"type": {"const": name}, **keys}}
+        size, flag = {"type": "number", "minimum": 1.0}, {"type": "boolean"}
+        lines = lines_of({"one": {"oneOf": [choice("dot", size=size), choice("bar", size=size, is_long=flag),
+                                            choice("dash", size=size)]}})
+        self.assertEqual(lines[1:], [
+            "| `one` | object |  |", "## `one (dot)`", "| `size` | at least 1 |  |",
+            "## `one (bar)`", "| `is_long` | true, false |  |", "Also `size` as of `dot`.",
+            "## `one (dash)`", "Also `size` as of `dot`."])
+
+    def test_a_small_object_has_no_table_of_its_own(self):
+        point = {"type": "object", "properties": {"s_m": {"type": "number"}}}
+        points = {"type": "array", "items": point}
+        self.assertEqual(lines_of({"way": {"type": "object", "properties": {"from": points, "to": point}}})[1:], [
+            "| `way` | object |  |", "## `way`", "| `from` | list of objects |  |",
+            "| `from[].s_m` | number |  |", "| `to` | object, as `way.from[]` |  |"])
 
     def test_what_has_been_described_is_not_described_again(self):
         part = {"type": "object", "properties": {"b": {"type": "boolean"}}}

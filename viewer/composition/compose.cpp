@@ -1,24 +1,57 @@
 #include "viewer/composition/compose.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
+#include <vector>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/recording/recording_kinds.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 #include "viewer/color/coloring.h"
 #include "viewer/color/field_values.h"
-#include "viewer/composition/beam_kinds.h"
+#include "viewer/color/palette.h"
 #include "viewer/composition/faint_points.h"
 #include "viewer/overlays/beams.h"
-#include "viewer/overlays/empty_beams.h"
 #include "viewer/overlays/overlays.h"
 #include "viewer/overlays/scene_mesh.h"
 
 namespace railcast {
 namespace {
+
+// Lists the categories of empty beams for the legend: the firings without a return, by outcome, or
+// as one category where the recording has no outcomes.
+std::vector<Category> BeamKinds(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  std::array<std::size_t, kOutcomeNames.size()> counts{};
+  std::size_t num_empty = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); slot += frame.returns) {
+    if (!std::isnan(frame.x[slot])) continue;
+    ++num_empty;
+    ++counts[static_cast<std::size_t>(frame.outcome[slot])];
+  }
+  if (!recorded.Has("outcome")) {
+    return {{.value = 0.0,
+             .name = "beams without return",
+             .rgb = kUnknownOutcomeRgb,
+             .num_points = num_empty}};
+  }
+  std::vector<Category> kinds;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const auto outcome = static_cast<Outcome>(i);
+    kinds.push_back({.value = static_cast<double>(i),
+                     .name = "no return: " + OutcomeTitle(outcome),
+                     .rgb = OutcomeRgb(outcome),
+                     .num_points = counts[i]});
+  }
+  return kinds;
+}
 
 constexpr double kRingLimit_m = 300.0;
 constexpr double kUnknownRange_m = 100.0;

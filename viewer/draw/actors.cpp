@@ -1,5 +1,9 @@
 #include "viewer/draw/actors.h"
 
+#include <array>
+#include <cmath>
+#include <numeric>
+
 #include <vtkBillboardTextActor3D.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -12,9 +16,6 @@
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
-#include <array>
-#include <cmath>
-#include <numeric>
 
 #include "viewer/draw/text_style.h"
 #include "viewer/draw/vtk_values.h"
@@ -22,6 +23,26 @@
 namespace railcast {
 
 namespace {
+
+/// Makes one cell of all points.
+void MakeVertices(std::size_t num_points, vtkCellArray& vertices) {
+  const auto count = static_cast<vtkIdType>(num_points);
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(2);
+  offsets->SetValue(0, 0);
+  offsets->SetValue(1, count);
+  vtkNew<vtkIdTypeArray> indices;
+  indices->SetNumberOfValues(count);
+  std::iota(indices->GetPointer(0), indices->GetPointer(0) + count, 0);
+  vertices.SetData(offsets, indices);
+}
+
+Rgb Faint(const Rgb& rgb, const Rgb& background) {
+  const auto mix = [](std::uint8_t value, std::uint8_t behind) {
+    return static_cast<std::uint8_t>((value + 2 * behind) / 3);
+  };
+  return {mix(rgb[0], background[0]), mix(rgb[1], background[1]), mix(rgb[2], background[2])};
+}
 
 /// Returns cells of two points each: 0 1, 2 3, ...
 vtkSmartPointer<vtkCellArray> MakePairs(std::size_t num_pairs) {
@@ -51,7 +72,73 @@ Rgb Darkened(const Rgb& rgb) {
           static_cast<std::uint8_t>(rgb[2] / 2)};
 }
 
+constexpr double kOpacity = 0.35;
+constexpr Rgb kUnknownLabel = {150, 150, 150};
+
+vtkSmartPointer<vtkPolyData> MakeTriangles(const Mesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToFloat();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices.size()));
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    points->SetPoint(static_cast<vtkIdType>(i), mesh.vertices[i].cast<double>().eval().data());
+  }
+  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
+  vtkNew<vtkIdTypeArray> offsets;
+  offsets->SetNumberOfValues(count + 1);
+  vtkNew<vtkIdTypeArray> indices;
+  indices->SetNumberOfValues(3 * count);
+  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 3 * i);
+  for (vtkIdType i = 0; i < 3 * count; ++i) {
+    indices->SetValue(
+        i, mesh.triangles[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)]);
+  }
+  vtkNew<vtkCellArray> faces;
+  faces->SetData(offsets, indices);
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetPolys(faces);
+  return data;
+}
+
 }  // namespace
+
+CloudActor::CloudActor() {
+  positions_->SetNumberOfComponents(3);
+  rgb_->SetNumberOfComponents(3);
+  vtkNew<vtkPoints> points;
+  points->SetData(positions_);
+  data_->SetPoints(points);
+  data_->GetPointData()->SetScalars(rgb_);
+  mapper_->SetInputData(data_);
+  actor_->SetMapper(mapper_);
+  actor_->GetProperty()->SetLighting(false);
+  actor_->SetUserMatrix(matrix_);
+}
+
+void CloudActor::Show(const PlacedCloud& cloud, const Look& look) {
+  shown_ = cloud.shown;
+  colors_ = cloud.colors;
+  for (std::size_t i = 0; i < cloud.is_faint.size(); ++i) {
+    if (cloud.is_faint[i]) colors_[i] = Faint(colors_[i], look.background.rgb);
+  }
+  // VTK only reads the array, but its interface takes a non-const pointer.
+  auto* const positions = const_cast<float*>(shown_->positions_m.data());
+  constexpr int kOurs = 1;
+  positions_->SetArray(positions, static_cast<vtkIdType>(shown_->positions_m.size()), kOurs);
+  rgb_->SetArray(reinterpret_cast<unsigned char*>(colors_.data()),
+                 3 * static_cast<vtkIdType>(colors_.size()), kOurs);
+  if (vertices_->GetNumberOfConnectivityIds() != static_cast<vtkIdType>(shown_->num_points())) {
+    MakeVertices(shown_->num_points(), *vertices_);
+  }
+  data_->SetVerts(shown_->num_points() > 0 ? vertices_.Get() : nullptr);
+  positions_->Modified();
+  rgb_->Modified();
+  data_->GetPoints()->Modified();
+  data_->Modified();
+  SetMatrix(cloud.view_from_sensor, *matrix_);
+  matrix_->Modified();
+  actor_->GetProperty()->SetPointSize(static_cast<float>(look.point_size_px));
+}
 
 vtkSmartPointer<vtkActor> MakeLines(const Overlay& drawing, double width_px) {
   vtkNew<vtkPoints> points;
@@ -117,38 +204,6 @@ Overlay OnBackground(Overlay drawing, const Background& background) {
   for (Overlay::Word& word : drawing.words) word.rgb = OnBackground(word.rgb, background);
   return drawing;
 }
-
-namespace {
-
-constexpr double kOpacity = 0.35;
-constexpr Rgb kUnknownLabel = {150, 150, 150};
-
-vtkSmartPointer<vtkPolyData> MakeTriangles(const Mesh& mesh) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToFloat();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(mesh.vertices.size()));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    points->SetPoint(static_cast<vtkIdType>(i), mesh.vertices[i].cast<double>().eval().data());
-  }
-  const auto count = static_cast<vtkIdType>(mesh.triangles.size());
-  vtkNew<vtkIdTypeArray> offsets;
-  offsets->SetNumberOfValues(count + 1);
-  vtkNew<vtkIdTypeArray> indices;
-  indices->SetNumberOfValues(3 * count);
-  for (vtkIdType i = 0; i <= count; ++i) offsets->SetValue(i, 3 * i);
-  for (vtkIdType i = 0; i < 3 * count; ++i) {
-    indices->SetValue(
-        i, mesh.triangles[static_cast<std::size_t>(i / 3)][static_cast<std::size_t>(i % 3)]);
-  }
-  vtkNew<vtkCellArray> faces;
-  faces->SetData(offsets, indices);
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  data->SetPoints(points);
-  data->SetPolys(faces);
-  return data;
-}
-
-}  // namespace
 
 std::vector<vtkSmartPointer<vtkActor>> MakeSurfaces(const std::vector<Part>& parts,
                                                     const LabelTable& labels) {

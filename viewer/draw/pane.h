@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "viewer/composition/composition.h"
-#include "viewer/draw/cloud_actor.h"
+#include "viewer/draw/actors.h"
 #include "viewer/draw/inset.h"
 #include "viewer/draw/legend.h"
 #include "viewer/draw/look.h"

@@ -3,13 +3,23 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/scene.h"
 #include "viewer/frames/camera_picture.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {
+
+/// Returns the objects of a world at a frame's stamp, for frames that do not list them: names,
+/// labels, boxes and velocities, means over the scan; their counts of firings are 0. The sensor's
+/// own vehicle is left out.
+/// @pre The frame's pose is known and in the world's coordinates.
+[[nodiscard]] std::vector<RecordedObject> ObjectsAt(const World& world,
+                                                    const LabelTable& labels,
+                                                    const Frame& frame);
 
 /// The frames of one source, counted from 0 in order of time.
 class Frames {

@@ -1,19 +1,57 @@
 #include "viewer/frames/recorded_frames.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <stop_token>
 #include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "viewer/frames/recorded_labels.h"
+#include "core/io/kitti.h"
+#include "railcast/io/recording.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
+
 namespace {
+
+/// Looks for labels.json in the source's folder, then in `num_above` folders above it.
+LabelTable FindLabels(const std::filesystem::path& source, int num_above) {
+  std::filesystem::path folder = std::filesystem::absolute(source).lexically_normal();
+  // A path that ends in a slash has an empty last component.
+  if (!is_directory(folder) || !folder.has_filename()) folder = folder.parent_path();
+  for (int i = 0; i <= num_above; ++i, folder = folder.parent_path()) {
+    const std::filesystem::path candidate = folder / "labels.json";
+    if (is_regular_file(candidate)) return ReadLabelTable(candidate);
+  }
+  return {};
+}
 
 constexpr std::size_t kMaxTurns = 24;      // For captures; a turn of a Pandar64 takes 5 MB.
 constexpr std::size_t kMaxReaders = 4096;  // For files; a reader holds a few lines of text.
 
 }  // namespace
+
+LabelTable LabelsOf(const RecordingInfo& info) {
+  if (!info.labels.labels().empty()) return info.labels;
+  if (!info.has_kitti_labels) return FindLabels(info.source, 1);
+  return SemanticKittiLabels(FindLabels(info.source, 3));
+}
+
+FrameCounter::FrameCounter(std::filesystem::path source)
+    : thread_([this, source = std::move(source)](const std::stop_token& stop) {
+        Count(source, stop);
+      }) {}
+
+void FrameCounter::Count(const std::filesystem::path& source, const std::stop_token& stop) {
+  try {
+    const auto recording = OpenRecording(source);
+    while (!stop.stop_requested() && recording->Next()) ++num_counted_;
+  } catch (const InputError&) {
+    // The error is reported when that frame is asked for.
+  }
+}
 
 RecordedFrames::RecordedFrames(const std::filesystem::path& source)
     : recording_(OpenRecording(source)), pictures_(source) {

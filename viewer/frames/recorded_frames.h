@@ -1,17 +1,48 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <thread>
 
-#include "viewer/frames/frame_counter.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
 #include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
 
 namespace railcast {
+
+/// Returns the meaning of a recording's label numbers: from its own table, or from a labels.json
+/// near its files. That may be in the directory or beside the file, or beside the frames/ that the
+/// source is or lies in; for KITTI clouds, up to beside sequences/00/velodyne/. Empty if there is
+/// none.
+/// @throws InputError with one line if the labels.json is damaged.
+[[nodiscard]] LabelTable LabelsOf(const RecordingInfo& info);
+
+/// Counts the frames of a recording of unknown length on a thread of its own: reads it once, to its
+/// end or to the first damage, without making frames.
+class FrameCounter {
+ public:
+  explicit FrameCounter(std::filesystem::path source);
+  /// Stops counting.
+  ~FrameCounter() = default;
+  FrameCounter(const FrameCounter&) = delete;
+  FrameCounter& operator=(const FrameCounter&) = delete;
+
+  /// Returns the number of frames counted so far. Thread-safe.
+  [[nodiscard]] std::size_t num_counted() const { return num_counted_; }
+
+ private:
+  void Count(const std::filesystem::path& source, const std::stop_token& stop);
+
+  std::atomic<std::size_t> num_counted_{};
+  /// The last member, so that the thread ends before what it uses is destroyed.
+  std::jthread thread_;
+};
 
 /// The frames of a recording, in any order.
 class RecordedFrames final : public Frames {

@@ -16,8 +16,8 @@
 #include "viewer/frames/live_frames.h"
 #include "viewer/gui/scrubber.h"
 #include "viewer/gui/view_style.h"
+#include "viewer/pick/effect_trace.h"
 #include "viewer/pick/picks.h"
-#include "viewer/pick/tracing.h"
 #include "viewer/session/playback.h"
 #include "viewer/session/session.h"
 

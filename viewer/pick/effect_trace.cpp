@@ -15,6 +15,7 @@
 #include "railcast/scenario.h"
 
 namespace railcast {
+
 namespace {
 
 /// Thrown to give up a trace that is no longer wanted.
@@ -47,6 +48,24 @@ void CheckIsOfPattern(const RecordedFrame& recorded, const ScanPattern& pattern)
 }
 
 }  // namespace
+
+void Tracing::Ask(std::size_t source,
+                  const RecordingInfo& info,
+                  std::shared_ptr<const RecordedFrame> recorded,
+                  std::uint32_t slot) {
+  auto& trace = traces_[source];
+  if (!trace) trace = std::make_unique<EffectTrace>(info);
+  (void)trace->Take();  // Discard the answer to an earlier question.
+  trace->Ask(std::move(recorded), slot);
+  asked_ = source;
+}
+
+std::optional<std::string> Tracing::Take() {
+  if (!asked_) return std::nullopt;
+  auto answer = traces_[*asked_]->Take();
+  if (answer) asked_.reset();
+  return answer;
+}
 
 EffectTrace::EffectTrace(const RecordingInfo& info)
     : source_(info.source), scenario_(info.scenario) {}

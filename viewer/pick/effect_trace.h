@@ -1,12 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <future>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
@@ -59,6 +61,28 @@ class EffectTrace {
   /// The last member: its destructor waits for the thread before the members that it uses are
   /// destroyed.
   std::future<std::string> under_way_;
+};
+
+/// The effect trace of the point that was picked last, of any source.
+class Tracing {
+ public:
+  explicit Tracing(std::size_t num_sources) : traces_(num_sources) {}
+
+  /// Asks what each effect did to a slot's firing.
+  /// @param info Recording of that source.
+  void Ask(std::size_t source,
+           const RecordingInfo& info,
+           std::shared_ptr<const RecordedFrame> recorded,
+           std::uint32_t slot);
+  /// Drops the question, because another point or none is picked now.
+  void Forget() { asked_.reset(); }
+  /// Returns the answer, once, as soon as it is ready.
+  [[nodiscard]] std::optional<std::string> Take();
+
+ private:
+  /// By source; each is made for its first question.
+  std::vector<std::unique_ptr<EffectTrace>> traces_;
+  std::optional<std::size_t> asked_;  ///< Source of the pending answer.
 };
 
 }  // namespace railcast

@@ -18,7 +18,7 @@ struct WordRow {
   std::string_view material;  ///< Empty: the name stands for none.
 };
 
-/// The first row that a name has counts. docs/world.md lists them.
+/// The first row that a name has counts. docs/things.md lists them.
 constexpr auto kWordRows = std::to_array<WordRow>({
     // What surrounds a pane, and colours of paint: "FensterRahmen", "metallicPaint".
     {"frame", ""},

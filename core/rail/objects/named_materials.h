@@ -12,7 +12,7 @@ namespace railcast {
 /// A material that a name stands for.
 struct NamedMaterial {
   std::string_view material;  ///< Of scenarios/materials/railway.json.
-  std::string_view word;      ///< Which of the words of docs/world.md the name has.
+  std::string_view word;      ///< Which of the words of docs/things.md the name has.
 };
 
 /// Guesses what a part of a mesh is made of by the name of its material or group: "Window_front",

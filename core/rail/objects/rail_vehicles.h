@@ -6,7 +6,7 @@
 
 namespace railcast {
 
-/// Main dimensions of a rail vehicle, as its data sheet has them (docs/world.md, "Rail vehicles").
+/// Main dimensions of a rail vehicle, as its data sheet has them (docs/things.md, "Rail vehicles").
 struct RailVehicleMeasures {
   double length_m{};          ///< Over buffers or couplers.
   double pivot_distance_m{};  ///< Between the pivots of the two bogies.

@@ -9,8 +9,8 @@ namespace railcast {
 ///
 /// Unless noted otherwise, a model stands upright with its origin at the middle of its footprint at
 /// the height of top of rail. x is the direction of travel of the trains that it is for, so that
-/// what they should see faces -x. Dimensions are working values of docs/world.md unless a source is
-/// named. Posts reach down to kFoot_m, which is below the ground beside a track.
+/// what they should see faces -x. Dimensions are working values of docs/structures.md unless a
+/// source is named. Posts reach down to kFoot_m, which is below the ground beside a track.
 inline constexpr double kFoot_m = -1.0;
 
 /// Width along y and height along z of a flat thing.

@@ -17,7 +17,7 @@ struct Meeting {
   bool opens_ahead{};
 };
 
-/// The turnout for a speed (docs/world.md).
+/// The turnout for a speed (docs/import.md).
 [[nodiscard]] TurnoutType TurnoutFor(double speed_kmph);
 
 /// Straights, arcs and clothoids of a run in the plane of chainage and offset.

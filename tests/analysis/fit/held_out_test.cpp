@@ -14,7 +14,6 @@
 #include "analysis/estimate/robust.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/noise.h"
-#include "analysis/fit/random_loss.h"
 #include "analysis/fit/recorded_trials.h"
 #include "tests/analysis/fit/real_capture.h"
 

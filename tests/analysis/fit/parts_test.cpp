@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "analysis/fit/fit.h"
 #include "analysis/fit/noise.h"
-#include "analysis/fit/random_loss.h"
 #include "analysis/fit/recorded_trials.h"
 
 namespace railcast {

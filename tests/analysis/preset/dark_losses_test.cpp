@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/stats/smooth_holes.h"
+#include "analysis/stats/holes.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/io/recording.h"
 #include "tests/analysis/preset/preset_scenario.h"

@@ -9,7 +9,6 @@
 #include "analysis/stats/coverage.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/names.h"
-#include "analysis/stats/smooth_holes.h"
 #include "railcast/io/recording.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/support/analytic_meshes.h"

@@ -9,8 +9,6 @@
 #include <thread>
 #include <vector>
 
-#include "core/program/regular_lines.h"
-
 namespace railcast {
 namespace {
 

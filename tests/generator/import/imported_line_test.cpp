@@ -188,8 +188,8 @@ TEST(ImportedLine, IsAnAlignmentFileOfAScenario) {
               HasSubstr("Coordinates: EPSG:31256, minus (1.000, 2.000) m."));
 }
 
-/// The lines of a real extract, the long ones left out for the sake of time: docs/import.md has
-/// them all.
+/// The lines of a real extract, the long ones left out for the sake of time;
+/// docs/notes/import_sankt_poelten.md has them all.
 TEST(ImportedLine, FitsTheShortLinesAroundSanktPoelten) {
   const std::filesystem::path file =
       RAILCAST_SHARED_DATA_DIR "/osm_sankt_poelten/sankt_poelten.json";

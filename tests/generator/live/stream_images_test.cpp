@@ -47,7 +47,7 @@ TEST(StreamImages, SendsTheImagesThatSequenceWritesWithTheStampsOfTheFrames) {
   const TemporaryDirectory folder;
   const auto jpegs = folder.path() / "jpegs";
   ListeningProgram receiver("/usr/bin/python3 " RAILCAST_SOURCE_DIR
-                            "/scripts/receive_images.py 127.0.0.1:0 --images 3 --out " +
+                            "/examples/receive_images.py 127.0.0.1:0 --images 3 --out " +
                             jpegs.string());
   const std::string scenario = WithCamera(folder.path(), "\"" + EndpointText(receiver.at()) + "\"");
   StreamReceiver frames(kAnyLoopbackPort);

@@ -91,7 +91,7 @@ TEST(VehicleInTheLoop, IsDrivenByTheClientThatBrakes) {
   Stream stream(
       scenario + " --lockstep --duration 20 --fields x,y,z --pacing burst --to :" + stream_port +
       " --commands-port " + commands_port + " & pid=$!; " +
-      RAILCAST_SOURCE_DIR "/scripts/brake_client.py --lockstep --front 0 --resolution 0.5 " +
+      RAILCAST_SOURCE_DIR "/examples/brake_client.py --lockstep --front 0 --resolution 0.5 " +
       "--deceleration 2 --stream 127.0.0.1:" + stream_port + " --commands 127.0.0.1:" +
       commands_port + "; status=$?; kill -INT $pid; wait $pid; exit $status");
   const Ended ended = stream.Wait();

@@ -1,4 +1,3 @@
-#include "viewer/frames/live_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -19,6 +19,7 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 using testing::IsEmpty;
@@ -201,6 +202,37 @@ TEST(RecordedFrames, SayWhichFileIsDamagedAndReadTheOthers) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_EQ(frames.Get(2)->frame().index, 2U);
   EXPECT_EQ(frames.Get(0)->frame().index, 0U);
+}
+
+TEST(FrameCounter, CountsTheTurnsOfACapture) {
+  const TemporaryDirectory directory;
+  WriteCapture(directory.path() / "a.pcap", 12);
+  const FrameCounter counter(directory.path() / "a.pcap");
+  EXPECT_TRUE(Eventually([&] { return counter.num_counted() == 12; })) << counter.num_counted();
+}
+
+TEST(FrameCounter, EndsAtAnyTime) {
+  const TemporaryDirectory directory;
+  WriteCapture(directory.path() / "a.pcap", 12);
+  for (int i = 0; i < 20; ++i) {
+    const FrameCounter counter(directory.path() / "a.pcap");
+    EXPECT_LE(counter.num_counted(), 12U);
+  }
+}
+
+TEST(FrameCounter, CountsAsFarAsACaptureIsSound) {
+  const TemporaryDirectory directory;
+  const fs::path file = directory.path() / "a.pcap";
+  WriteCapture(file, 12);
+  fs::resize_file(file, fs::file_size(file) / 2);
+  const FrameCounter counter(file);
+  // The file holds half of twelve turns, the last of them cut short.
+  EXPECT_TRUE(Eventually([&] { return counter.num_counted() >= 5; })) << counter.num_counted();
+}
+
+TEST(FrameCounter, CountsNothingOfWhatCannotBeRead) {
+  const FrameCounter counter("/nowhere/a.pcap");
+  EXPECT_EQ(counter.num_counted(), 0U);
 }
 
 }  // namespace

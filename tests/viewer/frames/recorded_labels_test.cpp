@@ -1,4 +1,3 @@
-#include "viewer/frames/recorded_labels.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ namespace railcast {
 namespace {
 
 constexpr char kReceiver[] =
-    "/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/receive_stream.py 127.0.0.1:0 --frames 3";
+    "/usr/bin/python3 " RAILCAST_SOURCE_DIR "/examples/receive_stream.py 127.0.0.1:0 --frames 3";
 
 double Nearest_m(const Frame& frame) {
   double nearest_m = std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ namespace railcast {
 namespace {
 
 constexpr double kMouth_s_m = 158.0;
-/// Of the vault for one track below a contact line, and of the portal (docs/world.md).
+/// Of the vault for one track below a contact line, and of the portal (docs/structures.md).
 constexpr double kVaultRadius_m = 5.1;
 constexpr double kPortalTop_m = 1.8 + 5.1 + 1.5;
 

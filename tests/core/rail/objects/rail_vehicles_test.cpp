@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRounding_m = 1e-6;  // Half a unit in the last place of float32 at 10 m.
 
-/// What the data sheets say (docs/world.md).
+/// What the data sheets say (docs/things.md).
 struct DataSheet {
   ObjectType type{};
   RailVehicleMeasures measures;

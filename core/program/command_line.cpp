@@ -1,0 +1,52 @@
+#include "core/program/command_line.h"
+
+#include <charconv>
+#include <system_error>
+
+#include "core/base/text.h"
+
+namespace railcast {
+
+std::optional<std::uint64_t> ParseWholeNumber(std::string_view text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string WholeNumberRule::operator()(std::string& text) const {
+  const std::optional<std::uint64_t> number = ParseWholeNumber(text);
+  if (!number || *number < at_least || *number > at_most) {
+    return "must be a whole number from " + Range() + " (got " + text + ")";
+  }
+  text = std::to_string(*number);
+  return "";
+}
+
+std::string WholeNumberRule::Range() const {
+  std::string range = std::to_string(at_least);
+  range.append(" to ").append(std::to_string(at_most));
+  return range;
+}
+
+std::string NumberRule::operator()(const std::string& text) const {
+  double number = 0.0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  const bool is_number = error == std::errc{} && end == last;
+  // NaN fails both comparisons.
+  if (is_number && number >= at_least && number <= at_most) return "";
+  return "must be a number from " + Range() + " (got " + text + ")";
+}
+
+std::string NumberRule::Range() const {
+  std::string range = NumberText(at_least);
+  range.append(" to ").append(NumberText(at_most));
+  return range;
+}
+
+std::string NonEmptyRule(const std::string& text) {
+  return text.empty() ? "must not be empty" : "";
+}
+
+}  // namespace railcast

@@ -1,0 +1,139 @@
+#include "analysis/compare/distance_bins.h"
+
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+
+#include <cstdlib>
+#include <sstream>
+
+#include "tests/analysis/compare/made_clouds.h"
+#include "tests/core/scenario/scenario_files.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+const std::vector<double> kBinEnds_m = {0.05, 0.2};
+
+CloudDistances Distances(const std::vector<MadePoint>& a, const std::vector<MadePoint>& b) {
+  return DistancesOf(MadeCloud(a), MadeCloud(b), kBinEnds_m).value();
+}
+
+TEST(CloudDistances, AreNoneBetweenIdenticalClouds) {
+  const CloudDistances same = Distances(MadePlane(0.0F), MadePlane(0.0F));
+  EXPECT_EQ(same.chamfer_m, 0.0);
+  EXPECT_EQ(same.chamfer_squares_m2, 0.0);
+  EXPECT_EQ(same.hausdorff_m, 0.0);
+  EXPECT_EQ(same.hausdorff95_m, 0.0);
+  EXPECT_EQ(same.density_aware, 0.0);
+  EXPECT_EQ(same.within[0].f_score, 1.0);
+}
+
+TEST(CloudDistances, OfAShiftedPlaneAreItsShift) {
+  const double shift_m = 0.1;
+  const double tolerance_m = 1e-6;  // Precision of float32 at 20 m.
+  const CloudDistances shifted = Distances(MadePlane(0.0F), MadePlane(0.1F));
+  EXPECT_NEAR(shifted.a_to_b_m, shift_m, tolerance_m);
+  EXPECT_NEAR(shifted.chamfer_m, shift_m, tolerance_m);
+  EXPECT_NEAR(shifted.chamfer_squares_m2, 2.0 * shift_m * shift_m, tolerance_m);
+  EXPECT_NEAR(shifted.hausdorff_m, shift_m, tolerance_m);
+  EXPECT_NEAR(shifted.hausdorff95_m, shift_m, tolerance_m);
+  EXPECT_NEAR(shifted.density_aware, 1.0 - std::exp(-kDensityAwareAlpha_per_m * shift_m), 1e-5);
+  EXPECT_EQ(shifted.within[0].f_score, 0.0);
+  EXPECT_EQ(shifted.within[1].f_score, 1.0);
+}
+
+TEST(CloudDistances, TellPrecisionFromRecall) {
+  // B contains A and the same number of points far above it.
+  std::vector<MadePoint> b = MadePlane(0.0F);
+  for (const MadePoint& point : MadePlane(10.0F)) b.push_back(point);
+  const CloudDistances found = Distances(MadePlane(0.0F), b);
+  EXPECT_EQ(found.within[0].recall, 1.0);
+  EXPECT_EQ(found.within[0].precision, 0.5);
+  EXPECT_NEAR(found.within[0].f_score, 2.0 / 3.0, 1e-12);
+  EXPECT_EQ(found.a_to_b_m, 0.0);
+  EXPECT_NEAR(found.b_to_a_m, 5.0, 1e-6);
+  EXPECT_NEAR(found.chamfer_m, 2.5, 1e-6);
+  EXPECT_NEAR(found.hausdorff_m, 10.0, 1e-6);
+}
+
+TEST(CloudDistances, LeaveTheOutermostTwentiethToTheHausdorffDistance) {
+  std::vector<MadePoint> b = MadePlane(0.0F);
+  // 20 of 420 points are less than 5 %.
+  for (int i = 0; i < 20; ++i) b.push_back({static_cast<float>(i), 0.0F, 50.0F});
+  const CloudDistances found = Distances(MadePlane(0.0F), b);
+  EXPECT_NEAR(found.hausdorff_m, 50.0, 1e-5);
+  EXPECT_EQ(found.hausdorff95_m, 0.0);
+}
+
+TEST(CloudDistances, CountDensityWhereChamferDoesNot) {
+  // Every point of B is there twice: each point of A has its own nearest point, but two points of B
+  // share one.
+  std::vector<MadePoint> twice = MadePlane(0.0F);
+  for (const MadePoint& point : MadePlane(0.0F)) twice.push_back(point);
+  const CloudDistances found = Distances(MadePlane(0.0F), twice);
+  EXPECT_EQ(found.chamfer_m, 0.0);
+  EXPECT_NEAR(found.density_aware, 0.5 * (0.0 + 0.5), 1e-12);
+}
+
+TEST(CloudDistances, AreNotKnownWithoutPoints) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(DistancesOf(MadeCloud({}), MadeCloud(MadePlane(0.0F)), kBinEnds_m));
+  EXPECT_FALSE(DistancesOf(MadeCloud(MadePlane(0.0F)), MadeCloud({}), kBinEnds_m));
+  EXPECT_FALSE(DistancesOf(MadeCloud({{none, none, none}}), MadeCloud({{1, 2, none}}), kBinEnds_m));
+}
+
+TEST(CloudDistances, AreOfTwoSinglePointsTheirDistance) {
+  const CloudDistances found = Distances({{0, 0, 0}}, {{3, 4, 0}});
+  EXPECT_EQ(found.chamfer_m, 5.0);
+  EXPECT_EQ(found.hausdorff95_m, 5.0);
+}
+
+TEST(CloudDistances, GrowWithNoise) {
+  double chamfer_m = 0.0, density_aware = 0.0, f_score = 1.1;
+  for (const double sigma_m : {0.01, 0.02, 0.05, 0.1, 0.2}) {
+    const CloudDistances found = Distances(MadePlane(0.0F), WithNoise(MadePlane(0.0F), sigma_m));
+    EXPECT_GT(found.chamfer_m, chamfer_m) << sigma_m;
+    EXPECT_GT(found.density_aware, density_aware) << sigma_m;
+    EXPECT_LE(found.within[1].f_score, f_score) << sigma_m;
+    chamfer_m = found.chamfer_m;
+    density_aware = found.density_aware;
+    f_score = found.within[1].f_score;
+  }
+  // 0.2 m is far less than half the spacing of the points; the mean length of the noise is
+  // 2 sqrt(2 / pi) sigma.
+  EXPECT_NEAR(chamfer_m, 2.0 * std::sqrt(2.0 / std::numbers::pi) * 0.2, 0.02);
+}
+
+// Compares the mean and largest distance in both directions with those of Open3D.
+TEST(CloudDistances, AreThoseOfOpen3d) {
+  if (std::system("/usr/bin/python3 -c 'import open3d' >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "python3-open3d is not installed";
+  }
+  const TemporaryFolder folder;
+  const ComparedCloud a = MadeCloud(WithNoise(MadePlane(0.0F), 0.4));
+  const ComparedCloud b = MadeCloud(WithNoise(MadePlane(0.3F), 0.7));
+  const auto file_a = folder.Write("a.pcd", ""), file_b = folder.Write("b.pcd", "");
+  pcl::io::savePCDFileBinary(file_a.string(), *a.points);
+  pcl::io::savePCDFileBinary(file_b.string(), *b.points);
+  const Ended ended = RunCommand(
+      "/usr/bin/python3 -c \"import open3d as o, numpy as n; a, b = (o.io.read_point_cloud(f) for "
+      "f "
+      "in ('" +
+      file_a.string() + "', '" + file_b.string() +
+      "')); p, q = (n.asarray(x) for x in (a.compute_point_cloud_distance(b), "
+      "b.compute_point_cloud_distance(a))); print(p.mean(), q.mean(), max(p.max(), q.max()), "
+      "(p <= 0.2).mean(), (q <= 0.2).mean())\" 2>/dev/null");
+  std::istringstream said(ended.said);
+  double a_to_b_m{}, b_to_a_m{}, hausdorff_m{}, recall{}, precision{};
+  ASSERT_TRUE(said >> a_to_b_m >> b_to_a_m >> hausdorff_m >> recall >> precision) << ended.said;
+  const CloudDistances found = DistancesOf(a, b, kBinEnds_m).value();
+  EXPECT_NEAR(found.a_to_b_m, a_to_b_m, 1e-6);
+  EXPECT_NEAR(found.b_to_a_m, b_to_a_m, 1e-6);
+  EXPECT_NEAR(found.hausdorff_m, hausdorff_m, 1e-6);
+  EXPECT_NEAR(found.within[1].recall, recall, 1e-12);
+  EXPECT_NEAR(found.within[1].precision, precision, 1e-12);
+}
+
+}  // namespace
+}  // namespace railcast
