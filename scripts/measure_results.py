@@ -269,7 +269,9 @@ def machine():
 
 
 def revision():
-    return said("git", "rev-parse", "--short=12", "HEAD").strip()
+    """The last one that changed what is measured: pages and their figures do not."""
+    measured = ("core", "generator", "analysis", "viewer", "scenarios", "tests/bench", "tests/stability")
+    return said("git", "log", "-1", "--format=%h", "--abbrev=12", "--", *measured).strip()
 
 
 def write(measured):
