@@ -270,7 +270,7 @@ def machine():
 
 def revision():
     """The last one that changed what is measured: pages and their figures do not."""
-    measured = ("core", "generator", "analysis", "viewer", "scenarios", "tests/bench", "tests/stability")
+    measured = ("core", "generator", "analysis", "viewer", "scenarios", "tests/bench", "tests/stability", ":!*.md")
     return said("git", "log", "-1", "--format=%h", "--abbrev=12", "--", *measured).strip()
 
 
