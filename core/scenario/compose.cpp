@@ -7,7 +7,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/units.h"
 #include "core/detect/effect_table.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/world/world_draft.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/sensors.h"
 #include "core/simulate/output_axes.h"

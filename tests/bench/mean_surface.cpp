@@ -1,6 +1,6 @@
 #include "tests/bench/mean_surface.h"
 
-#include "core/rail/land/land.h"
+#include "core/rail/ground/land.h"
 #include "core/rail/line/line_place.h"
 #include "core/rail/track/cross_section.h"
 

@@ -144,9 +144,9 @@ class TypeNames(unittest.TestCase):
     def test_no_two_types_have_one_name(self):
         self.assertEqual(faults_of({
             "core/detect/footprint.h": "class Footprint {\n};\n",
-            "core/rail/standing_height.h": "\nstruct Footprint {\n};\n",
+            "core/rail/structures/standing_height.h": "\nstruct Footprint {\n};\n",
             "viewer/view.h": "using Footprint = int;\n",
-        }), ["core/rail/standing_height.h:2: no two types have one name (Footprint, also "
+        }), ["core/rail/structures/standing_height.h:2: no two types have one name (Footprint, also "
              "core/detect/footprint.h:1)",
              "viewer/view.h:1: no two types have one name (Footprint, also "
              "core/detect/footprint.h:1)"])
@@ -156,7 +156,7 @@ class TypeNames(unittest.TestCase):
             "core/detect/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
             "core/detect/footprint.cpp": "struct Footprint::Part {\n};\n",
             "core/detect/detector.h": "class Footprint;\n",
-            "core/rail/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
+            "core/rail/world/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
         }), [])
 
 

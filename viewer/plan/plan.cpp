@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/rail/line/network.h"
-#include "core/rail/line/route.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/route.h"
 
 namespace railcast {
 namespace {

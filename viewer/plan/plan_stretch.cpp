@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/line/network.h"
+#include "core/rail/network/network.h"
 
 namespace railcast {
 

@@ -26,7 +26,8 @@ template <>
 inline constexpr auto kEnumNames<SleeperType> = std::to_array<EnumName<SleeperType>>(
     {{SleeperType::kConcrete, "concrete"}, {SleeperType::kWood, "wood"}});
 
-/// Types of turnout by the angle and the radius of their diverging track (line/turnout_geometry.h).
+/// Types of turnout by the angle and the radius of their diverging track
+/// (network/turnout_geometry.h).
 enum class TurnoutType { k9_190, k9_300, k12_500, k14_760 };
 template <>
 inline constexpr auto kEnumNames<TurnoutType> =
@@ -61,8 +62,8 @@ struct TurnoutSpec {
 ///
 /// The offset is constant, or changes with chainage, or follows from elements in the plane of
 /// chainage and offset; with a turnout at its beginning or end the track joins another one there
-/// (line/network.h has the rules). With turnouts at both ends and neither offsets nor elements it
-/// is a crossover.
+/// (network/network.h has the rules). With turnouts at both ends and neither offsets nor elements
+/// it is a crossover.
 struct TrackSpec {
   std::string name = "main";
   std::optional<double> offset_m{};        ///< Lateral, left positive; absent = 0.
@@ -81,7 +82,7 @@ struct TrackSpec {
 
 inline constexpr std::uint32_t kMostYardTracks = 100;
 
-/// A ladder of tracks that run parallel to the one that they branch off (line/yard.h).
+/// A ladder of tracks that run parallel to the one that they branch off (network/yard.h).
 struct YardSpec {
   std::string name;
   /// The turnout from which the lead runs on at its angle; all tracks of the yard branch off the
@@ -148,7 +149,7 @@ inline constexpr auto kEnumNames<GroundCover> = std::to_array<EnumName<GroundCov
 
 struct TerrainSpec {
   /// Half width of the ground strip. From the line's tightest radius on, the strip is narrower
-  /// inside tight curves (core/rail/land/strip_width.h).
+  /// inside tight curves (core/rail/landform/strip_width.h).
   double half_width_m = 80.0;
   double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
   double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.
@@ -298,7 +299,7 @@ class RailWorld final : public World {
   [[nodiscard]] std::shared_ptr<const RailWorld> WithoutObject(const std::string& name) const;
 
   [[nodiscard]] const Alignment& alignment() const;
-  /// The courses of all tracks, and the turnouts (core/rail/line/network.h).
+  /// The courses of all tracks, and the turnouts (core/rail/network/network.h).
   [[nodiscard]] const Network& network() const;
 
   /// The specs of all tracks, those of yards included.
@@ -306,7 +307,7 @@ class RailWorld final : public World {
 
   /// The track on which the vehicle begins its route.
   [[nodiscard]] const TrackSpec& vehicle_track() const;
-  /// The tracks that the vehicle follows (core/rail/line/route.h), and their common course
+  /// The tracks that the vehicle follows (core/rail/network/route.h), and their common course
   /// (core/rail/line/track_course.h).
   [[nodiscard]] const Route& vehicle_route() const;
   [[nodiscard]] const TrackCourse& vehicle_course() const;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rail/base/model_parts.h"
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/catenary/system_height.h"
 #include "core/rail/catenary/wire_span.h"
-#include "core/rail/model_parts.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/clearance/system_height.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/track/infrastructure_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/rail/catenary/own_wires.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 #include "railcast/transform.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/line/network.h"
+#include "core/rail/network/network.h"
 
 namespace railcast {
 namespace {

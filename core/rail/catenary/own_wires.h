@@ -9,7 +9,7 @@
 
 #include "core/rail/catenary/wire_axis.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
 #include "railcast/transform.h"

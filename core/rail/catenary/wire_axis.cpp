@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/rail/line/network.h"
+#include "core/rail/network/network.h"
 
 namespace railcast {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/rail/line/track_course.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
 
 namespace railcast {

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/catenary/system_height.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/network/world_tracks.h"
 
 namespace railcast {
 namespace {

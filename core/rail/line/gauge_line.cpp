@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/rail/track/rail_section.h"
+#include "core/rail/base/rail_section.h"
 
 namespace railcast {
 namespace {

@@ -1,7 +1,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_parts.h"
 #include "core/scene/shapes.h"

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/chunk/sweep.h"
 #include "core/rail/structures/crossing_road.h"
-#include "core/rail/track/sweep.h"
 #include "railcast/structures.h"
 
 namespace railcast {

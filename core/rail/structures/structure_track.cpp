@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/rail/world_check.h"
+#include "core/rail/world/world_check.h"
 
 namespace railcast {
 namespace {

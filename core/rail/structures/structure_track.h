@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/track/sweep.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/structures.h"
 #include "railcast/transform.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/world_check.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/world/world_check.h"
 #include "railcast/scene.h"
 #include "railcast/structures.h"
 

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/land/land.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/ground/land.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"

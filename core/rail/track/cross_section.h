@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "railcast/transform.h"
 
 namespace railcast {

@@ -1,13 +1,13 @@
-#include "core/rail/infrastructure_models.h"
+#include "core/rail/track/infrastructure_models.h"
 
 #include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/rail_section.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

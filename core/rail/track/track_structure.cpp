@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/chunk/sweep.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/long_bearers.h"
 #include "core/rail/track/planed_rail.h"
-#include "core/rail/track/sweep.h"
-#include "core/rail/turnout/long_bearers.h"
-#include "core/rail/turnout/turnout_structure.h"
+#include "core/rail/track/turnout_structure.h"
 
 namespace railcast {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/track/infrastructure_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {

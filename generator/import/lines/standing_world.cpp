@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/world/world_draft.h"
 #include "generator/import/structures/line_structures.h"
 #include "railcast/rail_world.h"
 

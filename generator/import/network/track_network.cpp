@@ -6,10 +6,10 @@
 #include <utility>
 #include <variant>
 
-#include "core/rail/land/cut_and_fill.h"
+#include "core/rail/landform/cut_and_fill.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/own_course.h"
-#include "core/rail/world_check.h"
+#include "core/rail/network/own_course.h"
+#include "core/rail/world/world_check.h"
 #include "generator/import/fit/plan_model.h"
 
 namespace railcast {

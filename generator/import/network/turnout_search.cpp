@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/rail/line/biarc.h"
-#include "core/rail/line/branch_course.h"
+#include "core/rail/network/branch_course.h"
 #include "generator/import/fit/plan_window.h"
 
 namespace railcast {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/world_tracks.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"

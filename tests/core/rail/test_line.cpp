@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/land/land.h"
+#include "core/rail/ground/land.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
-#include "core/rail/land/landform.h"
-#include "core/rail/line/network.h"
-#include "core/rail/rail_surfaces.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/landform/landform.h"
+#include "core/rail/network/network.h"
+#include "core/rail/track/infrastructure_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -52,7 +52,7 @@ class TestLine {
 /// A circular arc with one track and full cant over its whole length.
 [[nodiscard]] WorldSpec CantedArc(double length_m, double radius_m);
 
-/// Whether the structures of the world clear something at (s, d) (core/rail/structures/cleared.h).
+/// Whether the structures of the world clear something at (s, d) (core/rail/clearance/cleared.h).
 [[nodiscard]] bool IsCleared(const WorldSpec& spec, double s_m, double d_m, Clearing what);
 
 /// The chunk's mesh with that surface; empty if it has none.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/rail/line/network.h"
+#include "core/rail/network/network.h"
 #include "railcast/error.h"
 #include "tests/viewer/overlays/made_line.h"
 #include "tests/viewer/plan/planned_yard.h"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/line/network.h"
-#include "core/rail/line/yard.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/yard.h"
+#include "core/rail/world/world_draft.h"
 #include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/rail/catenary/system_height.h"
-#include "core/rail/line/network.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/network/network.h"
 #include "core/rail/structures/structure_track.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
