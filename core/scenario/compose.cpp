@@ -6,7 +6,7 @@
 #include "core/base/attempt.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/units.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/sensors.h"

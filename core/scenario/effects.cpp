@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_surfaces.h"
 #include "core/rail/objects/rail_vehicles.h"

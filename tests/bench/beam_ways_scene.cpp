@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "core/detect/beam_optics.h"
-#include "core/detect/sub_ray_pattern.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/detect/beam/sub_ray_pattern.h"
 #include "core/trace/beam_tree_build.h"
 #include "core/trace/embree_error.h"
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/detect/effect_parameters.h"
-#include "core/detect/kernels.h"
+#include "core/detect/base/effect_parameters.h"
+#include "core/detect/kernels/kernels.h"
 #include "core/trace/beam_tree.h"
 #include "railcast/ray_caster.h"
 #include "railcast/scenario.h"

@@ -143,19 +143,19 @@ class TypeNames(unittest.TestCase):
 
     def test_no_two_types_have_one_name(self):
         self.assertEqual(faults_of({
-            "core/detect/footprint.h": "class Footprint {\n};\n",
+            "core/detect/beam/footprint.h": "class Footprint {\n};\n",
             "core/rail/structures/standing_height.h": "\nstruct Footprint {\n};\n",
             "viewer/view.h": "using Footprint = int;\n",
         }), ["core/rail/structures/standing_height.h:2: no two types have one name (Footprint, also "
-             "core/detect/footprint.h:1)",
+             "core/detect/beam/footprint.h:1)",
              "viewer/view.h:1: no two types have one name (Footprint, also "
-             "core/detect/footprint.h:1)"])
+             "core/detect/beam/footprint.h:1)"])
 
     def test_declarations_nested_types_and_anonymous_namespaces_are_no_second_one(self):
         self.assertEqual(faults_of({
-            "core/detect/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
-            "core/detect/footprint.cpp": "struct Footprint::Part {\n};\n",
-            "core/detect/detector.h": "class Footprint;\n",
+            "core/detect/beam/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
+            "core/detect/beam/footprint.cpp": "struct Footprint::Part {\n};\n",
+            "core/detect/detector/detector.h": "class Footprint;\n",
             "core/rail/world/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
         }), [])
 

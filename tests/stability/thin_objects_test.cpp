@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/detect/normal_table.h"
+#include "core/detect/base/normal_table.h"
 #include "core/fidelity/yardstick.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_models.h"
