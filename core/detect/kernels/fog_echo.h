@@ -10,7 +10,6 @@
 #include "core/detect/base/effect_parameters.h"
 #include "core/detect/base/lane_random.h"
 #include "core/detect/base/vector_math.h"
-#include "core/detect/kernels/fog_echo_parameters.h"
 #include "core/detect/kernels/fog_field.h"
 #include "railcast/outcome.h"
 
