@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/rail/line/track_length.h"
 #include "core/rail/network/route.h"
-#include "core/rail/traffic/own_train.h"
+#include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/train_places.h"
 
 namespace railcast {

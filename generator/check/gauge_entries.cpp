@@ -17,7 +17,7 @@
 #include "core/rail/line/line_place.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/route.h"
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/traffic/train_places.h"
 #include "generator/check/clipped_polygon.h"

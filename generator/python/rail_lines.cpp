@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/route.h"

@@ -11,7 +11,6 @@
 #include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/world_tracks.h"
-#include "core/rail/structures/structure_track.h"
 #include "railcast/structures.h"
 #include "viewer/plan/plan.h"
 

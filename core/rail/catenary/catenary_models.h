@@ -4,8 +4,8 @@
 
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/support_layout.h"
-#include "railcast/rail_world.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

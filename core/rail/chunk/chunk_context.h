@@ -7,9 +7,10 @@
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/diamond_rails.h"
 #include "core/rail/network/turnout_rails.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
 #include "railcast/transform.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -44,5 +45,9 @@ struct ChunkContext {
   /// for each place.
   const ClearedAreas* unballasted = nullptr;
 };
+
+[[nodiscard]] inline WorldTracks TracksOf(const ChunkContext& context) {
+  return {context.spec, context.tracks};
+}
 
 }  // namespace railcast

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/structure_types.h"
-
 namespace railcast {
 namespace {
 

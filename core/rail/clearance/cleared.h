@@ -6,8 +6,8 @@
 
 #include "core/rail/chunk/chunk_context.h"
 #include "core/rail/network/world_tracks.h"
-#include "railcast/rail_world.h"
 #include "railcast/structures.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -30,6 +30,30 @@ struct ClearedArea {
   double left_m{};
   std::vector<Clearing> cleared;
 };
+
+// What each type of structure clears: defined beside what it is built of (core/rail/structures).
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FenceSpec& fence);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const CableTroughSpec& trough);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
+                                                 const TunnelSpec& tunnel);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
+                                                 const BridgeSpec& bridge);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
+                                                 const OverbridgeSpec& bridge);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const ThirdRailSpec& rail);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SlabTrackSpec& slab);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SignalSpec& signal);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BoardSpec& board);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BaliseSpec& balise);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const DerailerSpec& derailer);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RelayBoxSpec& box);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FurnitureSpec& furniture);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const LevelCrossingSpec& crossing);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BufferStopSpec& stop);
+[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BuildingSpec& building);
 
 /// The areas that a structure clears. Trees and grass keep a distance from its outline, which these
 /// areas include.

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "railcast/rail_world.h"
 #include "railcast/transform.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

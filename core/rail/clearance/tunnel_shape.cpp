@@ -57,12 +57,10 @@ double TunnelShape::MiddleOfLining_m(double y_m) const {
 TunnelShape TunnelShapeOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
   const WorldSpec& world = tracks.world;
   TunnelShape shape{.spread = SpreadOf(tracks, tunnel, kSharedTunnel_m), .radius_m = 0.0};
-  const bool has_wire =
-      world.catenary.enabled &&
-      std::ranges::any_of(world.tracks, [](const TrackSpec& track) { return track.electrified; });
-  const double above_m = has_wire ? world.catenary.contact_height_m +
-                                        SystemHeightAt_m(world, tunnel.begin_s_m) + kWireClearance_m
-                                  : kRoomAbove_m;
+  const double above_m = HasContactLine(world)
+                             ? world.catenary.contact_height_m +
+                                   SystemHeightAt_m(world, tunnel.begin_s_m) + kWireClearance_m
+                             : kRoomAbove_m;
   const double half_m = shape.spread.half_width_m();
   shape.radius_m = tunnel.radius_m.value_or(std::max(
       half_m + kRoomBesideAxis_m, std::hypot(half_m, above_m - TunnelShape::kVaultCentre_m)));

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "core/rail/network/world_tracks.h"
-#include "core/rail/structures/structure_track.h"
 #include "railcast/structures.h"
 
 namespace railcast {

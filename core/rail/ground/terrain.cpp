@@ -1,4 +1,4 @@
-#include "core/rail/ground/land.h"
+#include "core/rail/ground/terrain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/ground/ground_cover.h"
-#include "core/rail/ground/outer_ground.h"
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/structures/crossing_road.h"
@@ -86,15 +85,6 @@ std::vector<double> LateralLines(const ChunkContext& context, bool is_wide) {
   lines_m.insert(lines_m.begin(), to_the_right_m.rbegin(), to_the_right_m.rend());
   lines_m.insert(lines_m.end(), to_the_left_m.begin(), to_the_left_m.end());
   return lines_m;
-}
-
-Vector3 PointOf(const CrossSection& section,
-                const GroundRise& rise,
-                double s_m,
-                double d_m,
-                GroundLevel level = GroundLevel::kOfTrack) {
-  return section.PointAt(d_m,
-                         section.FormationHeight_m(d_m) + rise.Height_m(section, s_m, d_m, level));
 }
 
 /// Rows of the coarser form. Beams at grazing incidence see the slopes along the track, which must
@@ -341,7 +331,7 @@ class GroundGrid {
     const bool is_hidden = ballast_m > kHiddenBelow_m && rise_.Drop_m(s_m, d_m) == 0.0;
     const bool is_over = rise_.hills().PlaceOf(s_m, d_m) == TunnelHills::Place::kOver;
     const GroundLevel level = is_over ? GroundLevel::kOfHill : GroundLevel::kOfTrack;
-    Vector3 place_m = PointOf(section, rise_, s_m, d_m, level);
+    Vector3 place_m = rise_.PointAt(section, s_m, d_m, level);
     for (const CrossingRoad& road : roads_) {
       if (const auto limit_m = road.GroundLimit_m(s_m, d_m)) {
         place_m.z() = std::min(place_m.z(), *limit_m);
@@ -356,7 +346,7 @@ class GroundGrid {
     for (std::size_t i = 0; i < rows.stations_m.size(); ++i) {
       const double s_m = rows.stations_m[i];
       const double d_m = columns_.PlaceOf_m(s_m, column);
-      points_m.push_back(PointOf(rows.sections[i], rise_, s_m, d_m));
+      points_m.push_back(rise_.PointAt(rows.sections[i], s_m, d_m));
     }
     return points_m;
   }
@@ -371,17 +361,6 @@ class GroundGrid {
 };
 
 }  // namespace
-
-Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m) {
-  return GroundPoint(context, CrossSection(context, s_m), s_m, d_m);
-}
-
-Vector3 GroundPoint(const ChunkContext& context,
-                    const CrossSection& section,
-                    double s_m,
-                    double d_m) {
-  return PointOf(section, GroundRise(context), s_m, d_m);
-}
 
 void AddTerrain(const ChunkContext& context, Chunk& chunk) {
   const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,

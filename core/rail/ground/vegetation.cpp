@@ -1,4 +1,4 @@
-#include "core/rail/ground/land.h"
+#include "core/rail/ground/vegetation.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "core/base/random.h"
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/ground/woods.h"
-#include "core/rail/landform/landform.h"
+#include "core/rail/landform/ground_rise.h"
 
 namespace railcast {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/rail/base/noise_field.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -8,7 +8,7 @@
 #include "core/rail/landform/elevation_grid.h"
 #include "core/rail/landform/strip_width.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

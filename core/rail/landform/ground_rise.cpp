@@ -83,4 +83,22 @@ double GroundRise::Undulation_m(double distance_m, double s_m, double d_m) const
   return fade * spec_.undulation_sigma_m * waves;
 }
 
+Vector3 GroundRise::PointAt(const CrossSection& section,
+                            double s_m,
+                            double d_m,
+                            GroundLevel level) const {
+  return section.PointAt(d_m, section.FormationHeight_m(d_m) + Height_m(section, s_m, d_m, level));
+}
+
+Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m) {
+  return GroundPoint(context, CrossSection(context, s_m), s_m, d_m);
+}
+
+Vector3 GroundPoint(const ChunkContext& context,
+                    const CrossSection& section,
+                    double s_m,
+                    double d_m) {
+  return GroundRise(context).PointAt(section, s_m, d_m);
+}
+
 }  // namespace railcast

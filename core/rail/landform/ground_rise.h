@@ -27,6 +27,11 @@ class GroundRise {
                                 double s_m,
                                 double d_m,
                                 GroundLevel level = GroundLevel::kOfTrack) const;
+  /// The point of the ground at (s, d), in the chunk's frame. @param section At `s_m`.
+  [[nodiscard]] Vector3 PointAt(const CrossSection& section,
+                                double s_m,
+                                double d_m,
+                                GroundLevel level = GroundLevel::kOfTrack) const;
 
   /// How much lower the ground is below and about bridges.
   [[nodiscard]] double Drop_m(double s_m, double d_m) const { return gaps_.Drop_m(s_m, d_m); }
@@ -48,5 +53,14 @@ class GroundRise {
   NoiseField long_wave_;
   NoiseField short_wave_;
 };
+
+/// The point of the ground at (s, d) in the chunk's frame: on the surface that AddTerrain samples
+/// at its grid points.
+[[nodiscard]] Vector3 GroundPoint(const ChunkContext& context, double s_m, double d_m);
+/// As above, with the cross-section at `s_m`.
+[[nodiscard]] Vector3 GroundPoint(const ChunkContext& context,
+                                  const CrossSection& section,
+                                  double s_m,
+                                  double d_m);
 
 }  // namespace railcast

@@ -6,7 +6,7 @@
 #include "core/rail/base/noise_field.h"
 #include "core/rail/landform/elevation.h"
 #include "core/rail/landform/strip_width.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

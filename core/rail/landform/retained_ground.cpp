@@ -6,8 +6,6 @@
 #include <variant>
 
 #include "core/rail/landform/cut_and_fill.h"
-#include "core/rail/network/world_tracks.h"
-#include "core/rail/structures/structure_types.h"
 
 namespace railcast {
 namespace {

@@ -9,6 +9,14 @@
 
 namespace railcast {
 
+/// The face of a retaining wall leans back by this share of its height; at its top, it is so thick.
+inline constexpr double kRetainingBatter = 0.1;
+inline constexpr double kRetainingThickness_m = 0.4;
+/// Distance of the wall's back, which is upright, from its track's axis.
+[[nodiscard]] inline double BackOf_m(const RetainingWallSpec& wall) {
+  return wall.distance_m + kRetainingBatter * wall.height_m + kRetainingThickness_m;
+}
+
 /// Heights of the ground at a place, above the formation there.
 struct GroundHeights {
   double terrain_m{};  ///< Of the land as it was before the line was built.

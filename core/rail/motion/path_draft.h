@@ -8,7 +8,7 @@
 #include "core/rail/motion/path_way.h"
 #include "core/rail/motion/track_path.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

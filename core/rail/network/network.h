@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
+#include <string>
 #include <vector>
 
-#include "core/rail/base/world_faults.h"
 #include "core/rail/line/track_course.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -74,24 +73,18 @@ struct NetworkDraft {
   std::vector<DiamondSite> diamonds{};
 };
 
-/// Makes what can be made of a network and adds all faults found in doing so. Values that `faults`
-/// marks as unknown are skipped.
-/// @param length_m Of the line; may be infinite.
-[[nodiscard]] NetworkDraft DraftNetwork(const WorldSpec& world,
-                                        double length_m,
-                                        WorldFaults& faults);
-
-/// @throws InputError with the faults that DraftNetwork() finds.
-[[nodiscard]] Network MakeNetwork(const WorldSpec& world, double length_m);
-
-/// @pre The draft was made without faults.
-[[nodiscard]] Network Completed(NetworkDraft draft);
-
 /// Whether the track is parallel to the alignment by its specification.
-[[nodiscard]] bool IsParallel(const TrackSpec& track);
+[[nodiscard]] inline bool IsParallel(const TrackSpec& track) {
+  return !track.begin && !track.end && track.elements.empty() && track.offsets_m.empty();
+}
 
 /// Index of the track of that name; absent if there is none.
-[[nodiscard]] std::optional<std::size_t> TrackIndex(const WorldSpec& world,
-                                                    const std::string& name);
+[[nodiscard]] inline std::optional<std::size_t> TrackIndex(const WorldSpec& world,
+                                                           const std::string& name) {
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    if (world.tracks[i].name == name) return i;
+  }
+  return std::nullopt;
+}
 
 }  // namespace railcast

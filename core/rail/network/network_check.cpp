@@ -14,7 +14,7 @@
 #include "core/rail/network/diamond_site.h"
 #include "core/rail/network/fouling.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/world/world_check.h"
+#include "core/rail/network/world_tracks.h"
 
 namespace railcast {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

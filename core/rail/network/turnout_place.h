@@ -10,7 +10,7 @@
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/turnout_geometry.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/rail/track/cross_section.h"
+#include "core/rail/line/rail_section.h"
 
 namespace railcast {
 namespace {

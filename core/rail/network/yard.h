@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -14,8 +14,8 @@
 #include "core/rail/objects/person.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
-#include "railcast/rail_world.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

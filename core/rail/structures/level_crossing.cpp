@@ -5,9 +5,9 @@
 
 #include "core/base/units.h"
 #include "core/rail/base/model_parts.h"
-#include "core/rail/base/rail_section.h"
 #include "core/rail/chunk/sweep.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"

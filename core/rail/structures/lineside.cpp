@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"

@@ -16,8 +16,9 @@ struct StandingPlace {
 };
 
 /// World height of the foot of a standing object: the ground, the ballast or the floor of a
-/// structure (Floors), whichever is higher, at the lowest of its middle and corners. On a slope it
-/// may sink in slightly, but no part of it hovers. The grain of the ballast is ignored.
+/// structure (roads of level crossings, tops of platforms), whichever is higher, at the lowest of
+/// its middle and corners. On a slope it may sink in slightly, but no part of it hovers. The grain
+/// of the ballast is ignored.
 [[nodiscard]] double StandingHeight_m(const ChunkContext& context, const StandingPlace& place);
 
 /// The plane on which an object lies on sloping ground.

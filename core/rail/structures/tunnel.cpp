@@ -4,7 +4,7 @@
 
 #include "core/rail/base/model_parts.h"
 #include "core/rail/clearance/tunnel_shape.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"

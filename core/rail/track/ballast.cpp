@@ -9,9 +9,9 @@
 
 #include "core/rail/base/model_parts.h"
 #include "core/rail/base/noise_field.h"
-#include "core/rail/base/rail_section.h"
 #include "core/rail/chunk/coarse_grid.h"
 #include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {

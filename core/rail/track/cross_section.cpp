@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/rail/base/rail_section.h"
 #include "core/rail/clearance/cleared.h"
+#include "core/rail/line/rail_section.h"
 
 namespace railcast {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/rail/chunk/chunk_context.h"
-#include "core/rail/track/infrastructure_models.h"
+#include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -44,7 +44,7 @@ struct LongBearer {
 /// cut half way between them, and each part lies in the plane of its own tracks.
 void AddLongBearer(const ChunkContext& context,
                    const LongBearer& bearer,
-                   const InfrastructureModels& models,
+                   const TrackModels& models,
                    Chunk& chunk);
 
 }  // namespace railcast

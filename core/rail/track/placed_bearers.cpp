@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/long_bearers.h"
 #include "core/rail/track/switch_parts.h"
@@ -59,7 +59,7 @@ class BearerPlacing {
     return parts;
   }
 
-  void Add(const BearerPart& part, const InfrastructureModels& models, Chunk& chunk) const {
+  void Add(const BearerPart& part, const TrackModels& models, Chunk& chunk) const {
     const MadeBearer bearer = BearerOf(models, bearer_.sleeper, part.left_m - part.right_m,
                                        part.is_cut_left && part.is_cut_right);
     // What it is longer than needed is where it is not cut.
@@ -114,10 +114,7 @@ class BearerPlacing {
   }
 
   /// On the bearer, below a rail's foot.
-  void AddPlate(std::size_t index,
-                double side,
-                const InfrastructureModels& models,
-                Chunk& chunk) const {
+  void AddPlate(std::size_t index, double side, const TrackModels& models, Chunk& chunk) const {
     const double foot_m = side * RailFootMiddle_m().x();
     PlaceModel(PlateOf(models, bearer_.sleeper), ChunkFromTrack(OnBearer(index, foot_m), foot_m),
                chunk);
@@ -131,7 +128,7 @@ class BearerPlacing {
 
 void AddLongBearer(const ChunkContext& context,
                    const LongBearer& bearer,
-                   const InfrastructureModels& models,
+                   const TrackModels& models,
                    Chunk& chunk) {
   const BearerPlacing placing(context, bearer);
   for (const BearerPart& part : placing.Parts()) placing.Add(part, models, chunk);

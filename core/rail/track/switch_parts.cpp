@@ -5,11 +5,10 @@
 #include <cstdint>
 
 #include "core/rail/base/model_parts.h"
-#include "core/rail/base/rail_section.h"
 #include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/planed_rail.h"
-#include "core/rail/track/turnout_structure.h"
 
 namespace railcast {
 namespace {
@@ -112,7 +111,7 @@ void AddCheckRail(const ChunkContext& context,
   AppendSweep(stations, outline_m, MeshOf(context.surfaces.turnouts.rail, chunk.ground));
 }
 
-MadeBearer BearerOf(const InfrastructureModels& models,
+MadeBearer BearerOf(const TrackModels& models,
                     SleeperType sleeper,
                     double length_m,
                     bool is_at_most) {
@@ -125,8 +124,7 @@ MadeBearer BearerOf(const InfrastructureModels& models,
   return {bearers[index], kShortestBearer_m + kBearerStep_m * static_cast<double>(index)};
 }
 
-const std::shared_ptr<const Model>& PlateOf(const InfrastructureModels& models,
-                                            SleeperType sleeper) {
+const std::shared_ptr<const Model>& PlateOf(const TrackModels& models, SleeperType sleeper) {
   return sleeper == SleeperType::kConcrete ? models.concrete_plate : models.wood_plate;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/rail/chunk/chunk_context.h"
-#include "core/rail/track/infrastructure_models.h"
+#include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -44,11 +44,11 @@ struct MadeBearer {
   std::shared_ptr<const Model> model;
   double length_m{};
 };
-[[nodiscard]] MadeBearer BearerOf(const InfrastructureModels& models,
+[[nodiscard]] MadeBearer BearerOf(const TrackModels& models,
                                   SleeperType sleeper,
                                   double length_m,
                                   bool is_at_most);
-[[nodiscard]] const std::shared_ptr<const Model>& PlateOf(const InfrastructureModels& models,
+[[nodiscard]] const std::shared_ptr<const Model>& PlateOf(const TrackModels& models,
                                                           SleeperType sleeper);
 
 /// Places a model that moves with nothing.

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/rail/base/model_parts.h"
-#include "core/rail/base/rail_section.h"
 #include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/switch_parts.h"
 #include "core/scene/shapes.h"
@@ -28,6 +28,11 @@ bool IsNear(const ChunkContext& context, const TurnoutSite& site) {
          site.s_m < context.end_s_m + kLongestReach_m;
 }
 
+bool IsNearDiamond(const ChunkContext& context, const DiamondSite& site) {
+  return site.s_m > context.begin_s_m - kDiamondReach_m &&
+         site.s_m < context.end_s_m + kDiamondReach_m;
+}
+
 PairOfTracks PairOf(const TurnoutSite& site) {
   return {site.track, site.branch};
 }
@@ -36,7 +41,7 @@ PairOfTracks PairOf(const TurnoutSite& site) {
 /// it.
 void AddDrive(const ChunkContext& context,
               const TurnoutSite& site,
-              const InfrastructureModels& models,
+              const TrackModels& models,
               Chunk& chunk) {
   // Between two bearers, behind the tips.
   const double bay_s_m = kSleeperSpacing_m * (std::floor(site.s_m / kSleeperSpacing_m) + 0.5 +
@@ -87,7 +92,7 @@ std::vector<ChainageRange> PlainRailRanges(const ChunkContext& context,
   return ranges;
 }
 
-void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk) {
+void AddTurnouts(const ChunkContext& context, const TrackModels& models, Chunk& chunk) {
   for (const LaidTurnout& turnout : context.turnouts) {
     const TurnoutSite& site = turnout.site;
     if (!IsNear(context, site)) continue;
@@ -99,6 +104,17 @@ void AddTurnouts(const ChunkContext& context, const InfrastructureModels& models
       AddCheckRail(context, PairOf(site), rail, chunk);
     }
     AddDrive(context, site, models, chunk);
+  }
+}
+
+void AddDiamonds(const ChunkContext& context, Chunk& chunk) {
+  for (const LaidDiamond& diamond : context.diamonds) {
+    const DiamondSite& site = diamond.site;
+    if (!IsNearDiamond(context, site)) continue;
+    const DiamondCourses courses{site, context.tracks[site.first], context.tracks[site.second]};
+    const PairOfTracks pair{site.first, site.second};
+    for (const TurnoutRail& rail : RailsOf(courses)) AddRailPiece(context, pair, rail, chunk);
+    for (const CheckRail& rail : CheckRailsOf(courses)) AddCheckRail(context, pair, rail, chunk);
   }
 }
 

@@ -5,7 +5,7 @@
 #include "core/rail/base/world_faults.h"
 #include "core/rail/network/network.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

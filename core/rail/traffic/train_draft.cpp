@@ -1,6 +1,7 @@
 #include "core/rail/traffic/train_draft.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,11 +13,30 @@
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/traffic/bogies.h"
-#include "core/rail/traffic/own_train.h"
 #include "core/rail/traffic/train_places.h"
 
 namespace railcast {
 namespace {
+
+std::string TrainPointer(std::size_t index) {
+  return "/world/trains/" + std::to_string(index);
+}
+
+void CheckVehicles(const WorldSpec& world,
+                   const std::vector<TrainVehicleSpec>& vehicles,
+                   const std::string& pointer,
+                   WorldFaults& faults) {
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    const std::string type = pointer + "/" + std::to_string(i) + "/type";
+    if (!faults.AreKnown({type})) continue;
+    if (!IsRailVehicle(vehicles[i].type)) {
+      faults.Add(type, "must be a vehicle that runs on rails",
+                 Quoted(std::string(NameOf(vehicles[i].type))));
+      continue;
+    }
+    CheckWheelsFit(world, vehicles[i].type, type, faults);
+  }
+}
 
 /// The foremost buffers, as an object that the rest of the train follows.
 ObjectSpec FrontOf(const TrainSpec& train) {
@@ -94,14 +114,54 @@ void CheckTurnoutsBelow(const StandingTrain& train,
 
 }  // namespace
 
-void DraftTrain(const TrainSpec& train,
-                const std::string& pointer,
-                const TrainTables& tables,
-                WorldFaults& faults,
-                WorldDraft& draft) {
+void CheckTrains(const WorldSpec& world,
+                 const VehicleSpec& vehicle,
+                 const LineOfTracks& line,
+                 WorldFaults& faults) {
+  for (std::size_t i = 0; i < world.trains.size(); ++i) {
+    const TrainSpec& train = world.trains[i];
+    const std::string pointer = TrainPointer(i);
+    CheckVehicles(world, train.vehicles, pointer + "/vehicles", faults);
+    if (train.vehicles.empty() && faults.AreKnown({pointer + "/vehicles"})) {
+      faults.Add(pointer + "/vehicles", "must have at least one vehicle", "none");
+    }
+    if (!train.route.empty()) continue;
+    CheckTrackPlace(world, {pointer + "/track", pointer + "/s_m", train.track, train.s_m}, line,
+                    faults);
+  }
+  CheckVehicles(world, vehicle.consist, "/vehicle/consist", faults);
+  if (vehicle.sensor_vehicle > 0 && vehicle.sensor_vehicle >= vehicle.consist.size() &&
+      faults.AreKnown({"/vehicle/sensor_vehicle", "/vehicle/consist"})) {
+    faults.Add("/vehicle/sensor_vehicle", "must be the index of a vehicle in consist",
+               NumberText(vehicle.sensor_vehicle));
+  }
+}
+
+void CheckNamesOfTrains(const WorldSpec& world, std::set<std::string>& names, WorldFaults& faults) {
+  for (std::size_t i = 0; i < world.trains.size(); ++i) {
+    const TrainSpec& train = world.trains[i];
+    const std::string train_name = TrainPointer(i) + "/name";
+    if (faults.AreKnown({train_name}) && !names.insert(train.name).second) {
+      faults.Add(train_name, "must be unique", Quoted(train.name));
+    }
+    for (std::size_t k = 0; k < train.vehicles.size(); ++k) {
+      const std::string pointer = TrainPointer(i) + "/vehicles/" + std::to_string(k) + "/name";
+      const std::string name = NameOfVehicle(train, k);
+      if (!faults.AreKnown({pointer, TrainPointer(i) + "/name"}) || names.insert(name).second) {
+        continue;
+      }
+      faults.Add(pointer, "must be unique", Quoted(name));
+    }
+  }
+}
+
+std::vector<TrainVehicle> DraftTrain(const TrainSpec& train,
+                                     const std::string& pointer,
+                                     const TrainTables& tables,
+                                     WorldFaults& faults) {
   const std::optional<TrackPath> front =
       DraftPath(tables.tracks, FrontOf(train), pointer, 0, faults);
-  if (!front || !faults.AreKnown({pointer + "/vehicles"})) return;
+  if (!front || !faults.AreKnown({pointer + "/vehicles"})) return {};
   const auto length = std::make_shared<const TrackLength>(tables.alignment, front->course());
   const bool runs_back = RunsBack(train);
   const StandingTrain standing{.vehicles = train.vehicles,
@@ -111,8 +171,9 @@ void DraftTrain(const TrainSpec& train,
                                .way_pointer = pointer + (train.route.empty() ? "/track" : "/route"),
                                .runs_back = runs_back,
                                .front_s_m = train.s_m};
-  if (!CheckFits(standing, front->route(), *length, faults)) return;
+  if (!CheckFits(standing, front->route(), *length, faults)) return {};
   CheckTurnoutsBelow(standing, tables.tracks, front->route(), *length, faults);
+  std::vector<TrainVehicle> vehicles;
   for (std::size_t i = 0; i < train.vehicles.size(); ++i) {
     ObjectSpec spec;
     spec.name = NameOfVehicle(train, i);
@@ -124,12 +185,12 @@ void DraftTrain(const TrainSpec& train,
                                    PoseInTrain(train.vehicles[i], runs_back));
     object->moves = path.moves();
     GiveBogies(spec, path, tables.alignment, tables.objects.models, *object);
-    draft.object_paths.push_back({std::move(path), {}});
-    draft.objects.push_back(std::move(*object));
+    vehicles.push_back({std::move(*object), std::move(path)});
   }
+  return vehicles;
 }
 
-void CheckOwnTrain(const VehicleSpec& vehicle,
+void CheckEgoTrain(const VehicleSpec& vehicle,
                    const TracksOfWorld& tracks,
                    const Alignment& alignment,
                    const TrackPath& path,

@@ -8,7 +8,7 @@
 
 #include "core/rail/motion/track_path.h"
 #include "railcast/objects.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -15,26 +15,28 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
+#include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/chunk/chunk_context.h"
 #include "core/rail/chunk/chunk_grid.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/ground/terrain.h"
+#include "core/rail/ground/vegetation.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/motion/ride.h"
 #include "core/rail/motion/track_path.h"
-#include "core/rail/network/network.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/track/infrastructure_models.h"
+#include "core/rail/track/track_models.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/traffic/bogies.h"
+#include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/map_placing.h"
 #include "core/rail/traffic/object_way.h"
-#include "core/rail/traffic/own_train.h"
 #include "core/rail/traffic/train_places.h"
 #include "core/rail/world/world_check.h"
 #include "core/rail/world/world_draft.h"
@@ -67,7 +69,8 @@ struct RailWorld::Line {
   std::vector<LaidDiamond> diamonds;
   ChunkGrid grid;
   CatenaryPlan catenary_plan;
-  InfrastructureModels infrastructure;
+  TrackModels track_models;
+  std::shared_ptr<const Model> mast_model;
   /// Made by whoever needs them first: a world that is only looked into has no plants.
   std::shared_future<PlantModels> plants;
   Landform land;
@@ -102,8 +105,8 @@ struct RailWorld::Line {
     WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
                  [&] {
                    AddTerrain(context, built);
-                   AddTracks(context, infrastructure, built);
-                   AddCatenary(context, catenary_plan, infrastructure, built);
+                   AddTracks(context, track_models, built);
+                   AddCatenary(context, catenary_plan, mast_model, built);
                    AddStructures(context, built);
                    AddVegetation(context, plants.get(), built);
                  });
@@ -173,7 +176,8 @@ RailWorld::RailWorld(const WorldSpec& world,
       Line{std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
            std::move(network), std::move(turnouts), std::move(diamonds),
            ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
-           std::move(*draft.catenary_plan), MakeInfrastructureModels(world, surfaces),
+           std::move(*draft.catenary_plan), MakeTrackModels(world.alignment, surfaces),
+           std::make_shared<const Model>(MakeMast(world.catenary, surfaces)),
            std::async(std::launch::deferred, MakePlantModels, surfaces, seed).share(),
            Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
            RideOf(vehicle, world.seed)});
@@ -193,8 +197,8 @@ RailWorld::RailWorld(const WorldSpec& world,
     ways.emplace_back();
   } else if (!vehicle.consist.empty()) {
     ObjectModels models(surfaces, labels, materials);
-    for (OwnVehicle& own :
-         MakeOwnTrain(vehicle, *draft.vehicle_path, alignment, labels.Id("ego"), models)) {
+    for (TrainVehicle& own :
+         MakeEgoTrain(vehicle, *draft.vehicle_path, alignment, labels.Id("ego"), models)) {
       objects.push_back(std::move(own.object));
       ways.push_back({.path = std::move(own.path)});
     }

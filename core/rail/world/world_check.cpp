@@ -11,8 +11,8 @@
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/traffic/bogies.h"
-#include "core/rail/traffic/own_train.h"
-#include "core/rail/traffic/train_check.h"
+#include "core/rail/traffic/ego_train.h"
+#include "core/rail/traffic/train_draft.h"
 #include "core/rail/traffic/train_places.h"
 
 namespace railcast {
@@ -23,28 +23,6 @@ std::string Item(const char* list, std::size_t index) {
 }
 
 constexpr const char* kHalfWidth = "/world/terrain/half_width_m";
-
-std::string PointerOf(const TrackSpec& track, const WorldSpec& world) {
-  return Item("/world/tracks/", static_cast<std::size_t>(&track - world.tracks.data()));
-}
-
-constexpr const char* kGauge = "/world/alignment/gauge_mm";
-
-// Reports what exists for the standard gauge only, on a line of another one. The rule says so far
-// that it does.
-struct OfStandardGauge {
-  std::string place;
-  std::string rule;
-  std::string found;
-};
-void CheckFitsGauge(const WorldSpec& world, const OfStandardGauge& thing, WorldFaults& faults) {
-  const double gauge_mm = world.alignment.gauge_mm;
-  if (gauge_mm == kStandardGauge_mm || !faults.AreKnown({kGauge})) return;
-  faults.Add(thing.place,
-             thing.rule + " of " + NumberText(kStandardGauge_mm) + " mm only, and gauge_mm is " +
-                 NumberText(gauge_mm),
-             thing.found);
-}
 
 void CheckTurnoutsFitGauge(const WorldSpec& world, std::size_t index, WorldFaults& faults) {
   const TrackSpec& track = world.tracks[index];
@@ -130,7 +108,7 @@ void CheckNames(const WorldSpec& world, const VehicleSpec& vehicle, WorldFaults&
   // and each moving boom.
   std::set<std::string> own_names{"ego"};
   for (std::size_t i = 0; i < vehicle.consist.size(); ++i) {
-    own_names.insert(NameOfOwnVehicle(vehicle, i));
+    own_names.insert(NameOfEgoVehicle(vehicle, i));
   }
   std::set<std::string> names = own_names;
   for (const StructureSpec& structure : world.structures) {
@@ -187,7 +165,7 @@ std::optional<double> MostPivotDistance_m(const WorldSpec& world,
                                           const WorldFaults& faults) {
   const TrackSpec* track = FindTrack(world, track_name);
   if (track == nullptr || !IsParallel(*track) ||
-      !faults.AreKnown({PointerOf(*track, world) + "/offset_m"})) {
+      !faults.AreKnown({TrackPointer(*track, world) + "/offset_m"})) {
     return std::nullopt;
   }
   return line.tightest_radius_m - std::abs(track->offset_m.value_or(0.0));
@@ -249,58 +227,6 @@ void CheckHalfWidth(const WorldSpec& world, WorldFaults& faults) {
 
 }  // namespace
 
-const TrackSpec* FindTrack(const WorldSpec& world, const std::string& name) {
-  const std::optional<std::size_t> index = TrackIndex(world, name);
-  return index ? &world.tracks[*index] : nullptr;
-}
-
-std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
-                                    const TrackSpec& track,
-                                    const LineOfTracks& line,
-                                    const WorldFaults& faults) {
-  const std::string pointer = PointerOf(track, world);
-  if (!IsParallel(track)) {
-    const auto& course = line.courses[static_cast<std::size_t>(&track - world.tracks.data())];
-    if (!course) return std::nullopt;
-    return TrackExtent{course->begin_s_m(), course->end_s_m()};
-  }
-  if (!faults.AreKnown({pointer + "/start_s_m", pointer + "/end_s_m"})) return std::nullopt;
-  return TrackExtent{track.start_s_m, track.end_s_m.value_or(line.measures.length_m)};
-}
-
-const TrackSpec* CheckTrackPlace(const WorldSpec& world,
-                                 const TrackPlace& place,
-                                 const LineOfTracks& line,
-                                 WorldFaults& faults) {
-  if (!faults.AreKnown({place.track_pointer})) return nullptr;
-  const TrackSpec* track = FindTrack(world, place.track);
-  if (track == nullptr) {
-    if (!AreNamesKnown(world, faults)) return nullptr;
-    faults.Add(place.track_pointer,
-               "must be one of " + NamesOfTracks(world) + " (got " + Quoted(place.track) + ")");
-    return nullptr;
-  }
-  const std::optional<TrackExtent> extent = ExtentOf(world, *track, line, faults);
-  if (extent && faults.AreKnown({place.chainage_pointer}) &&
-      !(place.s_m >= extent->begin_s_m && place.s_m <= extent->end_s_m)) {
-    faults.Add(place.chainage_pointer,
-               "must lie on track " + Quoted(track->name) + ", " +
-                   StretchText(extent->begin_s_m, extent->end_s_m),
-               NumberText(place.s_m));
-  }
-  return track;
-}
-
-void CheckWheelsFit(const WorldSpec& world,
-                    ObjectType type,
-                    const std::string& pointer,
-                    WorldFaults& faults) {
-  CheckFitsGauge(
-      world,
-      {pointer, "must not be a rail vehicle: they have wheels", Quoted(std::string(NameOf(type)))},
-      faults);
-}
-
 void CheckObject(const WorldSpec& world,
                  const ObjectSpec& object,
                  const std::string& pointer,
@@ -320,7 +246,7 @@ void CheckObject(const WorldSpec& world,
     offset_m = course->OffsetWithin_m(object.s_m);
   }
   const double from_axis_m = offset_m + object.d_m;
-  if (faults.AreKnown({pointer + "/d_m", PointerOf(*track, world) + "/offset_m", kHalfWidth}) &&
+  if (faults.AreKnown({pointer + "/d_m", TrackPointer(*track, world) + "/offset_m", kHalfWidth}) &&
       !(std::abs(from_axis_m) <= world.terrain.half_width_m)) {
     faults.Add(pointer + "/d_m", "must put it within the ground's half width of " +
                                      NumberText(world.terrain.half_width_m) +

@@ -10,7 +10,7 @@
 #include "core/rail/network/network_check.h"
 #include "core/rail/network/turnout_place.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

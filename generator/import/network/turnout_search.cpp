@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rail/line/biarc.h"
+#include "core/rail/line/plan_course.h"
 #include "core/rail/network/branch_course.h"
 #include "generator/import/fit/plan_window.h"
 

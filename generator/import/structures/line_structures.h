@@ -8,7 +8,7 @@
 #include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/rail/base/rail_surfaces.h"
@@ -9,7 +10,7 @@
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/network/network.h"
-#include "core/rail/track/infrastructure_models.h"
+#include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -26,7 +27,8 @@ class TestLine {
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const RailSurfaces& surfaces() const { return surfaces_; }
   [[nodiscard]] const CatenaryPlan& plan() const { return plan_; }
-  [[nodiscard]] const InfrastructureModels& models() const { return models_; }
+  [[nodiscard]] const TrackModels& models() const { return models_; }
+  [[nodiscard]] const std::shared_ptr<const Model>& mast_model() const { return mast_model_; }
 
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
@@ -42,7 +44,8 @@ class TestLine {
   RailSurfaces surfaces_;
   std::uint64_t seed_;
   CatenaryPlan plan_;
-  InfrastructureModels models_;
+  TrackModels models_;
+  std::shared_ptr<const Model> mast_model_;
   Landform land_;
 };
 

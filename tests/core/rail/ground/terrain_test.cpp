@@ -1,4 +1,5 @@
-#include "core/rail/ground/land.h"
+#include "core/rail/ground/terrain.h"
+#include "core/rail/landform/ground_rise.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/ground/land.h"
+#include "core/rail/ground/terrain.h"
 #include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/test_line.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/rail/network/fouling.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_geometry.h"
 #include "tests/core/rail/test_line.h"
 

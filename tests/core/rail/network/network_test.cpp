@@ -1,4 +1,4 @@
-#include "core/rail/network/network.h"
+#include "core/rail/network/network_draft.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/rail/motion/track_path.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/world/world_draft.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"

@@ -4,7 +4,7 @@
 
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/clearance/system_height.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"

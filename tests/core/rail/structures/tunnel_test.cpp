@@ -5,8 +5,8 @@
 
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/clearance/system_height.h"
-#include "core/rail/network/network.h"
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/network/network_draft.h"
+#include "core/rail/network/world_tracks.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 
 #include "core/rail/base/model_parts.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
 

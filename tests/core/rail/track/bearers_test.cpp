@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/network/turnout_geometry.h"
 #include "core/rail/network/yard.h"
 #include "core/rail/track/track_structure.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

@@ -11,6 +11,7 @@
 #include "core/rail/network/diamond_rails.h"
 #include "core/rail/network/diamond_site.h"
 #include "core/rail/network/network_check.h"
+#include "core/rail/network/network_draft.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/track/cut_rails.h"
 

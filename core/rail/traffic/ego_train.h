@@ -9,8 +9,8 @@
 #include "core/rail/motion/track_path.h"
 #include "core/rail/objects/object_models.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -26,10 +26,10 @@ namespace railcast {
 
 /// The name of a vehicle of the sensor's own train: "ego" if it carries the sensor; otherwise, if
 /// it is the third, "ego/3".
-[[nodiscard]] std::string NameOfOwnVehicle(const VehicleSpec& vehicle, std::size_t index);
+[[nodiscard]] std::string NameOfEgoVehicle(const VehicleSpec& vehicle, std::size_t index);
 
-/// A vehicle of the sensor's own train.
-struct OwnVehicle {
+/// A vehicle of a train.
+struct TrainVehicle {
   SceneObject object;
   std::optional<TrackPath> path;  ///< Absent: it is the one that carries the sensor.
 };
@@ -38,11 +38,11 @@ struct OwnVehicle {
 /// the one that carries the sensor is the vehicle frame, which has its origin at the front pivot.
 /// @param path Of the vehicle that carries the sensor.
 /// @param label That of "ego".
-[[nodiscard]] std::vector<OwnVehicle> MakeOwnTrain(const VehicleSpec& vehicle,
-                                                   const TrackPath& path,
-                                                   const Alignment& alignment,
-                                                   std::uint32_t label,
-                                                   ObjectModels& models);
+[[nodiscard]] std::vector<TrainVehicle> MakeEgoTrain(const VehicleSpec& vehicle,
+                                                     const TrackPath& path,
+                                                     const Alignment& alignment,
+                                                     std::uint32_t label,
+                                                     ObjectModels& models);
 
 /// The own vehicle as its ego boxes, in the vehicle's frame.
 [[nodiscard]] SceneObject MakeEgoBoxes(const VehicleSpec& vehicle,

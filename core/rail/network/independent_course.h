@@ -9,7 +9,7 @@
 namespace railcast {
 
 /// A track that is not parallel to the alignment, and the turnouts at its ends.
-struct OwnTrackSpec {
+struct IndependentTrack {
   std::string pointer;
   const TrackSpec& spec;
   const std::optional<TurnoutPlace>& begin;
@@ -18,13 +18,14 @@ struct OwnTrackSpec {
 };
 
 /// What could be made of it. Turnouts lack their `branch`.
-struct OwnCourse {
+struct IndependentCourse {
   std::optional<TrackCourse> course;
   std::optional<TurnoutSite> begin;
   std::optional<TurnoutSite> end;
 };
 
 /// Makes the course of such a track by the rules of Network and adds all faults found.
-[[nodiscard]] OwnCourse MakeOwnCourse(const OwnTrackSpec& track, WorldFaults& faults);
+[[nodiscard]] IndependentCourse MakeIndependentCourse(const IndependentTrack& track,
+                                                      WorldFaults& faults);
 
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "core/rail/network/network.h"
+#include "core/rail/network/network_draft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/rail/network/diamond_site.h"
 #include "core/rail/network/fouling.h"
-#include "core/rail/network/own_course.h"
+#include "core/rail/network/independent_course.h"
 #include "core/rail/network/shared_planes.h"
 #include "core/rail/network/turnout_place.h"
 
@@ -99,7 +99,8 @@ class NetworkMaker {
     if (track.begin.has_value() != begin.has_value() || track.end.has_value() != end.has_value()) {
       return std::nullopt;
     }
-    OwnCourse made = MakeOwnCourse({PlaceOf(index), track, begin, end, length_m_}, faults_);
+    IndependentCourse made =
+        MakeIndependentCourse({PlaceOf(index), track, begin, end, length_m_}, faults_);
     for (const std::optional<TurnoutSite>& turnout : {made.begin, made.end}) {
       if (!made.course || !turnout) continue;
       TurnoutSite site = *turnout;
@@ -160,17 +161,6 @@ void CheckOverlaps(const WorldSpec& world, const NetworkDraft& draft, WorldFault
 }
 
 }  // namespace
-
-bool IsParallel(const TrackSpec& track) {
-  return !track.begin && !track.end && track.elements.empty() && track.offsets_m.empty();
-}
-
-std::optional<std::size_t> TrackIndex(const WorldSpec& world, const std::string& name) {
-  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-    if (world.tracks[i].name == name) return i;
-  }
-  return std::nullopt;
-}
 
 NetworkDraft DraftNetwork(const WorldSpec& world, double length_m, WorldFaults& faults) {
   NetworkDraft draft = NetworkMaker(world, length_m, faults).Make();

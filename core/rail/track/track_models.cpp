@@ -1,12 +1,13 @@
-#include "core/rail/track/infrastructure_models.h"
+#include "core/rail/track/track_models.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 #include <vector>
 
 #include "core/rail/base/model_parts.h"
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 #include "core/scene/shapes.h"
 
@@ -153,6 +154,59 @@ Model MakeWoodSleeper(const RailSurfaces& surfaces, double shift_m) {
     seat.AddFastenings(kPlate_m);
   }
   return model;
+}
+
+Model MakeBearer(SleeperType sleeper, double length_m, const RailSurfaces& surfaces) {
+  const bool is_concrete = sleeper == SleeperType::kConcrete;
+  const double half_width_m = is_concrete ? 0.150 : 0.130;
+  const double height_m = is_concrete ? 0.220 : 0.160;
+  const double top_m = SeatOf(sleeper).top_m;
+  Model model{.name = "bearer", .parts = {}};
+  MeshOf(is_concrete ? surfaces.sleeper_concrete : surfaces.sleeper_wood, model) =
+      MakeBox({Vector3(-half_width_m, -0.5 * length_m, top_m - height_m),
+               Vector3(half_width_m, 0.5 * length_m, top_m)});
+  return model;
+}
+
+Model MakeRailPlate(SleeperType sleeper, const RailSurfaces& surfaces) {
+  constexpr double kPlateHalfLength_m = 0.080;
+  constexpr double kPlateHalfWidth_m = 0.180;
+  const double top_m = -kRailHeight_m;
+  Model model{.name = "rail_plate", .parts = {}};
+  Mesh& mesh = MeshOf(surfaces.fastening, model);
+  mesh.Append(MakeBox({Vector3(-kPlateHalfLength_m, -kPlateHalfWidth_m, SeatOf(sleeper).top_m),
+                       Vector3(kPlateHalfLength_m, kPlateHalfWidth_m, top_m)}));
+  for (const double side : {-1.0, 1.0}) {
+    const std::array<double, 2> across_m = {side * 0.080, side * 0.150};
+    mesh.Append(MakeBox({Vector3(-0.045, std::min(across_m[0], across_m[1]), top_m),
+                         Vector3(0.045, std::max(across_m[0], across_m[1]), top_m + 0.060)}));
+  }
+  return model;
+}
+
+Model MakePointMachine(const RailSurfaces& surfaces) {
+  Model model{.name = "point_machine", .parts = {}};
+  MeshOf(surfaces.turnouts.point_machine, model) =
+      MakeBox({Vector3(-0.475, -0.250, -0.400), Vector3(0.475, 0.250, -0.050)});
+  return model;
+}
+
+TrackModels MakeTrackModels(const AlignmentSpec& line, const RailSurfaces& surfaces) {
+  const auto shared = [](Model model) { return std::make_shared<const Model>(std::move(model)); };
+  TrackModels models;
+  const double shift_m = RailShift_m(line);
+  models.concrete_sleeper = shared(MakeConcreteSleeper(surfaces, shift_m));
+  models.wood_sleeper = shared(MakeWoodSleeper(surfaces, shift_m));
+  for (int i = 0; kShortestBearer_m + kBearerStep_m * i < kLongestBearer_m; ++i) {
+    const double length_m = kShortestBearer_m + kBearerStep_m * i;
+    models.concrete_bearers.push_back(
+        shared(MakeBearer(SleeperType::kConcrete, length_m, surfaces)));
+    models.wood_bearers.push_back(shared(MakeBearer(SleeperType::kWood, length_m, surfaces)));
+  }
+  models.concrete_plate = shared(MakeRailPlate(SleeperType::kConcrete, surfaces));
+  models.wood_plate = shared(MakeRailPlate(SleeperType::kWood, surfaces));
+  models.point_machine = shared(MakePointMachine(surfaces));
+  return models;
 }
 
 }  // namespace railcast

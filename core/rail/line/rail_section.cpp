@@ -1,4 +1,4 @@
-#include "core/rail/base/rail_section.h"
+#include "core/rail/line/rail_section.h"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,9 @@
-#include "core/rail/catenary/own_wires.h"
+#include "core/rail/catenary/independent_wires.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/network/network.h"
 
 namespace railcast {
@@ -28,7 +27,7 @@ bool HasWireAt(const TrackSpec& track, const TrackCourse& course, double s_m) {
   return track.electrified && course.begin_s_m() <= s_m && s_m <= course.end_s_m();
 }
 
-OwnWires::OwnWires(const WorldTracks& tracks, const Alignment& alignment)
+IndependentWires::IndependentWires(const WorldTracks& tracks, const Alignment& alignment)
     : tracks_(tracks),
       alignment_(alignment),
       step_m_(tracks.world.catenary.max_span_m / static_cast<double>(kStepsOfASpan)) {
@@ -47,7 +46,7 @@ OwnWires::OwnWires(const WorldTracks& tracks, const Alignment& alignment)
   std::ranges::stable_sort(own_, {}, [&](const Own& own) { return DepthOf(own.track); });
 }
 
-OwnWires::Own OwnWires::SampledCourse(std::size_t track) const {
+IndependentWires::Own IndependentWires::SampledCourse(std::size_t track) const {
   const TrackCourse& course = tracks_.courses[track];
   const double height_m = tracks_.world.catenary.contact_height_m;
   const double end_s_m = std::min(course.end_s_m(), alignment_.length_m());
@@ -64,7 +63,7 @@ OwnWires::Own OwnWires::SampledCourse(std::size_t track) const {
   return own;
 }
 
-std::size_t OwnWires::DepthOf(std::size_t track) const {
+std::size_t IndependentWires::DepthOf(std::size_t track) const {
   std::size_t depth = 0;
   for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
     if (other) depth = std::max(depth, 1 + DepthOf(*other));
@@ -72,7 +71,7 @@ std::size_t OwnWires::DepthOf(std::size_t track) const {
   return depth;
 }
 
-bool OwnWires::HangsIn(std::size_t track, double first_s_m, double last_s_m) const {
+bool IndependentWires::HangsIn(std::size_t track, double first_s_m, double last_s_m) const {
   const TrackCourse& course = tracks_.courses[track];
   const bool begins =
       course.begin_s_m() <= first_s_m || (turnouts_[track].begin && course.begin_s_m() < last_s_m);
@@ -81,12 +80,12 @@ bool OwnWires::HangsIn(std::size_t track, double first_s_m, double last_s_m) con
   return begins && ends;
 }
 
-bool OwnWires::HangIn(double first_s_m, double last_s_m) const {
+bool IndependentWires::HangIn(double first_s_m, double last_s_m) const {
   return std::ranges::any_of(
       own_, [&](const Own& own) { return HangsIn(own.track, first_s_m, last_s_m); });
 }
 
-HungWire OwnWires::WireInPlan(std::size_t track, double s_m, double stagger_m) const {
+HungWire IndependentWires::WireInPlan(std::size_t track, double s_m, double stagger_m) const {
   HungWire wire{.track = track, .axis_d_m = axes_[track].OffsetAt_m(s_m), .stagger_m = stagger_m};
   for (const auto& other : {turnouts_[track].begin, turnouts_[track].end}) {
     if (other && std::abs(wire.axis_d_m - axes_[*other].OffsetAt_m(s_m)) < kBesideOther_m) {
@@ -96,15 +95,15 @@ HungWire OwnWires::WireInPlan(std::size_t track, double s_m, double stagger_m) c
   return wire;
 }
 
-HungWire OwnWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
+HungWire IndependentWires::WireAt(std::size_t track, double s_m, double stagger_m) const {
   HungWire wire = WireInPlan(track, s_m, stagger_m);
   wire.axis_lift_m = axes_[track].LiftAt_m(alignment_, s_m);
   return wire;
 }
 
-const OwnWires::Hanger& OwnWires::HangerAt(std::size_t track,
-                                           double s_m,
-                                           KnownHangers& known) const {
+const IndependentWires::Hanger& IndependentWires::HangerAt(std::size_t track,
+                                                           double s_m,
+                                                           KnownHangers& known) const {
   const auto found = known.find({s_m, track});
   if (found != known.end()) return found->second;
   const WorldSpec& world = tracks_.world;
@@ -119,16 +118,16 @@ const OwnWires::Hanger& OwnWires::HangerAt(std::size_t track,
       .first->second;
 }
 
-std::vector<double> OwnWires::CandidatesAt(const Hanger& hanger, double before_m) const {
+std::vector<double> IndependentWires::CandidatesAt(const Hanger& hanger, double before_m) const {
   const double usual_m = tracks_.world.catenary.stagger_m;
   const double best_m = hanger.curve_stagger_m.value_or(before_m > 0.0 ? -usual_m : usual_m);
   return {best_m, 0.5 * best_m, 0.0, -0.5 * best_m, -best_m};
 }
 
 /// The wires of a span while their staggers are chosen, one after the other.
-class OwnWires::Trial {
+class IndependentWires::Trial {
  public:
-  Trial(const OwnWires& wires, const SpanTrial& span, const WireRules& rules)
+  Trial(const IndependentWires& wires, const SpanTrial& span, const WireRules& rules)
       : wires_(wires), span_(span), rules_(rules) {
     const WorldTracks& tracks = wires.tracks_;
     for (std::size_t k = 0; k < tracks.courses.size(); ++k) {
@@ -216,16 +215,16 @@ class OwnWires::Trial {
     return true;
   }
 
-  const OwnWires& wires_;
+  const IndependentWires& wires_;
   const SpanTrial& span_;
   const WireRules& rules_;
   std::vector<Placed> placed_;
 };
 
-std::optional<OwnWires::SpanStaggers> OwnWires::Place(const SpanTrial& span,
-                                                      const Staggers& first,
-                                                      const WireRules& rules,
-                                                      KnownHangers& known) const {
+std::optional<IndependentWires::SpanStaggers> IndependentWires::Place(const SpanTrial& span,
+                                                                      const Staggers& first,
+                                                                      const WireRules& rules,
+                                                                      KnownHangers& known) const {
   SpanStaggers chosen(tracks_.courses.size());
   Trial trial(*this, span, rules);
   for (const Own& own : own_) {

@@ -1,4 +1,4 @@
-#include "core/rail/network/own_course.h"
+#include "core/rail/network/independent_course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/biarc.h"
+#include "core/rail/line/plan_course.h"
 #include "core/rail/network/branch_course.h"
 
 namespace railcast {
@@ -27,7 +27,7 @@ bool IsCrossover(const TrackSpec& track) {
 }
 
 /// What may not be given beside something else.
-void CheckKeys(const OwnTrackSpec& own, WorldFaults& faults) {
+void CheckKeys(const IndependentTrack& own, WorldFaults& faults) {
   const TrackSpec& track = own.spec;
   const auto forbid = [&](bool is_given, const char* key, const char* rule) {
     if (is_given) faults.Add(own.pointer + key, rule);
@@ -53,7 +53,7 @@ void CheckKeys(const OwnTrackSpec& own, WorldFaults& faults) {
 }
 
 /// The offsets of a track between its turnouts, over all chainages. Absent after a fault.
-std::vector<CoursePiece> PiecesOfOffsets(const OwnTrackSpec& own, WorldFaults& faults) {
+std::vector<CoursePiece> PiecesOfOffsets(const IndependentTrack& own, WorldFaults& faults) {
   const auto level = [](double begin_s_m, double end_s_m, double d_m) {
     return CoursePiece{.kind = CoursePiece::Kind::kLevel,
                        .begin_s_m = begin_s_m,
@@ -135,7 +135,7 @@ std::optional<WayOut> LeaveTurnout(const TurnoutPlace& place,
 }
 
 /// A way out of a turnout to where it is parallel to the alignment at the offset `d_m`.
-std::optional<WayOut> LeaveTowards(const OwnTrackSpec& own,
+std::optional<WayOut> LeaveTowards(const IndependentTrack& own,
                                    const TurnoutPlace& place,
                                    double d_m,
                                    WorldFaults& faults) {
@@ -156,14 +156,14 @@ std::optional<WayOut> LeaveTowards(const OwnTrackSpec& own,
   return way;
 }
 
-void CheckSteepness(const OwnTrackSpec& own, const BranchCourse& branch, WorldFaults& faults) {
+void CheckSteepness(const IndependentTrack& own, const BranchCourse& branch, WorldFaults& faults) {
   if (branch.steepest_rad() <= kSteepest_rad) return;
   faults.Add(own.pointer, "must run within 45 degrees of the alignment",
              ShortText(DegFromRad(branch.steepest_rad())));
 }
 
 /// Tracks with offsets, and turnouts at their beginning, their end, or both.
-OwnCourse CourseOfOffsets(const OwnTrackSpec& own, WorldFaults& faults) {
+IndependentCourse CourseOfOffsets(const IndependentTrack& own, WorldFaults& faults) {
   const std::vector<CoursePiece> offsets = PiecesOfOffsets(own, faults);
   if (offsets.empty()) return {};
   std::optional<WayOut> begin;
@@ -173,7 +173,7 @@ OwnCourse CourseOfOffsets(const OwnTrackSpec& own, WorldFaults& faults) {
   if (own.begin.has_value() != begin.has_value() || own.end.has_value() != end.has_value()) {
     return {};
   }
-  OwnCourse made;
+  IndependentCourse made;
   const double begin_s_m = begin ? begin->site.s_m : own.spec.start_s_m;
   const double end_s_m = end ? end->site.s_m : own.spec.end_s_m.value_or(own.line_length_m);
   const double parallel_from_m = begin ? begin->branch.end_s_m() : begin_s_m;
@@ -244,7 +244,7 @@ std::optional<TurnoutSite> LeadToEnd(const TurnoutPlace& place,
 }
 
 /// Tracks with elements, from a turnout on or without one.
-OwnCourse CourseOfElements(const OwnTrackSpec& own, WorldFaults& faults) {
+IndependentCourse CourseOfElements(const IndependentTrack& own, WorldFaults& faults) {
   ErrorList errors;
   const PiecewiseLinear curvature = CurvatureOf(AlignmentElementsSpec{own.spec.elements}, errors);
   if (!errors.empty()) {
@@ -272,7 +272,7 @@ OwnCourse CourseOfElements(const OwnTrackSpec& own, WorldFaults& faults) {
   const std::size_t num_faults = faults.errors.size();
   CheckSteepness(own, branch, faults);
   if (faults.errors.size() > num_faults) return {};
-  OwnCourse made;
+  IndependentCourse made;
   if (own.end) {
     made.end = LeadToEnd(*own.end, std::nullopt, branch, faults);
     if (!made.end) return {};
@@ -286,13 +286,13 @@ OwnCourse CourseOfElements(const OwnTrackSpec& own, WorldFaults& faults) {
 }
 
 /// The track between two turnouts whose places are given.
-OwnCourse CourseBetweenTurnouts(const OwnTrackSpec& own, WorldFaults& faults) {
+IndependentCourse CourseBetweenTurnouts(const IndependentTrack& own, WorldFaults& faults) {
   const double from_s_m = *own.begin->spec.s_m;
   const double to_s_m = *own.end->spec.s_m;
   std::optional<WayOut> way =
       LeaveTurnout(*own.begin, own.end->course.OffsetWithin_m(from_s_m), faults);
   if (!way) return {};
-  OwnCourse made;
+  IndependentCourse made;
   made.begin = way->site;
   made.end = LeadToEnd(*own.end, own.begin->course.OffsetWithin_m(to_s_m), way->branch, faults);
   if (!made.end) return {};
@@ -304,7 +304,7 @@ OwnCourse CourseBetweenTurnouts(const OwnTrackSpec& own, WorldFaults& faults) {
 }
 
 /// The track between two turnouts that face each other.
-OwnCourse CourseOfCrossover(const OwnTrackSpec& own, WorldFaults& faults) {
+IndependentCourse CourseOfCrossover(const IndependentTrack& own, WorldFaults& faults) {
   const TurnoutPlace& from = *own.begin;
   const TurnoutPlace& to = *own.end;
   double to_d_m = to.course.OffsetAt(*from.spec.s_m).d_m;
@@ -353,7 +353,7 @@ OwnCourse CourseOfCrossover(const OwnTrackSpec& own, WorldFaults& faults) {
   }
   way->branch.Add(straight_m, 0.0, 0.0);
   way->branch.AddTurnoutBackwards(geometry, -side, 0.0);
-  OwnCourse made;
+  IndependentCourse made;
   made.course = TrackCourse(*from.spec.s_m, end_s_m, {way->branch.Piece(*from.spec.s_m, end_s_m)});
   made.begin = way->site;
   made.end = SiteOf(to, end_s_m, side > 0.0 ? TrackSide::kRight : TrackSide::kLeft);
@@ -362,11 +362,11 @@ OwnCourse CourseOfCrossover(const OwnTrackSpec& own, WorldFaults& faults) {
 
 }  // namespace
 
-OwnCourse MakeOwnCourse(const OwnTrackSpec& own, WorldFaults& faults) {
+IndependentCourse MakeIndependentCourse(const IndependentTrack& own, WorldFaults& faults) {
   const std::size_t num_faults = faults.errors.size();
   CheckKeys(own, faults);
   if (faults.errors.size() > num_faults) return {};
-  OwnCourse made;
+  IndependentCourse made;
   if (IsCrossover(own.spec)) {
     made = own.end->spec.s_m ? CourseBetweenTurnouts(own, faults) : CourseOfCrossover(own, faults);
   } else {

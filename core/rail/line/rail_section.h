@@ -17,6 +17,9 @@ inline constexpr double kGauge_m = kStandardGauge_mm / 1000.0;
 inline constexpr double kGaugeDepth_m = 0.014;
 inline constexpr double kRailHeight_m = 0.172;
 inline constexpr double kRailInclination = 1.0 / 40.0;
+/// The sleepers of every track are placed at integer multiples of this chainage.
+inline constexpr double kSleeperSpacing_m = 0.6;
+inline constexpr double kSleeperHalfLength_m = 1.3;
 
 /// The 60E1 section of one rail in position: (y, z) in the track frame, inclined 1:40 towards the
 /// middle of the track, with its highest point at top of rail and its gauge face half a gauge from

@@ -11,8 +11,8 @@
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
 #include "railcast/transform.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -64,10 +64,10 @@ struct WireRules {
 /// supports that all tracks share. Where a track begins in a turnout, its wire begins at the
 /// support before; there and where it ends it lies beside the wire of the turnout's other track, on
 /// its own side, so that wires never cross.
-class OwnWires {
+class IndependentWires {
  public:
   /// All must outlive it.
-  OwnWires(const WorldTracks& tracks, const Alignment& alignment);
+  IndependentWires(const WorldTracks& tracks, const Alignment& alignment);
 
   /// Staggers at a support, one for each track of the world; absent where it has no wire of this
   /// kind.

@@ -1,4 +1,4 @@
-#include "core/rail/traffic/own_train.h"
+#include "core/rail/traffic/ego_train.h"
 
 #include <cstddef>
 #include <memory>
@@ -49,28 +49,28 @@ double OriginBehindFront_m(const VehicleSpec& vehicle) {
          0.5 * PivotDistance_m(vehicle);
 }
 
-std::string NameOfOwnVehicle(const VehicleSpec& vehicle, std::size_t index) {
+std::string NameOfEgoVehicle(const VehicleSpec& vehicle, std::size_t index) {
   if (index == vehicle.sensor_vehicle) return kOwnVehicle;
   return std::string(kOwnVehicle) + "/" + std::to_string(index + 1);
 }
 
-std::vector<OwnVehicle> MakeOwnTrain(const VehicleSpec& vehicle,
-                                     const TrackPath& path,
-                                     const Alignment& alignment,
-                                     std::uint32_t label,
-                                     ObjectModels& models) {
+std::vector<TrainVehicle> MakeEgoTrain(const VehicleSpec& vehicle,
+                                       const TrackPath& path,
+                                       const Alignment& alignment,
+                                       std::uint32_t label,
+                                       ObjectModels& models) {
   std::shared_ptr<const TrackLength> length;
   if (vehicle.consist.size() > 1) {
     length = std::make_shared<const TrackLength>(alignment, path.course());
   }
   const double origin_behind_front_m = OriginBehindFront_m(vehicle);
-  std::vector<OwnVehicle> train;
+  std::vector<TrainVehicle> train;
   for (std::size_t i = 0; i < vehicle.consist.size(); ++i) {
     ObjectSpec spec;
-    spec.name = NameOfOwnVehicle(vehicle, i);
+    spec.name = NameOfEgoVehicle(vehicle, i);
     spec.type = vehicle.consist[i].type;
     spec.label = kOwnVehicle;
-    OwnVehicle& own = train.emplace_back();
+    TrainVehicle& own = train.emplace_back();
     own.object = {.name = spec.name,
                   .type = kOwnVehicle,
                   .label = label,
