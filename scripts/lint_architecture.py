@@ -13,13 +13,20 @@ import sys
 
 # A folder of core may include only itself and the folders before it.
 CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera scenario fidelity c io program".split()
+# The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
+# stands; without it there may be none.
+ROOM_ORDERS = {
+    "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
+                 "world".split(),
+    "core/detect": "base kernels clutter detector beam effects".split(),
+}
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
-# that implements it.
+# that implements it, or to a room of that folder.
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
-    "scene": "scene", "alignment": "rail", "rail_world": "rail", "objects": "rail", "structures": "rail",
-    "lineside": "rail", "track_side": "rail",
+    "scene": "scene", "objects": "rail/base", "structures": "rail/base", "lineside": "rail/base",
+    "track_side": "rail/base", "alignment": "rail/line", "world_spec": "rail/line", "rail_world": "rail/world",
     "lidar": "scan", "ray_caster": "trace", "effects": "detect", "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
 # The programs share core, and nothing else.
@@ -112,11 +119,38 @@ def core_folder(name):
     public = name.removeprefix(PUBLIC_ROOT + "railcast/").removesuffix(".h")
     # railcast.h includes all public headers that core implements.
     return "io" if public.startswith("io/") else PUBLIC_OWNERS.get(
-        public, "fidelity" if public == "railcast" else public)
+        public, "fidelity" if public == "railcast" else public).split("/")[0]
 
 
 def is_within(name, folder):
     return name == folder or name.startswith(folder + "/")
+
+
+def room_of(name, folder):
+    """The room of a folder in which a file stands, or which implements it; None if the file is elsewhere."""
+    if name.startswith("railcast/"):
+        name = f"core/{PUBLIC_OWNERS.get(name.removeprefix('railcast/').removesuffix('.h'), '')}/{name}"
+    if not name.startswith(folder + "/"):
+        return None
+    room, _, rest = name.removeprefix(folder + "/").partition("/")
+    return room if rest else "."
+
+
+def lint_rooms(sources):
+    """Yields the files that stand in no known room, and the includes against the rooms' order."""
+    for folder, order in ROOM_ORDERS.items():
+        for source in sources.values():
+            room = room_of(source.name, folder)
+            if room is None:
+                continue
+            if room not in order:
+                yield f"{source.name}:1: {folder} has the rooms {', '.join(order)} ({room})"
+                continue
+            for line, included, _ in source.includes:
+                target = room_of(included, folder) if included else None
+                if target in order and order.index(target) > order.index(room):
+                    yield (f"{source.name}:{line}: {folder}/{room} comes before {folder}/{target} and includes "
+                           f"nothing of it ({included})")
 
 
 def lint_own_include(source, included):
@@ -249,7 +283,7 @@ def lint_sizes(root):
 def lint(root):
     """Every fault of the tree at `root`."""
     sources = read_sources(root)
-    return [*lint_includes(sources), *lint_cycles(sources), *lint_units(sources),
+    return [*lint_includes(sources), *lint_rooms(sources), *lint_cycles(sources), *lint_units(sources),
             *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root)]
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Counts the cost of each rung and each effect, for docs/performance.md and the table of effects
-# (core/detect/effect_table.h): instructions per firing of Simulator::Scan, without those for making
+# (core/detect/detector/effect_table.h): instructions per firing of Simulator::Scan, without those for making
 # the scene, on frame 0 of scenarios/open_line.json in heavy rain (so that every effect has work)
 # with one thread; then the savings without each effect of the rung footprint; then what the sensor's
 # own effects and mirror images cost (docs/effects.md). Needs valgrind; takes some fifteen minutes.

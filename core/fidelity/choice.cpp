@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/fidelity/effect_search.h"
 #include "core/fidelity/frame_comparison.h"
 #include "core/fidelity/sample_frames.h"

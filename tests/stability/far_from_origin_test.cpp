@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/scan_once.h"

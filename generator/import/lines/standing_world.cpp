@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/world/world_draft.h"
 #include "generator/import/structures/line_structures.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 namespace {

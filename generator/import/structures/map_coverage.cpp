@@ -11,8 +11,8 @@
 #include <utility>
 #include <variant>
 
-#include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/tunnel_shape.h"
+#include "core/rail/clearance/tunnel_shape.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/tagged_stretches.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/tagged_stretches.h"
 #include "generator/import/structures/tunnels.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/effect_search.h"
 #include "railcast/effects.h"
