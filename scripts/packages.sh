@@ -57,11 +57,21 @@ paper_packages=(
   python3
 )
 
+# Called by scripts/make_site.sh.
+site_packages=(
+  doxygen
+  furo
+  python3-breathe
+  python3-myst-parser
+  python3-sphinx
+)
+
 # Called by the tests: independent readers and validators, and a tool that operates the viewer's
 # window.
 test_packages=(
   "${display_packages[@]}"
   "${python_packages[@]}"
+  "${site_packages[@]}"
   chromium
   poppler-utils
   python3
