@@ -51,7 +51,7 @@ python_packages=(
   python3-numpy
 )
 
-# Called by scripts/reproduce_paper.sh; scripts/draw_pictures.sh needs them, too.
+# Called by scripts/reproduce_paper.sh; scripts/dev/draw_pictures.sh needs them, too.
 paper_packages=(
   graphviz
   python3
@@ -84,7 +84,7 @@ test_packages=(
   xdotool
 )
 
-# Called by scripts/check.sh.
+# Called by scripts/dev/check.sh.
 check_packages=(
   clang-14
   clang-format-14
@@ -92,7 +92,7 @@ check_packages=(
   git
 )
 
-# Built into railcast-peers by scripts/compare_peers.sh.
+# Built into railcast-peers by scripts/dev/compare_peers.sh.
 peer_packages=(
   libopen3d-dev
 )

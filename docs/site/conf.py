@@ -16,7 +16,7 @@ root_doc = "README"
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc"]
 myst_heading_anchors = 6
-# What scripts/lint_docs.py holds: links. Headings and pieces of JSON are read by people.
+# What scripts/dev/lint_docs.py holds: links. Headings and pieces of JSON are read by people.
 suppress_warnings = ["myst.header", "ref.myst", "misc.highlighting_failure"]
 breathe_projects = {project: os.environ["RAILCAST_DOXYGEN_XML"]}
 breathe_default_project = project
