@@ -1,4 +1,4 @@
-"""Each test plants a small tree and reads what scripts/lint_architecture.py says of it."""
+"""Each test plants a small tree and reads what scripts/dev/lint_architecture.py says of it."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import lint_architecture  # noqa: E402 (found through the line above)
 
 

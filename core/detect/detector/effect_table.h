@@ -66,7 +66,7 @@ struct Effect {
   /// `auto` measures by comparing echoes; the others only change statistics, at little cost.
   ///
   /// Callgrind's counts of Simulator::Scan on frame 0 of scenarios/open_line.json in heavy rain,
-  /// rung `footprint`, less those with the effect switched off (scripts/measure_effect_costs.sh);
+  /// rung `footprint`, less those with it switched off (scripts/dev/measure_effect_costs.sh);
   /// 10 where the difference is less, since switching an effect off also changes the work of the
   /// others. Counts differ between scenes, but their order hardly does, and only the order matters.
   std::optional<double> instructions{};
