@@ -4,7 +4,7 @@
 #   CAPTURES  folder with vlp16_dual.pcap, vlp32c_single.pcap, pandar64.pcap and vls128_single.pcap
 set -euo pipefail
 
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 captures=${1:?usage: scripts/dev/report_captures.sh CAPTURES [BUILD]}
 build=${2:-build/release}
 
