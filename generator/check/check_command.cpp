@@ -15,7 +15,7 @@
 #include "generator/check/mesh_report.h"
 #include "generator/check/network_report.h"
 #include "generator/commands.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"

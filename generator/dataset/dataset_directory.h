@@ -9,7 +9,7 @@
 #include "core/io/shard.h"
 #include "core/scenario/json_text.h"
 #include "generator/run/folder_lock.h"
-#include "generator/sequence/line_file.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 

@@ -21,7 +21,7 @@
 #include "generator/dataset/indexed_scenario.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/scenario_lines.h"
-#include "generator/sequence/line_file.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 namespace {

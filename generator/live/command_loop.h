@@ -8,8 +8,8 @@
 
 #include "generator/live/command_channel.h"
 #include "generator/live/live_run.h"
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/line_file.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 

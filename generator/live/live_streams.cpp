@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "generator/run/stop_signal.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "generator/run/track_limits.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"

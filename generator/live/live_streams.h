@@ -10,7 +10,7 @@
 #include "generator/live/camera_stream.h"
 #include "generator/live/live_run.h"
 #include "generator/live/sensor_stream.h"
-#include "generator/run/commanded_run.h"
+#include "generator/run/frame_maker.h"
 #include "railcast/frame.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"

@@ -16,8 +16,8 @@
 
 #include "generator/python/frame_pool.h"
 #include "generator/python/rail_lines.h"
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/object_survey.h"
+#include "generator/record/object_survey.h"
+#include "generator/run/frame_maker.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"

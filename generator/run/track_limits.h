@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "core/scenario/track_limits.h"
-#include "generator/run/commanded_run.h"
+#include "generator/run/frame_maker.h"
 #include "railcast/lidar.h"
 
 namespace railcast {

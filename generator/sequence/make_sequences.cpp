@@ -7,7 +7,7 @@
 #include <functional>
 #include <limits>
 
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "generator/sequence/surveyed_run.h"
 
 namespace railcast {

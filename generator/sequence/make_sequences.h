@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/fidelity/choice_report.h"
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/run_sequence.h"
-#include "generator/sequence/sensor_runs.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/make_frames.h"
+#include "generator/run/run_plan.h"
 #include "railcast/simulator.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "generator/sequence/sequence_spec.h"
+#include "generator/run/run_identity.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 
 namespace railcast {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/sequence/frame_record.h"
-#include "generator/sequence/sequence_spec.h"
+#include "generator/record/frame_record.h"
+#include "generator/run/run_identity.h"
 
 namespace railcast {
 

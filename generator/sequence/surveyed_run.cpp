@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "generator/run/stop_signal.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

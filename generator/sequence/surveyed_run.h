@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/object_survey.h"
-#include "generator/sequence/run_sequence.h"
+#include "generator/record/object_survey.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/make_frames.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/simulator.h"

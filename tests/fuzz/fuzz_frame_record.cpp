@@ -1,4 +1,4 @@
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 #include <cstdint>
 #include <string_view>

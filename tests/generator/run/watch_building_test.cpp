@@ -1,4 +1,4 @@
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/run_sequence.h"
-#include "generator/sequence/sequence_spec.h"
+#include "generator/run/make_frames.h"
+#include "generator/run/run_identity.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

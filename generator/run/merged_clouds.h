@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "generator/sequence/sensor_runs.h"
+#include "generator/run/run_plan.h"
 #include "railcast/lidar.h"
 #include "railcast/simulator.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "generator/run/run_identity.h"
 #include "generator/sequence/scenario_sequence.h"
-#include "generator/sequence/sequence_spec.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 

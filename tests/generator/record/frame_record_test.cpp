@@ -1,11 +1,11 @@
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {

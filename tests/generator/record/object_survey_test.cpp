@@ -1,4 +1,4 @@
-#include "generator/sequence/object_survey.h"
+#include "generator/record/object_survey.h"
 
 #include <gtest/gtest.h>
 

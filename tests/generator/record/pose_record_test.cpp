@@ -1,4 +1,4 @@
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 
 #include <gtest/gtest.h>
 

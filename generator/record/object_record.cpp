@@ -1,10 +1,10 @@
-#include "generator/sequence/object_record.h"
+#include "generator/record/object_record.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/run/commanded_run.h"
+#include "generator/run/frame_maker.h"
 
 #include <algorithm>
 #include <optional>

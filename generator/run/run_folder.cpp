@@ -1,4 +1,4 @@
-#include "generator/sequence/line_file.h"
+#include "generator/run/run_folder.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
 
 #include <gtest/gtest.h>
 

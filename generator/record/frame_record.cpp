@@ -1,11 +1,11 @@
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/io/line_hash.h"
 #include "core/io/strict_json.h"
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 
 namespace railcast {
 namespace {

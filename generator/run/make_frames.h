@@ -5,9 +5,9 @@
 #include <functional>
 #include <vector>
 
-#include "generator/sequence/frame_record.h"
-#include "generator/sequence/object_record.h"
-#include "generator/sequence/sequence_spec.h"
+#include "generator/record/frame_record.h"
+#include "generator/record/object_record.h"
+#include "generator/run/run_identity.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 

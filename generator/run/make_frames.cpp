@@ -1,4 +1,4 @@
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
 
 #include <tbb/parallel_pipeline.h>
 
@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
-#include "generator/run/stoppable_work.h"
-#include "generator/sequence/sequence_directory.h"
+#include "generator/run/run_directory.h"
+#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/sequence/sequence_spec.h"
+#include "generator/run/run_identity.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene/object_contacts.h"
-#include "generator/sequence/object_record.h"
+#include "generator/record/object_record.h"
 #include "railcast/frame.h"
 #include "railcast/scene.h"
 #include "railcast/simulator.h"

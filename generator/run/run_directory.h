@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "generator/record/frame_record.h"
+#include "generator/record/object_record.h"
+#include "generator/record/pose_record.h"
 #include "generator/run/folder_lock.h"
-#include "generator/sequence/frame_record.h"
-#include "generator/sequence/line_file.h"
-#include "generator/sequence/object_record.h"
-#include "generator/sequence/pose_record.h"
+#include "generator/run/run_folder.h"
+#include "generator/run/run_identity.h"
 #include "generator/sequence/sequence_progress.h"
-#include "generator/sequence/sequence_spec.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 

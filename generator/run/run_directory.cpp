@@ -1,4 +1,4 @@
-#include "generator/sequence/sequence_directory.h"
+#include "generator/run/run_directory.h"
 
 #include <algorithm>
 #include <charconv>
@@ -18,7 +18,7 @@
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/sequence/merged_sequence.h"
+#include "generator/run/merged_clouds.h"
 
 #include <gtest/gtest.h>
 #include <pcl/console/print.h>

@@ -1,4 +1,4 @@
-#include "generator/sequence/sensor_runs.h"
+#include "generator/run/run_plan.h"
 
 #include <gtest/gtest.h>
 

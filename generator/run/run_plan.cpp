@@ -1,4 +1,4 @@
-#include "generator/sequence/sensor_runs.h"
+#include "generator/run/run_plan.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@
 #include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"
 #include "generator/empty_folder.h"
-#include "generator/sequence/pose_record.h"
+#include "generator/record/pose_record.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/sequence/merged_sequence.h"
+#include "generator/run/merged_clouds.h"
 
 #include <tbb/parallel_for.h>
 
@@ -20,8 +20,8 @@
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
+#include "generator/record/pose_record.h"
 #include "generator/sequence/merged_cloud.h"
-#include "generator/sequence/pose_record.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
