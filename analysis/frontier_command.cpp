@@ -93,8 +93,8 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                          LabelTable(scenario.labels), {})
           .match_distance_m,
-      ChoiceJson(choice, scenario.tolerance),
-      ChoiceText(choice, scenario.tolerance),
+      ChoiceJson(choice),
+      ChoiceText(choice),
       ReportDate(),
       scenario_hash,
       WeatherText(scenario.weather)};

@@ -70,7 +70,7 @@ class Report {
   [[nodiscard]] std::string Choice() const {
     if (scenario_.fidelity != Fidelity::kAuto) return "";
     const auto simulator = MakeSimulator(scenario_, 0);
-    return ChoiceText(UseChosenFidelity(*simulator, scenario_), scenario_.tolerance);
+    return ChoiceText(UseChosenFidelity(*simulator, scenario_));
   }
 
  private:

@@ -17,7 +17,7 @@
 #include "generator/dataset/scenario_report.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stop_signal.h"
+#include "generator/run/stopping.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {

@@ -8,7 +8,6 @@
 
 #include "core/io/shard.h"
 #include "core/scenario/json_text.h"
-#include "generator/run/folder_lock.h"
 #include "generator/run/run_folder.h"
 
 namespace railcast {

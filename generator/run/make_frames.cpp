@@ -14,15 +14,24 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
+#include "core/fidelity/choice_report.h"
 #include "generator/run/run_directory.h"
 #include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {
 
+/// One of several sequences that are made together, one for each sensor.
+struct SensorSequence {
+  const SequenceSpec& spec;
+  BeginFrame begin_frame;
+  /// The time at which a frame of the sensor begins.
+  std::function<std::int64_t(std::uint32_t index)> stamp_ns;
+};
+
 /// The memory of a frame from its beginning until it is written.
 struct FrameSlot {
-  SequenceDirectory* directory = nullptr;
+  RunDirectory* directory = nullptr;
   FrameJob job;
   std::exception_ptr fault;  ///< Why there is no frame.
   MadeFrame made;
@@ -110,7 +119,7 @@ class WritingQueue {
 struct SequenceUnderWay {
   explicit SequenceUnderWay(const SensorSequence& sequence)
       : of(sequence),
-        directory(std::make_unique<SequenceDirectory>(sequence.spec)),
+        directory(std::make_unique<RunDirectory>(sequence.spec)),
         num_resumed(directory->num_done()),
         was_complete(directory->is_complete()),
         next(num_resumed) {}
@@ -118,7 +127,7 @@ struct SequenceUnderWay {
   [[nodiscard]] bool is_begun() const { return next >= of.spec.num_frames; }
 
   const SensorSequence& of;
-  std::unique_ptr<SequenceDirectory> directory;
+  std::unique_ptr<RunDirectory> directory;
   std::uint32_t num_resumed;
   bool was_complete;
   std::uint32_t next;  ///< Which of its frames is begun next.
@@ -249,8 +258,8 @@ void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {
   frames.AwaitWriting();
 }
 
-}  // namespace
-
+/// Makes the missing frames of several sequences, in the order in which they begin.
+/// @return The results in the order of the sequences.
 std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
                                          const SequenceHooks& hooks,
                                          const FramesAtOnce& at_once) {
@@ -265,7 +274,7 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
   }
   std::vector<SequenceResult> results;
   for (const SequenceUnderWay& sequence : sequences) {
-    SequenceDirectory& directory = *sequence.directory;
+    RunDirectory& directory = *sequence.directory;
     if (!directory.is_complete() && directory.num_done() == sequence.of.spec.num_frames) {
       directory.Finish();
     }
@@ -280,6 +289,64 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   for (SequenceResult& result : results) result.elapsed_s = elapsed.count();
   return results;
+}
+
+/// A thread other than the one that waits for a window may be the first to see that the run is
+/// stopped; then the deadline is still set, which would cut off frames that are being finished.
+struct NoDeadlineAfterwards {
+  NoDeadlineAfterwards() = default;
+  ~NoDeadlineAfterwards() { UseStopDeadline(false); }
+  NoDeadlineAfterwards(const NoDeadlineAfterwards&) = delete;
+  NoDeadlineAfterwards& operator=(const NoDeadlineAfterwards&) = delete;
+};
+
+}  // namespace
+
+bool ChooseFidelities(
+    const FrameMaker& maker,
+    const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
+    const std::function<bool()>& is_stopped,
+    RunPlan& plan) {
+  for (std::size_t i = 0; i < maker.num_sensors(); ++i) {
+    WatchBuilding(maker.simulator(i), is_stopped, true);
+  }
+  if (plan.scenario.fidelity != Fidelity::kAuto) return true;
+  try {
+    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+      SensorPlan& sensor = plan.sensors[i];
+      const FidelityChoice choice = UseChosenFidelity(maker.simulator(i), sensor.scenario);
+      sensor.spec.fidelity_choice_json = ChoiceJson(choice);
+      on_choice(sensor, choice);
+    }
+  } catch (const RunStopped&) {
+    return false;
+  }
+  return true;
+}
+
+std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
+                                       const RunPlan& plan,
+                                       const SequenceHooks& hooks) {
+  std::vector<SensorSequence> sequences;
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    const SequenceSpec& spec = plan.sensors[i].spec;
+    Simulator& simulator = maker.simulator(i);
+    simulator.UseLastStamp(maker.pattern(i).StampNs(spec.FrameAt(spec.num_frames - 1)));
+    // Frames are begun by whichever thread is free: from then on the terminal shows what this one
+    // waits for.
+    const auto begin = [&maker, &simulator, i](std::uint32_t index) {
+      const NoDeadlineAfterwards guard;
+      WatchBuilding(simulator, StopRequested, true);
+      return maker.Begin(i, index);
+    };
+    sequences.push_back({spec, begin, [&maker, i](std::uint32_t index) {
+                           return maker.pattern(i).StampNs(index);
+                         }});
+  }
+  const FramesAtOnce at_once = {maker.NumAtOnce(), [&](const std::function<void()>& work) {
+                                  maker.simulator(0).Execute(work);
+                                }};
+  return RunSequences(sequences, hooks, at_once);
 }
 
 SequenceResult RunSequence(const SequenceSpec& spec,

@@ -6,23 +6,11 @@
 #include <vector>
 
 #include "generator/record/frame_record.h"
-#include "generator/record/object_record.h"
-#include "generator/run/run_identity.h"
-#include "railcast/camera.h"
-#include "railcast/frame.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/run_plan.h"
+#include "railcast/fidelity.h"
 
 namespace railcast {
-
-/// What is written of one frame. Its memory is reused.
-struct MadeFrame {
-  Frame frame;
-  std::vector<ObjectInFrame> objects;  ///< The records of the world's objects.
-  CameraImage image;
-  bool has_image = false;  ///< Whether the camera has an image of this frame.
-};
-
-/// Makes one frame. Called once, by any thread, while other frames may be made.
-using FrameJob = std::function<void(MadeFrame& made)>;
 
 /// Begins frame `index` and returns what makes it. Called in order, by one thread at a time. If it
 /// or the job throws RunStopped, the run ends after the previous frame.
@@ -53,25 +41,28 @@ struct SequenceResult {
   double elapsed_s{};           ///< Wall-clock time for the frames made in this run.
 };
 
-/// One of several sequences that are made together, one for each sensor.
-struct SensorSequence {
-  SequenceSpec spec;
-  BeginFrame begin_frame;
-  /// The time at which a frame of the sensor begins.
-  std::function<std::int64_t(std::uint32_t index)> stamp_ns;
-};
+/// Has the rung `auto` choose for each sensor, and notes the choices in the plan. From now on the
+/// building of scenes is watched as by WatchBuilding().
+/// @param on_choice Called after each choice.
+/// @return False if the run was stopped meanwhile.
+[[nodiscard]] bool ChooseFidelities(
+    const FrameMaker& maker,
+    const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
+    const std::function<bool()>& is_stopped,
+    RunPlan& plan);
 
-/// Makes the missing frames of several sequences in one pass through simulation time: the frame
-/// that begins first is made first. Otherwise as RunSequence(), with progress over all of them.
-/// @return The results in the order of the sequences; each has the same `elapsed_s`.
-[[nodiscard]] std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
-                                                       const SequenceHooks& hooks,
-                                                       const FramesAtOnce& at_once = {});
+/// Makes the missing frames of a plan in one pass through simulation time: of all sensors, the
+/// frame that begins first is made first. Otherwise as RunSequence(), with progress over all of
+/// them.
+/// @return The results in the order of the sensors; each has the same `elapsed_s`.
+[[nodiscard]] std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
+                                                     const RunPlan& plan,
+                                                     const SequenceHooks& hooks);
 
 /// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded
 /// several at once, and written in their order; as many more wait to be written meanwhile. If one
 /// cannot be made, those before it are written before the exception is passed on.
-/// @throws InputError as SequenceDirectory does.
+/// @throws InputError as RunDirectory does.
 [[nodiscard]] SequenceResult RunSequence(const SequenceSpec& spec,
                                          const BeginFrame& begin_frame,
                                          const SequenceHooks& hooks,

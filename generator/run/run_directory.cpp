@@ -18,18 +18,12 @@
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/sequence_files.h"
 #include "core/io/write_file.h"
-#include "generator/record/frame_record.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-void CreateDirectories(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw FileError(directory, error.value());
-}
+using OrderedJson = nlohmann::ordered_json;
 
 bool HasBytes(const fs::path& file, std::string_view bytes) {
   return fs::exists(file) && ReadFileWhole(file) == bytes;
@@ -73,6 +67,104 @@ std::optional<std::uint32_t> FrameNumber(std::string_view name) {
   return number;
 }
 
+/// A file of a directory that gets one line per frame.
+struct LineFileName {
+  std::string name;
+  std::string_view header;
+};
+
+// The line files of a format in the order in which they are written; frames.jsonl is the last.
+std::vector<LineFileName> LineFileNames(const FrameFormat& format) {
+  std::vector<LineFileName> names = {{std::string(kPosesFile), kPosesHeader},
+                                     {std::string(kObjectsFile), ""}};
+  if (format.dataset) {
+    for (const std::string_view name : format.dataset->record_files) {
+      names.push_back({std::string(name), ""});
+    }
+  }
+  names.push_back({std::string(kFramesFile), ""});
+  return names;
+}
+
+// labels.json in the form that the scenario reader reads.
+std::string LabelsJson(const LabelTable& labels) {
+  OrderedJson list = OrderedJson::array();
+  for (const Label& label : labels.labels()) {
+    list.push_back({{"id", label.id},
+                    {"name", label.name},
+                    {"rgb", label.rgb},
+                    {"whu_railway3d", label.whu_railway3d},
+                    {"osdar23", label.osdar23},
+                    {"semantic_kitti", label.semantic_kitti},
+                    {"semantic_kitti_nearest", label.semantic_kitti_nearest}});
+  }
+  return OrderedJson{{"version", 1}, {"labels", list}}.dump(2) + "\n";
+}
+
+// materials.json: the materials by the ids that frames carry; 0 means none.
+std::string MaterialsJson(const MaterialLibrary& materials) {
+  OrderedJson list = OrderedJson::array();
+  for (const Material& material : materials.materials()) {
+    list.push_back(
+        {{"id", list.size()},
+         {"name", material.name},
+         {"reflectivity", material.reflectivity},
+         {"reflectivity_1550nm", material.reflectivity_1550nm.value_or(material.reflectivity)},
+         {"facet_slope_deg", material.facet_slope_deg},
+         {"specular_f0", material.specular_f0},
+         {"specular_f0_1550nm", material.specular_f0_1550nm.value_or(material.specular_f0)},
+         {"specular_roughness", material.specular_roughness},
+         {"retroreflectance", material.retroreflectance}});
+  }
+  return OrderedJson{{"version", 1}, {"materials", list}}.dump(2) + "\n";
+}
+
+// Iterates over the whole lines of a line file.
+class LineWalk {
+ public:
+  LineWalk(const std::filesystem::path& file, std::string_view header) {
+    if (std::filesystem::exists(file)) text_ = ReadFileWhole(file);
+    has_header_ = std::string_view(text_).starts_with(header);
+    if (has_header_) position_ = header.size();
+  }
+
+  /// Returns the next line with its end; empty if there is none or it is incomplete.
+  [[nodiscard]] std::string_view Next() const {
+    if (!has_header_) return {};
+    const std::size_t end = text_.find('\n', position_);
+    if (end == std::string::npos) return {};
+    return std::string_view(text_).substr(position_, end + 1 - position_);
+  }
+  void Advance() { position_ += Next().size(); }
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+ private:
+  std::string text_;
+  bool has_header_ = false;
+  std::size_t position_ = 0;
+};
+
+bool HasContent(const std::filesystem::path& directory, const WrittenFile& file) {
+  const std::filesystem::path path = directory / file.name;
+  return std::filesystem::exists(path) && std::filesystem::file_size(path) == file.size &&
+         ContentHash(ReadFileWhole(path)) == file.hash;
+}
+
+// Returns the next frame's record if the frame is complete.
+std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
+                                     std::uint32_t frame,
+                                     const std::vector<LineWalk>& walks) {
+  auto record = ParseFrameLine(walks.back().Next());
+  if (!record || record->frame != frame) return std::nullopt;
+  std::string records;
+  for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
+  if (ContentHash(records) != record->records_hash) return std::nullopt;
+  for (const WrittenFile& file : record->files) {
+    if (!HasContent(spec.directory, file)) return std::nullopt;
+  }
+  return record;
+}
+
 /// The names of a run's files.
 class OwnNames {
  public:
@@ -107,13 +199,12 @@ class OwnNames {
 
 }  // namespace
 
-SequenceDirectory::SequenceDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
-  CreateDirectories(spec_.directory);
+RunDirectory::RunDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
   lock_.emplace(spec_.directory);
   Open();
 }
 
-void SequenceDirectory::Open() {
+void RunDirectory::Open() {
   const fs::path run_file = spec_.directory / kRunFile;
   const bool is_run = fs::exists(run_file);
   is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
@@ -125,7 +216,7 @@ void SequenceDirectory::Open() {
 
 // Refuses files of other origin: they could be mistaken for the run's, or be deleted when it cleans
 // up.
-void SequenceDirectory::RefuseStrangers(bool is_run) const {
+void RunDirectory::RefuseStrangers(bool is_run) const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
     const std::optional<std::string_view> finished = FinishedName(name);
@@ -139,7 +230,7 @@ void SequenceDirectory::RefuseStrangers(bool is_run) const {
   }
 }
 
-void SequenceDirectory::RemoveUnfinished() const {
+void RunDirectory::RemoveUnfinished() const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
     // A mesh may have a name that ends so, too.
@@ -147,24 +238,38 @@ void SequenceDirectory::RemoveUnfinished() const {
   }
 }
 
-void SequenceDirectory::Resume() {
+void RunDirectory::Resume() {
   if (!is_complete_) {
     WriteFixedFiles();
     RemoveUnfinished();
   }
-  const SequenceProgress progress = FindProgress(spec_);
-  num_done_ = progress.num_done;
-  counts_ = progress.counts;
-  if (num_done_ > 0) first_pose_ = ParsePoseLine(progress.first_pose_line);
-  if (is_complete_) return CheckUnchanged(progress);
+  const std::vector<std::uint64_t> line_sizes = CountFrames();
+  if (is_complete_) return CheckUnchanged(line_sizes);
   const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    line_files_.emplace_back(spec_.directory / names[i].name, progress.keep_bytes[i]);
-    if (progress.keep_bytes[i] == 0) line_files_.back().Append(names[i].header);
+    line_files_.emplace_back(spec_.directory / names[i].name, line_sizes[i]);
+    if (line_sizes[i] == 0) line_files_.back().Append(names[i].header);
   }
 }
 
-void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
+std::vector<std::uint64_t> RunDirectory::CountFrames() {
+  std::vector<LineWalk> walks;
+  for (const LineFileName& file : LineFileNames(*spec_.files.format)) {
+    walks.emplace_back(spec_.directory / file.name, file.header);
+  }
+  for (; num_done_ < spec_.num_frames; ++num_done_) {
+    const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
+    if (!record) break;
+    if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());
+    counts_.Add(record->counts);
+    for (LineWalk& walk : walks) walk.Advance();
+  }
+  std::vector<std::uint64_t> sizes;
+  for (const LineWalk& walk : walks) sizes.push_back(walk.position());
+  return sizes;
+}
+
+void RunDirectory::CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const {
   const fs::path& directory = spec_.directory;
   const auto check = [&](bool is_unchanged, const std::string& what) {
     if (is_unchanged) return;
@@ -174,14 +279,14 @@ void SequenceDirectory::CheckUnchanged(const SequenceProgress& progress) const {
   check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.FrameAt(num_done_)));
   const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    check(fs::file_size(directory / names[i].name) == progress.keep_bytes[i], names[i].name);
+    check(fs::file_size(directory / names[i].name) == line_sizes[i], names[i].name);
   }
   check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
   for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
   check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
 }
 
-std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
+std::vector<FrameFile> RunDirectory::FixedFiles() const {
   std::vector<FrameFile> files;
   const auto add = [&files](std::string_view name, std::string bytes) {
     files.push_back({std::string(name), std::move(bytes)});
@@ -200,14 +305,14 @@ std::vector<FrameFile> SequenceDirectory::FixedFiles() const {
   return files;
 }
 
-void SequenceDirectory::WriteFixedFiles() {
+void RunDirectory::WriteFixedFiles() {
   const fs::path& directory = spec_.directory;
   for (const FrameFileKind& file : spec_.files.format->files) {
-    CreateDirectories((directory / file.folder).parent_path());
+    MakeFolders((directory / file.folder).parent_path());
   }
   if (!spec_.camera.empty()) {
     for (const std::string& name : CameraFileNames(spec_.camera, 0)) {
-      CreateDirectories((directory / name).parent_path());
+      MakeFolders((directory / name).parent_path());
     }
   }
   // The file may have the same content in other bytes.
@@ -215,12 +320,12 @@ void SequenceDirectory::WriteFixedFiles() {
     WriteFileWhole(directory / kRunFile, RunJson(spec_));
   }
   for (const auto& [name, bytes] : FixedFiles()) {
-    CreateDirectories((directory / name).parent_path());
+    MakeFolders((directory / name).parent_path());
     WriteFileWhole(directory / name, bytes);
   }
 }
 
-std::vector<std::string> SequenceDirectory::RecordLines(const EncodedFrame& frame) {
+std::vector<std::string> RunDirectory::RecordLines(const EncodedFrame& frame) {
   const PoseRecord& pose = frame.pose;
   if (!first_pose_) first_pose_ = pose;
   std::vector<std::string> lines = {PoseLine(pose), frame.objects_line};
@@ -235,10 +340,10 @@ std::vector<std::string> SequenceDirectory::RecordLines(const EncodedFrame& fram
   return lines;
 }
 
-void SequenceDirectory::Encode(const Frame& frame,
-                               const std::vector<ObjectInFrame>& objects,
-                               const CameraImage* image,
-                               EncodedFrame& encoded) const {
+void RunDirectory::Encode(const Frame& frame,
+                          const std::vector<ObjectInFrame>& objects,
+                          const CameraImage* image,
+                          EncodedFrame& encoded) const {
   const std::uint32_t number =
       spec_.files.format->dataset ? (frame.index - spec_.start_frame) / spec_.stride : frame.index;
   EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(objects));
@@ -260,7 +365,7 @@ void SequenceDirectory::Encode(const Frame& frame,
   encoded.objects_line = ObjectsLine(frame, objects);
 }
 
-void SequenceDirectory::Write(const EncodedFrame& frame) {
+void RunDirectory::Write(const EncodedFrame& frame) {
   FrameRecord record = frame.record;
   Check(record.frame == spec_.FrameAt(num_done_), "frames are written in their order");
   for (const FrameFile& file : frame.files) {
@@ -278,27 +383,27 @@ void SequenceDirectory::Write(const EncodedFrame& frame) {
   ++num_done_;
 }
 
-void SequenceDirectory::Finish() {
+void RunDirectory::Finish() {
   Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
   for (LineFile& file : line_files_) file.Sync();
   WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
   is_complete_ = true;
 }
 
-std::string SequenceDirectory::ManifestJson() const {
-  nlohmann::ordered_json manifest = {{"version", spec_.version},
-                                     {"seed", spec_.seed},
-                                     {"format", spec_.files.format->name},
-                                     {"start_frame", spec_.start_frame},
-                                     {"num_frames", spec_.num_frames}};
+std::string RunDirectory::ManifestJson() const {
+  OrderedJson manifest = {{"version", spec_.version},
+                          {"seed", spec_.seed},
+                          {"format", spec_.files.format->name},
+                          {"start_frame", spec_.start_frame},
+                          {"num_frames", spec_.num_frames}};
   if (!spec_.fidelity_choice_json.empty()) {
-    manifest["fidelity_choice"] = nlohmann::ordered_json::parse(spec_.fidelity_choice_json);
+    manifest["fidelity_choice"] = OrderedJson::parse(spec_.fidelity_choice_json);
   }
   PutCounts(counts_, manifest);
   // frames.jsonl holds the hash of every frame's files, so these hashes cover the whole content.
   // The data's hash leaves out run.json, which names the program that made them.
   std::vector<KnownFile> known;
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  OrderedJson files = OrderedJson::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(*spec_.files.format)) names.push_back(file.name);

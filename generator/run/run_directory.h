@@ -8,14 +8,21 @@
 #include "generator/record/frame_record.h"
 #include "generator/record/object_record.h"
 #include "generator/record/pose_record.h"
-#include "generator/run/folder_lock.h"
 #include "generator/run/run_folder.h"
-#include "generator/run/run_identity.h"
-#include "generator/sequence/sequence_progress.h"
+#include "generator/run/run_plan.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 
 namespace railcast {
+
+/// Returns run.json, which identifies the run of a directory from its first moment on.
+[[nodiscard]] std::string RunJson(const SequenceSpec& spec);
+
+/// Checks that the directory belongs to this run.
+/// @throws InputError that names the first difference if `run_json`, found in the directory, is
+///   another run's.
+/// @param is_complete Whether that run is complete, so that it cannot be continued.
+void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete);
 
 /// A frame as it is written to a sequence directory.
 struct EncodedFrame {
@@ -36,15 +43,15 @@ struct EncodedFrame {
 /// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
 /// hashes that this line states. All other remains of an interrupted run are dropped on opening, so
 /// that a resumed run gives the same bytes as one that was never interrupted.
-class SequenceDirectory {
+class RunDirectory {
  public:
   /// Creates the directory, or opens it and finds out how far its run has got.
   /// @throws InputError if it belongs to another run, holds other files, is complete but was
   ///   changed since, is being written by another process, or the system refuses.
-  explicit SequenceDirectory(SequenceSpec spec);
-  ~SequenceDirectory() = default;
-  SequenceDirectory(const SequenceDirectory&) = delete;
-  SequenceDirectory& operator=(const SequenceDirectory&) = delete;
+  explicit RunDirectory(SequenceSpec spec);
+  ~RunDirectory() = default;
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// Whether manifest.json exists.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
@@ -74,8 +81,13 @@ class SequenceDirectory {
   void RefuseStrangers(bool is_run) const;
   void RemoveUnfinished() const;
   void Resume();
-  // Checks a complete directory, whose frames have been counted.
-  void CheckUnchanged(const SequenceProgress& progress) const;
+  // Checks a complete directory.
+  // @param line_sizes For each line file, the size that its frames account for.
+  void CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const;
+  // Counts the leading frames that are complete: whose files and lines have the hashes that their
+  // line of frames.jsonl states.
+  // @return For each line file, the size of the header and the lines of these frames.
+  [[nodiscard]] std::vector<std::uint64_t> CountFrames();
   // Returns the files that are known before the first frame, except run.json.
   [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();

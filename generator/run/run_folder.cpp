@@ -1,15 +1,53 @@
 #include "generator/run/run_folder.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/io/write_file.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
 
 namespace railcast {
+namespace {
+
+// Retries, since a run that was just killed may hold the lock until the system has released it.
+bool LockFolder(int folder) {
+  constexpr int kTries = 20;
+  constexpr std::chrono::milliseconds kPause(50);
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
+}
+
+}  // namespace
+
+void MakeFolders(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder, error.value());
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  MakeFolders(folder);
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) throw FileError(folder, errno);
+  if (LockFolder(descriptor_)) return;
+  ::close(descriptor_);
+  throw InputError(ShownPath(folder) + ": another run is writing here");
+}
+
+FolderLock::~FolderLock() {
+  ::close(descriptor_);
+}
 
 LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
     : file_(std::move(file)), size_(keep_bytes) {

@@ -6,6 +6,21 @@
 
 namespace railcast {
 
+/// Makes the folder that a run writes to, if there is none, and keeps other processes of railcast
+/// from writing there while this exists.
+class FolderLock {
+ public:
+  /// @throws InputError if the folder cannot be made or opened, or "FOLDER: another run is writing
+  ///   here".
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 /// A text file that grows line by line.
 class LineFile {
  public:
@@ -31,5 +46,9 @@ class LineFile {
   std::uint64_t size_;
   int descriptor_;
 };
+
+/// Makes a folder and those that it lies in, unless they are there.
+/// @throws InputError if the system refuses.
+void MakeFolders(const std::filesystem::path& folder);
 
 }  // namespace railcast

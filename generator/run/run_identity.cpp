@@ -1,11 +1,10 @@
-#include "generator/run/run_identity.h"
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "generator/run/run_directory.h"
 
 namespace railcast {
 namespace {
@@ -146,37 +145,6 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is
     line += " (got " + Text(value) + "); choose another --out";
     throw InputError(line);
   }
-}
-
-std::string LabelsJson(const LabelTable& labels) {
-  Json list = Json::array();
-  for (const Label& label : labels.labels()) {
-    list.push_back({{"id", label.id},
-                    {"name", label.name},
-                    {"rgb", label.rgb},
-                    {"whu_railway3d", label.whu_railway3d},
-                    {"osdar23", label.osdar23},
-                    {"semantic_kitti", label.semantic_kitti},
-                    {"semantic_kitti_nearest", label.semantic_kitti_nearest}});
-  }
-  return Json{{"version", 1}, {"labels", list}}.dump(2) + "\n";
-}
-
-std::string MaterialsJson(const MaterialLibrary& materials) {
-  Json list = Json::array();
-  for (const Material& material : materials.materials()) {
-    list.push_back(
-        {{"id", list.size()},
-         {"name", material.name},
-         {"reflectivity", material.reflectivity},
-         {"reflectivity_1550nm", material.reflectivity_1550nm.value_or(material.reflectivity)},
-         {"facet_slope_deg", material.facet_slope_deg},
-         {"specular_f0", material.specular_f0},
-         {"specular_f0_1550nm", material.specular_f0_1550nm.value_or(material.specular_f0)},
-         {"specular_roughness", material.specular_roughness},
-         {"retroreflectance", material.retroreflectance}});
-  }
-  return Json{{"version", 1}, {"materials", list}}.dump(2) + "\n";
 }
 
 }  // namespace railcast

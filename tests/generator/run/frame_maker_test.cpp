@@ -54,10 +54,9 @@ ScenarioSpec TwoSensorScenario() {
   return ReadScenario(folder.path() / "scenario.json");
 }
 
-/// A run together with the simulators that it uses.
 struct OwnedRun {
   explicit OwnedRun(const ScenarioSpec& scenario = TwoSensorScenario(), int num_threads = 2)
-      : simulators(MakeSimulators(scenario, num_threads)), commanded(scenario, Pointers()) {}
+      : commanded(scenario, num_threads) {}
 
   Frame Scan(std::size_t sensor, std::uint32_t index) {
     Frame frame;
@@ -69,15 +68,7 @@ struct OwnedRun {
     return FrameBytes(frame);
   }
 
-  std::vector<std::unique_ptr<Simulator>> simulators;
-  CommandedRun commanded;
-
- private:
-  std::vector<Simulator*> Pointers() {
-    std::vector<Simulator*> pointers;
-    for (const auto& simulator : simulators) pointers.push_back(simulator.get());
-    return pointers;
-  }
+  FrameMaker commanded;
 };
 
 Command Place(const std::string& name, double s_m, double d_m = 0.0) {
@@ -111,7 +102,7 @@ std::size_t PointsOn(const Frame& frame, std::uint32_t instance) {
       std::count(frame.instance.begin(), frame.instance.end(), instance));
 }
 
-TEST(CommandedRun, AFrameDoesNotDependOnThoseMadeBeforeItNorOnTheNumberOfThreads) {
+TEST(FrameMaker, AFrameDoesNotDependOnThoseMadeBeforeItNorOnTheNumberOfThreads) {
   OwnedRun forward(TwoSensorScenario(), 2);
   forward.commanded.Apply(Everything());
   std::map<std::pair<std::size_t, std::uint32_t>, std::string> frames;
@@ -129,7 +120,7 @@ TEST(CommandedRun, AFrameDoesNotDependOnThoseMadeBeforeItNorOnTheNumberOfThreads
   }
 }
 
-TEST(CommandedRun, MakesTheFramesLiveThatALogMakesLater) {
+TEST(FrameMaker, MakesTheFramesLiveThatALogMakesLater) {
   const std::vector<TimedCommand> commands = Everything();
   OwnedRun live;
   std::vector<std::string> frames;
@@ -149,7 +140,7 @@ TEST(CommandedRun, MakesTheFramesLiveThatALogMakesLater) {
   }
 }
 
-TEST(CommandedRun, WithoutCommandsMakesTheScenariosOwnFrames) {
+TEST(FrameMaker, WithoutCommandsMakesTheScenariosOwnFrames) {
   const ScenarioSpec scenario = TwoSensorScenario();
   OwnedRun run(scenario);
   for (const std::size_t sensor : {0U, 1U}) {
@@ -163,7 +154,7 @@ TEST(CommandedRun, WithoutCommandsMakesTheScenariosOwnFrames) {
   }
 }
 
-TEST(CommandedRun, ShowsAPlacedPersonFromItsTimeOnUntilItIsRemoved) {
+TEST(FrameMaker, ShowsAPlacedPersonFromItsTimeOnUntilItIsRemoved) {
   OwnedRun run;
   run.commanded.Apply(Place("bob", 420.0), 2 * kFrame_ns);
   run.commanded.Apply(RemoveObject{"bob"}, 4 * kFrame_ns);
@@ -181,7 +172,7 @@ TEST(CommandedRun, ShowsAPlacedPersonFromItsTimeOnUntilItIsRemoved) {
   EXPECT_EQ(PointsOn(run.Scan(1, 8), kBob), 0U);
 }
 
-TEST(CommandedRun, LetsWhatStoodBehindARemovedObjectBeSeen) {
+TEST(FrameMaker, LetsWhatStoodBehindARemovedObjectBeSeen) {
   OwnedRun run;
   run.commanded.Apply(RemoveObject{"wagon"}, 2 * kFrame_ns);
   EXPECT_GT(PointsOn(run.Scan(0, 1), 1), 100U);
@@ -189,7 +180,7 @@ TEST(CommandedRun, LetsWhatStoodBehindARemovedObjectBeSeen) {
   EXPECT_GT(PointsOn(run.Scan(0, 1), 1), 100U);
 }
 
-TEST(CommandedRun, StopsTheVehicleAfterItsBrakingDistance) {
+TEST(FrameMaker, StopsTheVehicleAfterItsBrakingDistance) {
   OwnedRun run;
   run.commanded.Apply(Stop{}, 10 * kFrame_ns);
   // 10 m before the command, then 10^2 / (2 x 1.3) m of braking.
@@ -200,7 +191,7 @@ TEST(CommandedRun, StopsTheVehicleAfterItsBrakingDistance) {
   EXPECT_NEAR(run.Scan(0, 10).world_from_sensor.translation().x(), 411.0, 1e-9);
 }
 
-TEST(CommandedRun, ChangesTheWeatherOfPoints) {
+TEST(FrameMaker, ChangesTheWeatherOfPoints) {
   OwnedRun run;
   run.commanded.Apply(Rain(2000.0), 2 * kFrame_ns);
   const auto num_absorbed = [&](std::uint32_t index) {
@@ -212,7 +203,7 @@ TEST(CommandedRun, ChangesTheWeatherOfPoints) {
   EXPECT_EQ(num_absorbed(0), 0);
 }
 
-TEST(CommandedRun, StartsAnewWhenItIsReset) {
+TEST(FrameMaker, StartsAnewWhenItIsReset) {
   OwnedRun run;
   const std::string first = run.Bytes(0, 1);
   run.commanded.Apply(Place("bob", 420.0), 0);
@@ -225,7 +216,7 @@ TEST(CommandedRun, StartsAnewWhenItIsReset) {
   EXPECT_EQ(run.commanded.StateAt(0).world->objects().back().instance, 4U);
 }
 
-TEST(CommandedRun, KeepsNothingOfAnObjectThatIsGone) {
+TEST(FrameMaker, KeepsNothingOfAnObjectThatIsGone) {
   OwnedRun run;
   run.commanded.Apply(Place("bob", 420.0), 0);
   static_cast<void>(run.Scan(0, 0));
@@ -238,7 +229,7 @@ TEST(CommandedRun, KeepsNothingOfAnObjectThatIsGone) {
   EXPECT_TRUE(model.expired());
 }
 
-TEST(CommandedRun, RefusesACommandAndChangesNothing) {
+TEST(FrameMaker, RefusesACommandAndChangesNothing) {
   OwnedRun run;
   run.commanded.Apply(Place("bob", 420.0), kFrame_ns);
   const auto refusal = [&](const Command& command) {
@@ -257,7 +248,7 @@ TEST(CommandedRun, RefusesACommandAndChangesNothing) {
             "\"nobody\")");
 }
 
-TEST(CommandedRun, SaysWhenTheVehicleLeavesItsTrack) {
+TEST(FrameMaker, SaysWhenTheVehicleLeavesItsTrack) {
   OwnedRun run;
   run.commanded.Apply(SetSpeed{100.0, 10.0}, 0);
   // 10 t + 5 t^2 = 600 m is reached at 10 s; a scan that begins shortly before ends beyond it.

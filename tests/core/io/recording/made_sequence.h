@@ -7,7 +7,6 @@
 #include "core/io/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "generator/run/make_frames.h"
-#include "generator/run/run_identity.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

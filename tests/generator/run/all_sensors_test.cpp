@@ -1,4 +1,4 @@
-#include "generator/run/merged_clouds.h"
+#include "generator/run/all_sensors.h"
 
 #include <gtest/gtest.h>
 #include <pcl/console/print.h>
@@ -231,11 +231,11 @@ TEST(MergedFrames, HoldWhatBeginsDuringAFrameOfTheFirstSensor) {
   };
   const ScanPattern slow = pattern_of(10.0, 0.0);
   const ScanPattern fast = pattern_of(25.0, 0.01);
-  SensorRun first;
+  SensorPlan first;
   first.spec.start_frame = 1;
   first.spec.num_frames = 2;
   first.spec.stride = 2;
-  SensorRun other;
+  SensorPlan other;
   other.spec.start_frame = 3;
   other.spec.num_frames = 5;
   const std::vector<MergedSensor> sensors = {{first, slow}, {other, fast}};

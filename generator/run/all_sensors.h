@@ -1,27 +1,21 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
+#include "generator/run/frame_maker.h"
 #include "generator/run/run_plan.h"
 #include "railcast/lidar.h"
-#include "railcast/simulator.h"
 
 namespace railcast {
 
 /// A complete sequence of one of the sensors whose clouds are merged.
 struct MergedSensor {
-  const SensorRun& run;
+  const SensorPlan& plan;
   const ScanPattern& pattern;
 };
-
-/// @param simulators Those of the runs; both must outlive the result.
-[[nodiscard]] std::vector<MergedSensor> MergedSensorsOf(
-    const std::vector<std::unique_ptr<Simulator>>& simulators, std::span<const SensorRun> runs);
 
 /// What goes into one merged cloud: a frame of the first sensor, and the frames of the others that
 /// begin during its period.
@@ -37,22 +31,24 @@ struct MergedFrame {
   std::vector<Part> parts;  ///< By sensor, then by frame.
 };
 
-/// Returns one for each frame that the first sensor's run makes.
+/// Returns one for each frame that is made of the first sensor.
 [[nodiscard]] std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors);
 
 /// Checks, before anything is made, that the clouds of the sensors can be merged.
 /// @throws InputError "--merged: must ...".
-void CheckCanMerge(std::span<const MergedSensor> sensors);
+void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan);
 
-/// Writes the merged clouds of complete sequences into the folder `merged` of `directory`, with the
-/// vehicle's poses and merged.jsonl, which is written last. Does nothing if that is there.
-/// @param on_progress Called with the completed share by one thread at a time.
+/// Makes of complete sequences what is about all of them: of several sensors sensors.json, which
+/// says where each is, and before it, if they are to be merged, the folder `merged` with the
+/// clouds, the vehicle's poses and merged.jsonl, which is written last. What is there is not made
+/// again.
+/// @param on_progress Called with the completed share of the clouds by one thread at a time.
 /// @param is_stopped If it returns true, the work ends.
 /// @return False if the work was stopped.
 /// @throws InputError if a file cannot be read or written.
-[[nodiscard]] bool WriteMergedClouds(const std::filesystem::path& directory,
-                                     std::span<const MergedSensor> sensors,
-                                     const std::function<void(double)>& on_progress,
-                                     const std::function<bool()>& is_stopped);
+[[nodiscard]] bool FinishRun(const FrameMaker& maker,
+                             const RunPlan& plan,
+                             const std::function<void(double)>& on_progress,
+                             const std::function<bool()>& is_stopped);
 
 }  // namespace railcast
