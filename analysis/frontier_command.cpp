@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"

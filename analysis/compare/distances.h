@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/compare/cloud.h"
-#include "core/io/nearest_points.h"
+#include "core/io/cloud/nearest_points.h"
 
 namespace railcast {
 

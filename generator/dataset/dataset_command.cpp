@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/base/text.h"
-#include "core/io/dataset_files.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"

@@ -12,11 +12,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/camera_files.h"
+#include "core/io/cloud/kitti.h"
 #include "core/io/content_hash.h"
-#include "core/io/kitti.h"
 #include "core/io/recording/sequence_summary.h"
-#include "core/io/sequence_files.h"
+#include "core/io/run/camera_files.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

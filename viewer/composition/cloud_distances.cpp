@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "core/io/nearest_points.h"
+#include "core/io/cloud/nearest_points.h"
 
 namespace railcast {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/kitti.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/cloud/kitti.h"
+#include "core/io/run/scenario_identity.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "viewer/frames/world_objects.h"

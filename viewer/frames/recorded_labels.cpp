@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/io/kitti.h"
+#include "core/io/cloud/kitti.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

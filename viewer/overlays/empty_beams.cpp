@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/io/scan_motion.h"
+#include "core/io/cloud/scan_motion.h"
 #include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 

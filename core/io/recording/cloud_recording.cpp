@@ -7,11 +7,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
-#include "core/io/kitti_names.h"
+#include "core/io/cloud/kitti_names.h"
+#include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/natural_order.h"
-#include "core/io/recording/point_table.h"
 #include "core/io/recording/sequence_lines.h"
 #include "railcast/io/cloud_files.h"
 

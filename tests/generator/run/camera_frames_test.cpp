@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/io/camera_files.h"
+#include "core/io/run/camera_files.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "core/io/content_hash.h"
-#include "core/io/sequence_files.h"
+#include "core/io/run/sequence_files.h"
 #include "generator/run/run_directory.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

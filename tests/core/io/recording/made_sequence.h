@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "generator/run/make_frames.h"
 #include "railcast/scenario.h"
