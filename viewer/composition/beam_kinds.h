@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "railcast/io/recording.h"
-#include "viewer/color/coloring.h"
+#include "viewer/composition/coloring.h"
 
 namespace railcast {
 

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "viewer/color/coloring.h"
-#include "viewer/color/field_values.h"
 #include "viewer/composition/cloud_distances.h"
+#include "viewer/composition/coloring.h"
 #include "viewer/composition/faint_points.h"
+#include "viewer/frames/field_values.h"
 
 namespace railcast {
 namespace {

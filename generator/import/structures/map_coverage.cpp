@@ -13,8 +13,8 @@
 
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/tunnel_shape.h"
+#include "generator/import/network/tagged_stretches.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/tagged_stretches.h"
 
 namespace railcast {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/rail/structures/structure_track.h"
+#include "generator/import/network/tagged_stretches.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/tagged_stretches.h"
 
 namespace railcast {
 namespace {

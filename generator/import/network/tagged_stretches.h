@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "generator/import/lines/line_world.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/line_world.h"
 
 namespace railcast {
 

@@ -1,4 +1,4 @@
-#include "viewer/color/field_values.h"
+#include "viewer/frames/field_values.h"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "viewer/color/color_map.h"
-#include "viewer/color/field_values.h"
+#include "viewer/frames/field_values.h"
 
 namespace railcast {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "generator/import/lines/line_world.h"
+#include "generator/import/network/line_world.h"
 #include "railcast/alignment.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "viewer/color/coloring.h"
+#include "viewer/composition/coloring.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "generator/import/structures/tagged_stretches.h"
+#include "generator/import/network/tagged_stretches.h"
 
 #include <algorithm>
 #include <cmath>
