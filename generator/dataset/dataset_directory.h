@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run/shard.h"
+#include "core/io/run/dataset_files.h"
 #include "core/scenario/json_text.h"
 #include "generator/run/run_folder.h"
 

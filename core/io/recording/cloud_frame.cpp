@@ -13,7 +13,7 @@
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
-#include "core/io/run/merged_files.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 namespace {

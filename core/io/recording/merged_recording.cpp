@@ -11,7 +11,6 @@
 #include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/run/merged_files.h"
 #include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/lidar.h"

@@ -4,7 +4,6 @@
 
 #include "core/base/text.h"
 #include "core/io/recorded_json.h"
-#include "core/io/run/merged_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/run/known_file.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,16 @@ inline constexpr std::string_view kInputsFolder = "inputs";
 inline constexpr std::string_view kCameraFolder = "camera";
 inline constexpr std::string_view kCalibrationName = "calibration.json";
 
+// The files of the clouds of all sensors of a run together (docs/files.md), in a folder beside
+// those of the sensors.
+
+inline constexpr std::string_view kMergedFolder = "merged";
+/// Names the clouds, what they are made of and their hashes, a line for each. Relative to the
+/// folder.
+inline constexpr std::string_view kMergedFile = "merged.jsonl";
+/// The field that tells from which sensor a point is: its place in sensors.json.
+inline constexpr std::string_view kSensorIndexField = "sensor_index";
+
 /// The files of an image, in folders below that of its camera.
 [[nodiscard]] const std::vector<FrameFileKind>& CameraFileKinds();
 
@@ -49,5 +60,12 @@ inline constexpr std::string_view kCalibrationName = "calibration.json";
 /// follows its name.
 /// @param name Relative to the directory, with slashes: "frames/000012.pcd".
 [[nodiscard]] bool IsSequenceFile(std::string_view name);
+
+/// A file of a sequence directory and the content that it must have.
+struct KnownFile {
+  std::string name;                    ///< Relative to the directory.
+  std::string hash;                    ///< ContentHash of its bytes.
+  std::optional<std::uint64_t> bytes;  ///< Size in bytes; absent where it is not recorded.
+};
 
 }  // namespace railcast

@@ -8,7 +8,7 @@
 #include "core/io/recorded_json.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/merged_files.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

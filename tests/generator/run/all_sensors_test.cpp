@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/run/merged_files.h"
 #include "core/io/run/sensor_folders.h"
+#include "core/io/run/sequence_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "core/io/run/shard.h"
+#include "core/io/run/dataset_files.h"
 
 #include <gtest/gtest.h>
 
