@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/io/image/jpeg_decoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/image/npy_decoder.h"
-#include "core/io/image/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/run/camera_files.h"
 #include "railcast/camera.h"
 

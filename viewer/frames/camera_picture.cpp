@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/image/npy_decoder.h"
-#include "core/io/image/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/scenario.h"
 #include "viewer/color/color_map.h"

@@ -5,7 +5,7 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/image/jpeg_decoder.h"
+#include "core/io/image/jpeg.h"
 
 namespace railcast {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/io/image/png_decoder.h"
+#include "core/io/image/png.h"
 
 namespace railcast {
 

@@ -6,8 +6,7 @@
 #include <numeric>
 
 #include "core/io/image/npy_decoder.h"
-#include "core/io/image/png_decoder.h"
-#include "core/io/image/png_encoder.h"
+#include "core/io/image/png.h"
 #include "core/io/run/camera_files.h"
 #include "tests/core/io/message_of.h"
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/image/jpeg_decoder.h"
-#include "core/io/image/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "tests/core/io/message_of.h"
 
 // jpeglib.h needs the headers above.
