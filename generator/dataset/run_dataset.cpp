@@ -47,14 +47,12 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
 RunChoices ChoicesOfScenario(const Recipe& recipe,
                              const DatasetChoices& choices,
                              std::uint32_t scenario) {
-  return {.directory = choices.directory / SequenceFolderOf(scenario),
-          .format = choices.format,
-          .fields = choices.fields,
-          .isa = choices.isa,
-          .start_frame = recipe.warm_up_frames,
-          .num_frames = recipe.num_frames,
-          .stride = recipe.stride,
-          .is_merged = choices.is_merged};
+  RunChoices made = choices;
+  made.directory /= SequenceFolderOf(scenario);
+  made.start_frame = recipe.warm_up_frames;
+  made.num_frames = recipe.num_frames;
+  made.stride = recipe.stride;
+  return made;
 }
 
 /// Makes the sequences of a shard.

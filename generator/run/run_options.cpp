@@ -1,5 +1,6 @@
 #include "generator/run/run_options.h"
 
+#include "core/program/command_line.h"
 #include "core/trace/trace_program.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"
@@ -12,6 +13,21 @@ void AddIsa(CLI::App& command, std::string& isa) {
                   "Instruction set for ray tracing, on which the last bits of ranges depend; "
                   "default: the machine's best")
       ->check(CLI::IsMember(IsaNames()));
+}
+
+void AddRunChoices(CLI::App& command, RunChoices& choices) {
+  command.add_option("--format", choices.format, "File format of the frames")
+      ->check(CLI::IsMember(FrameFormatNames()))
+      ->capture_default_str();
+  command.add_option("--fields", choices.fields, "Fields to write, separated by commas, or all")
+      ->capture_default_str();
+  command.add_flag("--merged", choices.is_merged,
+                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
+                   "the field sensor_index");
+  command.add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  AddIsa(command, choices.isa);
 }
 
 void CheckFields(const std::string& fields) {

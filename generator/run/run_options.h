@@ -12,6 +12,10 @@ namespace railcast {
 /// Adds the option `--isa`.
 void AddIsa(CLI::App& command, std::string& isa);
 
+/// Adds the options that say how frames are written and made: `--format`, `--fields`, `--merged`,
+/// `--threads` and `--isa`.
+void AddRunChoices(CLI::App& command, RunChoices& choices);
+
 /// Checks a list of fields.
 /// @throws CLI::ValidationError if `fields` is not a valid list: that is a usage error, like an
 ///   unknown format.

@@ -25,6 +25,7 @@ struct RunChoices {
   std::uint32_t num_frames = 10;
   std::uint32_t stride = 1;
   bool is_merged = false;  ///< Whether the clouds of several sensors are merged, too.
+  int num_threads = 0;     ///< 0 = all cores.
 };
 
 /// Everything that the bytes of a sequence directory depend on.

@@ -21,7 +21,6 @@
 #include "generator/run/run_plan.h"
 #include "generator/run/stopping.h"
 #include "generator/sequence/summary.h"
-#include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -35,7 +34,6 @@ struct SequenceOptions {
   std::optional<std::string> sensor;              ///< Which sensor, if there are several.
   std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
   std::optional<std::filesystem::path> summary;   ///< JSON file on the run.
-  int num_threads = 0;                            ///< 0 = all cores.
   bool is_verbose = false;
 };
 
@@ -122,7 +120,7 @@ void CheckSummary(const std::filesystem::path& summary, const std::filesystem::p
 int RunSequenceCommand(const SequenceOptions& options) {
   if (options.summary) CheckSummary(*options.summary, options.made.directory);
   RunPlan plan = PlanOf(options);
-  FrameMaker maker(plan.scenario, options.num_threads, plan.sensors.front().spec.isa);
+  FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
     std::cerr << "made the simulator: " << maker.pattern(i).num_firings() << " firings a frame, "
               << maker.simulator(i).world().objects().size() << " objects, " << plan.commands.size()
@@ -183,27 +181,15 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
                    "Every how many-th of the scenario's frames to make; 1 = all")
       ->transform(Whole({1, kMaxFrame}))
       ->capture_default_str();
-  sequence->add_option("--format", options->made.format, "File format of the frames")
-      ->check(CLI::IsMember(FrameFormatNames()))
-      ->capture_default_str();
-  sequence
-      ->add_option("--fields", options->made.fields, "Fields to write, separated by commas, or all")
-      ->capture_default_str();
+  AddRunChoices(*sequence, options->made);
   sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}));
-  sequence->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
   sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Fidelity>()));
-  AddIsa(*sequence, options->made.isa);
   sequence->add_option(
       "--sensor", options->sensor,
       "Name of the only sensor to simulate; without it, each of several sensors gets a "
       "folder of its name in --out");
-  sequence->add_flag("--merged", options->made.is_merged,
-                     "Also write the clouds of all sensors together, in the vehicle's axes, with "
-                     "the field sensor_index");
   sequence
       ->add_option(
           "--commands", options->commands,
