@@ -225,6 +225,7 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ChoiceProgress& on_progress) {
   Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
+  choice.tolerance = scenario.tolerance;
   choice.has_full_detail =
       simulator.spec().has_full_detail || simulator.spec().detector.effects.dense_footprint;
   const Candidates candidates = FindCandidates(scenario, choice);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {
