@@ -17,7 +17,7 @@
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/effects.h"

@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
 #include "core/base/units.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"

@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -93,8 +93,8 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
       MakeComparisonSpec(scenario.lidar.beam, scenario.lidar.range_max_m,
                          LabelTable(scenario.labels), {})
           .match_distance_m,
-      ChoiceJson(choice, scenario.tolerance),
-      ChoiceText(choice, scenario.tolerance),
+      ChoiceJson(choice),
+      ChoiceText(choice),
       ReportDate(),
       scenario_hash,
       WeatherText(scenario.weather)};

@@ -16,7 +16,7 @@
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"

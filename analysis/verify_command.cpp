@@ -9,7 +9,7 @@
 
 #include "analysis/commands.h"
 #include "core/base/text.h"
-#include "core/io/sensor_folders.h"
+#include "core/io/run/sensor_folders.h"
 #include "core/io/verify/dataset_content.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/merged_verification.h"

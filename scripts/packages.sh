@@ -51,10 +51,19 @@ python_packages=(
   python3-numpy
 )
 
-# Called by scripts/reproduce_paper.sh; scripts/draw_pictures.sh needs them, too.
+# Called by scripts/reproduce_paper.sh; scripts/dev/draw_pictures.sh needs them, too.
 paper_packages=(
   graphviz
   python3
+)
+
+# Called by scripts/make_site.sh.
+site_packages=(
+  doxygen
+  furo
+  python3-breathe
+  python3-myst-parser
+  python3-sphinx
 )
 
 # Called by the tests: independent readers and validators, and a tool that operates the viewer's
@@ -62,6 +71,7 @@ paper_packages=(
 test_packages=(
   "${display_packages[@]}"
   "${python_packages[@]}"
+  "${site_packages[@]}"
   chromium
   poppler-utils
   python3
@@ -74,7 +84,7 @@ test_packages=(
   xdotool
 )
 
-# Called by scripts/check.sh.
+# Called by scripts/dev/check.sh.
 check_packages=(
   clang-14
   clang-format-14
@@ -82,7 +92,7 @@ check_packages=(
   git
 )
 
-# Built into railcast-peers by scripts/compare_peers.sh.
+# Built into railcast-peers by scripts/dev/compare_peers.sh.
 peer_packages=(
   libopen3d-dev
 )

@@ -59,8 +59,8 @@ cp "$runs/demo/camera/camera/color/000020.png" "$images/published_camera.png"
 dot -T svg docs/images/architecture.dot -o "$images/architecture.svg"
 
 echo "Landscape and weather"
-scripts/draw_plants.sh "$out" > "$runs/log.txt"
-scripts/draw_weather.sh "$out" > "$runs/log.txt"
+scripts/dev/draw_plants.sh "$out" > "$runs/log.txt"
+scripts/dev/draw_weather.sh "$out" > "$runs/log.txt"
 
 {
   cat << PAGE

@@ -14,5 +14,5 @@ rm -rf "$results"
 status=0
 # A test of ctest may be a program of many tests.
 GTEST_OUTPUT="xml:$results/" ctest --preset "$preset" --parallel "$(nproc)" "$@" || status=$?
-scripts/summarize_tests.py "$results"
+scripts/dev/summarize_tests.py "$results"
 exit "$status"

@@ -1,6 +1,6 @@
 #include "analysis/compare/ablation.h"
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "railcast/effects.h"
 
 namespace railcast {

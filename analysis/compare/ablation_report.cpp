@@ -5,7 +5,7 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/names.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 
 namespace railcast {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "analysis/compare/cloud.h"
 #include "analysis/estimate/moments.h"
-#include "core/io/nearest_points.h"
+#include "core/io/cloud/nearest_points.h"
 
 namespace railcast {
 

@@ -12,8 +12,8 @@
 #include "analysis/pictures/cloud_picture.h"
 #include "analysis/pictures/picture_grid.h"
 #include "core/base/text.h"
-#include "core/io/camera_files.h"
-#include "core/io/recorded_motion.h"
+#include "core/io/recording/recorded_motion.h"
+#include "core/io/run/camera_files.h"
 
 namespace railcast {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/rail/clearance/structure_gauge.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/structure_gauge.h"
 #include "railcast/alignment.h"
 #include "railcast/scenario.h"
 #include "railcast/transform.h"

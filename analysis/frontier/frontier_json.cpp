@@ -5,7 +5,7 @@
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/pareto.h"
 #include "core/base/text.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 
 namespace railcast {
 namespace {

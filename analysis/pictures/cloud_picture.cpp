@@ -9,7 +9,7 @@
 
 #include "analysis/report/chart_script.h"
 #include "core/base/units.h"
-#include "core/io/recorded_motion.h"
+#include "core/io/recording/recorded_motion.h"
 
 namespace railcast {
 namespace {

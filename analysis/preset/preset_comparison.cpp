@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/detect/beam_optics.h"
+#include "core/detect/base/beam_optics.h"
 
 namespace railcast {
 namespace {

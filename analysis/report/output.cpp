@@ -5,12 +5,12 @@
 #include <string>
 #include <system_error>
 
-#include "analysis/commands.h"
 #include "analysis/report/draw.h"
 #include "analysis/report/formats.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
+#include "core/program/command_line.h"
 
 namespace railcast {
 namespace {

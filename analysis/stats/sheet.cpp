@@ -8,7 +8,7 @@
 #include "analysis/pictures/cloud_picture.h"
 #include "analysis/pictures/picture_grid.h"
 #include "core/base/text.h"
-#include "core/io/camera_files.h"
+#include "core/io/run/camera_files.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

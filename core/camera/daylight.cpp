@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "core/detect/weather_optics.h"
+#include "core/detect/base/weather_optics.h"
 
 namespace railcast {
 namespace {

@@ -19,8 +19,8 @@ using Radiance = Eigen::Vector3f;
 /// uniform on level ground and less on surfaces turned downwards; the colour of the sky from
 /// horizon to zenith; extinction and airlight by fog, rain and snow (Koschmieder: the radiance at
 /// range R is L exp(-alpha R) + L_horizon (1 - exp(-alpha R))).
-/// Assumes: one extinction for all colours, that of core/detect/weather_optics.h; the figures below
-/// are our own choices. Night is not modelled: without sun it is an overcast day.
+/// Assumes: one extinction for all colours, that of core/detect/base/weather_optics.h; the figures
+/// below are our own choices. Night is not modelled: without sun it is an overcast day.
 class Daylight {
  public:
   /// @param window_from_world Rotation of the axes in which directions are given.

@@ -4,13 +4,14 @@
 #include <vector>
 
 #include "core/camera/daylight.h"
-#include "core/detect/thin_conductors.h"
+#include "core/detect/beam/thin_conductors.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
 
-/// The wires in a block of pixels, in closed form (core/detect/wire_in_beam.h). Most are thinner
-/// than a pixel, so that the rays through the centres of pixels meet a wire here and there only.
+/// The wires in a block of pixels, in closed form (core/detect/beam/wire_in_beam.h). Most are
+/// thinner than a pixel, so that the rays through the centres of pixels meet a wire here and there
+/// only.
 ///
 /// A pixel sees a wire as a Gaussian beam does whose standard deviation is half the way to the next
 /// pixel: a straight line of any direction then has the same brightness all along, to

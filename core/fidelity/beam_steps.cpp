@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/detect/beam_optics.h"
+#include "core/detect/base/beam_optics.h"
 
 namespace railcast {
 namespace {

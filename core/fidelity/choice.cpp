@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/fidelity/effect_search.h"
 #include "core/fidelity/frame_comparison.h"
 #include "core/fidelity/sample_frames.h"
@@ -225,6 +225,7 @@ FidelityChoice ChooseFidelity(Simulator& simulator,
                               const ChoiceProgress& on_progress) {
   Check(scenario.fidelity == Fidelity::kAuto, "there is something to choose");
   FidelityChoice choice;
+  choice.tolerance = scenario.tolerance;
   choice.has_full_detail =
       simulator.spec().has_full_detail || simulator.spec().detector.effects.dense_footprint;
   const Candidates candidates = FindCandidates(scenario, choice);

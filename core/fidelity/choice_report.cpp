@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/fidelity/effect_search.h"
 
 namespace railcast {
@@ -131,8 +131,8 @@ std::size_t NumBeyond(const FidelityChoice& choice) {
 
 }  // namespace
 
-std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolerance) {
-  const ToleranceSpec& t = tolerance;
+std::string ChoiceText(const FidelityChoice& choice) {
+  const ToleranceSpec& t = choice.tolerance;
   std::string text = "fidelity auto uses " + List(EffectNames(choice.effects)) + "\n";
   if (choice.effects.footprint) {
     text += "  sub-rays:  " + std::to_string(choice.footprint_rays) + "\n";
@@ -151,13 +151,13 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
           Rounded(choice.full_instructions, 0) + "\n";
   if (!choice.is_within_tolerance) {
     text += "  beyond the tolerance, of which all effects together reach 0.8 or more:\n" +
-            PartsText(choice.deviation, tolerance);
+            PartsText(choice.deviation, t);
   }
   if (!choice.has_echoes) text += "  the reference has no echo to compare with: all are kept\n";
   for (const FidelityChoice::Measured& measured : choice.measured) {
     if (measured.is_kept) {
       text += "  needs " + measured.what + ": without it " + Text(measured.without) + "\n" +
-              PartsText(measured.without, SearchTolerance(tolerance));
+              PartsText(measured.without, SearchTolerance(t));
       continue;
     }
     text += "  without " + measured.what +
@@ -175,7 +175,8 @@ std::string ChoiceText(const FidelityChoice& choice, const ToleranceSpec& tolera
   return text;
 }
 
-std::string ChoiceJson(const FidelityChoice& choice, const ToleranceSpec& t) {
+std::string ChoiceJson(const FidelityChoice& choice) {
+  const ToleranceSpec& t = choice.tolerance;
   Json measured = Json::array();
   for (const FidelityChoice::Measured& effect : choice.measured) {
     measured.push_back({{"what", effect.what},

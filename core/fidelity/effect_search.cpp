@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "core/base/error.h"
-#include "core/detect/beam_optics.h"
+#include "core/detect/base/beam_optics.h"
 
 namespace railcast {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/fidelity/yardstick.h"
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 
 namespace railcast {
 

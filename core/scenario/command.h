@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "railcast/effects.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

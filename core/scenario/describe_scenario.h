@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/scenario/describe_camera.h"
 #include "core/scenario/describe_lidar.h"
 #include "core/scenario/describe_weather.h"

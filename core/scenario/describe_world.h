@@ -7,7 +7,7 @@
 #include "core/scenario/describe_objects.h"
 #include "core/scenario/describe_structures.h"
 #include "core/scenario/json_rules.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -6,10 +6,10 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/text.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_surfaces.h"
 #include "core/rail/objects/rail_vehicles.h"
-#include "core/rail/rail_surfaces.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/scenario.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
-#include "core/rail/line/yard.h"
+#include "core/rail/network/yard.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"

@@ -8,10 +8,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/line/route.h"
 #include "core/rail/line/track_length.h"
-#include "core/rail/train/own_train.h"
-#include "core/rail/train/train_places.h"
+#include "core/rail/network/route.h"
+#include "core/rail/traffic/ego_train.h"
+#include "core/rail/traffic/train_places.h"
 
 namespace railcast {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "core/detect/beam_optics.h"
-#include "core/detect/sub_ray_pattern.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/detect/beam/sub_ray_pattern.h"
 
 namespace railcast {
 namespace {

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/cover.h"
-#include "core/detect/detector.h"
-#include "core/detect/echo_tiles.h"
-#include "core/detect/footprint.h"
-#include "core/detect/hits.h"
-#include "core/detect/mirror_paths.h"
-#include "core/detect/spray.h"
+#include "core/detect/base/echo_tiles.h"
+#include "core/detect/base/hits.h"
+#include "core/detect/beam/footprint.h"
+#include "core/detect/beam/mirror_paths.h"
+#include "core/detect/clutter/cover.h"
+#include "core/detect/detector/detector.h"
+#include "core/detect/effects/spray.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/ray_caster.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/detect_tile.h"
+#include "core/detect/base/detect_tile.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"

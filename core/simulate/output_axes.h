@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/detect/echo_tiles.h"
+#include "core/detect/base/echo_tiles.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/frame.h"
 #include "railcast/transform.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/echo_tiles.h"
+#include "core/detect/base/echo_tiles.h"
 #include "railcast/effects.h"
 #include "railcast/frame.h"
 #include "railcast/ray_caster.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/spray.h"
+#include "core/detect/effects/spray.h"
 #include "railcast/effects.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/detect/wire_set.h"
+#include "core/detect/beam/wire_set.h"
 #include "core/simulate/tree_sway.h"
 #include "core/simulate/wind.h"
 #include "core/trace/trace_scene.h"

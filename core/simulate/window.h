@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/detect/wire_set.h"
+#include "core/detect/beam/wire_set.h"
 #include "core/simulate/scene_store.h"
 #include "core/simulate/swaying.h"
 #include "core/trace/trace_scene.h"

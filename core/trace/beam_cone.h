@@ -1,4 +1,4 @@
-// See core/detect/vector_math.h for why this header has no `#pragma once`.
+// See core/detect/base/vector_math.h for why this header has no `#pragma once`.
 #ifndef RAILCAST_TRACE_BEAM_CONE_H_
 #define RAILCAST_TRACE_BEAM_CONE_H_
 

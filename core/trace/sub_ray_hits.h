@@ -1,4 +1,4 @@
-// See core/detect/vector_math.h for why this header has no `#pragma once`.
+// See core/detect/base/vector_math.h for why this header has no `#pragma once`.
 #ifndef RAILCAST_TRACE_SUB_RAY_HITS_H_
 #define RAILCAST_TRACE_SUB_RAY_HITS_H_
 

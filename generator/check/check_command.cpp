@@ -15,7 +15,7 @@
 #include "generator/check/mesh_report.h"
 #include "generator/check/network_report.h"
 #include "generator/commands.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
@@ -70,7 +70,7 @@ class Report {
   [[nodiscard]] std::string Choice() const {
     if (scenario_.fidelity != Fidelity::kAuto) return "";
     const auto simulator = MakeSimulator(scenario_, 0);
-    return ChoiceText(UseChosenFidelity(*simulator, scenario_), scenario_.tolerance);
+    return ChoiceText(UseChosenFidelity(*simulator, scenario_));
   }
 
  private:

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "core/base/text.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "generator/check/check_report.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"

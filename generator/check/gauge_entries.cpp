@@ -11,15 +11,15 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/rail/chunk_grid.h"
+#include "core/rail/chunk/chunk_grid.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/clearance/structure_gauge.h"
 #include "core/rail/line/line_place.h"
-#include "core/rail/line/network.h"
-#include "core/rail/line/route.h"
-#include "core/rail/structure_gauge.h"
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/route.h"
+#include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_types.h"
-#include "core/rail/track/sweep.h"
-#include "core/rail/train/train_places.h"
+#include "core/rail/traffic/train_places.h"
 #include "generator/check/clipped_polygon.h"
 
 namespace railcast {

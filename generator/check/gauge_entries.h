@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chainage_range.h"
+#include "core/rail/base/chainage_range.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"

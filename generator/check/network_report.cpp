@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/line/network.h"
-#include "core/rail/line/route.h"
-#include "core/rail/line/speed_profile.h"
+#include "core/rail/motion/speed_profile.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/route.h"
 #include "generator/check/check_report.h"
 
 namespace railcast {

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "core/rail/line/speed_profile.h"
+#include "core/rail/motion/speed_profile.h"
 
 namespace railcast {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "core/base/text.h"
-#include "core/io/dataset_files.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
@@ -17,8 +17,7 @@
 #include "generator/dataset/scenario_report.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stop_signal.h"
-#include "railcast/io/cloud_files.h"
+#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {
@@ -144,20 +143,7 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
   dataset->add_flag("--scenarios-only", options->has_scenarios_only,
                     "Write the scenarios without frames, to a new or an empty folder, and report "
                     "their parts, bases, weathers, draws and objects");
-  dataset->add_option("--format", options->choices.format, "File format of the frames")
-      ->check(CLI::IsMember(FrameFormatNames()))
-      ->capture_default_str();
-  dataset
-      ->add_option("--fields", options->choices.fields,
-                   "Fields to write, separated by commas, or all")
-      ->capture_default_str();
-  dataset->add_flag("--merged", options->choices.is_merged,
-                    "Also write the clouds of all sensors together, in the vehicle's axes, with "
-                    "the field sensor_index");
-  dataset->add_option("--threads", options->choices.num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddIsa(*dataset, options->choices.isa);
+  AddRunChoices(*dataset, options->choices);
   dataset->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

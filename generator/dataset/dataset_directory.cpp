@@ -1,15 +1,14 @@
 #include "generator/dataset/dataset_directory.h"
 
 #include <iterator>
-#include <system_error>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/dataset_files.h"
-#include "core/io/line_hash.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/line_hash.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/scenario_lines.h"
 
@@ -72,9 +71,6 @@ Json DatasetJson(const DatasetSpec& spec) {
 
 DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   const fs::path& directory = spec_.directory;
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw FileError(directory, error.value());
   lock_.emplace(directory);
   const fs::path unfinished =
       directory / (std::string(kDatasetFile) + std::string(kUnfinishedSuffix));

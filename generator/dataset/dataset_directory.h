@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/io/shard.h"
+#include "core/io/run/dataset_files.h"
 #include "core/scenario/json_text.h"
-#include "generator/run/folder_lock.h"
-#include "generator/sequence/line_file.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/scenario/json_text.h"
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 namespace railcast {
 

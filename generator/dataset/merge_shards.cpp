@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/io/dataset_files.h"
+#include "core/io/run/dataset_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"

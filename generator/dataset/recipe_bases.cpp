@@ -4,7 +4,7 @@
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 
 namespace railcast {
 

@@ -1,33 +1,26 @@
 #include "generator/dataset/run_dataset.h"
 
 #include <chrono>
-#include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/dataset_files.h"
-#include "core/io/merged_files.h"
-#include "core/io/scenario_identity.h"
-#include "core/io/sensor_folders.h"
-#include "core/io/sequence_files.h"
-#include "core/io/write_file.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sensor_folders.h"
+#include "core/io/run/sequence_files.h"
 #include "core/program/version.h"
 #include "core/trace/trace_program.h"
 #include "generator/dataset/dataset_files.h"
 #include "generator/dataset/recipe_files.h"
-#include "generator/run/commanded_run.h"
-#include "generator/run/stoppable_work.h"
-#include "generator/sequence/make_sequences.h"
-#include "generator/sequence/merged_sequence.h"
-#include "generator/sequence/scenario_sequence.h"
-#include "generator/sequence/sensor_runs.h"
+#include "generator/run/all_sensors.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/make_frames.h"
+#include "generator/run/run_plan.h"
 #include "railcast/rail_world.h"
-#include "railcast/simulator.h"
 
 namespace railcast {
 namespace {
@@ -51,24 +44,15 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
   return spec;
 }
 
-SequenceChoices ChoicesOfScenario(const Recipe& recipe,
-                                  const DatasetChoices& choices,
-                                  std::uint32_t scenario) {
-  return {.directory = choices.directory / SequenceFolderOf(scenario),
-          .format = choices.format,
-          .fields = choices.fields,
-          .isa = choices.isa,
-          .start_frame = recipe.warm_up_frames,
-          .num_frames = recipe.num_frames,
-          .stride = recipe.stride};
-}
-
-using Simulators = std::vector<std::unique_ptr<Simulator>>;
-
-std::vector<Simulator*> PointersTo(const Simulators& simulators) {
-  std::vector<Simulator*> pointers;
-  for (const auto& simulator : simulators) pointers.push_back(simulator.get());
-  return pointers;
+RunChoices ChoicesOfScenario(const Recipe& recipe,
+                             const DatasetChoices& choices,
+                             std::uint32_t scenario) {
+  RunChoices made = choices;
+  made.directory /= SequenceFolderOf(scenario);
+  made.start_frame = recipe.warm_up_frames;
+  made.num_frames = recipe.num_frames;
+  made.stride = recipe.stride;
+  return made;
 }
 
 /// Makes the sequences of a shard.
@@ -116,76 +100,45 @@ class DatasetRun {
   bool MakeNext() {
     const std::uint32_t number = choices_.shard.ScenarioAt(directory_.num_done());
     DrawnScenario drawn = drawer_.Draw(number);
-    CheckOutputSuits(choices_.format, drawn.scenario,
-                     ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    const SequenceChoices choices = ChoicesOfScenario(recipe_, choices_, number);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
-    std::vector<SensorRun> sensors = SensorRunsOf(drawn.scenario, choices);
-    const auto simulators =
-        MakeSimulators(drawn.scenario, choices_.num_threads, sensors.front().spec.isa);
-    CommandedRun run(drawn.scenario, PointersTo(simulators));
-    if (!Prepare(simulators, sensors) || !MakeFrames(run, simulators, sensors)) return false;
-    if (sensors.size() > 1) {
-      std::optional<std::filesystem::path> merged;
-      if (choices_.is_merged) merged = choices.directory / kMergedFolder;
-      const std::string text = SensorsJson(sensors, merged);
-      WriteFileWhole(choices.directory / kSensorsFile, text);
-      drawn.record["sensors_xxh3"] = ContentHash(text);
+    RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
+                           ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
+    FrameMaker maker(plan.scenario, choices_.num_threads, plan.sensors.front().spec.isa);
+    SetFrames(maker, plan);
+    if (plan.is_merged) CheckCanMerge(maker, plan);
+    if (!MakeScenario(maker, plan)) return false;
+    if (plan.is_in_folders()) {
+      drawn.record["sensors_xxh3"] = ContentHash(ReadFileWhole(plan.directory / kSensorsFile));
     }
     drawn.record["sequences"] = Json::array();
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-      drawn.record["sequences"].push_back(RecordOf(run, simulators[i]->pattern(), sensors[i]));
+    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+      drawn.record["sequences"].push_back(RecordOf(maker, maker.pattern(i), plan.sensors[i]));
     }
     directory_.Append(drawn.record);
     return true;
   }
 
-  // Chooses frames and rungs. Returns whether frames can be made; not if the run was stopped.
-  [[nodiscard]] bool Prepare(const Simulators& simulators, std::vector<SensorRun>& sensors) const {
-    for (std::size_t i = 0; i < sensors.size(); ++i) {
-      if (i > 0) {
-        SetFrames(sensors.front().spec, simulators.front()->pattern(), simulators[i]->pattern(),
-                  sensors[i]);
-      }
-      CheckSameFiles(sensors[i].scenario, sensors[i].spec.identity);
-      WatchBuilding(*simulators[i], hooks_.is_stopped, true);
-      if (sensors[i].scenario.fidelity != Fidelity::kAuto) continue;
-      try {
-        static_cast<void>(ChooseFidelity(*simulators[i], sensors[i]));
-      } catch (const RunStopped&) {
-        return false;
-      }
-    }
-    if (choices_.is_merged) CheckCanMerge(MergedSensorsOf(simulators, sensors));
-    return true;
-  }
-
-  // Makes the frames of all sensors and merges them. Returns whether all are there.
-  [[nodiscard]] bool MakeFrames(CommandedRun& run,
-                                const Simulators& simulators,
-                                const std::vector<SensorRun>& sensors) {
+  // Returns whether all of it is there; not if the run was stopped.
+  [[nodiscard]] bool MakeScenario(FrameMaker& maker, RunPlan& plan) {
+    const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
+    if (!ChooseFidelities(maker, ignore, hooks_.is_stopped, plan)) return false;
     const SequenceHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
                                    ShowProgress(static_cast<double>(num_done) / num_frames);
                                  },
                                  hooks_.is_stopped};
     bool is_complete = true;
-    for (const SequenceResult& made : MakeSequences(run, simulators, sensors, false, hooks)) {
+    for (const SequenceResult& made : MakeFrames(maker, plan, hooks)) {
       result_.num_frames += made.num_done - made.num_resumed;
       is_complete = is_complete && made.is_complete;
     }
-    if (!is_complete || !choices_.is_merged) return is_complete;
-    simulators.front()->Execute([&] {
-      is_complete = WriteMergedClouds(
-          sensors.front().spec.directory.parent_path(), MergedSensorsOf(simulators, sensors),
-          [](double) {}, hooks_.is_stopped);
-    });
-    return is_complete;
+    return is_complete && FinishRun(
+                              maker, plan, [](double) {}, hooks_.is_stopped);
   }
 
   // What scenarios.jsonl says of a sequence.
-  [[nodiscard]] Json RecordOf(const CommandedRun& run,
+  [[nodiscard]] Json RecordOf(const FrameMaker& maker,
                               const ScanPattern& pattern,
-                              const SensorRun& sensor) const {
+                              const SensorPlan& sensor) const {
     const SequenceSpec& spec = sensor.spec;
     const std::string text = ReadFileWhole(spec.directory / kManifestFile);
     const Json manifest = Json::parse(text);
@@ -193,7 +146,7 @@ class DatasetRun {
     Json speed_mps = Json::array();
     for (std::uint32_t i = 0; i < spec.num_frames; ++i) {
       const std::int64_t stamp_ns = pattern.StampNs(spec.FrameAt(i));
-      const RailWorld& world = *run.StateAt(stamp_ns).world;
+      const RailWorld& world = *maker.StateAt(stamp_ns).world;
       s_m.push_back(world.VehicleChainage_m(stamp_ns));
       speed_mps.push_back(world.VehicleSpeed_mps(stamp_ns));
     }

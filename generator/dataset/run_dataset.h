@@ -1,26 +1,19 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <optional>
-#include <string>
 
 #include "generator/dataset/dataset_directory.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/scenario_draw.h"
 #include "generator/dataset/split_quota.h"
+#include "generator/run/run_plan.h"
 
 namespace railcast {
 
-/// How a recipe's frames are made.
-struct DatasetChoices {
-  std::filesystem::path directory;
-  std::string format = "pcd";
-  std::string fields = "all";
-  bool is_merged = false;  ///< Whether the clouds of several sensors are merged, too.
-  std::string isa;         ///< Of the trace; empty = the machine's best.
-  int num_threads = 0;     ///< 0 = all cores.
+/// How a recipe's frames are made; which ones the recipe says.
+struct DatasetChoices : RunChoices {
   Shard shard;
 };
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/io/recording/line_reader.h"
-#include "core/io/shard.h"
+#include "core/io/run/dataset_files.h"
 #include "core/scenario/json_text.h"
 
 namespace railcast {

@@ -27,17 +27,17 @@
 #include "generator/import/lines/line_cants.h"
 #include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
-#include "generator/import/lines/line_world.h"
 #include "generator/import/lines/sharp_arcs.h"
-#include "generator/import/lines/standing_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/crop_map.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/clear_gauge.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_coverage.h"
+#include "generator/import/structures/standing_world.h"
 
 namespace railcast {
 namespace {

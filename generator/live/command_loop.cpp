@@ -14,12 +14,12 @@ constexpr int kPatience_ms = 50;
 
 }  // namespace
 
-CommandLoop::CommandLoop(CommandedRun& run,
+CommandLoop::CommandLoop(FrameMaker& maker,
                          CommandChannel& channel,
                          bool lockstep,
                          const std::optional<std::filesystem::path>& log_file,
                          const std::string& scenario_xxh3)
-    : run_(run), channel_(channel), lockstep_(lockstep) {
+    : maker_(maker), channel_(channel), lockstep_(lockstep) {
   if (!log_file) return;
   if (std::filesystem::exists(*log_file)) {
     throw InputError("--commands-log: must not exist yet (got " + ShownPath(*log_file) + ")");
@@ -59,7 +59,7 @@ bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
   const bool is_reset = std::holds_alternative<Reset>(request.command);
   const std::int64_t time_ns = is_reset ? 0 : stamp_ns;
   try {
-    run_.Apply(request.command, time_ns);
+    maker_.Apply(request.command, time_ns);
   } catch (const InputError& error) {
     channel_.Refuse(request, {error.what()});
     return false;
@@ -70,7 +70,7 @@ bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
 }
 
 void CommandLoop::EndFrames(std::int64_t stamp_ns) {
-  run_.ForgetBefore(stamp_ns);
+  maker_.ForgetBefore(stamp_ns);
   if (!step_) return;
   channel_.Acknowledge(*step_, stamp_ns);
   step_.reset();

@@ -8,8 +8,8 @@
 
 #include "generator/live/command_channel.h"
 #include "generator/live/live_run.h"
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/line_file.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 
@@ -22,7 +22,7 @@ class CommandLoop {
   /// @param log_file File for the log that `sequence --commands` replays, if any.
   /// @param scenario_xxh3 Hash of the scenario that the log is for.
   /// @throws InputError if the log already exists or cannot be written.
-  CommandLoop(CommandedRun& run,
+  CommandLoop(FrameMaker& maker,
               CommandChannel& channel,
               bool lockstep,
               const std::optional<std::filesystem::path>& log_file,
@@ -41,7 +41,7 @@ class CommandLoop {
   /// @return Whether the command was a reset.
   [[nodiscard]] bool Handle(const CommandRequest& request, std::int64_t stamp_ns);
 
-  CommandedRun& run_;
+  FrameMaker& maker_;
   CommandChannel& channel_;
   bool lockstep_;
   std::optional<LineFile> log_;

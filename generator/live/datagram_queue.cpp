@@ -25,7 +25,7 @@ DatagramQueue::~DatagramQueue() {
   if (thread_.joinable()) thread_.join();
 }
 
-OutgoingFrame DatagramQueue::Take(std::size_t sensor) {
+OutgoingFrame DatagramQueue::AcquireFrame(std::size_t sensor) {
   std::unique_lock lock(mutex_);
   Lane& lane = lanes_[sensor];
   while (clock_.jumps() && lane.num_frames == kMaxFrames) SendNext(lane, lock);

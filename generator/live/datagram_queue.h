@@ -61,7 +61,7 @@ class DatagramQueue {
   /// Returns an empty frame with memory to reuse; waits while kMaxFrames of the sensor are being
   /// sent.
   /// @throws What `send` threw, if it did.
-  [[nodiscard]] OutgoingFrame Take(std::size_t sensor);
+  [[nodiscard]] OutgoingFrame AcquireFrame(std::size_t sensor);
   void Put(std::size_t sensor, OutgoingFrame frame);
 
   /// With a clock that jumps: sends all datagrams due by then, each at its time. Otherwise does

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {
@@ -126,7 +126,7 @@ class LiveRun {
 
   void MakeFrame(std::size_t sensor, std::int64_t stamp_ns) {
     LiveRecord& record = records_[sensor];
-    OutgoingFrame outgoing = queue_.Take(sensor);
+    OutgoingFrame outgoing = queue_.AcquireFrame(sensor);
     const std::int64_t begin_ns = clock_.NowNs();
     sensors_[sensor].make(next_[sensor]++, outgoing.datagrams);
     const std::int64_t end_ns = clock_.NowNs();

@@ -2,22 +2,12 @@
 
 #include <utility>
 
-#include "generator/run/stop_signal.h"
-#include "generator/run/stoppable_work.h"
-#include "generator/run/track_limits.h"
+#include "core/scenario/track_limits.h"
+#include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
-namespace {
-
-std::vector<Simulator*> Pointers(const std::vector<std::unique_ptr<Simulator>>& simulators) {
-  std::vector<Simulator*> pointers;
-  for (const auto& simulator : simulators) pointers.push_back(simulator.get());
-  return pointers;
-}
-
-}  // namespace
 
 LiveStreams::LiveStreams(const ScenarioSpec& scenario,
                          const std::vector<SensorStreamSpec>& streams,
@@ -25,19 +15,13 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
                          std::uint32_t run,
                          const std::string& isa,
                          std::optional<std::int64_t> ends_ns)
-    : simulators_(MakeSimulators(scenario, num_threads, isa)),
-      commanded_(scenario, Pointers(simulators_)),
-      frames_(streams.size()),
-      run_(run) {
-  for (const auto& simulator : simulators_) {
-    if (!ends_ns) break;
-    CheckStaysOnTracks(commanded_, simulator->pattern(), 0,
-                       LastFrameBefore(simulator->pattern(), *ends_ns));
+    : maker_(scenario, num_threads, isa), frames_(streams.size()), run_(run) {
+  for (std::size_t i = 0; ends_ns && i < maker_.num_sensors(); ++i) {
+    maker_.CheckStaysOnTracks(i, 0, LastFrameBefore(maker_.pattern(i), *ends_ns));
   }
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const ScenarioSpec alone = PickSensor(scenario, streams[i].name);
-    streams_.push_back(
-        std::make_unique<SensorStream>(streams[i], alone, simulators_[i]->pattern(), run));
+    streams_.push_back(std::make_unique<SensorStream>(streams[i], alone, maker_.pattern(i), run));
   }
   const SensorStreamSpec& first = streams.front();
   if (first.to.empty() || ImageReceivers(scenario).empty()) return;
@@ -46,21 +30,23 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
 }
 
 void LiveStreams::ChooseFidelity() {
-  if (commanded_.scenario().fidelity != Fidelity::kAuto) return;
-  for (std::size_t i = 0; i < simulators_.size(); ++i) {
-    const ScenarioSpec alone = PickSensor(commanded_.scenario(), streams_[i]->spec().name);
-    static_cast<void>(UseChosenFidelity(*simulators_[i], alone));
+  if (maker_.scenario().fidelity != Fidelity::kAuto) return;
+  for (std::size_t i = 0; i < maker_.num_sensors(); ++i) {
+    const ScenarioSpec alone = PickSensor(maker_.scenario(), streams_[i]->spec().name);
+    static_cast<void>(UseChosenFidelity(maker_.simulator(i), alone));
   }
 }
 
 void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
   const auto watch = [&](bool has_deadline) {
-    for (const auto& simulator : simulators_) WatchBuilding(*simulator, is_stopped, has_deadline);
+    for (std::size_t i = 0; i < maker_.num_sensors(); ++i) {
+      WatchBuilding(maker_.simulator(i), is_stopped, has_deadline);
+    }
   };
   watch(true);
   try {
     ChooseFidelity();
-    for (std::size_t i = 0; i < frames_.size(); ++i) commanded_.At(i, 0).Scan(0, frames_[i]);
+    for (std::size_t i = 0; i < frames_.size(); ++i) maker_.At(i, 0).Scan(0, frames_[i]);
   } catch (const RunStopped&) {
     // The run has been stopped and ends without a frame.
   }
@@ -70,7 +56,7 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
 }
 
 void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams) {
-  Simulator& simulator = commanded_.At(sensor, frame);
+  Simulator& simulator = maker_.At(sensor, frame);
   simulator.Scan(frame, frames_[sensor]);
   // On the threads that scan.
   simulator.Execute([&] { streams_[sensor]->Encode(frames_[sensor], datagrams); });
@@ -79,7 +65,7 @@ void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& 
 std::vector<LiveSensor> LiveStreams::Sensors() {
   std::vector<LiveSensor> sensors;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
-    const ScanPattern& pattern = simulators_[i]->pattern();
+    const ScanPattern& pattern = maker_.pattern(i);
     SensorStream& stream = *streams_[i];
     sensors.push_back(
         {.name = stream.spec().name,
@@ -92,7 +78,7 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
                      std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
   }
   if (!camera_) return sensors;
-  const ScanPattern& pattern = simulators_.front()->pattern();
+  const ScanPattern& pattern = maker_.pattern(0);
   CameraStream& camera = *camera_;
   sensors.push_back(
       {.name = camera.name(),
@@ -101,7 +87,7 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
        .stamp_ns = [&](std::uint32_t image) { return pattern.StampNs(camera.FrameOf(image)); },
        .make =
            [this](std::uint32_t image, Datagrams& datagrams) {
-             camera_->Make(commanded_.At(0, camera_->FrameOf(image)), image, datagrams);
+             camera_->Make(maker_.At(0, camera_->FrameOf(image)), image, datagrams);
            },
        .send = [&camera](
                    const Datagrams& datagrams,

@@ -10,7 +10,7 @@
 #include "generator/live/camera_stream.h"
 #include "generator/live/live_run.h"
 #include "generator/live/sensor_stream.h"
-#include "generator/run/commanded_run.h"
+#include "generator/run/frame_maker.h"
 #include "railcast/frame.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
@@ -35,7 +35,7 @@ class LiveStreams {
               const std::string& isa,
               std::optional<std::int64_t> ends_ns = std::nullopt);
 
-  [[nodiscard]] CommandedRun& commanded_run() { return commanded_; }
+  [[nodiscard]] FrameMaker& maker() { return maker_; }
 
   /// Does slow work beforehand, so that it makes no frame late: builds the scene of frame 0 and, if
   /// the scenario asks for it, makes fidelity auto's choice. From now on the building of scenes is
@@ -47,7 +47,7 @@ class LiveStreams {
   [[nodiscard]] std::vector<LiveSensor> Sensors();
 
   /// Restarts all sensors with frame 0.
-  /// @pre The commanded run has been reset.
+  /// @pre The maker has been reset.
   void Restart();
 
   /// Completes the capture files.
@@ -62,8 +62,7 @@ class LiveStreams {
   void ChooseFidelity();
   void MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);
 
-  std::vector<std::unique_ptr<Simulator>> simulators_;
-  CommandedRun commanded_;
+  FrameMaker maker_;
   std::vector<std::unique_ptr<SensorStream>> streams_;
   std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
   std::vector<Frame> frames_;

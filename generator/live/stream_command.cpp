@@ -9,7 +9,7 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
@@ -23,7 +23,7 @@
 #include "generator/live/live_summary.h"
 #include "generator/live/stream_options.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stop_signal.h"
+#include "generator/run/stopping.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -303,7 +303,7 @@ int RunStream(const StreamOptions& options) {
   const auto channel = OpenChannel(options);
   std::optional<CommandLoop> commands;
   if (channel) {
-    commands.emplace(streams.commanded_run(), *channel, options.lockstep, options.commands_log,
+    commands.emplace(streams.maker(), *channel, options.lockstep, options.commands_log,
                      IdentityOf(scenario).scenario_hash);
   }
   CatchStopSignals();

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/io/recorded_motion.h"
+#include "core/io/recording/recorded_motion.h"
 #include "generator/python/bindings.h"
 #include "generator/python/interpreter.h"
 #include "railcast/enum_names.h"

@@ -49,6 +49,21 @@ std::optional<std::uint32_t> TimeOfPoints(const ObjectInFrame& object) {
   return object.points_time_ns;
 }
 
+RecordedObject RecordedOf(ObjectInFrame object, const Transform& sensor_from_world) {
+  return {.name = std::move(object.name),
+          .type = std::move(object.type),
+          .label = std::move(object.label),
+          .instance = object.instance,
+          .size_m = object.size_m,
+          .sensor_from_box = sensor_from_world * object.world_from_box,
+          .velocity_world_mps = object.velocity_world_mps,
+          .points = object.points,
+          .points_time_ns = TimeOfPoints(object),
+          .firings_visible = object.view.firings_visible,
+          .firings_alone = object.view.firings_alone,
+          .occlusion = object.view.occlusion()};
+}
+
 }  // namespace
 
 HeldSimulation::HeldSimulation(const ScenarioSpec& scenario,
@@ -56,22 +71,15 @@ HeldSimulation::HeldSimulation(const ScenarioSpec& scenario,
                                std::function<bool()> is_interrupted)
     : made_in_(::getpid()),
       is_interrupted_(std::move(is_interrupted)),
-      labels_(scenario.labels),
-      simulators_(MakeSimulators(scenario, CheckedThreads(num_threads))),
-      surveys_(simulators_.size()) {
-  std::vector<Simulator*> simulators;
-  for (const auto& simulator : simulators_) {
-    simulators.push_back(simulator.get());
-    pools_.push_back(FramePool::Make());
-  }
-  run_.emplace(scenario, std::move(simulators));
+      maker_(scenario, CheckedThreads(num_threads)) {
+  for (std::size_t i = 0; i < maker_.num_sensors(); ++i) pools_.push_back(FramePool::Make());
   WatchForInterruption();
   ChooseEffects();
 }
 
 void HeldSimulation::WatchForInterruption() {
-  for (const auto& simulator : simulators_) {
-    simulator->UseProgress([this](std::size_t, std::size_t) {
+  for (std::size_t i = 0; i < maker_.num_sensors(); ++i) {
+    maker_.simulator(i).UseProgress([this](std::size_t, std::size_t) {
       if (std::this_thread::get_id() == waiting_.load() && is_interrupted_()) {
         was_interrupted_ = true;
       }
@@ -84,8 +92,8 @@ void HeldSimulation::ChooseEffects() {
   if (scenario().fidelity != Fidelity::kAuto) return;
   waiting_ = std::this_thread::get_id();
   const std::vector<std::string> names = SensorNames(scenario());
-  for (std::size_t i = 0; i < simulators_.size(); ++i) {
-    UseChosenFidelity(*simulators_[i], PickSensor(scenario(), names[i]), [this](double) {
+  for (std::size_t i = 0; i < maker_.num_sensors(); ++i) {
+    UseChosenFidelity(maker_.simulator(i), PickSensor(scenario(), names[i]), [this](double) {
       if (is_interrupted_()) throw Interrupted();
     });
   }
@@ -119,7 +127,7 @@ std::size_t HeldSimulation::IndexOf(const Sensor& sensor) const {
 }
 
 std::uint32_t HeldSimulation::FrameOf(std::int64_t frame, std::size_t sensor) const {
-  const std::uint32_t last = simulators_.at(sensor)->pattern().LastFrame();
+  const std::uint32_t last = maker_.pattern(sensor).LastFrame();
   if (frame >= 0 && std::cmp_less_equal(frame, last)) return static_cast<std::uint32_t>(frame);
   throw InputError(
       {{"frame", "must be >= 0 and <= " + std::to_string(last), std::to_string(frame)}});
@@ -149,12 +157,15 @@ void HeldSimulation::Make(std::uint32_t frame,
                           std::size_t sensor,
                           bool has_objects,
                           RecordedFrame& made) {
-  Simulator& simulator = run_->At(sensor, frame);
+  Simulator& simulator = maker_.At(sensor, frame);
   const auto begun = simulator.Begin(frame);
   simulator.Scan(*begun, made.frame);
   made.objects.clear();
   if (has_objects) {
-    made.objects = Describe(sensor, simulator, made.frame, simulator.ViewObjects(*begun));
+    const Transform sensor_from_world = made.frame.world_from_sensor.inverse();
+    for (ObjectInFrame& object : maker_.Describe(sensor, *begun, made.frame)) {
+      made.objects.push_back(RecordedOf(std::move(object), sensor_from_world));
+    }
   }
   if (!made.fields.empty()) return;
   static const auto all_fields = AllFields();
@@ -167,29 +178,6 @@ void HeldSimulation::Make(std::uint32_t frame,
   made.has_pose = true;
 }
 
-std::vector<RecordedObject> HeldSimulation::Describe(std::size_t sensor,
-                                                     const Simulator& simulator,
-                                                     const Frame& frame,
-                                                     const std::vector<ObjectView>& views) {
-  const Transform sensor_from_world = frame.world_from_sensor.inverse();
-  std::vector<RecordedObject> described;
-  for (ObjectInFrame& object : surveys_[sensor].Of(simulator, labels_).Describe(frame, views)) {
-    described.push_back({.name = std::move(object.name),
-                         .type = std::move(object.type),
-                         .label = std::move(object.label),
-                         .instance = object.instance,
-                         .size_m = object.size_m,
-                         .sensor_from_box = sensor_from_world * object.world_from_box,
-                         .velocity_world_mps = object.velocity_world_mps,
-                         .points = object.points,
-                         .points_time_ns = TimeOfPoints(object),
-                         .firings_visible = object.view.firings_visible,
-                         .firings_alone = object.view.firings_alone,
-                         .occlusion = object.view.occlusion()});
-  }
-  return described;
-}
-
 std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
                                              const Sensor& sensor,
                                              const RailReach& reach) {
@@ -198,24 +186,24 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
   CheckLength("ahead_m", reach.ahead_m);
   const std::size_t index = IndexOf(sensor);
   const std::uint32_t number = FrameOf(frame, index);
-  const Simulator& simulator = run_->At(index, number);
+  const Simulator& simulator = maker_.At(index, number);
   const std::int64_t stamp_ns = simulator.pattern().StampNs(number);
-  return RailLinesAbout(*run_->StateAt(stamp_ns).world, scenario().world.alignment, stamp_ns, reach,
-                        simulator.WorldFromSensor(stamp_ns).inverse());
+  return RailLinesAbout(*maker_.StateAt(stamp_ns).world, scenario().world.alignment, stamp_ns,
+                        reach, simulator.WorldFromSensor(stamp_ns).inverse());
 }
 
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
   const std::unique_lock lock = LockHere();
   const Command command = CommandOf(line);
   const std::size_t index = IndexOf(sensor);
-  const std::int64_t time_ns = simulators_[index]->pattern().StampNs(FrameOf(frame, index));
-  const std::int64_t last_ns = run_->states().back().time_ns;
+  const std::int64_t time_ns = maker_.pattern(index).StampNs(FrameOf(frame, index));
+  const std::int64_t last_ns = maker_.states().back().time_ns;
   if (time_ns < last_ns && !std::holds_alternative<Reset>(command)) {
     throw InputError(
         {{"frame", "must not be stamped before the last command, at " + SecondsText(last_ns),
           SecondsText(time_ns)}});
   }
-  run_->Apply(command, time_ns);
+  maker_.Apply(command, time_ns);
 }
 
 }  // namespace railcast

@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <variant>
@@ -16,8 +15,7 @@
 
 #include "generator/python/frame_pool.h"
 #include "generator/python/rail_lines.h"
-#include "generator/run/commanded_run.h"
-#include "generator/sequence/object_survey.h"
+#include "generator/run/frame_maker.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
@@ -66,8 +64,8 @@ class HeldSimulation {
   /// missing: the above throw InputError there, and the destructor would wait for them forever.
   [[nodiscard]] bool IsOfThisProcess() const;
 
-  [[nodiscard]] const ScenarioSpec& scenario() const { return run_->scenario(); }
-  [[nodiscard]] const LabelTable& labels() const { return labels_; }
+  [[nodiscard]] const ScenarioSpec& scenario() const { return maker_.scenario(); }
+  [[nodiscard]] const LabelTable& labels() const { return maker_.labels(); }
 
  private:
   [[nodiscard]] std::unique_lock<std::mutex> LockHere();
@@ -76,20 +74,13 @@ class HeldSimulation {
   void WatchForInterruption();
   void ChooseEffects();
   void Make(std::uint32_t frame, std::size_t sensor, bool has_objects, RecordedFrame& made);
-  [[nodiscard]] std::vector<RecordedObject> Describe(std::size_t sensor,
-                                                     const Simulator& simulator,
-                                                     const Frame& frame,
-                                                     const std::vector<ObjectView>& views);
 
   const pid_t made_in_;
   std::mutex mutex_;
   std::function<bool()> is_interrupted_;
   std::atomic<bool> was_interrupted_ = false;
   std::atomic<std::thread::id> waiting_;
-  LabelTable labels_;
-  std::vector<std::unique_ptr<Simulator>> simulators_;
-  std::optional<CommandedRun> run_;
-  std::vector<CurrentSurvey> surveys_;             // By sensor.
+  FrameMaker maker_;
   std::vector<std::shared_ptr<FramePool>> pools_;  // By sensor.
 };
 

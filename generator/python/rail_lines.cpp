@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/rail/line/network.h"
-#include "core/rail/line/route.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/track/rail_section.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/route.h"
 
 namespace railcast {
 namespace {

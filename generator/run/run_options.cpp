@@ -1,6 +1,6 @@
 #include "generator/run/run_options.h"
 
-#include "core/base/text.h"
+#include "core/program/command_line.h"
 #include "core/trace/trace_program.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"
@@ -15,21 +15,27 @@ void AddIsa(CLI::App& command, std::string& isa) {
       ->check(CLI::IsMember(IsaNames()));
 }
 
+void AddRunChoices(CLI::App& command, RunChoices& choices) {
+  command.add_option("--format", choices.format, "File format of the frames")
+      ->check(CLI::IsMember(FrameFormatNames()))
+      ->capture_default_str();
+  command.add_option("--fields", choices.fields, "Fields to write, separated by commas, or all")
+      ->capture_default_str();
+  command.add_flag("--merged", choices.is_merged,
+                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
+                   "the field sensor_index");
+  command.add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  AddIsa(command, choices.isa);
+}
+
 void CheckFields(const std::string& fields) {
   try {
     static_cast<void>(FieldSelection(fields));
   } catch (const InputError& error) {
     throw CLI::ValidationError(error.what());
   }
-}
-
-void CheckHasStamp(const std::string& option, const ScanPattern& pattern, std::uint32_t frame) {
-  if (frame <= pattern.LastFrame()) return;
-  std::string line = option;
-  line.append(": must lead to no frame after ").append(std::to_string(pattern.LastFrame()));
-  line.append(", since the next begins after 292 years at ").append(NumberText(pattern.rate_hz));
-  line.append(" Hz (got frame ").append(std::to_string(frame)).append(")");
-  throw InputError(line);
 }
 
 }  // namespace railcast

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
 
 namespace railcast {
 

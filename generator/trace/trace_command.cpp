@@ -8,7 +8,7 @@
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 

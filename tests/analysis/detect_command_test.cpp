@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/io/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "core/io/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
 #include "tests/core/io/damage.h"

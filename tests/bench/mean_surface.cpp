@@ -1,7 +1,8 @@
 #include "tests/bench/mean_surface.h"
 
-#include "core/rail/land/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/line/line_place.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/rail/line/network.h"
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
+#include "core/rail/network/network.h"
 #include "railcast/alignment.h"
 #include "railcast/scenario.h"
 

@@ -27,9 +27,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/camera_files.h"
 #include "core/io/net/udp_receiver.h"
 #include "core/io/net/udp_sender.h"
+#include "core/io/run/camera_files.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
 #include "core/program/run_program.h"

@@ -1,6 +1,6 @@
 // Measures what a frame of each of several scenarios costs, beside the raw trace of the same rays,
 // in turns in one process. Prints tab-separated values, a line for each scenario and number of
-// threads. scripts/growth.py draws them.
+// threads. scripts/dev/growth.py draws them.
 //
 //   railcast-scaling SCENARIO... [--turns N] [--threads LIST]
 //

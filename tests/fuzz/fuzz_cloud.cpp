@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
-#include "core/io/recording/point_table.h"
 
 namespace railcast {
 namespace {

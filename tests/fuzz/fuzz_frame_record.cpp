@@ -1,10 +1,10 @@
-#include "generator/sequence/frame_record.h"
+#include "generator/record/frame_record.h"
 
 #include <cstdint>
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/io/line_hash.h"
+#include "core/io/run/line_hash.h"
 
 /// Entry point for libFuzzer: a line of frames.jsonl as a resumed run reads it, without its hash,
 /// which is added.

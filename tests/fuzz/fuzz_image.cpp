@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/io/camera_files.h"
-#include "core/io/jpeg_decoder.h"
-#include "core/io/npy_decoder.h"
-#include "core/io/png_decoder.h"
+#include "core/io/image/jpeg.h"
+#include "core/io/image/npy_decoder.h"
+#include "core/io/image/png.h"
+#include "core/io/run/camera_files.h"
 #include "railcast/camera.h"
 
 namespace railcast {

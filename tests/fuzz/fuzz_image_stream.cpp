@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/jpeg_decoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/stream/image_assembler.h"
 #include "railcast/camera.h"
 #include "tests/fuzz/input_datagrams.h"

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/io/kitti_names.h"
+#include "core/io/cloud/kitti_names.h"
 #include "tests/fuzz/fault_lines.h"
 
 /// Entry point for libFuzzer: a configuration of semantic-kitti-api, of which names and colours are

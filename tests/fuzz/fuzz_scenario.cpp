@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/world/world_draft.h"
 #include "core/scenario/sensors.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"

@@ -11,7 +11,7 @@
 
 #include "core/io/content_hash.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {

@@ -9,8 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/line_file.h"
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
+#include "generator/run/run_folder.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"

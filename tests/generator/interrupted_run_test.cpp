@@ -13,8 +13,8 @@
 
 #include "core/base/error.h"
 #include "core/io/write_file.h"
-#include "generator/run/stoppable_work.h"
-#include "generator/sequence/run_sequence.h"
+#include "generator/run/make_frames.h"
+#include "generator/run/stopping.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"

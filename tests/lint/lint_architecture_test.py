@@ -1,4 +1,4 @@
-"""Each test plants a small tree and reads what scripts/lint_architecture.py says of it."""
+"""Each test plants a small tree and reads what scripts/dev/lint_architecture.py says of it."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import lint_architecture  # noqa: E402 (found through the line above)
 
 
@@ -38,15 +38,43 @@ class IncludeDirection(unittest.TestCase):
 
     def test_a_folder_of_core_may_not_include_one_after_it(self):
         self.assertEqual(faults_of({
-            "core/rail/line.cpp": '\n#include "core/trace/tracer.h"\n',
+            "core/rail/line/course.cpp": '\n#include "core/trace/tracer.h"\n',
             "core/trace/tracer.h": "",
-        }), ["core/rail/line.cpp:2: core/rail comes before core/trace and includes nothing of it "
+        }), ["core/rail/line/course.cpp:2: core/rail comes before core/trace and includes nothing of it "
              "(core/trace/tracer.h)"])
 
     def test_an_unknown_folder_of_core_needs_a_place_in_the_order(self):
         self.assertEqual(faults_of({"core/misc/a.cpp": '#include "core/base/error.h"\n'}), [
             "core/misc/a.cpp:1: misc has no place in the order of core's folders "
             "(core/base/error.h)"])
+
+    def test_a_room_may_include_itself_and_those_before_it(self):
+        self.assertEqual(faults_of({
+            "core/rail/base/chainage_range.h": "",
+            "core/rail/track/ballast.h": "",
+            "core/rail/track/ballast.cpp":
+                '#include "core/rail/base/chainage_range.h"\n#include "core/rail/track/ballast.h"\n',
+        }), [])
+
+    def test_a_room_may_not_include_one_after_it(self):
+        self.assertEqual(faults_of({
+            "core/detect/kernels/fog.h": '\n#include "core/detect/beam/footprint.h"\n',
+            "core/detect/beam/footprint.h": "",
+        }), ["core/detect/kernels/fog.h:2: core/detect/kernels comes before core/detect/beam and includes nothing of "
+             "it (core/detect/beam/footprint.h)"])
+
+    def test_a_public_header_counts_as_part_of_the_room_that_implements_it(self):
+        self.assertEqual(faults_of({
+            "core/include/railcast/rail_world.h": "",
+            "core/rail/track/ballast.h": '#include "railcast/rail_world.h"\n',
+            "core/rail/world/rail_world.cpp": '#include "railcast/rail_world.h"\n',
+        }), ["core/rail/track/ballast.h:1: core/rail/track comes before core/rail/world and includes nothing of it "
+             "(railcast/rail_world.h)"])
+
+    def test_every_file_stands_in_a_room_of_the_order(self):
+        rooms = "core/detect has the rooms base, kernels, clutter, detector, beam, effects"
+        self.assertEqual(faults_of({"core/detect/fog.h": "", "core/detect/misc/fog.h": ""}), [
+            f"core/detect/fog.h:1: {rooms} (.)", f"core/detect/misc/fog.h:1: {rooms} (misc)"])
 
     def test_programs_share_core_and_nothing_else(self):
         self.assertEqual(faults_of({
@@ -90,8 +118,8 @@ class Libraries(unittest.TestCase):
             "CLI/CLI.hpp": "core/program, generator, analysis, viewer and tests include CLI11",
         }.items():
             with self.subTest(include):
-                self.assertEqual(faults_of({"core/rail/a.cpp": f"#include <{include}>\n"}),
-                                 [f"core/rail/a.cpp:1: only {owners} ({include})"])
+                self.assertEqual(faults_of({"core/rail/base/a.cpp": f"#include <{include}>\n"}),
+                                 [f"core/rail/base/a.cpp:1: only {owners} ({include})"])
 
 
 class PublicHeaders(unittest.TestCase):
@@ -143,20 +171,20 @@ class TypeNames(unittest.TestCase):
 
     def test_no_two_types_have_one_name(self):
         self.assertEqual(faults_of({
-            "core/detect/footprint.h": "class Footprint {\n};\n",
-            "core/rail/standing_height.h": "\nstruct Footprint {\n};\n",
+            "core/detect/beam/footprint.h": "class Footprint {\n};\n",
+            "core/rail/structures/standing_height.h": "\nstruct Footprint {\n};\n",
             "viewer/view.h": "using Footprint = int;\n",
-        }), ["core/rail/standing_height.h:2: no two types have one name (Footprint, also "
-             "core/detect/footprint.h:1)",
+        }), ["core/rail/structures/standing_height.h:2: no two types have one name (Footprint, also "
+             "core/detect/beam/footprint.h:1)",
              "viewer/view.h:1: no two types have one name (Footprint, also "
-             "core/detect/footprint.h:1)"])
+             "core/detect/beam/footprint.h:1)"])
 
     def test_declarations_nested_types_and_anonymous_namespaces_are_no_second_one(self):
         self.assertEqual(faults_of({
-            "core/detect/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
-            "core/detect/footprint.cpp": "struct Footprint::Part {\n};\n",
-            "core/detect/detector.h": "class Footprint;\n",
-            "core/rail/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
+            "core/detect/beam/footprint.h": "class Footprint final : public Beam {\n  struct Part {};\n};\n",
+            "core/detect/beam/footprint.cpp": "struct Footprint::Part {\n};\n",
+            "core/detect/detector/detector.h": "class Footprint;\n",
+            "core/rail/world/rail_world.cpp": "namespace {\nstruct Footprint {\n};\n}  // namespace\n",
         }), [])
 
 
@@ -165,17 +193,17 @@ class AnonymousNames(unittest.TestCase):
     def test_sources_of_one_library_have_different_ones(self):
         anonymous = "namespace {\nconstexpr double kStep_m = 0.5;\n\nint Count(int n) {\n}\n}  // namespace\n"
         self.assertEqual(faults_of({
-            "core/rail/a.cpp": anonymous,
+            "core/rail/base/a.cpp": anonymous,
             "core/scan/b.cpp": anonymous,
             "core/io/c.cpp": anonymous,
         }), ["core/scan/b.cpp:4: sources of one library give their own functions and constants "
-             "different names (Count, also core/rail/a.cpp)",
+             "different names (Count, also core/rail/base/a.cpp)",
              "core/scan/b.cpp:2: sources of one library give their own functions and constants "
-             "different names (kStep_m, also core/rail/a.cpp)"])
+             "different names (kStep_m, also core/rail/base/a.cpp)"])
 
     def test_a_name_may_be_overloaded_within_a_source(self):
         self.assertEqual(faults_of({
-            "core/rail/a.cpp": "namespace {\nint Count(int n) {\n}\n\nint Count(bool b) {\n}\n}  // namespace\n",
+            "core/rail/base/a.cpp": "namespace {\nint Count(int n) {\n}\n\nint Count(bool b) {\n}\n}  // namespace\n",
         }), [])
 
 

@@ -1,4 +1,4 @@
-"""Each test plants a small tree of pages and reads what scripts/lint_docs.py says of it."""
+"""Each test plants a small tree of pages and reads what scripts/dev/lint_docs.py says of it."""
 
 import pathlib
 import sys
@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import lint_docs  # noqa: E402 (found through the line above)
 
 

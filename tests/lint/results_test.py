@@ -1,4 +1,4 @@
-"""Each test plants a page and a file of results and reads what scripts/results.py says, or makes, of them."""
+"""Each test plants a page and a file of results and reads what scripts/dev/results.py says, or makes, of them."""
 
 import json
 import pathlib
@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import measure_results  # noqa: E402 (found through the line above)
 import results  # noqa: E402
 

@@ -1,4 +1,4 @@
-"""What scripts/brake_table.py makes of the reports of examples/brake_client.py."""
+"""What scripts/dev/brake_table.py makes of the reports of examples/brake_client.py."""
 
 import pathlib
 import sys
@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import brake_table  # noqa: E402 (found through the line above)
 
 RUNS = """\
@@ -14,7 +14,7 @@ brake_wagon   clear       detected at 297.5 m with 11.11 m/s, braking distance 6
 brake_wagon   thick_fog   detected at 59.3 m with 11.11 m/s, braking distance 62.8 m, gap left -3.3 m
 brake_person  heavy_rain  detected at 73.3 m with 6.94 m/s, braking distance 24.8 m, gap left 48.8 m
 """
-PAGE = "Before.\n\n<!-- figures: scripts/brake_runs.sh -->\n{}\nAfter.\n\nMore.\n"
+PAGE = "Before.\n\n<!-- figures: scripts/dev/brake_runs.sh -->\n{}\nAfter.\n\nMore.\n"
 TABLE = """\
 | | weather | detected at | braking distance | gap left |
 |---|---|---|---|---|

@@ -1,4 +1,4 @@
-"""Each test writes two small reports of `stats` and reads what scripts/plants_by_range.py counts."""
+"""Each test writes two small reports of `stats` and reads what scripts/dev/plants_by_range.py counts."""
 
 import contextlib
 import io
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import plants_by_range  # noqa: E402 (found through the line above)
 
 

@@ -1,4 +1,4 @@
-"""What scripts/summarize_tests.py says of the results of GoogleTest."""
+"""What scripts/dev/summarize_tests.py says of the results of GoogleTest."""
 
 import pathlib
 import sys
@@ -6,7 +6,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import summarize_tests  # noqa: E402 (found through the line above)
 
 RESULTS = """<?xml version="1.0" encoding="UTF-8"?>

@@ -1,4 +1,4 @@
-"""Each test writes small reports of `stats` and reads what scripts/weather_by_range.py makes of them."""
+"""Each test writes small reports of `stats` and reads what scripts/dev/weather_by_range.py makes of them."""
 
 import contextlib
 import io
@@ -9,7 +9,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts/dev"))
 import weather_by_range  # noqa: E402 (found through the line above)
 
 FILES = {

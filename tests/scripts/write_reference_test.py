@@ -1,4 +1,4 @@
-"""Whether docs/reference.md is what scripts/write_reference.py prints, and what it makes of small
+"""Whether docs/reference.md is what scripts/dev/write_reference.py prints, and what it makes of small
 schemas."""
 
 import contextlib
@@ -11,7 +11,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/dev"))
 import write_reference  # noqa: E402 (found through the line above)
 
 
@@ -41,7 +41,7 @@ class Reference(unittest.TestCase):
 
     def test_the_kept_page_is_what_the_schema_gives(self):
         kept = (ROOT / "docs/reference.md").read_text(encoding="utf-8")
-        self.assertEqual(kept, printed(), "run scripts/write_reference.py > docs/reference.md")
+        self.assertEqual(kept, printed(), "run scripts/dev/write_reference.py > docs/reference.md")
 
     def test_a_key_has_its_limits_and_its_default(self):
         self.assertEqual(lines_of({

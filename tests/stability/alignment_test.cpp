@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/rail/chunk/sweep.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/stability/regime.h"
 #include "tests/support/alignment_faults.h"
 

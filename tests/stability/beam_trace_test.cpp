@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "core/detect/beam_optics.h"
-#include "core/detect/kernels.h"
-#include "core/detect/sub_ray_pattern.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/detect/beam/sub_ray_pattern.h"
+#include "core/detect/kernels/kernels.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
 #include "core/trace/beam_tile.h"

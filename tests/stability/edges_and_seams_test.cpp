@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "core/scene/shapes.h"
 #include "tests/stability/regime.h"
 #include "tests/stability/tunnel.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/ray_cast.h"

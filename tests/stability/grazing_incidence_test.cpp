@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_checks.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_models.h"
-#include "core/rail/rail_surfaces.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"

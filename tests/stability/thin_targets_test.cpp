@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/detect/beam_optics.h"
+#include "core/detect/base/beam_optics.h"
 #include "railcast/simulator.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
 #include "railcast/alignment.h"
 #include "railcast/transform.h"
 #include "tests/support/ray_cast.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/detect/detector.h"
+#include "core/detect/detector/detector.h"
 #include "railcast/outcome.h"
 #include "railcast/transform.h"
 

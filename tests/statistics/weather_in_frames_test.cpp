@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/detect/weather_optics.h"
+#include "core/detect/base/weather_optics.h"
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"

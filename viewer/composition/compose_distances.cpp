@@ -8,11 +8,10 @@
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
-
-#include "core/io/nearest_points.h"
-#include "viewer/color/coloring.h"
-#include "viewer/color/field_values.h"
+#include "core/io/cloud/nearest_points.h"
+#include "viewer/composition/coloring.h"
 #include "viewer/composition/faint_points.h"
+#include "viewer/frames/field_values.h"
 
 namespace railcast {
 

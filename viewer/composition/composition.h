@@ -6,7 +6,7 @@
 
 #include "railcast/scene.h"
 #include "railcast/transform.h"
-#include "viewer/color/coloring.h"
+#include "viewer/composition/coloring.h"
 #include "viewer/frames/camera_picture.h"
 #include "viewer/frames/shown_frame.h"
 #include "viewer/overlays/overlays.h"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "viewer/color/coloring.h"
+#include "viewer/composition/coloring.h"
 #include "viewer/draw/look.h"
 
 namespace railcast {

@@ -7,9 +7,9 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/npy_decoder.h"
-#include "core/io/png_decoder.h"
-#include "core/io/sequence_files.h"
+#include "core/io/image/npy_decoder.h"
+#include "core/io/image/png.h"
+#include "core/io/run/sequence_files.h"
 #include "railcast/scenario.h"
 #include "viewer/color/color_map.h"
 

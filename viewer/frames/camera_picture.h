@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/recording/image_list.h"
 #include "railcast/frame.h"
 #include "viewer/color/palette.h"

@@ -5,8 +5,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/kitti.h"
-#include "core/io/scenario_identity.h"
+#include "core/io/cloud/kitti.h"
+#include "core/io/run/scenario_identity.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 

@@ -11,7 +11,7 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/jpeg_decoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/recording/live_frame.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/kitti.h"
+#include "core/io/cloud/kitti.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/io/recorded_motion.h"
+#include "core/io/recording/recorded_motion.h"
 
 namespace railcast {
 namespace {

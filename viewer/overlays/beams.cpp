@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/scan_table.h"
-#include "core/io/scan_motion.h"
 #include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/io/recorded_motion.h"
+#include "core/io/recording/recorded_motion.h"
 #include "viewer/overlays/strokes.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 #include <map>
 #include <memory>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/scene/object_pieces.h"
 #include "core/scene/part_gatherer.h"
 #include "railcast/frame.h"

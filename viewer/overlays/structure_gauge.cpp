@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/structure_gauge.h"
+#include "core/rail/clearance/structure_gauge.h"
 #include "viewer/color/palette.h"
 #include "viewer/overlays/strokes.h"
 #include "viewer/overlays/track_stretch.h"

@@ -10,8 +10,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/line/network.h"
-#include "core/rail/line/route.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/route.h"
 
 namespace railcast {
 

@@ -8,10 +8,9 @@
 #include <utility>
 #include <variant>
 
-#include "core/rail/line/network.h"
-#include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/tunnel_shape.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/clearance/tunnel_shape.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/structures.h"
 #include "viewer/plan/plan.h"
 

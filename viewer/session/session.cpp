@@ -7,10 +7,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "viewer/color/coloring.h"
-#include "viewer/color/field_values.h"
+#include "viewer/composition/coloring.h"
 #include "viewer/composition/compose_distances.h"
 #include "viewer/composition/status_text.h"
+#include "viewer/frames/field_values.h"
 
 namespace railcast {
 namespace {

@@ -89,7 +89,7 @@ inline constexpr auto kEnumNames<NoiseShape> = std::to_array<EnumName<NoiseShape
     {{NoiseShape::kIsotropic, "isotropic"}, {NoiseShape::kBeam, "beam"}});
 
 /// The parameters of the published plausibility model. The formulas stand in the headers of the
-/// effects (core/detect/threshold.h, rain_dropout.h, snow_clutter.h, measurement.h).
+/// effects (core/detect/kernels/threshold.h, rain_dropout.h, snow_clutter.h, measurement.h).
 struct PlausibilitySpec {
   /// Least detectable reflectivity x cos(incidence) x fog transmission at reference_range_m. The
   /// threshold grows with the square of the range.
@@ -126,7 +126,7 @@ struct BeamSpec {
 
 /// What lies on the window in front of the sensor. The window is a sphere about the sensor's
 /// origin; the spots on it are opaque discs that lie at random and may overlap
-/// (core/detect/cover.h).
+/// (core/detect/clutter/cover.h).
 struct CoverSpec {
   double window_radius_mm = 50.0;  ///< Distance of the window from the sensor's origin.
   /// Diameter of the beam at the window, for outgoing and incoming light alike.
@@ -181,7 +181,7 @@ struct ReceiverSpec {
   double pointing_jitter_deg = 0.01;  ///< Standard deviation in each of two directions.
   double clutter_gain = 0.2;  ///< Factor for the mean number of raindrop and snowflake echoes.
   /// Range at which the receiver has a quarter of its gain for the echoes of fog; it falls with the
-  /// fourth power of the range below. Absent: NearRange_m() (core/detect/fog_profile.h).
+  /// fourth power of the range below. Absent: NearRange_m() (core/detect/clutter/fog_profile.h).
   std::optional<double> near_range_m{};
   double fog_gain = 1.0;  ///< Factor for the power of fog's echoes.
   /// How long the receiver is blind after an echo that it has detected: an echo less than

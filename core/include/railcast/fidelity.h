@@ -58,8 +58,9 @@ struct Deviation {
 
 /// The effects that fidelity `auto` selected, and the measurements behind the selection.
 struct FidelityChoice {
-  EffectSet effects;     ///< The selected effects.
-  int footprint_rays{};  ///< The selected BeamSpec::footprint_rays.
+  ToleranceSpec tolerance;  ///< The scenario's, within which it was made.
+  EffectSet effects;        ///< The selected effects.
+  int footprint_rays{};     ///< The selected BeamSpec::footprint_rays.
   /// The scenario's own scene detail, SimulatorSpec::has_full_detail, which is not searched for.
   bool has_full_detail{};
   Deviation deviation;       ///< Deviation of `effects` on the sample frames.

@@ -36,7 +36,7 @@ struct PathPoint {
 };
 
 /// A way across the tracks, from the object's own place (ObjectSpec::s_m, d_m) to one point after
-/// the other (core/rail/path/path_course.h).
+/// the other (core/rail/motion/path_course.h).
 struct PathSpec {
   std::vector<PathPoint> points;
   double speed_mps{};  ///< > 0.
@@ -222,10 +222,10 @@ struct PersonSpec {
   bool operator==(const PersonSpec&) const = default;
 };
 
-/// An object placed in track coordinates or on the map (core/rail/map_placing.h). Unless `follow`
-/// says otherwise, rail vehicles follow gradient and cant, and all other objects stand upright. An
-/// object that moves along its track keeps its lateral distance from it, and its speed is measured
-/// along the chainage.
+/// An object placed in track coordinates or on the map (core/rail/traffic/map_placing.h). Unless
+/// `follow` says otherwise, rail vehicles follow gradient and cant, and all other objects stand
+/// upright. An object that moves along its track keeps its lateral distance from it, and its speed
+/// is measured along the chainage.
 struct ObjectSpec {
   std::string name;  ///< Unique.
   ObjectType type{};

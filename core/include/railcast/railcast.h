@@ -31,3 +31,4 @@
 #include "railcast/structures.h"
 #include "railcast/track_side.h"
 #include "railcast/transform.h"
+#include "railcast/world_spec.h"

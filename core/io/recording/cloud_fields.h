@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/point_table.h"
+#include "core/io/cloud/point_table.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

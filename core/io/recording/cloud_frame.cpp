@@ -10,10 +10,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/merged_files.h"
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/io/recording/point_table.h"
+#include "core/io/cloud/point_table.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 

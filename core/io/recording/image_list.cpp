@@ -5,7 +5,7 @@
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/sequence_files.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 

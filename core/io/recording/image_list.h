@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/recording/known_file.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 

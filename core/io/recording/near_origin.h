@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_fields.h"
-#include "core/io/recording/point_table.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/scan_motion.h"
+#include "core/io/cloud/scan_motion.h"
 
 namespace railcast {
 namespace {

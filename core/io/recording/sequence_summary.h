@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/known_file.h"
+#include "core/io/run/sequence_files.h"
 
 namespace railcast {
 

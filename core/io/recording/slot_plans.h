@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_fields.h"
-#include "core/io/recording/point_table.h"
 
 namespace railcast {
 

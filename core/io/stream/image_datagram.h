@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "core/io/png_encoder.h"
+#include "core/io/image/png.h"
 
 namespace railcast {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/io/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/stream/image_layout.h"
 #include "railcast/io/stream.h"
 

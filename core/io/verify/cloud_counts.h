@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/io/recording/point_table.h"
+#include "core/io/cloud/point_table.h"
 #include "core/io/strict_json.h"
 #include "railcast/io/cloud_files.h"
 

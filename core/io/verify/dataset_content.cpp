@@ -6,11 +6,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/dataset_files.h"
+#include "core/io/recorded_json.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/sensor_folders.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sensor_folders.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

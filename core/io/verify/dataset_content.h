@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/shard.h"
+#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 

@@ -5,10 +5,10 @@
 
 #include "core/base/attempt.h"
 #include "core/base/text.h"
-#include "core/io/merged_files.h"
+#include "core/io/recorded_json.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/io/sensor_folders.h"
+#include "core/io/run/sensor_folders.h"
 #include "core/io/verify/verification.h"
 
 namespace railcast {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rail/base/model_parts.h"
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/catenary/system_height.h"
 #include "core/rail/catenary/wire_span.h"
-#include "core/rail/model_parts.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/track/sweep.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/clearance/system_height.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -134,7 +134,7 @@ SupportRange SupportsAround(const ChunkContext& context, const CatenaryPlan& pla
 
 void AddSupport(const ChunkContext& context,
                 const CatenaryPlan& plan,
-                const InfrastructureModels& models,
+                const std::shared_ptr<const Model>& mast_model,
                 std::size_t number,
                 Chunk& chunk) {
   const WorldSpec& spec = context.spec;
@@ -159,7 +159,7 @@ void AddSupport(const ChunkContext& context,
   here.system_height_m = SystemHeightAt_m(spec, support.s_m);
   for (const MastSite& mast : layout.masts) {
     const bool is_carried = IsCleared(context, support.s_m, mast.d_m(), Clearing::kSupport);
-    add(is_carried ? shared(MakeHangingPost(here, context.surfaces)) : models.mast,
+    add(is_carried ? shared(MakeHangingPost(here, context.surfaces)) : mast_model,
         chunk_from_support({mast.axis_d_m}) *
             Eigen::Translation3d(0.0, mast.from_axis_m - shift_m, 0.0),
         mast.structure);
@@ -221,7 +221,7 @@ std::vector<Wire> WiresInChunk(const ChunkContext& context, const CatenaryPlan& 
 
 void AddCatenary(const ChunkContext& context,
                  const CatenaryPlan& plan,
-                 const InfrastructureModels& models,
+                 const std::shared_ptr<const Model>& mast_model,
                  Chunk& chunk) {
   const SupportRange around = SupportsAround(context, plan);
   for (std::size_t i = around.first; i < around.end; ++i) {

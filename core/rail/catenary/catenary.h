@@ -1,10 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -26,9 +26,10 @@ namespace railcast {
 /// number along the whole line, and the wires as tubes. Tubes have 16 sides (droppers 8). Their
 /// corners lie as far outside the true surface as the middles of their faces lie inside: 0.06 mm
 /// for the contact wire, 0.04 mm for the messenger wire, 0.09 mm for droppers.
+/// @param mast_model MakeMast().
 void AddCatenary(const ChunkContext& context,
                  const CatenaryPlan& plan,
-                 const InfrastructureModels& models,
+                 const std::shared_ptr<const Model>& mast_model,
                  Chunk& chunk);
 
 inline constexpr std::uint32_t kFirstMastInstance = 20'000;

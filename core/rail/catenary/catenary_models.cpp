@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/catenary/own_wires.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/catenary/independent_wires.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

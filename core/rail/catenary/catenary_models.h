@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/rail_surfaces.h"
-#include "railcast/rail_world.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
+#include "core/rail/clearance/system_height.h"
 
 namespace railcast {
 namespace {
@@ -20,7 +20,6 @@ constexpr double kLateralMargin_m = 0.05;
 constexpr double kWorkingHalfWidth_m = 0.55;
 constexpr double kWiresApart_m = 0.2;
 constexpr double kLeastApart_m = 0.1;
-constexpr double kShortestDropper_m = 0.3;
 /// Minimum length of the last span; a shorter remainder of the line has no wire.
 constexpr double kShortestSpan_m = 5.0;
 
@@ -82,8 +81,8 @@ bool StandsInRoad(const WorldSpec& world, double s_m) {
 /// span before it.
 struct PlannedSupport {
   CatenarySupport support;
-  OwnWires::Staggers own;
-  OwnWires::SpanStaggers span_before;
+  IndependentWires::Staggers own;
+  IndependentWires::SpanStaggers span_before;
   bool is_relaxed{};  ///< Whether the span before it does not keep the first of the rules.
 };
 
@@ -131,7 +130,7 @@ class SupportSearch {
       const bool has_own = own_.HangIn(from.support.s_m, std::min(s_m, alignment_.length_m()));
       for (const double stagger_m : has_own ? std::vector{best_m, -best_m} : std::vector{best_m}) {
         if (!StaysWithin(course, num_steps, first_m, stagger_m, limit_m)) continue;
-        auto next = WithOwnWires(from, {.s_m = s_m, .stagger_m = stagger_m}, rules);
+        auto next = WithIndependentWires(from, {.s_m = s_m, .stagger_m = stagger_m}, rules);
         if (!next || !GoesOn(*next, rules, num_spans_ahead)) continue;
         if (!StandsInRoad(world_, s_m)) return next;
         if (!in_road) in_road = std::move(next);
@@ -155,9 +154,9 @@ class SupportSearch {
     return !own_.HangIn(s_m, ahead_s_m) || Next(from, rules, num_spans_ahead - 1).has_value();
   }
 
-  [[nodiscard]] std::optional<PlannedSupport> WithOwnWires(const PlannedSupport& from,
-                                                           const CatenarySupport& to,
-                                                           const WireRules& rules) {
+  [[nodiscard]] std::optional<PlannedSupport> WithIndependentWires(const PlannedSupport& from,
+                                                                   const CatenarySupport& to,
+                                                                   const WireRules& rules) {
     PlannedSupport next{.support = to, .own = {}, .span_before = {}, .is_relaxed = false};
     auto staggers = own_.Place({.first_s_m = from.support.s_m,
                                 .last_s_m = std::min(to.s_m, alignment_.length_m()),
@@ -174,55 +173,25 @@ class SupportSearch {
 
   const WorldSpec& world_;
   const Alignment& alignment_;
-  OwnWires own_;
+  IndependentWires own_;
   // What was computed behind the last support: supports are tried again and again.
-  OwnWires::KnownHangers known_;
+  IndependentWires::KnownHangers known_;
   std::map<double, Course> courses_;
 };
 
-bool HasContactLine(const WorldSpec& spec) {
-  return spec.catenary.enabled &&
-         std::any_of(spec.tracks.begin(), spec.tracks.end(),
-                     [](const TrackSpec& track) { return track.electrified; });
-}
-
 }  // namespace
 
-std::optional<double> StaggerInCurve(const CatenarySpec& spec, double curvature_per_m) {
-  const double rise_m = spec.max_span_m * spec.max_span_m * std::abs(curvature_per_m) / 8.0;
-  if (rise_m <= 0.5 * spec.stagger_m) return std::nullopt;
-  return curvature_per_m > 0.0 ? -spec.stagger_m : spec.stagger_m;
-}
-
-double LeastSystemHeight_m(const WorldSpec& world) {
-  const CatenarySpec& spec = world.catenary;
-  const double sag_m =
-      kWireWeight_n_per_m * spec.max_span_m * spec.max_span_m / (8.0 * kMessengerTension_n);
-  return sag_m - kContactPresag * spec.max_span_m + kShortestDropper_m;
-}
-
-void CheckSystemHeight(const WorldSpec& world) {
-  if (!HasContactLine(world)) return;
-  const CatenarySpec& spec = world.catenary;
-  const double needed_m = LeastSystemHeight_m(world);
-  if (spec.system_height_m >= needed_m) return;
-  throw InputError({{"/catenary/system_height_m",
-                     "must be >= " + NumberText(needed_m) +
-                         ", the messenger's sag over max_span_m and a shortest dropper",
-                     NumberText(spec.system_height_m)}});
-}
-
 CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment)
-    : own_wires_(tracks.courses.size()) {
+    : independent_wires_(tracks.courses.size()) {
   const WorldSpec& spec = tracks.world;
   if (!HasContactLine(spec)) return;
   CheckSystemHeight(spec);
-  const OwnWires own(tracks, alignment);
+  const IndependentWires own(tracks, alignment);
   SupportSearch search(tracks, alignment);
   const double first_m = StaggerInCurve(spec.catenary, alignment.At(0.0).curvature_per_m)
                              .value_or(spec.catenary.stagger_m);
   PlannedSupport last{.support = {.s_m = 0.0, .stagger_m = first_m},
-                      .own = OwnWires::Staggers(tracks.courses.size()),
+                      .own = IndependentWires::Staggers(tracks.courses.size()),
                       .span_before = {},
                       .is_relaxed = false};
   supports_.push_back(last.support);
@@ -234,9 +203,9 @@ CatenaryPlan::CatenaryPlan(const WorldTracks& tracks, const Alignment& alignment
     }
     supports_.push_back(next.support);
     if (next.is_relaxed) ++num_relaxed_spans_;
-    for (std::size_t k = 0; k < own_wires_.size(); ++k) {
+    for (std::size_t k = 0; k < independent_wires_.size(); ++k) {
       if (!next.span_before[k]) continue;
-      OwnWire& wire = own_wires_[k];
+      IndependentWire& wire = independent_wires_[k];
       if (wire.at.empty()) {
         wire.first_support = supports_.size() - 2;
         wire.at.push_back(own.WireAt(k, last.support.s_m, next.span_before[k]->first));
@@ -253,7 +222,7 @@ std::vector<HungWire> CatenaryPlan::WiresAt(const WorldTracks& tracks, std::size
   for (std::size_t k = 0; k < tracks.courses.size(); ++k) {
     const TrackSpec& track = tracks.world.tracks[k];
     const TrackCourse& course = tracks.courses[k];
-    const OwnWire& own = own_wires_[k];
+    const IndependentWire& own = independent_wires_[k];
     if (FollowsAlignment(track, course)) {
       if (!HasWireAt(track, course, at.s_m)) continue;
       wires.push_back({k, course.OffsetWithin_m(at.s_m), at.stagger_m, false});
@@ -262,20 +231,6 @@ std::vector<HungWire> CatenaryPlan::WiresAt(const WorldTracks& tracks, std::size
     }
   }
   return wires;
-}
-
-double PantographShift_m(const CatenarySpec& spec, const AxisPoint& axis) {
-  return -spec.contact_height_m * std::sin(axis.cant_rad);
-}
-
-Transform WorldFromSupport(const Alignment& alignment,
-                           const WorldSpec& spec,
-                           const AxisOffset& axis,
-                           double s_m) {
-  const double height_m = spec.catenary.contact_height_m;
-  const Vector3 contact_m = alignment.WorldFromTrack(s_m, axis.d_m) * Vector3(0.0, 0.0, height_m);
-  return MakeTransform(RotationFromYawPitchRoll(alignment.At(s_m).heading_rad, 0.0, 0.0),
-                       contact_m + (axis.lift_m - height_m) * Vector3::UnitZ());
 }
 
 }  // namespace railcast

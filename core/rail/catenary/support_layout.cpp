@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
 
 namespace railcast {
 namespace {

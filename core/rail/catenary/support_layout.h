@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/rail/catenary/own_wires.h"
+#include "core/rail/catenary/independent_wires.h"
 #include "core/rail/line/track_course.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

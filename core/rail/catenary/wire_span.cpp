@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/catenary/system_height.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/network/world_tracks.h"
 
 namespace railcast {
 namespace {
@@ -89,7 +89,7 @@ std::optional<SpanOfTrack> AnchoredSpan(const ChunkContext& context,
                                         const CatenaryPlan& plan,
                                         std::size_t track,
                                         std::size_t support) {
-  const OwnWire& own = plan.OwnWireOf(track);
+  const IndependentWire& own = plan.IndependentWireOf(track);
   const auto& supports = plan.supports();
   const TrackSpec& spec = context.spec.tracks[track];
   const WireAxis axis(TracksOf(context), track);
@@ -166,7 +166,7 @@ std::vector<SpanOfTrack> SpansBehind(const ChunkContext& context,
                      false});
   }
   for (std::size_t track = 0; track < context.tracks.size(); ++track) {
-    if (plan.OwnWireOf(track).at.empty()) continue;
+    if (plan.IndependentWireOf(track).at.empty()) continue;
     if (auto anchored = AnchoredSpan(context, plan, track, support)) spans.push_back(*anchored);
   }
   return spans;

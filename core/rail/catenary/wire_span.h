@@ -5,7 +5,7 @@
 
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/catenary/wire_axis.h"
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/rail/line/piecewise_linear.h"
@@ -44,5 +48,38 @@ class PlanCourse {
 
   std::vector<Node> nodes_;
 };
+
+/// Two arcs, one behind the other, that lead from one place and direction to another. Either may be
+/// straight.
+struct Biarc {
+  double first_m{};  ///< Length.
+  double first_per_m{};
+  double second_m{};
+  double second_per_m{};
+
+  [[nodiscard]] double length_m() const { return first_m + second_m; }
+  [[nodiscard]] double sharpest_per_m() const {
+    return std::max(std::abs(first_per_m), std::abs(second_per_m));
+  }
+};
+
+/// The two arcs with tangents of equal length. Curvatures of the points are not used.
+/// @return Nothing if the arcs would have to turn by more than 90 degrees each, as they must if the
+///   second place is not ahead of the first.
+[[nodiscard]] std::optional<Biarc> BiarcBetween(const PlanPoint& from, const PlanPoint& to);
+
+/// Nodes on [-1, 1] and weights of 5-point Gauss-Legendre quadrature, exact for polynomials of
+/// degree 9 (Abramowitz and Stegun 1964, table 25.4).
+struct GaussLegendreNode {
+  double position{};
+  double weight{};
+};
+inline constexpr std::array<GaussLegendreNode, 5> kGaussLegendre = {{
+    {-0.90617984593866399280, 0.23692688505618908751},
+    {-0.53846931010568309104, 0.47862867049936646804},
+    {0.0, 0.56888888888888888889},
+    {0.53846931010568309104, 0.47862867049936646804},
+    {0.90617984593866399280, 0.23692688505618908751},
+}};
 
 }  // namespace railcast

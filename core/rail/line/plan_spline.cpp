@@ -9,7 +9,6 @@
 
 #include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/gauss_legendre.h"
 
 namespace railcast {
 namespace {

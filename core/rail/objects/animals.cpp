@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/road_vehicles.h"
 #include "core/rail/objects/wagon_parts.h"

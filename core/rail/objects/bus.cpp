@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/road_vehicle_parts.h"
 #include "core/rail/objects/road_vehicles.h"

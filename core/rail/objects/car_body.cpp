@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/debris.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/wagon_parts.h"

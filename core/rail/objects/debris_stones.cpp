@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/rail/land/plant_dice.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/ground/plant_dice.h"
 #include "core/rail/objects/debris.h"
 #include "core/rail/objects/lofted_body.h"
 

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/rolling_stock.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"

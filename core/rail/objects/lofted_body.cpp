@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 
 namespace railcast {
 namespace {

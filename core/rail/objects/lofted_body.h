@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"
 

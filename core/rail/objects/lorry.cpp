@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/road_vehicle_parts.h"
 #include "core/rail/objects/road_vehicles.h"

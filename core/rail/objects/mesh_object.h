@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/objects.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/car_body.h"
 #include "core/rail/objects/rolling_stock.h"
 #include "core/rail/objects/train_bogie.h"

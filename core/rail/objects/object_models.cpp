@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/animals.h"
 #include "core/rail/objects/debris.h"
 #include "core/rail/objects/leaning.h"

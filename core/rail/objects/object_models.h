@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/person.h"
-#include "core/rail/rail_surfaces.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
-#include "railcast/rail_world.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/objects.h"

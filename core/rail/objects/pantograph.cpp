@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/wagon_parts.h"
 #include "core/scene/shapes.h"
 

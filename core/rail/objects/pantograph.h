@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_shape.h"
 #include "core/scene/shapes.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_pose.h"
 #include "core/rail/objects/road_vehicles.h"

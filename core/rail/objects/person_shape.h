@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/person_body.h"
-#include "core/rail/rail_surfaces.h"
 #include "railcast/objects.h"
 #include "railcast/scene.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/rail/rail_surfaces.h"
-#include "railcast/rail_world.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/scene.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/objects/lofted_body.h"
 #include "core/rail/objects/wagon_parts.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
-#include "core/rail/track/rail_section.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

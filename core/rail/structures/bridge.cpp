@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"

@@ -6,7 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/rail/land/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/building_model.h"
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"

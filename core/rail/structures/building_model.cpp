@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/scene/polygon.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_parts.h"
 #include "core/scene/shapes.h"

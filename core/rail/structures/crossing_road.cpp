@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "core/rail/land/land.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {

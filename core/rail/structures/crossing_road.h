@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "core/rail/structures/structure_track.h"
 #include "railcast/lineside.h"
 

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_parts.h"
 #include "core/scene/shapes.h"

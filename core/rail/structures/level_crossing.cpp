@@ -4,16 +4,16 @@
 #include <numbers>
 
 #include "core/base/units.h"
-#include "core/rail/land/land.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/landform/ground_rise.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
 
 namespace railcast {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rail/line/rail_section.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/lineside_placing.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/rail_section.h"
 
 namespace railcast {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

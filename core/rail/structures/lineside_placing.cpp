@@ -1,7 +1,7 @@
 #include "core/rail/structures/lineside_placing.h"
 
-#include "core/rail/model_parts.h"
-#include "core/rail/standing_height.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/structures/standing_height.h"
 
 namespace railcast {
 

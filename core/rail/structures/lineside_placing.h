@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "core/rail/structures/structure_track.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"

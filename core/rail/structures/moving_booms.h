@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
 #include "railcast/lineside.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"

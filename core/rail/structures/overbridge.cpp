@@ -4,7 +4,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"

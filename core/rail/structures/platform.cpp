@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "core/base/text.h"
-#include "core/rail/line/turnout_place.h"
-#include "core/rail/model_parts.h"
-#include "core/rail/structure_gauge.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/network/turnout_place.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"

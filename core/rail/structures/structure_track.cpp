@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/base/error.h"
-#include "core/rail/world_check.h"
 
 namespace railcast {
 namespace {
@@ -14,55 +12,6 @@ namespace {
 constexpr double kStructureTolerance_m = 1e-3;
 
 }  // namespace
-
-namespace {
-
-/// How far a track is from another, left positive, where it is farthest along a stretch without
-/// being more than `gap_m` away; if it always is, where it is nearest.
-double FarthestWithin_m(const TrackCourse& track,
-                        const TrackCourse& own,
-                        const StretchSpec& stretch,
-                        double gap_m) {
-  const double begin_s_m = std::max(stretch.begin_s_m, track.begin_s_m());
-  const double end_s_m = std::min(stretch.end_s_m, track.end_s_m());
-  const bool is_parallel = track.is_parallel() && own.is_parallel();
-  // A loop runs beside its track for most of its length.
-  constexpr double kMostSteps = 32.0;
-  const int num_steps =
-      is_parallel ? 1 : static_cast<int>(std::ceil(std::min(kMostSteps, end_s_m - begin_s_m)));
-  std::optional<double> within_m;
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= num_steps; ++i) {
-    const double s_m = std::lerp(begin_s_m, end_s_m, 1.0 * i / num_steps);
-    const double d_m = track.OffsetWithin_m(s_m) - own.OffsetWithin_m(s_m);
-    if (std::abs(d_m) < std::abs(nearest_m)) nearest_m = d_m;
-    if (std::abs(d_m) <= gap_m && (!within_m || std::abs(d_m) > std::abs(*within_m))) {
-      within_m = d_m;
-    }
-  }
-  return within_m.value_or(nearest_m);
-}
-
-}  // namespace
-
-TrackSpread SpreadOf(const WorldTracks& tracks, const StretchSpec& stretch, double gap_m) {
-  const TrackCourse* own = tracks.CourseOf(stretch.track);
-  if (own == nullptr) return {};
-  std::vector<double> others_m;
-  for (const TrackCourse& track : tracks.courses) {
-    if (track.begin_s_m() >= stretch.end_s_m || track.end_s_m() <= stretch.begin_s_m) continue;
-    others_m.push_back(FarthestWithin_m(track, *own, stretch, gap_m));
-  }
-  std::ranges::sort(others_m);
-  TrackSpread spread;
-  for (const double d_m : others_m) {
-    if (d_m > spread.left_m && d_m <= spread.left_m + gap_m) spread.left_m = d_m;
-  }
-  for (const double d_m : std::vector<double>(others_m.rbegin(), others_m.rend())) {
-    if (d_m < spread.right_m && d_m >= spread.right_m - gap_m) spread.right_m = d_m;
-  }
-  return spread;
-}
 
 StructureTrack::StructureTrack(const ChunkContext& context, const std::string& track)
     : context_(&context),

@@ -4,36 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/track/sweep.h"
-#include "core/rail/world_tracks.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/structures.h"
 #include "railcast/transform.h"
 
 namespace railcast {
-
-/// Tracks of which one runs this close to the next share a tunnel: nearer than this, one with a
-/// lining of its own, of 5.1 m radius and 0.5 m thick, would have it in the gauge of the other,
-/// which is 1.575 m wide to either side and leans over by 0.18 m at half the lining's height with a
-/// cant of 150 mm.
-inline constexpr double kSharedTunnel_m = 7.4;
-/// As above, a bridge.
-inline constexpr double kSharedBridge_m = 7.0;
-
-/// The axes of the outermost of several tracks, left of the axis of one of them.
-struct TrackSpread {
-  double right_m{};  ///< At most 0.
-  double left_m{};   ///< At least 0.
-
-  [[nodiscard]] double middle_m() const { return 0.5 * (right_m + left_m); }
-  [[nodiscard]] double half_width_m() const { return 0.5 * (left_m - right_m); }
-};
-
-/// The tracks that a structure along a stretch has room for: its own and, one after another, those
-/// that run somewhere along the stretch within `gap_m` of one of them.
-[[nodiscard]] TrackSpread SpreadOf(const WorldTracks& tracks,
-                                   const StretchSpec& stretch,
-                                   double gap_m);
 
 /// The frames of the track along which a structure runs, in the frame of a chunk.
 class StructureTrack {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/world_check.h"
+#include "core/rail/base/world_faults.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/clearance/cleared.h"
 #include "railcast/scene.h"
 #include "railcast/structures.h"
 
@@ -15,9 +15,7 @@ namespace railcast {
 // Every type of structure has three functions of these names, found by its spec:
 //
 // - AddStructure() adds the part that lies in a chunk;
-// - ClearedBy() returns the areas that it clears; it has the tracks of the world as its first
-// argument if they
-//   depend on it;
+// - ClearedBy() (clearance/cleared.h) returns the areas that it clears;
 // - CheckShape() reports what its description (core/scenario/describe_structures.h) cannot check.
 //   Its name, its track and its chainages are checked for all types alike, so most have none.
 
@@ -43,7 +41,6 @@ template <class Structure>
 void CheckShape(const StructurePlace&, const Structure&, WorldFaults&) {}
 
 void AddStructure(const ChunkContext& context, const PlatformSpec& platform, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform);
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults);
 /// How much farther from a track's axis than on the straight a platform's edge must be at a
 /// chainage (CurveWidening_m). The curve is that of the 20 m about the place, so that an edge has
@@ -59,64 +56,41 @@ void CheckShape(const StructurePlace& place, const PlatformSpec& platform, World
                                                   double d_m);
 
 void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall);
 
 void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FenceSpec& fence);
 
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk);
-/// Distance of the wall's back, which is upright, from its track's axis.
-[[nodiscard]] double BackOf_m(const RetainingWallSpec& wall);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall);
 
 void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const CableTroughSpec& trough);
 
 void AddStructure(const ChunkContext& context, const TunnelSpec& tunnel, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
-                                                 const TunnelSpec& tunnel);
 
 void AddStructure(const ChunkContext& context, const BridgeSpec& bridge, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
-                                                 const BridgeSpec& bridge);
 
 void AddStructure(const ChunkContext& context, const OverbridgeSpec& bridge, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const WorldTracks& tracks,
-                                                 const OverbridgeSpec& bridge);
 void CheckShape(const StructurePlace& place, const OverbridgeSpec& bridge, WorldFaults& faults);
 
 void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const ThirdRailSpec& rail);
 
 void AddStructure(const ChunkContext& context, const SlabTrackSpec& slab, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SlabTrackSpec& slab);
 
 void AddStructure(const ChunkContext& context, const SignalSpec& signal, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const SignalSpec& signal);
 
 void AddStructure(const ChunkContext& context, const BoardSpec& board, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BoardSpec& board);
 
 void AddStructure(const ChunkContext& context, const BaliseSpec& balise, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BaliseSpec& balise);
 
 void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const DerailerSpec& derailer);
 
 void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const RelayBoxSpec& box);
 
 void AddStructure(const ChunkContext& context, const FurnitureSpec& furniture, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const FurnitureSpec& furniture);
 
 void AddStructure(const ChunkContext& context, const LevelCrossingSpec& crossing, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const LevelCrossingSpec& crossing);
 
 void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BufferStopSpec& stop);
 
 void AddStructure(const ChunkContext& context, const BuildingSpec& building, Chunk& chunk);
-[[nodiscard]] std::vector<ClearedArea> ClearedBy(const BuildingSpec& building);
 void CheckShape(const StructurePlace& place, const BuildingSpec& building, WorldFaults& faults);
 
 /// How far the part of a structure that AddStructure() adds to a chunk may reach beyond the chunk's

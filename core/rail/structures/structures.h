@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/world_check.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/network/world_tracks.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/land/land.h"
-#include "core/rail/land/landform.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/clearance/tunnel_shape.h"
+#include "core/rail/landform/ground_rise.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
-#include "core/rail/structures/tunnel_shape.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/land/land.h"
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/swept_solid.h"
@@ -18,8 +18,6 @@ constexpr double kWallFoot_m = 1.8;
 constexpr double kPanelThickness_m = 0.12;
 constexpr double kPostWidth_m = 0.16;  ///< HEB 160.
 
-constexpr double kRetainingThickness_m = 0.4;
-constexpr double kRetainingBatter = 0.1;
 constexpr double kCopingHeight_m = 0.2;
 constexpr double kCopingOverhang_m = 0.05;
 
@@ -165,10 +163,6 @@ void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& ch
 std::vector<ClearedArea> ClearedBy(const FenceSpec& fence) {
   const double half_m = 0.5 * kFencePostWidth_m;
   return ClearedAround(BesideTrack(fence, fence.distance_m - half_m, fence.distance_m + half_m));
-}
-
-double BackOf_m(const RetainingWallSpec& wall) {
-  return wall.distance_m + kRetainingBatter * wall.height_m + kRetainingThickness_m;
 }
 
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk) {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/land/noise_field.h"
-#include "core/rail/model_parts.h"
-#include "core/rail/track/coarse_grid.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/base/noise_field.h"
+#include "core/rail/chunk/coarse_grid.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/rail_section.h"
-#include "core/rail/track/sweep.h"
 
 namespace railcast {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "core/base/error.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/track/rail_section.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/line/rail_section.h"
 
 namespace railcast {
 namespace {

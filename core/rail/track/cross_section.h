@@ -6,15 +6,11 @@
 #include <limits>
 #include <vector>
 
-#include "core/rail/chunk_context.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/line/rail_section.h"
 #include "railcast/transform.h"
 
 namespace railcast {
-
-/// The sleepers of every track are placed at integer multiples of this chainage (docs/physics.md
-/// 7.1).
-inline constexpr double kSleeperSpacing_m = 0.6;
-inline constexpr double kSleeperHalfLength_m = 1.3;
 
 /// The chainages of the sleepers in the chunk.
 [[nodiscard]] std::vector<double> SleeperPlaces(const ChunkContext& context);

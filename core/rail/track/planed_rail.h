@@ -3,7 +3,7 @@
 #include <limits>
 #include <span>
 
-#include "core/rail/track/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"
 

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "core/rail/model_parts.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/chunk/sweep.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/long_bearers.h"
 #include "core/rail/track/planed_rail.h"
-#include "core/rail/track/sweep.h"
-#include "core/rail/turnout/long_bearers.h"
-#include "core/rail/turnout/turnout_structure.h"
+#include "core/rail/track/turnout_structure.h"
 
 namespace railcast {
 namespace {
@@ -45,7 +45,7 @@ void AddRail(const ChunkContext& context,
 void AddSleepers(const ChunkContext& context,
                  std::size_t index,
                  const std::vector<LongBearer>& bearers,
-                 const InfrastructureModels& models,
+                 const TrackModels& models,
                  Chunk& chunk) {
   const std::shared_ptr<const Model>& model =
       context.spec.tracks[index].sleeper == SleeperType::kConcrete ? models.concrete_sleeper
@@ -63,7 +63,7 @@ void AddSleepers(const ChunkContext& context,
 
 }  // namespace
 
-void AddTracks(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk) {
+void AddTracks(const ChunkContext& context, const TrackModels& models, Chunk& chunk) {
   const std::vector<LongBearer> bearers = LongBearersIn(context);
   for (std::size_t index = 0; index < context.tracks.size(); ++index) {
     AddSleepers(context, index, bearers, models, chunk);

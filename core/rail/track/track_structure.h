@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -27,6 +27,6 @@ void AddBallast(const ChunkContext& context, Chunk& chunk);
 /// - Sleepers: placements at every integer multiple of 0.6 m of chainage (of the axis, for all
 ///   tracks).
 /// - Ballast: AddBallast.
-void AddTracks(const ChunkContext& context, const InfrastructureModels& models, Chunk& chunk);
+void AddTracks(const ChunkContext& context, const TrackModels& models, Chunk& chunk);
 
 }  // namespace railcast

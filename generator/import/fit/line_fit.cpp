@@ -109,7 +109,7 @@ class ChangeSearch {
   [[nodiscard]] bool HasFlatArc() const {
     return std::ranges::any_of(before_.window.plan.plateaus, IsFlatArc);
   }
-  [[nodiscard]] Change Best();
+  [[nodiscard]] Change BestChange();
   /// The cheapest change with fewer flat arcs that leaves no point farther off than a tolerance, or
   /// than it was before; absent if there is none.
   [[nodiscard]] std::optional<LineDraft::Part> WithFewerFlatArcs(double tolerance_m);
@@ -190,7 +190,7 @@ std::optional<LineDraft::Part> ChangeSearch::WithFewerFlatArcs(double tolerance_
   return best;
 }
 
-Change ChangeSearch::Best() {
+Change ChangeSearch::BestChange() {
   cost_ = before_.window.Fit() + PriceOf(before_.window.plan, price_of_flat_arc_);
   const std::size_t num_plateaus = before_.window.plan.plateaus.size();
   if (!before_.window.has_fixed_curvature[at_]) {
@@ -250,7 +250,7 @@ void Improve(LineDraft& line, double price_of_flat_arc, const TellShare& tell) {
     ChangeSearch about(line, plateau, price_of_flat_arc);
     ++num_searches;
     if (tell) tell(num_searches / std::max(usual_searches, num_searches + 1.0));
-    return price_of_flat_arc == kPrice || about.HasFlatArc() ? about.Best() : Change{};
+    return price_of_flat_arc == kPrice || about.HasFlatArc() ? about.BestChange() : Change{};
   };
   for (std::size_t num_changes = 0; num_changes < most_changes; ++num_changes) {
     std::size_t best = 0;

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/rail/land/cut_and_fill.h"
-#include "core/rail/land/strip_width.h"
+#include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/landform/strip_width.h"
 
 namespace railcast {
 namespace {

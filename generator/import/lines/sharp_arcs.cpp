@@ -6,9 +6,9 @@
 #include <variant>
 
 #include "core/base/text.h"
-#include "core/rail/chainage_range.h"
+#include "core/rail/base/chainage_range.h"
 #include "generator/import/fit/plan_model.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/import/map/geojson_places.h"
+#include "generator/import/map/map_formats.h"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "generator/import/map/overpass_json.h"
+#include "generator/import/map/map_formats.h"
 
 #include <cmath>
 #include <map>

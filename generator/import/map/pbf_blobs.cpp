@@ -1,4 +1,4 @@
-#include "generator/import/map/pbf_blobs.h"
+#include "generator/import/map/map_formats.h"
 
 #include <array>
 #include <cstdint>

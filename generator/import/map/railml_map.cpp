@@ -1,4 +1,4 @@
-#include "generator/import/map/railml_map.h"
+#include "generator/import/map/map_formats.h"
 
 #include <cpl_minixml.h>
 #include <ogr_spatialref.h>

@@ -11,12 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "generator/import/map/geojson_places.h"
-#include "generator/import/map/overpass_json.h"
-#include "generator/import/map/pbf_blobs.h"
-#include "generator/import/map/railml_map.h"
-#include "generator/import/map/vector_map.h"
-#include "generator/import/map/xml_places.h"
+#include "generator/import/map/map_formats.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/import/map/vector_map.h"
+#include "generator/import/map/map_formats.h"
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/import/structures/tagged_stretches.h"
+#include "generator/import/network/tagged_stretches.h"
 
 namespace railcast {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rail/chainage_range.h"
+#include "core/rail/base/chainage_range.h"
 #include "generator/import/lines/line_stretches.h"
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/track_runs.h"

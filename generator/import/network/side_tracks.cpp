@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "core/base/text.h"
-#include "core/rail/chainage_range.h"
+#include "core/rail/base/chainage_range.h"
 #include "core/rail/line/alignment_course.h"
 #include "generator/import/lines/line_gauge.h"
 #include "generator/import/lines/line_places.h"

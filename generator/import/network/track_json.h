@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <variant>
 
-#include "core/rail/land/cut_and_fill.h"
+#include "core/rail/landform/cut_and_fill.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/own_course.h"
-#include "core/rail/world_check.h"
+#include "core/rail/network/independent_course.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/import/fit/plan_model.h"
 
 namespace railcast {
@@ -83,11 +83,11 @@ std::optional<TrackDraft> TrackNetwork::Make(const TrackSpec& spec) const {
   if (spec.end) end = PlaceOf(*spec.end, false);
   WorldFaults faults;
   std::optional<TrackCourse> course;
-  OwnCourse made;
+  IndependentCourse made;
   if (IsParallel(spec)) {
     course = TrackCourse(spec.start_s_m, spec.end_s_m.value_or(length_m_), *spec.offset_m);
   } else {
-    made = MakeOwnCourse({"", spec, begin, end, length_m_}, faults);
+    made = MakeIndependentCourse({"", spec, begin, end, length_m_}, faults);
     course = made.course;
   }
   if (!course || !faults.errors.empty() || !(course->begin_s_m() < course->end_s_m())) {

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/land/strip_width.h"
-#include "core/rail/line/network.h"
+#include "core/rail/landform/strip_width.h"
 #include "core/rail/line/piecewise_linear.h"
-#include "core/rail/line/turnout_place.h"
-#include "core/rail/network_check.h"
+#include "core/rail/network/network.h"
+#include "core/rail/network/network_check.h"
+#include "core/rail/network/turnout_place.h"
 #include "railcast/alignment.h"
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rail/line/biarc.h"
-#include "core/rail/line/branch_course.h"
+#include "core/rail/line/plan_course.h"
+#include "core/rail/network/branch_course.h"
 #include "generator/import/fit/plan_window.h"
 
 namespace railcast {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/chainage_range.h"
-#include "core/rail/line/network.h"
+#include "core/rail/base/chainage_range.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/scenario/describe_structures.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "generator/import/lines/line_world.h"
+#include "generator/import/network/line_world.h"
 #include "railcast/alignment.h"
 
 namespace railcast {

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/world_tracks.h"
+#include "core/rail/network/world_tracks.h"
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/line_world.h"
 #include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 

@@ -11,10 +11,11 @@
 #include <utility>
 #include <variant>
 
+#include "core/rail/clearance/tunnel_shape.h"
+#include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/tunnel_shape.h"
+#include "generator/import/network/tagged_stretches.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/tagged_stretches.h"
 
 namespace railcast {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_world.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
 
 namespace railcast {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "generator/import/lines/line_world.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/line_world.h"
 
 namespace railcast {
 

@@ -8,9 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
+#include "generator/import/network/tagged_stretches.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/tagged_stretches.h"
 #include "generator/import/structures/tunnels.h"
 
 namespace railcast {

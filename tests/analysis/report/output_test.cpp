@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/io/png_decoder.h"
+#include "core/io/image/png.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/report/made_report.h"
 #include "tests/core/scenario/scenario_files.h"

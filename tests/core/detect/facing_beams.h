@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/detect/detector.h"
-#include "core/detect/echo_tiles.h"
+#include "core/detect/base/echo_tiles.h"
+#include "core/detect/detector/detector.h"
 #include "railcast/outcome.h"
 #include "railcast/ray_caster.h"
 #include "railcast/transform.h"

@@ -46,7 +46,7 @@ TEST_P(FidelityAutoOn, StaysWithinTheToleranceOnTheOpenLine) {
     EXPECT_TRUE(held.is_within_tolerance) << "frame " << held.frame;
   }
   EXPECT_EQ(choice.held_back.size(), 3U);
-  if (HasFailure()) ADD_FAILURE() << ChoiceText(choice, scenario.tolerance);
+  if (HasFailure()) ADD_FAILURE() << ChoiceText(choice);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sensors,

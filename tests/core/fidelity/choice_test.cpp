@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/effect_search.h"
 #include "railcast/effects.h"
@@ -98,14 +98,14 @@ TEST(ChooseFidelity, SeesWhatComesLater) {
   EXPECT_TRUE(choice.effects.footprint);
   ASSERT_EQ(choice.measured[0].what, "footprint");
   EXPECT_LT(choice.measured[0].without.missed_share, 0.01) << "the mean does not show it";
-  EXPECT_THAT(ChoiceText(choice, {}), HasSubstr("    pole: "));
+  EXPECT_THAT(ChoiceText(choice), HasSubstr("    pole: "));
 }
 
 // Without wires, because they have twelve echoes here, of which a second missed one decides.
 TEST(ChooseFidelity, SendsFewerSubRaysWhereTheySuffice) {
   const FidelityChoice choice = Choose(ReadLine({.has_wires = false, .trees_per_hectare = "100"}));
-  EXPECT_EQ(choice.footprint_rays, 16) << ChoiceText(choice, {});
-  EXPECT_TRUE(choice.effects.footprint) << ChoiceText(choice, {});
+  EXPECT_EQ(choice.footprint_rays, 16) << ChoiceText(choice);
+  EXPECT_TRUE(choice.effects.footprint) << ChoiceText(choice);
   EXPECT_EQ(choice.full_instructions - choice.instructions, kInstructionsOfMoreSubRays);
 }
 
@@ -119,7 +119,7 @@ TEST(ChooseFidelity, IsTheSameInAllWorlds) {
     const FidelityChoice choice = Choose(ReadLine(line));
     EXPECT_EQ(choice.effects, first.effects) << line.world_seed;
     EXPECT_EQ(choice.footprint_rays, first.footprint_rays) << line.world_seed;
-    if (HasFailure()) ADD_FAILURE() << ChoiceText(first, {}) << ChoiceText(choice, {});
+    if (HasFailure()) ADD_FAILURE() << ChoiceText(first) << ChoiceText(choice);
   }
 }
 
@@ -147,7 +147,7 @@ TEST(ChooseFidelity, LeavesTheUsersSwitchesAlone) {
 TEST(ChooseFidelity, IsTheSameAtAnyNumberOfThreads) {
   const ScenarioSpec scenario = ReadLine({});
   const ToleranceSpec tolerance;
-  EXPECT_EQ(ChoiceJson(Choose(scenario, 1), tolerance), ChoiceJson(Choose(scenario, 2), tolerance));
+  EXPECT_EQ(ChoiceJson(Choose(scenario, 1)), ChoiceJson(Choose(scenario, 2)));
 }
 
 TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
@@ -162,21 +162,19 @@ TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
 TEST(ChooseFidelity, SaysWhichSceneDetailHolds) {
   ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
   const FidelityChoice choice = Choose(scenario);
-  EXPECT_THAT(ChoiceText(choice, {}),
-              HasSubstr("\n  scene detail: auto, as the scenario has it: "));
-  EXPECT_THAT(ChoiceJson(choice, {}), HasSubstr("\"detail\": \"auto\""));
+  EXPECT_THAT(ChoiceText(choice), HasSubstr("\n  scene detail: auto, as the scenario has it: "));
+  EXPECT_THAT(ChoiceJson(choice), HasSubstr("\"detail\": \"auto\""));
   scenario.world.detail = SceneDetail::kFull;
   const FidelityChoice in_full = Choose(scenario);
-  EXPECT_THAT(ChoiceText(in_full, {}),
-              HasSubstr("\n  scene detail: full, as the scenario has it\n"));
-  EXPECT_THAT(ChoiceJson(in_full, {}), HasSubstr("\"detail\": \"full\""));
+  EXPECT_THAT(ChoiceText(in_full), HasSubstr("\n  scene detail: full, as the scenario has it\n"));
+  EXPECT_THAT(ChoiceJson(in_full), HasSubstr("\"detail\": \"full\""));
 }
 
 TEST(ChooseFidelity, HoldsNoFrameBackBeyondTheEndOfTheTrack) {
   const FidelityChoice choice = Choose(ReadLine({.mount = kSideways, .start_s_m = "460"}));
   EXPECT_THAT(choice.sample_frames, ElementsAre(0));
   EXPECT_THAT(choice.held_back, IsEmpty());
-  EXPECT_THAT(ChoiceText(choice, {}), HasSubstr("held back: not measured, the run has one frame"));
+  EXPECT_THAT(ChoiceText(choice), HasSubstr("held back: not measured, the run has one frame"));
 }
 
 TEST(ChooseFidelity, KeepsAllWhereNothingIsSeen) {
@@ -184,7 +182,7 @@ TEST(ChooseFidelity, KeepsAllWhereNothingIsSeen) {
       Choose(ReadLine({.has_wires = false, .mount = R"({"pitch_deg": -80})"}));
   EXPECT_FALSE(choice.has_echoes);
   EXPECT_TRUE(choice.effects.footprint);
-  EXPECT_THAT(ChoiceText(choice, {}), HasSubstr("no echo to compare with: all are kept\n"));
+  EXPECT_THAT(ChoiceText(choice), HasSubstr("no echo to compare with: all are kept\n"));
 }
 
 TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "railcast/effects.h"
 
 namespace railcast {

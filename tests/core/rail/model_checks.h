@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/rail/rail_surfaces.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -3,7 +3,9 @@
 #include <utility>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/land/land.h"
+#include "core/rail/catenary/catenary_models.h"
+#include "core/rail/ground/terrain.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"
@@ -26,7 +28,8 @@ TestLine::TestLine(WorldSpec spec, std::uint64_t seed)
       surfaces_(TestSurfaces()),
       seed_(seed),
       plan_({spec_, network_.courses}, alignment_),
-      models_(MakeInfrastructureModels(spec_, surfaces_)),
+      models_(MakeTrackModels(spec_.alignment, surfaces_)),
+      mast_model_(std::make_shared<const Model>(MakeMast(spec_.catenary, surfaces_))),
       land_(spec_.terrain,
             StripWidth(alignment_, spec_.terrain.half_width_m),
             ElevationOf(spec_.terrain),
@@ -57,7 +60,7 @@ Chunk TestLine::Build(int chunk, bool is_coarse) const {
   ChunkContext context = Context(chunk);
   context.is_coarse = is_coarse;
   AddTracks(context, models_, built);
-  AddCatenary(context, plan_, models_, built);
+  AddCatenary(context, plan_, mast_model_, built);
   AddTerrain(context, built);
   AddStructures(context, built);
   return built;

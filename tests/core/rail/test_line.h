@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/chunk_context.h"
-#include "core/rail/infrastructure_models.h"
-#include "core/rail/land/landform.h"
-#include "core/rail/line/network.h"
-#include "core/rail/rail_surfaces.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/chunk/chunk_context.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/landform/landform.h"
+#include "core/rail/network/network.h"
+#include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -26,7 +27,8 @@ class TestLine {
   [[nodiscard]] const Network& network() const { return network_; }
   [[nodiscard]] const RailSurfaces& surfaces() const { return surfaces_; }
   [[nodiscard]] const CatenaryPlan& plan() const { return plan_; }
-  [[nodiscard]] const InfrastructureModels& models() const { return models_; }
+  [[nodiscard]] const TrackModels& models() const { return models_; }
+  [[nodiscard]] const std::shared_ptr<const Model>& mast_model() const { return mast_model_; }
 
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
@@ -42,7 +44,8 @@ class TestLine {
   RailSurfaces surfaces_;
   std::uint64_t seed_;
   CatenaryPlan plan_;
-  InfrastructureModels models_;
+  TrackModels models_;
+  std::shared_ptr<const Model> mast_model_;
   Landform land_;
 };
 
@@ -52,7 +55,7 @@ class TestLine {
 /// A circular arc with one track and full cant over its whole length.
 [[nodiscard]] WorldSpec CantedArc(double length_m, double radius_m);
 
-/// Whether the structures of the world clear something at (s, d) (core/rail/structures/cleared.h).
+/// Whether the structures of the world clear something at (s, d) (core/rail/clearance/cleared.h).
 [[nodiscard]] bool IsCleared(const WorldSpec& spec, double s_m, double d_m, Clearing what);
 
 /// The chunk's mesh with that surface; empty if it has none.

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "core/base/error.h"
-#include "core/detect/effect_table.h"
+#include "core/detect/detector/effect_table.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/units.h"
-#include "core/detect/wind_velocity.h"
+#include "core/detect/base/wind_velocity.h"
 #include "core/scene/shapes.h"
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/tree_sway.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/line/network.h"
+#include "core/rail/network/network_draft.h"
 #include "generator/check/check_report.h"
 #include "railcast/scenario.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_world.h"
-#include "generator/import/lines/standing_world.h"
+#include "generator/import/network/line_world.h"
+#include "generator/import/structures/standing_world.h"
 
 namespace railcast {
 namespace {

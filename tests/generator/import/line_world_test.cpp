@@ -1,4 +1,4 @@
-#include "generator/import/lines/line_world.h"
+#include "generator/import/network/line_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_world.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_coverage.h"

@@ -1,4 +1,4 @@
-#include "generator/import/map/railml_map.h"
+#include "generator/import/map/map_formats.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

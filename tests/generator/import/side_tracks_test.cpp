@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/line/turnout_geometry.h"
-#include "generator/import/lines/standing_world.h"
+#include "core/rail/network/turnout_geometry.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/moved_run.h"
 #include "generator/import/network/track_json.h"
 #include "generator/import/structures/map_coverage.h"
+#include "generator/import/structures/standing_world.h"
 
 namespace railcast {
 namespace {

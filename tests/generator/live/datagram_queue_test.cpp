@@ -39,7 +39,7 @@ std::vector<Departure> DeparturesOf(std::size_t num, std::int64_t interval_ns, b
                         departures.push_back({clock.NowNs(), items.size(), items.front().due_ns,
                                               items.back().due_ns});
                       }});
-  OutgoingFrame frame = queue.Take(0);
+  OutgoingFrame frame = queue.AcquireFrame(0);
   for (std::size_t i = 1; i <= num; ++i) {
     frame.datagrams.items.push_back(
         {.offset = 0, .size = 1, .due_ns = static_cast<std::int64_t>(i) * interval_ns});

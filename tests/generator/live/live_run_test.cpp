@@ -12,7 +12,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "generator/run/stoppable_work.h"
+#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {

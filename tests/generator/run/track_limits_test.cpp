@@ -1,4 +1,4 @@
-#include "generator/run/track_limits.h"
+#include "core/scenario/track_limits.h"
 
 #include <gtest/gtest.h>
 

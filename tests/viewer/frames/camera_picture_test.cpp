@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/io/camera_files.h"
+#include "core/io/run/camera_files.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"

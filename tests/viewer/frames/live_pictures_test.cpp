@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/io/jpeg_decoder.h"
-#include "core/io/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/stream/image_layout.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/image_example.h"

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/io/kitti.h"
+#include "core/io/cloud/kitti.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/io/scan_motion.h"
+#include "core/io/cloud/scan_motion.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/core/io/stream/stream_example.h"
 

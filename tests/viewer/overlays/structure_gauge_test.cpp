@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/structure_gauge.h"
+#include "core/rail/clearance/structure_gauge.h"
 #include "tests/viewer/overlays/made_line.h"
 
 namespace railcast {

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/scenario/command_log.h"
 #include "railcast/scenario.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/line/network.h"
+#include "core/rail/network/network.h"
 #include "railcast/error.h"
 #include "tests/viewer/overlays/made_line.h"
 #include "tests/viewer/plan/planned_yard.h"

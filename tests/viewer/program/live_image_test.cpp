@@ -4,8 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/io/jpeg_decoder.h"
-#include "core/io/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "tests/core/io/stream/image_example.h"
 #include "tests/core/io/stream/listening_program.h"
 #include "tests/viewer/program/endless_sender.h"

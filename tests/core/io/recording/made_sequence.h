@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/io/scenario_identity.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
-#include "generator/sequence/run_sequence.h"
-#include "generator/sequence/sequence_spec.h"
+#include "generator/run/make_frames.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

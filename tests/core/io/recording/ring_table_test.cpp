@@ -10,7 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
-#include "core/io/recording/point_table.h"
+#include "core/io/cloud/point_table.h"
 #include "railcast/transform.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/io/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/stream/image_layout.h"
 #include "tests/core/io/stream/image_example.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/io/jpeg_encoder.h"
+#include "core/io/image/jpeg.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/image_example.h"
 #include "tests/core/io/stream/live_stream.h"

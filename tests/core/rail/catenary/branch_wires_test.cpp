@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/line/network.h"
-#include "core/rail/line/yard.h"
-#include "core/rail/world_draft.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/network/network_draft.h"
+#include "core/rail/network/yard.h"
+#include "core/rail/world/world_draft.h"
 #include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"
 
@@ -228,7 +229,7 @@ std::vector<Part1d> PartsOfSupports(const TestLine& line) {
   std::vector<Part1d> parts;
   for (int index = 0; index < kNumChunks; ++index) {
     Chunk chunk;
-    AddCatenary(line.Context(index), line.plan(), line.models(), chunk);
+    AddCatenary(line.Context(index), line.plan(), line.mast_model(), chunk);
     for (const Placement& placement : chunk.placements) {
       const Eigen::Affine3d world_from_model =
           Eigen::Affine3d(line.WorldFromChunk(index)) * placement.chunk_from_model;

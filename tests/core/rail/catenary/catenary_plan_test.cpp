@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/rail/line/network.h"
+#include "core/rail/network/network_draft.h"
 #include "tests/core/rail/line/alignment_files.h"
 #include "tests/core/rail/test_line.h"
 

@@ -172,9 +172,9 @@ TEST(AddCatenary, NumbersMastsAlongTheWholeLine) {
   std::size_t num_masts = 0;
   for (int chunk_index = 0; chunk_index < 20; ++chunk_index) {
     Chunk chunk;
-    AddCatenary(line.Context(chunk_index), line.plan(), line.models(), chunk);
+    AddCatenary(line.Context(chunk_index), line.plan(), line.mast_model(), chunk);
     for (const Placement& placement : chunk.placements) {
-      if (placement.model != line.models().mast) continue;
+      if (placement.model != line.mast_model()) continue;
       ++num_masts;
       instances.insert(placement.instance);
       EXPECT_NEAR(
@@ -191,7 +191,7 @@ TEST(AddCatenary, NumbersMastsAlongTheWholeLine) {
 
 std::vector<Placement> PlacedAt(const TestLine& line, int chunk_index, const std::string& name) {
   Chunk chunk;
-  AddCatenary(line.Context(chunk_index), line.plan(), line.models(), chunk);
+  AddCatenary(line.Context(chunk_index), line.plan(), line.mast_model(), chunk);
   std::erase_if(chunk.placements,
                 [&](const Placement& placement) { return placement.model->name != name; });
   return chunk.placements;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "core/rail/line/network.h"
+#include "core/rail/network/network_draft.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

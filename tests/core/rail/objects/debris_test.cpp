@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/rail/track/rail_section.h"
+#include "core/rail/line/rail_section.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
 

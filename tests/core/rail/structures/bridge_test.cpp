@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/rail/catenary/system_height.h"
-#include "core/rail/land/land.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/land/land.h"
-#include "core/rail/standing_height.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/crossing_road.h"
+#include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"

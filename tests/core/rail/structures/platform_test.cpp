@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/rail/structures/cleared.h"
+#include "core/rail/clearance/cleared.h"
 #include "railcast/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "railcast/rail_world.h"
+#include "railcast/world_spec.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

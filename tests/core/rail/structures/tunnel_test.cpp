@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
-#include "core/rail/catenary/system_height.h"
-#include "core/rail/line/network.h"
-#include "core/rail/structures/cleared.h"
-#include "core/rail/structures/structure_track.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/clearance/system_height.h"
+#include "core/rail/network/network_draft.h"
+#include "core/rail/network/world_tracks.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/land/land.h"
-#include "core/rail/model_parts.h"
-#include "core/rail/structures/cleared.h"
+#include "core/rail/base/model_parts.h"
+#include "core/rail/clearance/cleared.h"
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
 

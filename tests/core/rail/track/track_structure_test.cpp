@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/rail_section.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/base/echo_tiles.h"
+#include "core/detect/beam/echo_finder.h"
+#include "core/detect/beam/facet_parts.h"
+#include "core/detect/beam/part_batch.h"
+#include "core/detect/beam/sub_ray_parts.h"
+#include "core/detect/beam/thin_conductors.h"
+#include "core/detect/beam/wire_set.h"
+#include "core/detect/kernels/kernels.h"
+#include "railcast/effects.h"
+
+namespace railcast {
+
+/// Whether effect `footprint` is on and beams have a width.
+[[nodiscard]] bool HasFootprint(const DetectorSpec& spec);
+
+/// Effects `footprint`, `dense_footprint` and `thin_conductors`: turns what a beam of finite width
+/// meets (FacetParts, SubRayParts) into echoes. A beam that lies on one plane is represented by its
+/// central ray, with the spread of the whole beam.
+///
+/// Effect `thin_conductors`: wires in closed form (thin_conductors.h). A wire hides its share of
+/// what lies behind it, and the surfaces in front of a wire hide it in proportion to their share of
+/// the beam.
+///
+/// Not thread-safe: keeps its working memory.
+class Footprint {
+ public:
+  Footprint(const DetectorSpec& spec, const Kernels& kernels);
+
+  /// Traces the tile's beams, before their central rays.
+  /// @param wires Null unless effect `thin_conductors` is on.
+  /// @param first The keys of the firings.
+  void Trace(const WideBeams& beams, const WireSet* wires, const DetectTile& first);
+
+  /// Whether Resolve() needs the central ray of a beam. Where it does not, that ray may as well
+  /// have met nothing.
+  [[nodiscard]] bool NeedsCenter(const WideBeams& beams, std::size_t lane) const;
+
+  /// Resolves the tile's beams into echoes.
+  /// @pre `echoes.first` holds the central rays' hits, and Detector::Respond has been applied to
+  ///   it.
+  void Resolve(const WideBeams& beams, EchoTiles& echoes);
+
+ private:
+  void FindParts(const WideBeams& beams, const DetectTile& first);
+  void AddWires(const WideBeams& beams, const WireCapture* begin, const WireCapture* end);
+  void StoreEchoes(std::size_t lane, EchoTiles& echoes) const;
+
+  DetectorSpec spec_;
+  FacetParts facet_parts_;
+  SubRayParts sub_ray_parts_;
+  EchoFinder finder_;
+  PartLists lists_;
+  std::vector<WireCapture> captures_;
+  std::array<bool, kTileSize> has_wire_{};  // By lane.
+  std::vector<Component> beam_parts_;       // All parts of one beam, also those that send nothing.
+  std::vector<Component> wires_;
+  std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
+  std::vector<Echo> found_;
+};
+
+}  // namespace railcast

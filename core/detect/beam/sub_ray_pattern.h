@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/detect/base/effect_parameters.h"
+#include "railcast/ray_caster.h"
+
+namespace railcast {
+
+/// A sub-ray's place in a beam of Gaussian profile, and the share of the beam that it represents.
+struct SubRay {
+  float h{};  ///< Horizontal offset in standard deviations of the profile.
+  float v{};  ///< Vertical offset in standard deviations of the profile.
+  float share{};
+};
+
+/// The sub-ray after a rotation of the pattern about the beam's axis by an angle of which the
+/// cosine and the sine are given. The rotation acts on offsets in standard deviations, so that the
+/// sub-ray keeps its quantile of the profile.
+[[nodiscard]] inline SubRay Turned(const SubRay& sub_ray, float cosine, float sine) {
+  return {cosine * sub_ray.h - sine * sub_ray.v, sine * sub_ray.h + cosine * sub_ray.v,
+          sub_ray.share};
+}
+
+/// Cosine and sine of the angle by which a firing's pattern is turned.
+struct PatternTurn {
+  float cosine{}, sine{};
+};
+
+/// The random turn of a firing's pattern. Effects `footprint` and `dense_footprint` share it.
+[[nodiscard]] PatternTurn TurnOfPattern(std::uint64_t seed,
+                                        std::uint32_t frame,
+                                        std::uint32_t firing);
+
+/// The sub-rays of a beam. All shares, including the central one, add up to 1.
+struct SubRayPattern {
+  std::vector<SubRay> sub_rays;
+  float central_share{};  ///< Share of the central ray, which is traced already; 0 = not used.
+};
+
+/// A pattern of `count` sub-rays and the central ray, of equal share: the k-th is at the k-th
+/// quantile of the radius, turned by the golden angle from the one before (Vogel 1979).
+[[nodiscard]] SubRayPattern DenseSubRays(std::size_t count);
+
+/// The offsets of kNumSubRays sub-rays of equal share, in standard deviations of the profile. The
+/// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others.
+/// Each is divided evenly among the groups of neighbours.
+struct BeamSubRays {
+  float h[kNumSubRays], v[kNumSubRays];
+  float largest_offset{};  ///< From the axis.
+};
+[[nodiscard]] const BeamSubRays& SubRaysOfBeam();
+
+/// The sub-rays of a closer look: one pattern of Vogel's kind, dealt out to this many sets.
+inline constexpr std::size_t kNumCloserSets = 4;
+/// The sets, each as SubRaysOfBeam().
+[[nodiscard]] const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook();
+
+/// How the kernel aim_sub_rays aims them for a firing, whose pattern is turned.
+[[nodiscard]] SubRayAim AimOfFiring(const BeamSubRays& pattern,
+                                    std::uint64_t seed,
+                                    std::uint32_t frame,
+                                    std::uint32_t firing);
+
+}  // namespace railcast

@@ -1,0 +1,60 @@
+#include "core/detect/detector/effect_table.h"
+
+#include <algorithm>
+
+#include "core/base/error.h"
+
+namespace railcast {
+
+const std::vector<Effect>& EffectTable() {
+  static const std::vector<Effect> table = [] {
+    std::vector<Effect> all;
+    for (const auto& part :
+         {PublishedEffects(), PhysicalEffects(), SensorEffects(), BeamEffects()}) {
+      for (const Effect& effect : part) all.push_back(effect);
+    }
+    // EffectSet consists of bools only, so that its size is the number of effects.
+    Check(all.size() == sizeof(EffectSet), "every effect has a row in the table of effects");
+    return all;
+  }();
+  return table;
+}
+
+const Effect* FindEffect(std::string_view name) {
+  for (const Effect& effect : EffectTable()) {
+    if (effect.name == name) return &effect;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> EffectNames() {
+  std::vector<std::string> names;
+  for (const Effect& effect : EffectTable()) names.emplace_back(effect.name);
+  return names;
+}
+
+std::vector<std::string> EffectNames(const EffectSet& effects) {
+  std::vector<std::string> names;
+  for (const Effect& effect : EffectTable()) {
+    if (effects.*effect.is_on) names.emplace_back(effect.name);
+  }
+  return names;
+}
+
+bool IsInRung(const Effect& effect, Fidelity rung) {
+  return std::find(effect.rungs.begin(), effect.rungs.end(), rung) != effect.rungs.end();
+}
+
+EffectSet EffectsInRung(Fidelity rung) {
+  EffectSet effects;
+  for (const Effect& effect : EffectTable()) effects.*effect.is_on = IsInRung(effect, rung);
+  return effects;
+}
+
+bool IsPhysical(const EffectSet& effects) {
+  return std::any_of(EffectTable().begin(), EffectTable().end(), [&](const Effect& effect) {
+    return effects.*effect.is_on && !IsInRung(effect, Fidelity::kPlausibility);
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,194 @@
+#include "core/io/cloud/point_table.h"
+
+#include <pcl/PCLPointField.h>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/text_cursor.h"
+#include "core/io/cloud/pcd_header.h"
+#include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::string_view kCloudComparePrefix = "scalar_";
+
+NumberType TypeOf(const PcdField& field) {
+  if (field.type == 'F') return field.size == 4 ? NumberType::kFloat : NumberType::kDouble;
+  const bool is_signed = field.type == 'I';
+  switch (field.size) {
+    case 1:
+      return is_signed ? NumberType::kInt8 : NumberType::kUint8;
+    case 2:
+      return is_signed ? NumberType::kInt16 : NumberType::kUint16;
+    case 4:
+      return is_signed ? NumberType::kInt32 : NumberType::kUint32;
+    default:
+      return is_signed ? NumberType::kInt64 : NumberType::kUint64;
+  }
+}
+
+NumberType TypeOf(std::uint8_t pcl_type) {
+  switch (pcl_type) {
+    case pcl::PCLPointField::INT8:
+      return NumberType::kInt8;
+    case pcl::PCLPointField::UINT8:
+      return NumberType::kUint8;
+    case pcl::PCLPointField::INT16:
+      return NumberType::kInt16;
+    case pcl::PCLPointField::UINT16:
+      return NumberType::kUint16;
+    case pcl::PCLPointField::INT32:
+      return NumberType::kInt32;
+    case pcl::PCLPointField::UINT32:
+      return NumberType::kUint32;
+    case pcl::PCLPointField::FLOAT32:
+      return NumberType::kFloat;
+    default:
+      return NumberType::kDouble;
+  }
+}
+
+/// Packs the numbers as in a binary file: point after point, fields in order.
+/// @pre CheckPcd has accepted the text.
+std::string PackAscii(std::string_view text, const PcdHeader& header) {
+  std::string packed(header.points * header.PointStep(), '\0');
+  char* place = packed.data();
+  while (const auto line = TakeLine(text)) {
+    const auto words = Words(*line);
+    std::size_t word = 0;
+    if (words.empty()) continue;
+    for (const PcdField& field : header.fields) {
+      VisitNumberType(TypeOf(field), [&](auto zero) {
+        for (std::uint64_t i = 0; i < field.count; ++i, place += sizeof zero) {
+          using Value = decltype(zero);
+          // As in CheckPcd, a number too large for a float becomes infinite.
+          using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
+          const auto value = static_cast<Value>(ParseNumber<Parsed>(words[word++]).value_or(0));
+          std::memcpy(place, &value, sizeof value);
+        }
+      });
+    }
+  }
+  return packed;
+}
+
+/// Adds a column for each field of the header.
+/// @param begin Offset of the points in the table's bytes.
+/// @param is_planar Whether the values of each field are stored together.
+void AddColumns(const PcdHeader& header,
+                std::size_t begin,
+                bool is_planar,
+                std::vector<PointColumn>& columns) {
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    const std::size_t size = field.size * field.count;
+    columns.push_back({.name = field.name,
+                       .type = TypeOf(field),
+                       .offset = begin + (is_planar ? header.points * offset : offset),
+                       .step = is_planar ? size : header.PointStep()});
+    offset += size;
+  }
+}
+
+}  // namespace
+
+std::string_view PointColumn::plain_name() const {
+  std::string_view plain = name;
+  if (plain.starts_with(kCloudComparePrefix)) plain.remove_prefix(kCloudComparePrefix.size());
+  return plain;
+}
+
+const PointColumn* PointTable::Find(std::string_view name) const {
+  const auto found = std::ranges::find(columns, name, &PointColumn::plain_name);
+  return found == columns.end() ? nullptr : &*found;
+}
+
+PointTable ParsePcdTable(const std::string& file, std::string bytes) {
+  PointTable table;
+  std::string plain;
+  const PcdHeader header = CheckPcd(file, bytes, &plain);
+  table.width = static_cast<std::uint32_t>(header.width);
+  table.height = static_cast<std::uint32_t>(header.height);
+  if (header.data == "binary") {
+    table.bytes = std::move(bytes);
+    AddColumns(header, header.data_begin, false, table.columns);
+  } else if (header.data == "ascii") {
+    table.bytes = PackAscii(std::string_view(bytes).substr(header.data_begin), header);
+    AddColumns(header, 0, false, table.columns);
+  } else {
+    table.bytes = std::move(plain);
+    AddColumns(header, 0, true, table.columns);
+  }
+  return table;
+}
+
+PointTable ParsePlyTable(const std::string& file, const std::string& bytes) {
+  const pcl::PCLPointCloud2 cloud = ParsePly(file, bytes);
+  PointTable table;
+  table.width = cloud.width;
+  table.height = 1;
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    table.columns.push_back({.name = field.name,
+                             .type = TypeOf(field.datatype),
+                             .offset = field.offset,
+                             .step = cloud.point_step});
+  }
+  table.bytes.assign(cloud.data.begin(), cloud.data.end());
+  return table;
+}
+
+PointTable ParseKittiTable(const std::string& file,
+                           std::string bytes,
+                           const std::optional<std::string>& labels) {
+  constexpr std::size_t kStep = 4 * sizeof(float);
+  const std::size_t num_points = bytes.size() / kStep;
+  if (bytes.size() % kStep != 0 || num_points > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError(file + ": must have 16 bytes for each point (got " + NumberText(bytes.size()) +
+                     ")");
+  }
+  if (labels && labels->size() != num_points * sizeof(std::uint32_t)) {
+    throw InputError(file + ": its .label file must have " +
+                     NumberText(num_points * sizeof(std::uint32_t)) + " bytes (got " +
+                     NumberText(labels->size()) + ")");
+  }
+  PointTable table{.width = static_cast<std::uint32_t>(num_points),
+                   .height = 1,
+                   .columns = {},
+                   .bytes = std::move(bytes)};
+  std::size_t offset = 0;
+  for (const char* name : {"x", "y", "z", "intensity"}) {
+    table.columns.push_back({name, NumberType::kFloat, offset, kStep});
+    offset += sizeof(float);
+  }
+  if (!labels) return table;
+  const std::size_t begin = table.bytes.size();
+  table.columns.push_back({"label", NumberType::kUint16, begin, sizeof(std::uint32_t)});
+  table.columns.push_back({"instance", NumberType::kUint16, begin + 2, sizeof(std::uint32_t)});
+  table.bytes += *labels;
+  return table;
+}
+
+PointTable ReadPointTable(const std::filesystem::path& file) {
+  const FrameFormat* const format = FindReader(file);
+  if (format == nullptr) {
+    throw InputError(ShownPath(file) + ": must be a " + ReadableExtensions(true) + " file");
+  }
+  std::optional<std::string> second;
+  if (format->files.size() > 1) {
+    const std::filesystem::path folder(format->files[1].folder);
+    auto beside =
+        file.parent_path().parent_path() / folder.parent_path().filename() / file.filename();
+    beside.replace_extension(format->files[1].extension);
+    if (exists(beside)) second = ReadFileWhole(beside);
+  }
+  return format->parse(ShownPath(file), ReadFileWhole(file), second);
+}
+
+}  // namespace railcast

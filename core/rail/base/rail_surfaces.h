@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "railcast/frame.h"
+#include "railcast/material.h"
+
+namespace railcast {
+
+/// Material and label of a triangle.
+struct SurfaceClass {
+  std::uint16_t material{};
+  std::uint32_t label{};
+};
+
+/// The surfaces of single things beside and in the track (railcast/lineside.h).
+struct LinesideSurfaces {
+  SurfaceClass signal_mast, signal_foot, signal_screen, signal_lamp, signal_board;
+  SurfaceClass board_face, board_steel, marker_white, marker_red;
+  SurfaceClass balise, relay_box, relay_foot;
+  SurfaceClass buffer_frame, buffer_beam, buffer_board;
+  SurfaceClass derailer, derailer_machine;
+  SurfaceClass slab, asphalt;
+  SurfaceClass barrier_white, barrier_red, crossing_steel, crossing_screen, crossing_lamp;
+  SurfaceClass wall, flat_roof, tiled_roof, window;
+  SurfaceClass furniture_steel, furniture_wood, furniture_glass;
+};
+
+/// The surfaces of structures (railcast/structures.h). Tables need their names only if the world
+/// has structures.
+struct StructureSurfaces {
+  SurfaceClass platform, platform_strip, platform_roof;
+  SurfaceClass noise_wall, noise_wall_post, fence, retaining_wall, cable_trough;
+  SurfaceClass tunnel, tunnel_handrail, bridge, bridge_railing;
+  SurfaceClass third_rail, third_rail_shield, slab_track, road;
+  LinesideSurfaces lineside;
+};
+
+/// The surfaces of turnouts (track/turnout_structure.h). Tables need their names only if the
+/// world has turnouts.
+struct TurnoutSurfaces {
+  SurfaceClass running_band, rail, point_machine;
+};
+
+/// The surfaces of rail vehicles other than open, flat and tank wagons (objects/rail_vehicles.h).
+/// Tables need their names only if the world has such vehicles.
+struct VehicleSurfaces {
+  SurfaceClass container, light_container, sliding_wall;               ///< Of wagons.
+  SurfaceClass paint, light_paint, roof, frame, rubber, wheel, glass;  ///< Of trains.
+  SurfaceClass collector, insulator;
+};
+
+/// The surfaces of the railway world, looked up by name once.
+struct RailSurfaces {
+  SurfaceClass rail_head, rail_side, fastening;
+  SurfaceClass sleeper_concrete, sleeper_wood, ballast;
+  SurfaceClass ground, grass, leaf, bark;
+  SurfaceClass gravel, meadow;        ///< Ground with other covers.
+  SurfaceClass bush_leaf, bush_bark;  ///< All 0 unless AddBushSurfaces() was called.
+  SurfaceClass contact_wire, messenger_wire, dropper, mast, cantilever, insulator;
+  SurfaceClass wagon_body, wagon_frame, wheel, tank;
+  SurfaceClass skin, clothing, pole, box;
+  StructureSurfaces structures;  ///< All 0 unless AddStructureSurfaces() was called.
+  TurnoutSurfaces turnouts;      ///< All 0 unless AddTurnoutSurfaces() was called.
+  VehicleSurfaces vehicles;      ///< All 0 unless AddVehicleSurfaces() was called.
+
+  /// Sets all materials and labels to 0, for geometry that is built only to be checked.
+  RailSurfaces() = default;
+  /// @throws InputError with a line for every name that the tables lack.
+  RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+
+  /// Looks up the surfaces of bushes, which tables need only if the world has any.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddBushSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+  /// Looks up the surfaces of structures.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddStructureSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+  /// Looks up the surfaces of turnouts.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+  /// Looks up the surfaces of rail vehicles that have surfaces of their own.
+  /// @throws InputError with a line for every name that the tables lack.
+  void AddVehicleSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
+};
+
+/// Whether the railway itself or one of its models has surfaces of the material.
+[[nodiscard]] bool IsRailMaterial(std::string_view name);
+/// Whether any structure or turnout has surfaces of the material.
+[[nodiscard]] bool IsStructureMaterial(std::string_view name);
+/// Whether any of the VehicleSurfaces has the material.
+[[nodiscard]] bool IsVehicleMaterial(std::string_view name);
+
+}  // namespace railcast

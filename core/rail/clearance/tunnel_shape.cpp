@@ -1,0 +1,102 @@
+#include "core/rail/clearance/tunnel_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "core/rail/clearance/system_height.h"
+
+namespace railcast {
+namespace {
+
+/// Half the width beside the outermost axis at the vault's widest: a train (1.6 m), a gap (0.5 m)
+/// and a way of escape 1.2 m wide.
+constexpr double kRoomBesideAxis_m = 3.3;
+/// Between the messenger wire and the lining.
+constexpr double kWireClearance_m = 0.3;
+/// Without a contact line: above the wagons' 4.28 m.
+constexpr double kRoomAbove_m = 4.8;
+
+constexpr double kPortalBeside_m = 2.5;
+constexpr double kPortalAbove_m = 1.5;
+
+/// Ground beside the niches keeps this distance from them.
+constexpr double kNicheCover_m = 0.15;
+
+}  // namespace
+
+double TunnelShape::WallAt_m(double height_m) const {
+  const double above_m = height_m - kVaultCentre_m;
+  return std::sqrt(std::max(0.0, radius_m * radius_m - above_m * above_m));
+}
+
+double TunnelShape::TopAngle_rad(double height_m) const {
+  return std::asin(std::clamp((height_m - kVaultCentre_m) / radius_m, -1.0, 1.0));
+}
+
+double TunnelShape::PortalHalfWidth_m() const {
+  return radius_m + kPortalBeside_m;
+}
+
+double TunnelShape::PortalTop_m() const {
+  return kVaultCentre_m + radius_m + kPortalAbove_m;
+}
+
+double TunnelShape::ReachBeside_m() const {
+  return std::max(radius_m + kLiningThickness_m, WallAt_m(kWalkwayTop_m) + kNicheDepth_m) +
+         kNicheCover_m;
+}
+
+double TunnelShape::MiddleOfLining_m(double y_m) const {
+  const double middle_m = radius_m + 0.5 * kLiningThickness_m;
+  return std::max(kVaultCentre_m + std::sqrt(std::max(0.0, middle_m * middle_m - y_m * y_m)),
+                  kWalkwayTop_m + kNicheHeight_m + kNicheCover_m);
+}
+
+TunnelShape TunnelShapeOf(const WorldTracks& tracks, const TunnelSpec& tunnel) {
+  const WorldSpec& world = tracks.world;
+  TunnelShape shape{.spread = SpreadOf(tracks, tunnel, kSharedTunnel_m), .radius_m = 0.0};
+  const double above_m = HasContactLine(world)
+                             ? world.catenary.contact_height_m +
+                                   SystemHeightAt_m(world, tunnel.begin_s_m) + kWireClearance_m
+                             : kRoomAbove_m;
+  const double half_m = shape.spread.half_width_m();
+  shape.radius_m = tunnel.radius_m.value_or(std::max(
+      half_m + kRoomBesideAxis_m, std::hypot(half_m, above_m - TunnelShape::kVaultCentre_m)));
+  return shape;
+}
+
+std::vector<TunnelMouth> MouthsAt(const WorldTracks& tracks,
+                                  const TunnelSpec& tunnel,
+                                  TrackTip end) {
+  constexpr double kSame_m = 0.05;
+  const double s_m = end == TrackTip::kBegin ? tunnel.begin_s_m : tunnel.end_s_m;
+  std::vector<TunnelMouth> mouths;
+  std::optional<TunnelShape> own;
+  for (const StructureSpec& structure : tracks.world.structures) {
+    const auto* other = std::get_if<TunnelSpec>(&structure);
+    if (other == nullptr || other == &tunnel || *other == tunnel) continue;
+    const bool begins = std::abs(other->begin_s_m - s_m) < kSame_m;
+    if (!begins && !(std::abs(other->end_s_m - s_m) < kSame_m)) continue;
+    const TrackCourse* track = tracks.CourseOf(tunnel.track);
+    const TrackCourse* other_track = tracks.CourseOf(other->track);
+    if (track == nullptr || other_track == nullptr) continue;
+    if (!own) own = TunnelShapeOf(tracks, tunnel);
+    const TunnelShape shape = TunnelShapeOf(tracks, *other);
+    const TunnelMouth mouth{.goes_on = begins != (end == TrackTip::kBegin),
+                            .middle_m = other_track->OffsetWithin_m(s_m) + shape.spread.middle_m() -
+                                        track->OffsetWithin_m(s_m) - own->spread.middle_m(),
+                            .radius_m = shape.radius_m};
+    const double reach_m = mouth.goes_on ? own->radius_m + shape.radius_m
+                                         : own->PortalHalfWidth_m() + shape.PortalHalfWidth_m();
+    if (std::abs(mouth.middle_m) < reach_m) mouths.push_back(mouth);
+  }
+  return mouths;
+}
+
+bool GoesOn(const WorldTracks& tracks, const TunnelSpec& tunnel, TrackTip end) {
+  return std::ranges::any_of(MouthsAt(tracks, tunnel, end), &TunnelMouth::goes_on);
+}
+
+}  // namespace railcast

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "core/rail/chunk/chunk_context.h"
+#include "railcast/scene.h"
+
+namespace railcast {
+
+/// Adds the ground: a strip of TerrainSpec's width that follows the line at formation height.
+///
+/// Two random heights are added, both functions of track coordinates (s, d), so that neighbouring
+/// chunks agree. Roughness has the spec's sigma and wavelength and fades out below the ballast.
+/// Undulation has the spec's sigma in waves of 30 and 12 m; it is 0 within 4 m of a track and
+/// complete from 30 m on. The grid spacing is 0.5 m along the line; across it, 0.5 m up to 10 m
+/// from the outermost tracks and then increasing by 15 % per grid line up to 2 m. Ground covered by
+/// ballast is left out.
+///
+/// Where the terrain has a shape (landform.h), undulation is added to it, and the ground is the
+/// terrain between the slopes of cuttings and embankments (cut_and_fill.h). Where the strip narrows
+/// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
+/// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
+///
+/// Behind retaining walls the ground is as high as their tops (retained_ground.h). The step is
+/// inside the wall, in cells of its own; chunks near such walls have all columns in their coarser
+/// form.
+///
+/// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
+/// is from 2 to 4 m; below, they are those of the finest, and so are the columns up to 10 m from
+/// the tracks. Cells are up to 2 m wide across.
+void AddTerrain(const ChunkContext& context, Chunk& chunk);
+
+}  // namespace railcast

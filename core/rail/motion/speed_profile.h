@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "railcast/world_spec.h"
+
+namespace railcast {
+
+/// Chainage and speed of an object on a track as functions of time, in closed form.
+///
+/// Acceleration is constant between the points of the profile. Before the first and after the last
+/// point, speed is constant: a first point at 5 s, or 300 m ahead, is approached at its own speed.
+class SpeedProfile {
+ public:
+  struct State {
+    double s_m{};
+    double speed_mps{};  ///< >= 0, also in reverse.
+  };
+
+  /// @param start_s_m Chainage at time 0.
+  /// @throws InputError if the points are not all in time or all in chainage, do not advance in the
+  ///   direction of travel, have a negative speed, or specify a chainage that is never reached.
+  ///   Lines read "/profile/2/s_m: rule (got value)", relative to the motion's JSON object.
+  SpeedProfile(const MotionSpec& motion, double start_s_m);
+
+  /// Returns the same motion up to `time_s` and then a change to another speed, which is approached
+  /// at a constant acceleration and then kept. The direction stays the same.
+  ///
+  /// The result is valid from `time_s` on only: earlier points are dropped, so that a profile that
+  /// is changed repeatedly does not grow.
+  /// @pre time_s >= 0, speed_mps >= 0, acceleration_mps2 > 0 (also for slowing down).
+  [[nodiscard]] SpeedProfile WithSpeedFrom(double time_s,
+                                           double speed_mps,
+                                           double acceleration_mps2) const;
+
+  /// @pre time_s >= 0, and not before the time of the last change.
+  [[nodiscard]] State At(double time_s) const;
+  /// When the chainage is reached for the first time; absent if it lies behind or is never reached.
+  /// The time is not before that of the last change.
+  [[nodiscard]] std::optional<double> TimeAt_s(double s_m) const;
+  /// Whether the chainage ever changes.
+  [[nodiscard]] bool moves() const;
+  [[nodiscard]] bool reverse() const { return direction_ < 0.0; }
+
+ private:
+  struct Corner {
+    double time_s{};
+    double travelled_m{};
+    double speed_mps{};
+    double acceleration_mps2{};  ///< Constant up to the next corner.
+  };
+
+  std::vector<Corner> corners_;  ///< The first is at time 0.
+  double start_s_m_{};
+  double direction_ = 1.0;
+};
+
+}  // namespace railcast

@@ -1,0 +1,193 @@
+#include "core/rail/network/network_draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/rail/network/diamond_site.h"
+#include "core/rail/network/fouling.h"
+#include "core/rail/network/independent_course.h"
+#include "core/rail/network/shared_planes.h"
+#include "core/rail/network/turnout_place.h"
+
+namespace railcast {
+namespace {
+
+/// Makes the courses of a network, those of the tracks in which a track's turnouts lie before that
+/// of the track itself.
+class NetworkMaker {
+ public:
+  NetworkMaker(const WorldSpec& world, double length_m, WorldFaults& faults)
+      : world_(world), length_m_(length_m), faults_(faults), states_(world.tracks.size()) {
+    draft_.courses.resize(world.tracks.size());
+  }
+
+  NetworkDraft Make() && {
+    for (std::size_t i = 0; i < world_.tracks.size(); ++i) Visit(i);
+    return std::move(draft_);
+  }
+
+ private:
+  enum class State { kUntouched, kInWork, kDone };
+
+  [[nodiscard]] static std::string PlaceOf(std::size_t index) {
+    return "/world/tracks/" + std::to_string(index);
+  }
+
+  void Visit(std::size_t index) {
+    if (states_[index] != State::kUntouched) return;
+    states_[index] = State::kInWork;
+    const TrackSpec& track = world_.tracks[index];
+    if (IsParallel(track)) {
+      draft_.courses[index] = ParallelCourse(index);
+    } else if (faults_.AreKnown({PlaceOf(index)})) {
+      draft_.courses[index] = BranchedCourse(index);
+    }
+    states_[index] = State::kDone;
+  }
+
+  [[nodiscard]] std::optional<TrackCourse> ParallelCourse(std::size_t index) const {
+    const TrackSpec& track = world_.tracks[index];
+    const std::string place = PlaceOf(index);
+    if (!faults_.AreKnown({place + "/offset_m", place + "/start_s_m", place + "/end_s_m"})) {
+      return std::nullopt;
+    }
+    const double end_s_m = track.end_s_m.value_or(length_m_);
+    if (!(track.start_s_m < end_s_m)) return std::nullopt;
+    return TrackCourse(track.start_s_m, end_s_m, track.offset_m.value_or(0.0));
+  }
+
+  /// The place of the turnout in `spec`, on a track that has a course.
+  [[nodiscard]] std::optional<TurnoutPlace> PlaceOfTurnout(std::size_t index,
+                                                           const TurnoutSpec& spec,
+                                                           bool opens_ahead) {
+    const std::string pointer = PlaceOf(index) + (opens_ahead ? "/begin" : "/end");
+    const std::optional<std::size_t> track = TrackIndex(world_, spec.track);
+    if (!track) {
+      if (!AreNamesKnown(world_, faults_)) return std::nullopt;
+      faults_.Add(pointer + "/track",
+                  "must be one of " + NamesOfTracks(world_) + " (got " + Quoted(spec.track) + ")");
+      return std::nullopt;
+    }
+    Visit(*track);
+    if (*track == index || states_[*track] == State::kInWork) {
+      faults_.Add(pointer + "/track",
+                  *track == index ? "must be another track"
+                                  : "must not be a track that itself begins or ends on this one",
+                  Quoted(spec.track));
+      return std::nullopt;
+    }
+    if (!draft_.courses[*track]) return std::nullopt;
+    return TurnoutPlace{.pointer = pointer,
+                        .spec = spec,
+                        .track = *track,
+                        .course = *draft_.courses[*track],
+                        .geometry = GeometryOf(spec.turnout),
+                        .opens_ahead = opens_ahead};
+  }
+
+  [[nodiscard]] std::optional<TrackCourse> BranchedCourse(std::size_t index) {
+    const TrackSpec& track = world_.tracks[index];
+    std::optional<TurnoutPlace> begin;
+    std::optional<TurnoutPlace> end;
+    if (track.begin) begin = PlaceOfTurnout(index, *track.begin, true);
+    if (track.end) end = PlaceOfTurnout(index, *track.end, false);
+    if (track.begin.has_value() != begin.has_value() || track.end.has_value() != end.has_value()) {
+      return std::nullopt;
+    }
+    IndependentCourse made =
+        MakeIndependentCourse({PlaceOf(index), track, begin, end, length_m_}, faults_);
+    for (const std::optional<TurnoutSite>& turnout : {made.begin, made.end}) {
+      if (!made.course || !turnout) continue;
+      TurnoutSite site = *turnout;
+      site.branch = index;
+      draft_.turnouts.push_back(site);
+    }
+    if (!made.course) return std::nullopt;
+    return InPlanesOfTurnouts(*made.course, begin ? &begin->course : nullptr,
+                              end ? &end->course : nullptr);
+  }
+
+  const WorldSpec& world_;
+  double length_m_;
+  WorldFaults& faults_;
+  std::vector<State> states_;
+  NetworkDraft draft_;
+};
+
+/// A stretch of a track that a turnout occupies.
+struct Occupied {
+  const TurnoutSite* turnout{};
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+std::vector<Occupied> StretchesOf(const NetworkDraft& draft, std::size_t track) {
+  std::vector<Occupied> stretches;
+  for (const TurnoutSite& turnout : draft.turnouts) {
+    if (turnout.track != track && turnout.branch != track) continue;
+    stretches.push_back(
+        {&turnout, std::min(turnout.s_m, turnout.end_s_m), std::max(turnout.s_m, turnout.end_s_m)});
+  }
+  return stretches;
+}
+
+void CheckOverlaps(const WorldSpec& world, const NetworkDraft& draft, WorldFaults& faults) {
+  constexpr double kTouching_m = 0.01;
+  for (std::size_t track = 0; track < world.tracks.size(); ++track) {
+    const std::vector<Occupied> stretches = StretchesOf(draft, track);
+    for (std::size_t i = 0; i < stretches.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const Occupied& one = stretches[k];
+        const Occupied& other = stretches[i];
+        if (std::min(one.end_s_m, other.end_s_m) - std::max(one.begin_s_m, other.begin_s_m) <
+            kTouching_m) {
+          continue;
+        }
+        faults.Add("/world/tracks/" + std::to_string(other.turnout->branch) +
+                       (other.turnout->opens_ahead() ? "/begin" : "/end"),
+                   "must not overlap the turnout of track " +
+                       Quoted(world.tracks[one.turnout->branch].name) + " on track " +
+                       Quoted(world.tracks[track].name) + ", " +
+                       StretchText(one.begin_s_m, one.end_s_m),
+                   StretchText(other.begin_s_m, other.end_s_m));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+NetworkDraft DraftNetwork(const WorldSpec& world, double length_m, WorldFaults& faults) {
+  NetworkDraft draft = NetworkMaker(world, length_m, faults).Make();
+  CheckOverlaps(world, draft, faults);
+  for (TurnoutSite& turnout : draft.turnouts) {
+    turnout.fouling_s_m = ClearChainage_m(
+        *draft.courses[turnout.track], *draft.courses[turnout.branch], turnout, kFoulingDistance_m);
+  }
+  FindDiamonds(world, draft, faults);
+  return draft;
+}
+
+Network MakeNetwork(const WorldSpec& world, double length_m) {
+  WorldFaults faults;
+  NetworkDraft draft = DraftNetwork(world, length_m, faults);
+  faults.errors.ThrowIfAny();
+  return Completed(std::move(draft));
+}
+
+Network Completed(NetworkDraft draft) {
+  Network network{
+      .courses = {}, .turnouts = std::move(draft.turnouts), .diamonds = std::move(draft.diamonds)};
+  for (std::optional<TrackCourse>& course : draft.courses) {
+    Check(course.has_value(), "a network without faults has all its courses");
+    network.courses.push_back(std::move(*course));
+  }
+  return network;
+}
+
+}  // namespace railcast

@@ -1,0 +1,138 @@
+#include "core/rail/track/switch_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/rail/base/model_parts.h"
+#include "core/rail/chunk/sweep.h"
+#include "core/rail/line/rail_section.h"
+#include "core/rail/track/cross_section.h"
+#include "core/rail/track/planed_rail.h"
+
+namespace railcast {
+namespace {
+
+/// Chords of 0.5 m deviate by 0.2 mm from the sharpest branch, of 190 m radius, and follow planed
+/// blades and flares.
+constexpr double kTurnoutStep_m = 0.5;
+
+/// The check rail's profile beside its stock rail: its head reaches 20 mm above top of rail.
+constexpr double kCheckTop_m = 0.020;
+constexpr double kCheckBottom_m = -0.090;
+constexpr double kCheckThickness_m = 0.060;
+constexpr double kCheckFlare_m = 0.5;
+constexpr double kCheckFlareOpening_m = 0.040;
+
+ChainageRange InChunk(const ChunkContext& context, const ChainageRange& range) {
+  return {.begin_s_m = std::max(range.begin_s_m, context.begin_s_m - 0.5 * kChunkOverlap_m),
+          .end_s_m = std::min(range.end_s_m, context.end_s_m + 0.5 * kChunkOverlap_m)};
+}
+
+/// How much farther than its flangeway a check rail stands from its stock rail, at its ends.
+double CheckFlareAt_m(const CheckRail& rail, double s_m) {
+  const double from_begin_m = rail.flares_at_begin ? s_m - rail.range.begin_s_m : kCheckFlare_m;
+  const double from_end_m = rail.flares_at_end ? rail.range.end_s_m - s_m : kCheckFlare_m;
+  const double from_tip_m = std::min(from_begin_m, from_end_m);
+  return kCheckFlareOpening_m * std::clamp(1.0 - from_tip_m / kCheckFlare_m, 0.0, 1.0);
+}
+
+}  // namespace
+
+Transform StationOf(const ChunkContext& context,
+                    const PairOfTracks& tracks,
+                    bool on_branch,
+                    const std::pair<double, double>& place) {
+  const TrackCourse& course = context.tracks[on_branch ? tracks.branch : tracks.track];
+  const auto [s_m, d_m] = place;
+  // Without cant the same, but for rounding.
+  if (context.alignment.At(s_m).cant_rad == 0.0) {
+    return context.chunk_from_world * course.WorldFromTrack(context.alignment, s_m, d_m);
+  }
+  return context.chunk_from_world * course.WorldFromTrack(context.alignment, s_m) *
+         Eigen::Translation3d(0.0, d_m, 0.0);
+}
+
+bool HoldsChainage(const ChainageRange& range, double s_m) {
+  return s_m >= range.begin_s_m && s_m <= range.end_s_m;
+}
+
+bool IsEmpty(const ChainageRange& range) {
+  return range.end_s_m - range.begin_s_m < kChunkOverlap_m;
+}
+
+void AddRailPiece(const ChunkContext& context,
+                  const PairOfTracks& tracks,
+                  const TurnoutRail& rail,
+                  Chunk& chunk) {
+  const ChainageRange range = InChunk(context, rail.range);
+  if (IsEmpty(range)) return;
+  std::vector<RailStation> stations;
+  for (const double s_m : GridStations(range, kTurnoutStep_m)) {
+    stations.push_back({StationOf(context, tracks, rail.follows_branch, {s_m, rail.aside_m(s_m)}),
+                        rail.width_m(s_m)});
+  }
+  RailMeshes meshes = SweepRail(rail.is_left, stations);
+  if (rail.begins_openly && range.begin_s_m == rail.range.begin_s_m) {
+    AppendRailEnd(stations.front(), rail.is_left, false, meshes.rest);
+  }
+  if (rail.ends_openly && range.end_s_m == rail.range.end_s_m) {
+    AppendRailEnd(stations.back(), rail.is_left, true, meshes.rest);
+  }
+  const bool is_plain = rail.role == RailRole::kClosure;
+  const RailSurfaces& surfaces = context.surfaces;
+  MeshOf(is_plain ? surfaces.rail_head : surfaces.turnouts.running_band, chunk.ground)
+      .Append(meshes.band);
+  MeshOf(is_plain ? surfaces.rail_side : surfaces.turnouts.rail, chunk.ground).Append(meshes.rest);
+}
+
+void AddCheckRail(const ChunkContext& context,
+                  const PairOfTracks& tracks,
+                  const CheckRail& rail,
+                  Chunk& chunk) {
+  const ChainageRange range = InChunk(context, rail.range);
+  if (IsEmpty(range)) return;
+  const double side = rail.is_left ? 1.0 : -1.0;
+  const double face_m = side * (0.5 * kGauge_m - rail.flangeway_m);
+  const double back_m = face_m - side * kCheckThickness_m;
+  const double right_m = std::min(face_m, back_m);
+  const double left_m = std::max(face_m, back_m);
+  // Clockwise with y to the right and z up, as AppendSweep() wants it.
+  const std::vector<Eigen::Vector2d> outline_m = {{right_m, kCheckBottom_m},
+                                                  {right_m, kCheckTop_m},
+                                                  {left_m, kCheckTop_m},
+                                                  {left_m, kCheckBottom_m},
+                                                  {right_m, kCheckBottom_m}};
+  std::vector<Transform> stations;
+  for (const double s_m : GridStations(range, kTurnoutStep_m)) {
+    stations.push_back(
+        StationOf(context, tracks, rail.follows_branch, {s_m, -side * CheckFlareAt_m(rail, s_m)}));
+  }
+  AppendSweep(stations, outline_m, MeshOf(context.surfaces.turnouts.rail, chunk.ground));
+}
+
+MadeBearer BearerOf(const TrackModels& models,
+                    SleeperType sleeper,
+                    double length_m,
+                    bool is_at_most) {
+  const auto& bearers =
+      sleeper == SleeperType::kConcrete ? models.concrete_bearers : models.wood_bearers;
+  const double steps = (length_m - kShortestBearer_m) / kBearerStep_m;
+  const double whole = is_at_most ? std::floor(steps + 1e-9) : std::ceil(steps - 1e-9);
+  const auto index =
+      static_cast<std::size_t>(std::clamp(whole, 0.0, static_cast<double>(bearers.size() - 1)));
+  return {bearers[index], kShortestBearer_m + kBearerStep_m * static_cast<double>(index)};
+}
+
+const std::shared_ptr<const Model>& PlateOf(const TrackModels& models, SleeperType sleeper) {
+  return sleeper == SleeperType::kConcrete ? models.concrete_plate : models.wood_plate;
+}
+
+void PlaceModel(const std::shared_ptr<const Model>& model,
+                const Transform& chunk_from_model,
+                Chunk& chunk) {
+  chunk.placements.push_back(
+      {.model = model, .chunk_from_model = Eigen::Affine3d(chunk_from_model), .instance = 0});
+}
+
+}  // namespace railcast

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/rail/base/rail_surfaces.h"
+#include "core/rail/base/world_faults.h"
+#include "core/rail/motion/path_draft.h"
+#include "core/rail/motion/track_path.h"
+#include "core/rail/network/network.h"
+#include "core/rail/objects/object_models.h"
+#include "core/rail/traffic/object_way.h"
+#include "railcast/frame.h"
+#include "railcast/scene.h"
+#include "railcast/world_spec.h"
+
+namespace railcast {
+
+/// What objects are made from. Where names of surfaces are faulty, default surfaces stand for them,
+/// so that an object's shape can still be made and checked.
+struct ObjectTables {
+  const RailSurfaces& surfaces;
+  const LabelTable& labels;
+  ObjectModels& models;
+};
+
+/// The tracks of a world with their courses; those with faults are absent.
+struct TracksOfWorld {
+  const WorldSpec& world;
+  const NetworkDraft& network;
+};
+
+/// Makes the path of an object, or nothing if a value it depends on is unknown. Faults begin with
+/// `pointer`.
+[[nodiscard]] std::optional<TrackPath> DraftPath(const TracksOfWorld& tracks,
+                                                 const ObjectSpec& object,
+                                                 const std::string& pointer,
+                                                 std::int64_t begin_ns,
+                                                 WorldFaults& faults);
+/// What the object is, for messages and for its turns.
+struct DraftedObject {
+  const ObjectSpec& spec;
+  const SceneObject& object;
+  const std::string& pointer;
+};
+/// Adds an object's walk to its path along its track.
+[[nodiscard]] ObjectPath DraftObjectPath(const PathGround& ground,
+                                         const DraftedObject& drafted,
+                                         TrackPath track,
+                                         WorldFaults& faults);
+/// As DraftPath(), for the vehicle that carries the sensor.
+[[nodiscard]] std::optional<TrackPath> DraftVehiclePath(const VehicleSpec& vehicle,
+                                                        const TracksOfWorld& tracks,
+                                                        WorldFaults& faults);
+/// As DraftPath(), for the object itself, without its `moves` and `instance`.
+[[nodiscard]] std::optional<SceneObject> DraftObject(const ObjectSpec& object,
+                                                     const std::string& pointer,
+                                                     const ObjectTables& tables,
+                                                     WorldFaults& faults);
+
+}  // namespace railcast

@@ -1,0 +1,369 @@
+#include "generator/run/all_sensors.h"
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/common/io.h>
+#include <pcl/io/pcd_io.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <ranges>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/content_hash.h"
+#include "core/io/field_layout.h"
+#include "core/io/recording/line_reader.h"
+#include "core/io/recording/sequence_lines.h"
+#include "core/io/run/sensor_folders.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
+#include "generator/empty_folder.h"
+#include "generator/record/pose_record.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kCompressed = "pcd-compressed";
+
+std::vector<MergedSensor> MergedSensorsOf(const FrameMaker& maker, const RunPlan& plan) {
+  std::vector<MergedSensor> sensors;
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    sensors.push_back({plan.sensors[i], maker.pattern(i)});
+  }
+  return sensors;
+}
+
+std::size_t OffsetOf(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+  const int field = pcl::getFieldIndex(cloud, name);
+  Check(field >= 0 &&
+            cloud.fields[static_cast<std::size_t>(field)].datatype == pcl::PCLPointField::FLOAT32,
+        "a cloud that is merged has coordinates");
+  return cloud.fields[static_cast<std::size_t>(field)].offset;
+}
+
+template <typename T>
+T ValueAt(const std::uint8_t* place) {
+  T value{};
+  std::memcpy(&value, place, sizeof value);
+  return value;
+}
+
+/// Points of several clouds with the same fields, one after another, with the field `sensor_index`
+/// (uint8) behind the others.
+class MergedCloud {
+ public:
+  /// How a cloud becomes part of the merged one.
+  struct Part {
+    std::uint8_t sensor_index{};
+    /// From the cloud's axes to those of the merged cloud; may mirror.
+    Transform merged_from_cloud = Transform::Identity();
+    std::uint32_t later_ns{};  ///< Added to the field time_ns, if there is one.
+  };
+
+  /// Adds the points of a cloud; slots without a point (x is NaN) are left out.
+  /// @pre The cloud has the fields x, y and z as float32, and those of the clouds before it.
+  void Add(const pcl::PCLPointCloud2& cloud, const Part& part);
+
+  [[nodiscard]] std::uint32_t num_points() const { return merged_.width; }
+
+  /// Returns a PCD file, binary or LZF-compressed, with HEIGHT 1.
+  [[nodiscard]] std::string Pcd(bool is_compressed) const;
+
+ private:
+  pcl::PCLPointCloud2 merged_;
+};
+
+void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
+  const std::size_t step = cloud.point_step;
+  if (merged_.fields.empty()) {
+    merged_.fields = cloud.fields;
+    pcl::PCLPointField index;
+    index.name = kSensorIndexField;
+    index.offset = cloud.point_step;
+    index.datatype = pcl::PCLPointField::UINT8;
+    index.count = 1;
+    merged_.fields.push_back(index);
+    merged_.point_step = cloud.point_step + 1;
+    merged_.height = 1;
+  }
+  Check(merged_.point_step == step + 1, "clouds that are merged have the same fields");
+  const std::size_t x = OffsetOf(cloud, "x");
+  const std::size_t y = OffsetOf(cloud, "y");
+  const std::size_t z = OffsetOf(cloud, "z");
+  const int time = pcl::getFieldIndex(cloud, "time_ns");
+  const std::size_t num_slots = std::size_t{cloud.width} * cloud.height;
+  merged_.data.reserve(merged_.data.size() + num_slots * (step + 1));
+  for (std::size_t slot = 0; slot < num_slots; ++slot) {
+    const std::uint8_t* const from = cloud.data.data() + slot * step;
+    if (std::isnan(ValueAt<float>(from + x))) continue;
+    const std::size_t begin = merged_.data.size();
+    merged_.data.insert(merged_.data.end(), from, from + step);
+    merged_.data.push_back(part.sensor_index);
+    char* const to = reinterpret_cast<char*>(merged_.data.data() + begin);
+    const Vector3 point =
+        part.merged_from_cloud *
+        Vector3(ValueAt<float>(from + x), ValueAt<float>(from + y), ValueAt<float>(from + z));
+    StoreAt<float>(to + x, point.x());
+    StoreAt<float>(to + y, point.y());
+    StoreAt<float>(to + z, point.z());
+    if (time >= 0) {
+      const std::size_t offset = cloud.fields[static_cast<std::size_t>(time)].offset;
+      StoreAt<std::uint32_t>(to + offset, ValueAt<std::uint32_t>(from + offset) + part.later_ns);
+    }
+  }
+  merged_.width = static_cast<std::uint32_t>(merged_.data.size() / merged_.point_step);
+  merged_.row_step = static_cast<std::uint32_t>(merged_.data.size());
+}
+
+std::string MergedCloud::Pcd(bool is_compressed) const {
+  const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
+  const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  pcl::PCDWriter writer;
+  // PCL compresses no empty cloud.
+  if (!is_compressed || num_points() == 0) {
+    std::string bytes = writer.generateHeaderBinary(merged_, origin, orientation) + "DATA binary\n";
+    bytes.append(merged_.data.begin(), merged_.data.end());
+    return bytes;
+  }
+  std::ostringstream stream;
+  Check(writer.writeBinaryCompressed(stream, merged_, origin, orientation) == 0,
+        "a merged cloud can be compressed");
+  return std::move(stream).str();
+}
+
+// From the axes of a sensor's points to those of the merged cloud. Points in vehicle or world axes
+// stay as they are.
+Transform MergedFromCloud(const ScenarioSpec& scenario) {
+  if (scenario.output.frame != OutputFrame::kSensor) return Transform::Identity();
+  Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
+  if (scenario.output.handedness == Handedness::kRight) return vehicle_from_sensor;
+  const Transform mirror(Eigen::Scaling(1.0, -1.0, 1.0));
+  return mirror * vehicle_from_sensor * mirror;
+}
+
+// The frames of a sensor's run that begin in a span of time.
+std::vector<std::uint32_t> FramesWithin(const MergedSensor& sensor,
+                                        std::int64_t begin_ns,
+                                        std::int64_t end_ns) {
+  const SequenceSpec& spec = sensor.plan.spec;
+  const auto stamp_ns = [&](std::uint32_t i) { return sensor.pattern.StampNs(spec.FrameAt(i)); };
+  const auto all = std::views::iota(std::uint32_t{0}, spec.num_frames);
+  std::vector<std::uint32_t> frames;
+  for (auto i = std::ranges::partition_point(
+           all, [&](std::uint32_t frame) { return stamp_ns(frame) < begin_ns; });
+       i != all.end() && stamp_ns(*i) < end_ns; ++i) {
+    frames.push_back(spec.FrameAt(*i));
+  }
+  return frames;
+}
+
+std::string CloudName(const SequenceSpec& spec, std::uint32_t frame) {
+  return FrameFileNames(*spec.files.format, frame).front();
+}
+
+class MergedWriter {
+ public:
+  MergedWriter(const fs::path& directory, std::vector<MergedSensor> sensors)
+      : folder_(directory / kMergedFolder),
+        sensors_(std::move(sensors)),
+        frames_(MergedFramesOf(sensors_)) {}
+
+  [[nodiscard]] bool is_complete() const { return fs::exists(folder_ / kMergedFile); }
+
+  bool Write(const std::function<void(double)>& on_progress,
+             const std::function<bool()>& is_stopped) {
+    RefuseOtherFiles();
+    lines_.resize(frames_.size());
+    std::atomic<bool> stops = false;
+    tbb::parallel_for(std::size_t{0}, frames_.size(), [&](std::size_t i) {
+      if (stops || is_stopped()) {
+        stops = true;
+        return;
+      }
+      lines_[i] = WriteCloud(frames_[i]);
+      const std::lock_guard lock(mutex_);
+      on_progress(static_cast<double>(++num_done_) / static_cast<double>(frames_.size()));
+    });
+    if (stops) return false;
+    WriteFileWhole(folder_ / kPosesFile, Poses());
+    std::string all;
+    for (const std::string& line : lines_) all += line;
+    WriteFileWhole(folder_ / kMergedFile, all);
+    return true;
+  }
+
+ private:
+  // Files of another run would be taken for this run's.
+  void RefuseOtherFiles() const {
+    const auto is_known = [](const std::string& name) {
+      return name == "frames" || name.starts_with(kPosesFile) || name.starts_with(kMergedFile);
+    };
+    RefuseOtherEntries(folder_, is_known, "merged clouds");
+  }
+
+  // Returns the line about it.
+  std::string WriteCloud(const MergedFrame& frame) const {
+    MergedCloud cloud;
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (const MergedFrame::Part& part : frame.parts) {
+      const auto& [name, scenario, spec] = sensors_[part.sensor].plan;
+      cloud.Add(ReadPcd(spec.directory / CloudName(spec, part.frame)),
+                {.sensor_index = static_cast<std::uint8_t>(part.sensor),
+                 .merged_from_cloud = MergedFromCloud(scenario),
+                 .later_ns = part.later_ns});
+      parts.push_back({{"sensor", name}, {"frame", part.frame}, {"later_ns", part.later_ns}});
+    }
+    const SequenceSpec& first = sensors_.front().plan.spec;
+    const std::string name = CloudName(first, frame.parts.front().frame);
+    const std::string bytes = cloud.Pcd(first.files.format->name == kCompressed);
+    fs::create_directories((folder_ / name).parent_path());
+    WriteFileWhole(folder_ / name, bytes);
+    const nlohmann::ordered_json line = {{"frame", frame.parts.front().frame},
+                                         {"stamp_ns", frame.stamp_ns},
+                                         {"file", name},
+                                         {"bytes", bytes.size()},
+                                         {"xxh3", ContentHash(bytes)},
+                                         {"points", cloud.num_points()},
+                                         {"parts", std::move(parts)}};
+    return line.dump() + "\n";
+  }
+
+  // The vehicle's poses by the nominal mount of the first sensor, whose poses are recorded.
+  [[nodiscard]] std::string Poses() const {
+    const SensorPlan& first = sensors_.front().plan;
+    const Transform sensor_from_vehicle = VehicleFromSensor(first.scenario.lidar.mount).inverse();
+    LineReader lines(first.spec.directory / kPosesFile);
+    static_cast<void>(lines.Need());
+    std::string text(kPosesHeader);
+    for (const MergedFrame& frame : frames_) {
+      const PlacedLine line = lines.Need();
+      const Transform world_from_sensor = ReadPoseLine(line.text, frame.stamp_ns, line.place);
+      text += PoseLine({frame.stamp_ns, world_from_sensor * sensor_from_vehicle});
+    }
+    return text;
+  }
+
+  fs::path folder_;
+  std::vector<MergedSensor> sensors_;
+  std::vector<MergedFrame> frames_;
+  std::vector<std::string> lines_;
+  std::mutex mutex_;
+  std::size_t num_done_ = 0;
+};
+
+std::vector<double> Components(const Eigen::Ref<const Eigen::VectorXd>& vector) {
+  return {vector.begin(), vector.end()};
+}
+
+// sensors.json: the folders of the sensors, where each sensor is on the vehicle by its nominal
+// mount, and the hashes of the merged files.
+std::string SensorsJson(const RunPlan& plan) {
+  nlohmann::ordered_json sensors = nlohmann::ordered_json::array();
+  for (const auto& [name, scenario, spec] : plan.sensors) {
+    const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
+    const Eigen::Quaterniond rotation = CanonicalRotation(vehicle_from_sensor);
+    sensors.push_back({{"name", name},
+                       {"folder", name},
+                       {"rate_hz", scenario.lidar.scan.rate_hz},
+                       {"phase_s", scenario.lidar.scan.phase_s},
+                       {"start_frame", spec.start_frame},
+                       {"num_frames", spec.num_frames},
+                       {"stride", spec.stride},
+                       {"vehicle_from_sensor",
+                        {{"translation_m", Components(vehicle_from_sensor.translation())},
+                         {"quaternion_xyzw", Components(rotation.coeffs())}}}});
+  }
+  nlohmann::ordered_json all = {{"version", 1}, {"sensors", std::move(sensors)}};
+  if (plan.is_merged) {
+    nlohmann::ordered_json hashes = nlohmann::ordered_json::object();
+    for (const std::string_view file : {kMergedFile, kPosesFile}) {
+      hashes[std::string(file)] = ContentHash(ReadFileWhole(plan.directory / kMergedFolder / file));
+    }
+    all["merged"] = {{"folder", kMergedFolder}, {"files_xxh3", std::move(hashes)}};
+  }
+  return all.dump(2) + "\n";
+}
+
+}  // namespace
+
+std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors) {
+  const MergedSensor& first = sensors.front();
+  std::vector<MergedFrame> merged;
+  for (std::uint32_t i = 0; i < first.plan.spec.num_frames; ++i) {
+    const std::uint32_t frame = first.plan.spec.FrameAt(i);
+    const std::int64_t begin_ns = first.pattern.StampNs(frame);
+    const std::int64_t end_ns = first.pattern.StampNs(frame + 1);
+    MergedFrame made{begin_ns, {}};
+    for (std::size_t sensor = 0; sensor < sensors.size(); ++sensor) {
+      for (const std::uint32_t part : FramesWithin(sensors[sensor], begin_ns, end_ns)) {
+        const std::int64_t later_ns = sensors[sensor].pattern.StampNs(part) - begin_ns;
+        made.parts.push_back({sensor, part, static_cast<std::uint32_t>(later_ns)});
+      }
+    }
+    merged.push_back(std::move(made));
+  }
+  return merged;
+}
+
+void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan) {
+  const std::vector<MergedSensor> sensors = MergedSensorsOf(maker, plan);
+  constexpr std::size_t kMostSensors = std::numeric_limits<std::uint8_t>::max() + std::size_t{1};
+  const MergedSensor& first = sensors.front();
+  const FrameFileSpec& files = first.plan.spec.files;
+  const auto fail = [](const std::string& rule, const std::string& got) {
+    throw InputError("--merged: must be with " + rule + " (got " + got + ")");
+  };
+  if (sensors.size() == 1) fail("several sensors", "one");
+  if (sensors.size() > kMostSensors) {
+    fail("at most " + std::to_string(kMostSensors) + " sensors", std::to_string(sensors.size()));
+  }
+  if (files.format->name != "pcd" && files.format->name != kCompressed) {
+    fail("--format pcd or " + std::string(kCompressed), std::string(files.format->name));
+  }
+  for (const char* const axis : {"x", "y", "z"}) {
+    if (!files.fields.Has(axis)) fail("--fields x, y and z", files.fields.Text());
+  }
+  std::uint32_t longest_ns = 0;
+  for (const auto& [plan_of_sensor, pattern] : sensors) {
+    const std::string& name = plan_of_sensor.name;
+    if (name == kMergedFolder) fail("sensors of other names", Quoted(name));
+    longest_ns = std::max(longest_ns, pattern.time_ns.back());
+  }
+  // The times of points are counted from the first sensor's stamp, in 32 bits.
+  const std::int64_t last_ns = first.pattern.PeriodNs() + longest_ns;
+  if (last_ns > std::numeric_limits<std::uint32_t>::max()) {
+    fail("a first sensor whose frames and those that begin meanwhile end within 4.29 s",
+         NumberText(SecondsFromNs(last_ns)) + " s");
+  }
+}
+
+bool FinishRun(const FrameMaker& maker,
+               const RunPlan& plan,
+               const std::function<void(double)>& on_progress,
+               const std::function<bool()>& is_stopped) {
+  if (plan.is_merged) {
+    MergedWriter writer(plan.directory, MergedSensorsOf(maker, plan));
+    bool is_complete = writer.is_complete();
+    if (!is_complete) {
+      maker.simulator(0).Execute([&] { is_complete = writer.Write(on_progress, is_stopped); });
+    }
+    if (!is_complete) return false;
+  }
+  if (plan.is_in_folders()) WriteFileWhole(plan.directory / kSensorsFile, SensorsJson(plan));
+  return true;
+}
+
+}  // namespace railcast

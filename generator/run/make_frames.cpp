@@ -1,0 +1,359 @@
+#include "generator/run/make_frames.h"
+
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "core/base/out_of_memory.h"
+#include "core/fidelity/choice_report.h"
+#include "generator/run/run_directory.h"
+#include "generator/run/stopping.h"
+
+namespace railcast {
+namespace {
+
+/// One of several sequences that are made together, one for each sensor.
+struct SensorSequence {
+  const SequenceSpec& spec;
+  BeginFrame begin_frame;
+  /// The time at which a frame of the sensor begins.
+  std::function<std::int64_t(std::uint32_t index)> stamp_ns;
+};
+
+/// The memory of a frame from its beginning until it is written.
+struct FrameSlot {
+  RunDirectory* directory = nullptr;
+  FrameJob job;
+  std::exception_ptr fault;  ///< Why there is no frame.
+  MadeFrame made;
+  EncodedFrame encoded;
+};
+
+std::string Writing(const Frame& frame) {
+  return "writing frame " + std::to_string(frame.index) + " (" + std::to_string(frame.num_slots()) +
+         " slots)";
+}
+
+/// Writes frames on a thread of its own, in the order in which they come.
+class WritingQueue {
+ public:
+  /// @param most Number of frames that may wait or be written at a time.
+  explicit WritingQueue(std::size_t most) : most_(most) {
+    thread_ = StartThread("writing frames", [this] { Run(); });
+  }
+  ~WritingQueue() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_ending_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+  WritingQueue(const WritingQueue&) = delete;
+  WritingQueue& operator=(const WritingQueue&) = delete;
+
+  /// Waits until no more than `most` frames wait or are being written.
+  /// @return How many have been written so far.
+  /// @throws What writing a frame has thrown. Nothing is written after that.
+  std::uint32_t Await(std::size_t most) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return fault_ || waiting_.size() <= most; });
+    if (fault_) std::rethrow_exception(fault_);
+    return num_written_;
+  }
+  /// Has a frame written, whose memory must stay as it is until then. Waits for room.
+  std::uint32_t Put(const FrameSlot& slot) {
+    const std::uint32_t num_written = Await(most_ - 1);
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_.push_back(&slot);
+    }
+    changed_.notify_all();
+    return num_written;
+  }
+
+ private:
+  void Run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      changed_.wait(lock, [&] { return is_ending_ || !waiting_.empty(); });
+      if (waiting_.empty()) return;
+      const FrameSlot& slot = *waiting_.front();
+      lock.unlock();
+      std::exception_ptr fault;
+      try {
+        WithinMemory([&] { return Writing(slot.made.frame); },
+                     [&] { slot.directory->Write(slot.encoded); });
+      } catch (...) {
+        fault = std::current_exception();
+      }
+      lock.lock();
+      fault_ = fault;
+      changed_.notify_all();
+      if (fault) return;
+      waiting_.pop_front();
+      ++num_written_;
+    }
+  }
+
+  std::size_t most_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<const FrameSlot*> waiting_;  ///< The first is being written.
+  std::uint32_t num_written_ = 0;
+  std::exception_ptr fault_;
+  bool is_ending_ = false;
+  std::thread thread_;
+};
+
+/// A sequence, its directory, and how far it has been begun.
+struct SequenceUnderWay {
+  explicit SequenceUnderWay(const SensorSequence& sequence)
+      : of(sequence),
+        directory(std::make_unique<RunDirectory>(sequence.spec)),
+        num_resumed(directory->num_done()),
+        was_complete(directory->is_complete()),
+        next(num_resumed) {}
+
+  [[nodiscard]] bool is_begun() const { return next >= of.spec.num_frames; }
+
+  const SensorSequence& of;
+  std::unique_ptr<RunDirectory> directory;
+  std::uint32_t num_resumed;
+  bool was_complete;
+  std::uint32_t next;  ///< Which of its frames is begun next.
+};
+
+class MissingFrames {
+ public:
+  MissingFrames(std::vector<SequenceUnderWay>& sequences,
+                const SequenceHooks& hooks,
+                const FramesAtOnce& at_once)
+      : sequences_(sequences),
+        hooks_(hooks),
+        num_at_once_(at_once.num),
+        // The pipeline holds as many frames as are made at once, and as many are being written.
+        slots_(2 * at_once.num),
+        writing_(at_once.num) {
+    for (const SequenceUnderWay& sequence : sequences) {
+      num_resumed_ += sequence.num_resumed;
+      num_frames_ += sequence.of.spec.num_frames;
+    }
+    num_shown_ = num_resumed_;
+    hooks_.on_progress(num_shown_, num_frames_);
+  }
+
+  /// Makes frames until there is none left, or the run is stopped.
+  void Make() {
+    tbb::parallel_pipeline(
+        num_at_once_,
+        tbb::make_filter<void, FrameSlot*>(tbb::filter_mode::serial_in_order,
+                                           [this](tbb::flow_control& flow) {
+                                             FrameSlot* const slot = Begin();
+                                             if (slot == nullptr) flow.stop();
+                                             return slot;
+                                           }) &
+            tbb::make_filter<FrameSlot*, FrameSlot*>(tbb::filter_mode::parallel,
+                                                     [this](FrameSlot* slot) {
+                                                       Finish(*slot);
+                                                       return slot;
+                                                     }) &
+            tbb::make_filter<FrameSlot*, void>(tbb::filter_mode::serial_in_order,
+                                               [this](FrameSlot* slot) { Write(*slot); }));
+  }
+
+  /// Waits for the frames that are being written.
+  void AwaitWriting() { ShowProgress(writing_.Await(0)); }
+
+ private:
+  // Returns null if no frame is left.
+  FrameSlot* Begin() {
+    SequenceUnderWay* const sequence = Earliest();
+    if (is_over_ || sequence == nullptr || hooks_.is_stopped()) return nullptr;
+    FrameSlot& slot = slots_[num_begun_++ % slots_.size()];
+    slot.directory = sequence->directory.get();
+    slot.fault = nullptr;
+    try {
+      slot.job = sequence->of.begin_frame(sequence->of.spec.FrameAt(sequence->next));
+    } catch (...) {
+      // Passed on in its turn, after the frames before it.
+      slot.fault = std::current_exception();
+      is_over_ = true;
+    }
+    ++sequence->next;
+    return &slot;
+  }
+
+  // The sequence whose next frame begins first; null if none has a frame left.
+  SequenceUnderWay* Earliest() const {
+    SequenceUnderWay* earliest = nullptr;
+    std::int64_t earliest_ns = 0;
+    for (SequenceUnderWay& sequence : sequences_) {
+      if (sequence.is_begun()) continue;
+      const SensorSequence& of = sequence.of;
+      const std::int64_t stamp_ns = of.stamp_ns ? of.stamp_ns(of.spec.FrameAt(sequence.next)) : 0;
+      if (earliest != nullptr && stamp_ns >= earliest_ns) continue;
+      earliest = &sequence;
+      earliest_ns = stamp_ns;
+    }
+    return earliest;
+  }
+
+  void Finish(FrameSlot& slot) const {
+    if (slot.fault) return;
+    try {
+      MadeFrame& made = slot.made;
+      std::exchange(slot.job, {})(made);
+      const auto doing = [&made] { return Writing(made.frame); };
+      WithinMemory(doing, [&] {
+        slot.directory->Encode(made.frame, made.objects, made.has_image ? &made.image : nullptr,
+                               slot.encoded);
+      });
+    } catch (...) {
+      slot.fault = std::current_exception();
+    }
+  }
+
+  void Write(const FrameSlot& slot) {
+    if (slot.fault) {
+      AwaitWriting();
+      std::rethrow_exception(slot.fault);
+    }
+    ShowProgress(writing_.Put(slot));
+  }
+
+  void ShowProgress(std::uint32_t num_written) {
+    while (num_shown_ < num_resumed_ + num_written) {
+      hooks_.on_progress(++num_shown_, num_frames_);
+    }
+  }
+
+  std::vector<SequenceUnderWay>& sequences_;
+  const SequenceHooks& hooks_;
+  std::size_t num_at_once_;
+  std::uint32_t num_frames_ = 0;   ///< Of all sequences.
+  std::uint32_t num_resumed_ = 0;  ///< Of these, those that were there.
+  std::uint32_t num_shown_ = 0;    ///< As on_progress() was told last.
+  std::size_t num_begun_ = 0;
+  bool is_over_ = false;
+  std::vector<FrameSlot> slots_;
+  WritingQueue writing_;  // Last, so that it ends before the memory that it writes.
+};
+
+void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {
+  try {
+    at_once.execute([&] { frames.Make(); });
+  } catch (const RunStopped&) {
+    // The frames before it are there.
+  }
+  frames.AwaitWriting();
+}
+
+/// Makes the missing frames of several sequences, in the order in which they begin.
+/// @return The results in the order of the sequences.
+std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
+                                         const SequenceHooks& hooks,
+                                         const FramesAtOnce& at_once) {
+  std::vector<SequenceUnderWay> sequences;
+  sequences.reserve(sensors.size());
+  for (const SensorSequence& sensor : sensors) sequences.emplace_back(sensor);
+  const auto begin = std::chrono::steady_clock::now();
+  if (!std::all_of(sequences.begin(), sequences.end(),
+                   [](const SequenceUnderWay& each) { return each.was_complete; })) {
+    MissingFrames frames(sequences, hooks, at_once);
+    MakeMissingFrames(at_once, frames);
+  }
+  std::vector<SequenceResult> results;
+  for (const SequenceUnderWay& sequence : sequences) {
+    RunDirectory& directory = *sequence.directory;
+    if (!directory.is_complete() && directory.num_done() == sequence.of.spec.num_frames) {
+      directory.Finish();
+    }
+    SequenceResult result;
+    result.num_resumed = sequence.num_resumed;
+    result.num_done = directory.num_done();
+    result.was_complete = sequence.was_complete;
+    result.is_complete = directory.is_complete();
+    result.counts = directory.counts();
+    results.push_back(std::move(result));
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  for (SequenceResult& result : results) result.elapsed_s = elapsed.count();
+  return results;
+}
+
+/// A thread other than the one that waits for a window may be the first to see that the run is
+/// stopped; then the deadline is still set, which would cut off frames that are being finished.
+struct NoDeadlineAfterwards {
+  NoDeadlineAfterwards() = default;
+  ~NoDeadlineAfterwards() { UseStopDeadline(false); }
+  NoDeadlineAfterwards(const NoDeadlineAfterwards&) = delete;
+  NoDeadlineAfterwards& operator=(const NoDeadlineAfterwards&) = delete;
+};
+
+}  // namespace
+
+bool ChooseFidelities(
+    const FrameMaker& maker,
+    const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
+    const std::function<bool()>& is_stopped,
+    RunPlan& plan) {
+  for (std::size_t i = 0; i < maker.num_sensors(); ++i) {
+    WatchBuilding(maker.simulator(i), is_stopped, true);
+  }
+  if (plan.scenario.fidelity != Fidelity::kAuto) return true;
+  try {
+    for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+      SensorPlan& sensor = plan.sensors[i];
+      const FidelityChoice choice = UseChosenFidelity(maker.simulator(i), sensor.scenario);
+      sensor.spec.fidelity_choice_json = ChoiceJson(choice);
+      on_choice(sensor, choice);
+    }
+  } catch (const RunStopped&) {
+    return false;
+  }
+  return true;
+}
+
+std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
+                                       const RunPlan& plan,
+                                       const SequenceHooks& hooks) {
+  std::vector<SensorSequence> sequences;
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    const SequenceSpec& spec = plan.sensors[i].spec;
+    Simulator& simulator = maker.simulator(i);
+    simulator.UseLastStamp(maker.pattern(i).StampNs(spec.FrameAt(spec.num_frames - 1)));
+    // Frames are begun by whichever thread is free: from then on the terminal shows what this one
+    // waits for.
+    const auto begin = [&maker, &simulator, i](std::uint32_t index) {
+      const NoDeadlineAfterwards guard;
+      WatchBuilding(simulator, StopRequested, true);
+      return maker.Begin(i, index);
+    };
+    sequences.push_back({spec, begin, [&maker, i](std::uint32_t index) {
+                           return maker.pattern(i).StampNs(index);
+                         }});
+  }
+  const FramesAtOnce at_once = {maker.NumAtOnce(), [&](const std::function<void()>& work) {
+                                  maker.simulator(0).Execute(work);
+                                }};
+  return RunSequences(sequences, hooks, at_once);
+}
+
+SequenceResult RunSequence(const SequenceSpec& spec,
+                           const BeginFrame& begin_frame,
+                           const SequenceHooks& hooks,
+                           const FramesAtOnce& at_once) {
+  return RunSequences({{spec, begin_frame, {}}}, hooks, at_once).front();
+}
+
+}  // namespace railcast

@@ -1,0 +1,420 @@
+#include "generator/run/run_directory.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/cloud/kitti.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/sequence_summary.h"
+#include "core/io/run/camera_files.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using OrderedJson = nlohmann::ordered_json;
+
+bool HasBytes(const fs::path& file, std::string_view bytes) {
+  return fs::exists(file) && ReadFileWhole(file) == bytes;
+}
+
+std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& objects) {
+  std::set<std::uint32_t> moving;
+  for (const ObjectInFrame& object : objects) {
+    if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
+  }
+  return moving;
+}
+
+// Returns the files below a directory, relative to it. A link counts as a file, whatever it leads
+// to.
+std::vector<std::string> FilesBelow(const fs::path& directory) {
+  std::vector<std::string> names;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(directory, error);
+  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
+    if (fs::is_directory(entry->symlink_status(error)) || error) continue;
+    names.push_back(entry->path().lexically_relative(directory).generic_string());
+  }
+  if (error) throw FileError(directory, error.value());
+  std::ranges::sort(names);
+  return names;
+}
+
+// Returns "frames/000012.pcd" for "frames/000012.pcd.part", and nothing for other names.
+std::optional<std::string_view> FinishedName(std::string_view name) {
+  if (!name.ends_with(kUnfinishedSuffix)) return std::nullopt;
+  return name.substr(0, name.size() - kUnfinishedSuffix.size());
+}
+
+// Returns the number in the name of a frame's file: 12 for "frames/000012.pcd".
+std::optional<std::uint32_t> FrameNumber(std::string_view name) {
+  name.remove_prefix(name.rfind('/') + 1);
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end == name.data()) return std::nullopt;
+  return number;
+}
+
+/// A file of a directory that gets one line per frame.
+struct LineFileName {
+  std::string name;
+  std::string_view header;
+};
+
+// The line files of a format in the order in which they are written; frames.jsonl is the last.
+std::vector<LineFileName> LineFileNames(const FrameFormat& format) {
+  std::vector<LineFileName> names = {{std::string(kPosesFile), kPosesHeader},
+                                     {std::string(kObjectsFile), ""}};
+  if (format.dataset) {
+    for (const std::string_view name : format.dataset->record_files) {
+      names.push_back({std::string(name), ""});
+    }
+  }
+  names.push_back({std::string(kFramesFile), ""});
+  return names;
+}
+
+// labels.json in the form that the scenario reader reads.
+std::string LabelsJson(const LabelTable& labels) {
+  OrderedJson list = OrderedJson::array();
+  for (const Label& label : labels.labels()) {
+    list.push_back({{"id", label.id},
+                    {"name", label.name},
+                    {"rgb", label.rgb},
+                    {"whu_railway3d", label.whu_railway3d},
+                    {"osdar23", label.osdar23},
+                    {"semantic_kitti", label.semantic_kitti},
+                    {"semantic_kitti_nearest", label.semantic_kitti_nearest}});
+  }
+  return OrderedJson{{"version", 1}, {"labels", list}}.dump(2) + "\n";
+}
+
+// materials.json: the materials by the ids that frames carry; 0 means none.
+std::string MaterialsJson(const MaterialLibrary& materials) {
+  OrderedJson list = OrderedJson::array();
+  for (const Material& material : materials.materials()) {
+    list.push_back(
+        {{"id", list.size()},
+         {"name", material.name},
+         {"reflectivity", material.reflectivity},
+         {"reflectivity_1550nm", material.reflectivity_1550nm.value_or(material.reflectivity)},
+         {"facet_slope_deg", material.facet_slope_deg},
+         {"specular_f0", material.specular_f0},
+         {"specular_f0_1550nm", material.specular_f0_1550nm.value_or(material.specular_f0)},
+         {"specular_roughness", material.specular_roughness},
+         {"retroreflectance", material.retroreflectance}});
+  }
+  return OrderedJson{{"version", 1}, {"materials", list}}.dump(2) + "\n";
+}
+
+// Iterates over the whole lines of a line file.
+class LineWalk {
+ public:
+  LineWalk(const std::filesystem::path& file, std::string_view header) {
+    if (std::filesystem::exists(file)) text_ = ReadFileWhole(file);
+    has_header_ = std::string_view(text_).starts_with(header);
+    if (has_header_) position_ = header.size();
+  }
+
+  /// Returns the next line with its end; empty if there is none or it is incomplete.
+  [[nodiscard]] std::string_view Next() const {
+    if (!has_header_) return {};
+    const std::size_t end = text_.find('\n', position_);
+    if (end == std::string::npos) return {};
+    return std::string_view(text_).substr(position_, end + 1 - position_);
+  }
+  void Advance() { position_ += Next().size(); }
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+ private:
+  std::string text_;
+  bool has_header_ = false;
+  std::size_t position_ = 0;
+};
+
+bool HasContent(const std::filesystem::path& directory, const WrittenFile& file) {
+  const std::filesystem::path path = directory / file.name;
+  return std::filesystem::exists(path) && std::filesystem::file_size(path) == file.size &&
+         ContentHash(ReadFileWhole(path)) == file.hash;
+}
+
+// Returns the next frame's record if the frame is complete.
+std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
+                                     std::uint32_t frame,
+                                     const std::vector<LineWalk>& walks) {
+  auto record = ParseFrameLine(walks.back().Next());
+  if (!record || record->frame != frame) return std::nullopt;
+  std::string records;
+  for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
+  if (ContentHash(records) != record->records_hash) return std::nullopt;
+  for (const WrittenFile& file : record->files) {
+    if (!HasContent(spec.directory, file)) return std::nullopt;
+  }
+  return record;
+}
+
+/// The names of a run's files.
+class OwnNames {
+ public:
+  /// @param fixed The files that are known before the first frame.
+  OwnNames(const SequenceSpec& spec, const std::vector<FrameFile>& fixed) : spec_(spec) {
+    names_ = {std::string(kRunFile), std::string(kManifestFile)};
+    for (const FrameFile& file : fixed) names_.insert(file.name);
+    for (const LineFileName& file : LineFileNames(*spec.files.format)) names_.insert(file.name);
+  }
+
+  [[nodiscard]] bool Have(std::string_view name) const {
+    if (names_.contains(name)) return true;
+    const std::optional<std::uint32_t> number = FrameNumber(name);
+    const bool is_counted = spec_.files.format->dataset.has_value();
+    const std::uint32_t first = is_counted ? 0 : spec_.start_frame;
+    const std::uint32_t step = is_counted ? 1 : spec_.stride;
+    if (!number || *number < first || (*number - first) % step != 0) return false;
+    if ((*number - first) / step >= spec_.num_frames) return false;
+    std::vector<std::string> names = FrameFileNames(*spec_.files.format, *number);
+    if (!spec_.camera.empty()) {
+      for (std::string& image : CameraFileNames(spec_.camera, *number)) {
+        names.push_back(std::move(image));
+      }
+    }
+    return std::ranges::find(names, name) != names.end();
+  }
+
+ private:
+  const SequenceSpec& spec_;
+  std::set<std::string, std::less<>> names_;
+};
+
+}  // namespace
+
+RunDirectory::RunDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
+  lock_.emplace(spec_.directory);
+  Open();
+}
+
+void RunDirectory::Open() {
+  const fs::path run_file = spec_.directory / kRunFile;
+  const bool is_run = fs::exists(run_file);
+  is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
+  if (is_run) CheckSameRun(spec_, ReadFileWhole(run_file), is_complete_);
+  RefuseStrangers(is_run);
+  if (!is_run) WriteFileWhole(run_file, RunJson(spec_));
+  Resume();
+}
+
+// Refuses files of other origin: they could be mistaken for the run's, or be deleted when it cleans
+// up.
+void RunDirectory::RefuseStrangers(bool is_run) const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    const std::optional<std::string_view> finished = FinishedName(name);
+    // A run that was stopped before its first file was complete leaves an unfinished run.json.
+    const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
+                               : finished == std::string_view(kRunFile);
+    if (is_own) continue;
+    throw InputError(ShownPath(spec_.directory) +
+                     ": holds a file that does not belong to this run (" + ShownPath(name) +
+                     "); move it away or choose another --out");
+  }
+}
+
+void RunDirectory::RemoveUnfinished() const {
+  const OwnNames own(spec_, FixedFiles());
+  for (const std::string& name : FilesBelow(spec_.directory)) {
+    // A mesh may have a name that ends so, too.
+    if (FinishedName(name) && !own.Have(name)) fs::remove(spec_.directory / name);
+  }
+}
+
+void RunDirectory::Resume() {
+  if (!is_complete_) {
+    WriteFixedFiles();
+    RemoveUnfinished();
+  }
+  const std::vector<std::uint64_t> line_sizes = CountFrames();
+  if (is_complete_) return CheckUnchanged(line_sizes);
+  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    line_files_.emplace_back(spec_.directory / names[i].name, line_sizes[i]);
+    if (line_sizes[i] == 0) line_files_.back().Append(names[i].header);
+  }
+}
+
+std::vector<std::uint64_t> RunDirectory::CountFrames() {
+  std::vector<LineWalk> walks;
+  for (const LineFileName& file : LineFileNames(*spec_.files.format)) {
+    walks.emplace_back(spec_.directory / file.name, file.header);
+  }
+  for (; num_done_ < spec_.num_frames; ++num_done_) {
+    const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
+    if (!record) break;
+    if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());
+    counts_.Add(record->counts);
+    for (LineWalk& walk : walks) walk.Advance();
+  }
+  std::vector<std::uint64_t> sizes;
+  for (const LineWalk& walk : walks) sizes.push_back(walk.position());
+  return sizes;
+}
+
+void RunDirectory::CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const {
+  const fs::path& directory = spec_.directory;
+  const auto check = [&](bool is_unchanged, const std::string& what) {
+    if (is_unchanged) return;
+    throw InputError(ShownPath(directory) + ": is complete, but " + what +
+                     " was changed or removed; delete manifest.json to make it anew");
+  };
+  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.FrameAt(num_done_)));
+  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    check(fs::file_size(directory / names[i].name) == line_sizes[i], names[i].name);
+  }
+  check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
+  for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
+  check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
+}
+
+std::vector<FrameFile> RunDirectory::FixedFiles() const {
+  std::vector<FrameFile> files;
+  const auto add = [&files](std::string_view name, std::string bytes) {
+    files.push_back({std::string(name), std::move(bytes)});
+  };
+  add(kScenarioFile, spec_.identity.scenario_json);
+  for (const InputFile& input : spec_.identity.inputs) add(input.CopyName(), input.bytes);
+  add(kLabelsFile, LabelsJson(spec_.files.labels));
+  add(kMaterialsFile, MaterialsJson(spec_.materials));
+  if (!spec_.commands_jsonl.empty()) add(kCommandsFile, spec_.commands_jsonl);
+  if (!spec_.camera.empty()) add(CalibrationFileName(spec_.camera), spec_.calibration_json);
+  if (const auto& dataset = spec_.files.format->dataset) {
+    for (FrameFile& file : dataset->fixed_files(spec_.files.labels)) {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+void RunDirectory::WriteFixedFiles() {
+  const fs::path& directory = spec_.directory;
+  for (const FrameFileKind& file : spec_.files.format->files) {
+    MakeFolders((directory / file.folder).parent_path());
+  }
+  if (!spec_.camera.empty()) {
+    for (const std::string& name : CameraFileNames(spec_.camera, 0)) {
+      MakeFolders((directory / name).parent_path());
+    }
+  }
+  // The file may have the same content in other bytes.
+  if (!HasBytes(directory / kRunFile, RunJson(spec_))) {
+    WriteFileWhole(directory / kRunFile, RunJson(spec_));
+  }
+  for (const auto& [name, bytes] : FixedFiles()) {
+    MakeFolders((directory / name).parent_path());
+    WriteFileWhole(directory / name, bytes);
+  }
+}
+
+std::vector<std::string> RunDirectory::RecordLines(const EncodedFrame& frame) {
+  const PoseRecord& pose = frame.pose;
+  if (!first_pose_) first_pose_ = pose;
+  std::vector<std::string> lines = {PoseLine(pose), frame.objects_line};
+  if (const auto& dataset = spec_.files.format->dataset) {
+    // Computed from the values of poses.csv, so that a resumed run uses the same numbers.
+    for (std::string& line :
+         dataset->record_lines(first_pose_->WorldFromSensor().inverse() * pose.WorldFromSensor(),
+                               SecondsFromNs(pose.stamp_ns - first_pose_->stamp_ns))) {
+      lines.push_back(std::move(line));
+    }
+  }
+  return lines;
+}
+
+void RunDirectory::Encode(const Frame& frame,
+                          const std::vector<ObjectInFrame>& objects,
+                          const CameraImage* image,
+                          EncodedFrame& encoded) const {
+  const std::uint32_t number =
+      spec_.files.format->dataset ? (frame.index - spec_.start_frame) / spec_.stride : frame.index;
+  EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(objects));
+  if (image != nullptr) {
+    for (FrameFile& file : EncodeCameraFiles(*image, spec_.camera, number)) {
+      encoded.files.push_back(std::move(file));
+    }
+  }
+  encoded.record = {.frame = frame.index,
+                    .stamp_ns = frame.stamp_ns,
+                    .scan_poses = ScanPosesOf(frame),
+                    .files = {},
+                    .records_hash = {},
+                    .counts = CountFrame(frame, spec_.files.labels)};
+  for (const FrameFile& file : encoded.files) {
+    encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+  }
+  encoded.pose = PoseRecord(frame.stamp_ns, frame.world_from_sensor);
+  encoded.objects_line = ObjectsLine(frame, objects);
+}
+
+void RunDirectory::Write(const EncodedFrame& frame) {
+  FrameRecord record = frame.record;
+  Check(record.frame == spec_.FrameAt(num_done_), "frames are written in their order");
+  for (const FrameFile& file : frame.files) {
+    WriteFileWhole(spec_.directory / file.name, file.bytes);
+  }
+  const std::vector<std::string> lines = RecordLines(frame);
+  std::string all_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    line_files_[i].Append(lines[i]);
+    all_lines += lines[i];
+  }
+  record.records_hash = ContentHash(all_lines);
+  line_files_.back().Append(FrameRecordLine(record));
+  counts_.Add(record.counts);
+  ++num_done_;
+}
+
+void RunDirectory::Finish() {
+  Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
+  for (LineFile& file : line_files_) file.Sync();
+  WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
+  is_complete_ = true;
+}
+
+std::string RunDirectory::ManifestJson() const {
+  OrderedJson manifest = {{"version", spec_.version},
+                          {"seed", spec_.seed},
+                          {"format", spec_.files.format->name},
+                          {"start_frame", spec_.start_frame},
+                          {"num_frames", spec_.num_frames}};
+  if (!spec_.fidelity_choice_json.empty()) {
+    manifest["fidelity_choice"] = OrderedJson::parse(spec_.fidelity_choice_json);
+  }
+  PutCounts(counts_, manifest);
+  // frames.jsonl holds the hash of every frame's files, so these hashes cover the whole content.
+  // The data's hash leaves out run.json, which names the program that made them.
+  std::vector<KnownFile> known;
+  OrderedJson files = OrderedJson::object();
+  std::vector<std::string> names = {std::string(kRunFile)};
+  for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
+  for (const LineFileName& file : LineFileNames(*spec_.files.format)) names.push_back(file.name);
+  for (const std::string& name : names) {
+    const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
+    files[name] = hash;
+    known.push_back({name, hash, {}});
+  }
+  manifest["files_xxh3"] = files;
+  manifest["data_xxh3"] = DataHash(known);
+  return WithManifestHash(manifest.dump(2) + "\n");
+}
+
+}  // namespace railcast

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/record/frame_record.h"
+#include "generator/record/object_record.h"
+#include "generator/record/pose_record.h"
+#include "generator/run/run_folder.h"
+#include "generator/run/run_plan.h"
+#include "railcast/camera.h"
+#include "railcast/frame.h"
+
+namespace railcast {
+
+/// Returns run.json, which identifies the run of a directory from its first moment on.
+[[nodiscard]] std::string RunJson(const SequenceSpec& spec);
+
+/// Checks that the directory belongs to this run.
+/// @throws InputError that names the first difference if `run_json`, found in the directory, is
+///   another run's.
+/// @param is_complete Whether that run is complete, so that it cannot be continued.
+void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete);
+
+/// A frame as it is written to a sequence directory.
+struct EncodedFrame {
+  std::vector<FrameFile> files;
+  FrameRecord record;  ///< Without records_hash.
+  PoseRecord pose;
+  std::string objects_line;
+};
+
+/// A directory that holds a sequence of frames, complete or unfinished.
+///
+/// Layout: `frames/NNNNNN.*` (kitti: KITTI's own layout, numbered from 0 because line n of
+/// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
+/// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
+/// `materials.json`, `camera/NAME/...` (if there is a camera), `commands.jsonl` (if the run replays
+/// any), `run.json` (identifies the run) and, once complete, `manifest.json`.
+///
+/// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
+/// hashes that this line states. All other remains of an interrupted run are dropped on opening, so
+/// that a resumed run gives the same bytes as one that was never interrupted.
+class RunDirectory {
+ public:
+  /// Creates the directory, or opens it and finds out how far its run has got.
+  /// @throws InputError if it belongs to another run, holds other files, is complete but was
+  ///   changed since, is being written by another process, or the system refuses.
+  explicit RunDirectory(SequenceSpec spec);
+  ~RunDirectory() = default;
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
+
+  /// Whether manifest.json exists.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  /// Counts over all frames done.
+  [[nodiscard]] const FrameCounts& counts() const { return counts_; }
+
+  /// Encodes one of the run's frames. Several threads may do so at once, and while one writes.
+  /// @param image The camera's image of the frame; null = it has none.
+  /// @param encoded Its memory is reused.
+  void Encode(const Frame& frame,
+              const std::vector<ObjectInFrame>& objects,
+              const CameraImage* image,
+              EncodedFrame& encoded) const;
+
+  /// Writes the next of the run's frames.
+  /// @throws InputError if the system refuses; the directory can be resumed nevertheless.
+  void Write(const EncodedFrame& frame);
+
+  /// Writes the manifest.
+  /// @pre All frames are done.
+  void Finish();
+
+ private:
+  void Open();
+  // @throws InputError if the directory holds a file that does not belong to this run.
+  void RefuseStrangers(bool is_run) const;
+  void RemoveUnfinished() const;
+  void Resume();
+  // Checks a complete directory.
+  // @param line_sizes For each line file, the size that its frames account for.
+  void CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const;
+  // Counts the leading frames that are complete: whose files and lines have the hashes that their
+  // line of frames.jsonl states.
+  // @return For each line file, the size of the header and the lines of these frames.
+  [[nodiscard]] std::vector<std::uint64_t> CountFrames();
+  // Returns the files that are known before the first frame, except run.json.
+  [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
+  void WriteFixedFiles();
+  [[nodiscard]] std::string ManifestJson() const;
+  [[nodiscard]] std::vector<std::string> RecordLines(const EncodedFrame& frame);
+
+  SequenceSpec spec_;
+  std::optional<FolderLock> lock_;
+  bool is_complete_ = false;
+  std::uint32_t num_done_ = 0;
+  FrameCounts counts_;
+  std::optional<PoseRecord> first_pose_;
+  /// frames.jsonl is last: its line makes the frame count as done.
+  std::vector<LineFile> line_files_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,93 @@
+#include "generator/run/run_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+// Retries, since a run that was just killed may hold the lock until the system has released it.
+bool LockFolder(int folder) {
+  constexpr int kTries = 20;
+  constexpr std::chrono::milliseconds kPause(50);
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(folder, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(kPause);
+  }
+  return false;
+}
+
+}  // namespace
+
+void MakeFolders(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder, error.value());
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  MakeFolders(folder);
+  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) throw FileError(folder, errno);
+  if (LockFolder(descriptor_)) return;
+  ::close(descriptor_);
+  throw InputError(ShownPath(folder) + ": another run is writing here");
+}
+
+FolderLock::~FolderLock() {
+  ::close(descriptor_);
+}
+
+LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
+    : file_(std::move(file)), size_(keep_bytes) {
+  constexpr int kAccess = 0644;
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAccess);
+  if (descriptor_ < 0) throw FileError(file_, errno);
+  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) return;
+  const int error_number = errno;
+  ::close(descriptor_);
+  throw FileError(file_, error_number);
+}
+
+LineFile::LineFile(LineFile&& other) noexcept
+    : file_(std::move(other.file_)),
+      size_(other.size_),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+LineFile::~LineFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void LineFile::Append(std::string_view lines) {
+  const std::uint64_t whole = size_;
+  while (!lines.empty()) {
+    const ssize_t written =
+        ::pwrite(descriptor_, lines.data(), lines.size(), static_cast<off_t>(size_));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int error_number = errno;
+      // If this fails, too, resuming the run drops the incomplete line.
+      size_ = ::ftruncate(descriptor_, static_cast<off_t>(whole)) == 0 ? whole : size_;
+      throw FileError(file_, error_number);
+    }
+    lines.remove_prefix(static_cast<std::size_t>(written));
+    size_ += static_cast<std::uint64_t>(written);
+  }
+}
+
+void LineFile::Sync() {
+  if (::fsync(descriptor_) != 0) throw FileError(file_, errno);
+}
+
+}  // namespace railcast

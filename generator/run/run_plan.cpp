@@ -1,0 +1,175 @@
+#include "generator/run/run_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/run/camera_files.h"
+#include "core/io/run/sensor_folders.h"
+#include "core/io/run/sequence_files.h"
+#include "core/program/version.h"
+#include "core/scenario/track_limits.h"
+#include "core/trace/trace_program.h"
+#include "generator/empty_folder.h"
+
+namespace railcast {
+namespace {
+
+bool IsNameOfAFolder(const std::string& name) {
+  return name.size() <= 200 && name != "." && name != ".." && name != kSensorsFile &&
+         name.find('/') == std::string::npos;
+}
+
+// The sequence of a scenario with one sensor.
+SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
+                            const RunChoices& choices,
+                            const std::string& shown) {
+  SequenceSpec spec;
+  spec.directory = choices.directory;
+  spec.version = ProgramVersion();
+  spec.embree_version = EmbreeVersion();
+  spec.isa = AtPlace("--", [&] { return IsaInUse(choices.isa); });
+  spec.identity = IdentityOf(scenario);
+  spec.seed = scenario.seed;
+  spec.files.format = &ParseFrameFormat(choices.format);
+  spec.files.fields = FieldSelection(choices.fields);
+  const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
+  const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
+                               scenario.output.handedness == Handedness::kRight;
+  if (dataset && !is_sensor_frame) {
+    throw InputError(shown + ": /output: must be right-handed sensor coordinates for --format " +
+                     choices.format + " (got " + std::string(NameOf(scenario.output.handedness)) +
+                     "-handed " + std::string(NameOf(scenario.output.frame)) + ")");
+  }
+  if (dataset && choices.fields != "all") {
+    throw InputError("--fields: " + std::string(dataset->title) +
+                     "'s are fixed, so it must be left out with --format " + choices.format +
+                     " (got " + choices.fields + ")");
+  }
+  spec.files.labels = LabelTable(scenario.labels);
+  spec.materials = MaterialLibrary(scenario.materials);
+  if (scenario.camera) {
+    spec.camera = scenario.camera->name;
+    spec.calibration_json = CalibrationJson(*scenario.camera, VehicleFromCamera(scenario),
+                                            VehicleFromSensor(scenario.lidar.mount));
+  }
+  spec.start_frame = choices.start_frame;
+  spec.num_frames = choices.num_frames;
+  spec.stride = choices.stride;
+  return spec;
+}
+
+// The last frame of a sensor's sequence.
+std::uint32_t LastFrameOf(const SequenceSpec& spec, const ScanPattern& pattern) {
+  constexpr std::uint64_t kMost = 2 * kMaxFrame;
+  const std::uint64_t last =
+      spec.start_frame + std::uint64_t{spec.num_frames - 1} * std::uint64_t{spec.stride};
+  if (last > kMost) {
+    throw InputError("--start-frame, --frames, --stride: must lead to no frame after " +
+                     std::to_string(kMost) + " (got frame " + std::to_string(last) + ")");
+  }
+  const auto last_frame = static_cast<std::uint32_t>(last);
+  CheckHasStamp("--start-frame, --frames", pattern, last_frame);
+  return last_frame;
+}
+
+// Chooses every `stride`-th of the sensor's frames that begin in a span of time, from the first one
+// that does.
+void ChooseFrames(const SequenceSpec& first,
+                  std::int64_t begin_ns,
+                  std::int64_t end_ns,
+                  const ScanPattern& pattern,
+                  SensorPlan& sensor) {
+  const std::uint32_t most = pattern.LastFrame();
+  const std::uint32_t begin = FirstStampedAt(pattern, begin_ns, 0, most);
+  const std::uint32_t end = FirstStampedAt(pattern, end_ns, begin, most);
+  if (begin == end) {
+    throw InputError("--frames: must last until a frame of sensor " + Quoted(sensor.name) +
+                     " begins, " + SecondsText(pattern.StampNs(begin)) + " (got " +
+                     std::to_string(first.num_frames) + " of the first sensor, to " +
+                     SecondsText(end_ns) + ")");
+  }
+  sensor.spec.start_frame = begin;
+  sensor.spec.num_frames = (end - begin + sensor.spec.stride - 1) / sensor.spec.stride;
+  static_cast<void>(LastFrameOf(sensor.spec, pattern));
+}
+
+}  // namespace
+
+void CheckNamesOfFolders(const ScenarioSpec& scenario) {
+  if (scenario.lidars.empty()) return;
+  for (const std::string& name : SensorNames(scenario)) {
+    if (IsNameOfAFolder(name)) continue;
+    throw InputError("sensor: must be chosen, because a sensor's name is no name of a folder (" +
+                     Quoted(name) + ")");
+  }
+}
+
+RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::string& shown) {
+  CheckNamesOfFolders(scenario);
+  RunPlan plan{choices.directory, choices.is_merged, std::move(scenario), {}, {}, {}};
+  for (const std::string& name : SensorNames(plan.scenario)) {
+    ScenarioSpec reduced = PickSensor(plan.scenario, name);
+    if (!plan.sensors.empty()) reduced.camera.reset();
+    SequenceSpec spec = SequenceSpecOf(reduced, choices, shown);
+    if (!plan.scenario.lidars.empty()) spec.directory /= name;
+    plan.sensors.push_back({name, std::move(reduced), std::move(spec)});
+  }
+  return plan;
+}
+
+void RefuseOtherFiles(const RunPlan& plan) {
+  const auto is_known = [&](const std::string& name) {
+    return name == kSensorsFile || name == kMergedFolder ||
+           std::ranges::any_of(plan.sensors,
+                               [&](const SensorPlan& sensor) { return sensor.name == name; });
+  };
+  RefuseOtherEntries(plan.directory, is_known,
+                     "the folders of the scenario's sensors and " + std::string(kSensorsFile));
+}
+
+void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, RunPlan& plan) {
+  CommandLog read = ReadCommandLog(log);
+  plan.commands_place = ShownPath(log) + ": ";
+  const std::string hash = IdentityOf(whole).scenario_hash;
+  const bool is_whole = whole.lidars.size() == plan.scenario.lidars.size();
+  if (read.scenario_xxh3 != hash &&
+      (is_whole || read.scenario_xxh3 != plan.sensors.front().spec.identity.scenario_hash)) {
+    throw InputError(plan.commands_place +
+                     "must be the log of this scenario with this --seed and --fidelity, " + hash +
+                     " (got that of " + read.scenario_xxh3 + ")");
+  }
+  // Makes logs of all sensors and of this one alone give the same run.
+  read.scenario_xxh3 = hash;
+  // An empty log makes the same run as no log.
+  for (SensorPlan& sensor : plan.sensors) {
+    if (!read.commands.empty()) sensor.spec.commands_jsonl = CommandLogText(read);
+  }
+  plan.commands = std::move(read.commands);
+}
+
+void SetFrames(const FrameMaker& maker, RunPlan& plan) {
+  const SequenceSpec& first = plan.sensors.front().spec;
+  const ScanPattern& first_pattern = maker.pattern(0);
+  const std::int64_t begin_ns = first_pattern.StampNs(first.start_frame);
+  const std::int64_t end_ns = first_pattern.StampNs(LastFrameOf(first, first_pattern) + 1);
+  for (std::size_t i = 1; i < plan.sensors.size(); ++i) {
+    ChooseFrames(first, begin_ns, end_ns, maker.pattern(i), plan.sensors[i]);
+  }
+  for (const SensorPlan& sensor : plan.sensors) {
+    CheckSameFiles(sensor.scenario, sensor.spec.identity);
+  }
+}
+
+void CheckHasStamp(const std::string& option, const ScanPattern& pattern, std::uint32_t frame) {
+  if (frame <= pattern.LastFrame()) return;
+  std::string line = option;
+  line.append(": must lead to no frame after ").append(std::to_string(pattern.LastFrame()));
+  line.append(", since the next begins after 292 years at ").append(NumberText(pattern.rate_hz));
+  line.append(" Hz (got frame ").append(std::to_string(frame)).append(")");
+  throw InputError(line);
+}
+
+}  // namespace railcast

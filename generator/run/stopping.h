@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include "railcast/fidelity.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+
+/// From now on the signals of StopSignals() end the program cleanly: after the first one
+/// StopRequested() is true. A second signal of the same kind ends the program at once.
+void CatchStopSignals();
+
+[[nodiscard]] bool StopRequested();
+
+/// Sets whether a stop requested from now on may take no longer than half a second. If the deadline
+/// is still set by then, the program ends at once with kExitInterrupted. For work that cannot be
+/// interrupted and leaves nothing behind that must be cleaned up.
+void UseStopDeadline(bool has_deadline);
+
+/// Thrown when a run is told to stop in the middle of a frame. It is not a fault: the run ends
+/// cleanly without that frame.
+struct RunStopped {};
+
+/// From now on the terminal shows the progress of building the window that the calling thread waits
+/// for. Once `is_stopped` returns true, no window is built any further, here or in the background,
+/// and the frame that needs it ends with RunStopped. One chunk of a window takes a fraction of a
+/// second; a step that takes longer, as with a scene of millions of plants, is cut short by ending
+/// the program (UseStopDeadline).
+/// @param is_stopped Called from several threads.
+/// @param has_deadline Set only while the program has nothing to clean up: no capture to finish, no
+///   datagrams to send.
+void WatchBuilding(Simulator& simulator,
+                   const std::function<bool()>& is_stopped,
+                   bool has_deadline);
+
+/// Makes fidelity auto's choice and applies it to the simulator, showing the progress on the
+/// terminal.
+/// @pre The scenario's fidelity is `auto`; the simulator is the scenario's.
+FidelityChoice UseChosenFidelity(Simulator& simulator, const ScenarioSpec& scenario);
+
+}  // namespace railcast

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Runs the checks that a change must pass before it is merged.
+#
+#   check.sh            format, architecture, links, build, tests, core and the fuzzers with clang
+#   check.sh --fast     format, architecture and links of the docs only: seconds, no build
+#   check.sh --tidy     all of the above, and clang-tidy over the sources that differ from main
+#   check.sh --tidy-all as --tidy, over every source: takes minutes
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source scripts/packages.sh
+
+usage() {
+  sed -n '2,/^set /{/^# \?/s///p}' "${BASH_SOURCE[0]}"
+}
+
+check_format() {
+  echo "== format"
+  local unformatted
+  unformatted=$(git ls-files --cached --others --exclude-standard '*.h' '*.cpp' |
+    xargs --no-run-if-empty clang-format-14 --dry-run 2>&1 |
+    sed -n 's/^\([^:]*\):[0-9]*:[0-9]*: .*clang-format.*/\1/p' | sort --unique)
+  if [[ -n "$unformatted" ]]; then
+    printf 'error: run clang-format-14 -i %s\n' "${unformatted//$'\n'/ }" >&2
+    return 1
+  fi
+}
+
+check_architecture() {
+  echo "== architecture"
+  scripts/dev/lint_architecture.py
+}
+
+check_docs() {
+  echo "== docs"
+  scripts/dev/lint_docs.py
+}
+
+# check_tidy GIT-LIST-COMMAND...: runs clang-tidy over those sources listed by the command that are
+# part of the build, with each compiled by clang on its own, including its headers.
+check_tidy() {
+  echo "== clang-tidy"
+  cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
+    -D CMAKE_CXX_COMPILER=clang++-14 -D CMAKE_BUILD_TYPE=RelWithDebInfo \
+    -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
+  "$@" | sort --unique | while read -r file; do
+    if [[ -f "$file" ]] && grep --quiet --fixed-strings "\"$PWD/$file\"" \
+      build/tidy/compile_commands.json; then
+      echo "$file"
+    fi
+  done | xargs --no-run-if-empty --max-args=1 --max-procs="$(nproc)" \
+    clang-tidy-14 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
+}
+
+# The fuzzers need clang; building them compiles all of core with clang, with warnings as errors.
+# The tests beside them replay the corpora with the address and undefined-behaviour sanitizers.
+check_clang() {
+  echo "== clang"
+  cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
+    -D CMAKE_CXX_COMPILER=clang++-14 -D RAILCAST_BUILD_FUZZERS=ON >/dev/null
+  cmake --build build/fuzz --target fuzzers
+  ctest --test-dir build/fuzz/tests/fuzz --output-on-failure --parallel "$(nproc)"
+}
+
+all_sources() {
+  git ls-files --cached --others --exclude-standard '*.cpp'
+}
+
+changed_sources() {
+  git diff --name-only "$(git merge-base main HEAD)" -- '*.cpp'
+  git ls-files --others --exclude-standard '*.cpp'
+}
+
+mode="${1:-}"
+case "$mode" in
+  "" | --fast | --tidy | --tidy-all) ;;
+  --help)
+    usage
+    exit
+    ;;
+  *)
+    usage >&2
+    exit 2
+    ;;
+esac
+
+install_packages "${check_packages[@]}"
+check_format
+check_architecture
+check_docs
+if [[ "$mode" == --fast ]]; then
+  exit
+fi
+echo "== build and tests"
+scripts/test.sh
+check_clang
+case "$mode" in
+  --tidy) check_tidy changed_sources ;;
+  --tidy-all) check_tidy all_sources ;;
+esac
+echo "All checks passed."

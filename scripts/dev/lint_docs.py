@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Checks the links of the Markdown pages.
+
+Usage: lint_docs.py [ROOT]
+
+Prints one line per fault, "file:line: rule (what was found)", and exits 1 if there is any: links to
+files or headings that do not exist, pages of docs that docs/index.md has no link to, pictures of
+docs/images that no page shows or that lack words of their source, scripts of figures that do not
+exist, and quotes that are not in the file that they are from.
+"""
+
+import html
+import pathlib
+import re
+import sys
+import textwrap
+import urllib.parse
+
+START = "docs/index.md"
+NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the project.
+
+FENCE = re.compile(r"^(```+|~~~+).*?^\1[ \t]*$", re.MULTILINE | re.DOTALL)
+INLINE_CODE = re.compile(r"(`+)(?!`).+?(?<!`)\1(?!`)")
+LINK = re.compile(r"\]\(\s*<?([^()\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
+MADE_BY = re.compile(r"<!-- figures: (scripts/\S+)")  # Beside a table: what made its figures.
+QUOTE = re.compile(r"<!-- from (\S+) -->\n(?:```\w*\n(.*?)^```)?", re.MULTILINE | re.DOTALL)  # Above a quote: whose.
+LABEL = re.compile(r'label="([^"]*)"')  # In a text for graphviz.
+HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t]*#*$", re.MULTILINE)
+
+
+def blanked(match):
+    """The same number of lines and letters, without content."""
+    return re.sub(r"[^\n]", " ", match[0])
+
+
+def slug(heading, seen):
+    """The anchor that GitHub makes of a heading; `seen` counts the page's anchors so far."""
+    text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+    text = re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+    count = seen.get(text, 0)
+    seen[text] = count + 1
+    return f"{text}-{count}" if count else text
+
+
+class Page:
+    """A page's links, each with its line, and its anchors."""
+
+    def __init__(self, path):
+        text = FENCE.sub(blanked, path.read_text(encoding="utf-8"))
+        seen = {}
+        self.anchors = {slug(match[1], seen) for match in HEADING.finditer(text)}
+        self.links = [(text.count("\n", 0, match.start()) + 1, match[1])
+                      for match in LINK.finditer(INLINE_CODE.sub(blanked, text))]
+
+
+def read_pages(root):
+    """{path: page} of all Markdown files of the project."""
+    paths = [path for path in sorted(root.rglob("*.md"))
+             if path.relative_to(root).parts[0] not in NOT_OURS]
+    return {path: Page(path) for path in paths}
+
+
+def targets_of(path, page):
+    """Yields (line, link, file, anchor) of the page's links into the project."""
+    for line, link in page.links:
+        if re.match(r"[a-z]+:", link):
+            continue
+        name, _, anchor = urllib.parse.unquote(link).partition("#")
+        yield line, link, (path.parent / name).resolve() if name else path, anchor
+
+
+def lint_links(root, pages):
+    for path, page in pages.items():
+        place = path.relative_to(root).as_posix()
+        for line, link, target, anchor in targets_of(path, page):
+            if not target.exists():
+                yield f"{place}:{line}: a link leads to a file that exists ({link})"
+            elif anchor and target in pages and anchor not in pages[target].anchors:
+                yield f"{place}:{line}: a link leads to a heading of the page ({link})"
+
+
+def lint_start_page(root, pages):
+    """Yields the pages of docs that the start page has no link to."""
+    start = root / START
+    linked = {target for _, _, target, _ in targets_of(start, pages[start])} if start in pages else set()
+    for path in pages:
+        if path.parent == start.parent and path != start and path not in linked:
+            yield f"{path.relative_to(root).as_posix()}:1: {START} has a link to every page of docs"
+
+
+def lint_pictures(root, pages):
+    """Yields the pictures that no page shows."""
+    shown = {target for path, page in pages.items() for _, _, target, _ in targets_of(path, page)}
+    sources = {".dot"}  # Of drawings that stand beside them.
+    for path in sorted((root / "docs/images").rglob("*")):
+        if path.is_file() and path.suffix not in sources and path not in shown:
+            yield f"{path.relative_to(root).as_posix()}:1: a page shows every picture of docs/images"
+
+
+def lint_drawings(root):
+    """Yields the words of the texts for graphviz that the drawings made of them lack."""
+    for path in sorted((root / "docs/images").glob("*.dot")):
+        place, drawing = path.relative_to(root).as_posix(), path.with_suffix(".svg")
+        drawn = html.unescape(drawing.read_text(encoding="utf-8")) if drawing.exists() else ""
+        drawn = drawn.replace("\u00a0", " ")
+        for label in LABEL.findall(path.read_text(encoding="utf-8")):
+            for line in label.split("\\n"):
+                if line not in drawn:
+                    yield f"{place}:1: the drawing has the words of its source ({line})"
+
+
+def lint_figures(root, pages):
+    """Yields the scripts that made figures of a page and do not exist."""
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for match in MADE_BY.finditer(text):
+            if not (root / match[1]).exists():
+                line = text.count("\n", 0, match.start()) + 1
+                yield (f"{path.relative_to(root).as_posix()}:{line}: figures are made by a script "
+                       f"that exists ({match[1]})")
+
+
+def lint_quotes(root, pages):
+    """Yields the quotes that are no lines of their file, be they indented there or not."""
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for match in QUOTE.finditer(text):
+            name, quote = match[1], match[2]
+            whole = "\n" + (root / name).read_text(encoding="utf-8") if (root / name).exists() else ""
+            if not quote or not any("\n" + textwrap.indent(quote, " " * n) in whole for n in range(9)):
+                line = text.count("\n", 0, match.start()) + 1
+                yield f"{path.relative_to(root).as_posix()}:{line}: a quote stands in its file ({name})"
+
+
+def lint(root):
+    """Every fault of the pages in the tree at `root`."""
+    pages = read_pages(root)
+    return [*lint_links(root, pages), *lint_start_page(root, pages), *lint_pictures(root, pages),
+            *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages)]
+
+
+def main(arguments):
+    here = pathlib.Path(__file__).resolve()
+    root = pathlib.Path(arguments[1]).resolve() if len(arguments) > 1 else here.parents[2]
+    faults = lint(root)
+    for fault in faults:
+        print(fault, file=sys.stderr)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Compares a scene that is coarser far away with full detail, for docs/detail.md: echoes by range with three
+# sensors on two rungs, then times on three scenarios, then time and memory of a first frame. Needs a
+# release build and GNU time; takes some ten minutes. Nothing else should run meanwhile.
+#
+#   measure_detail.sh [FRAMES]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+if [[ ! -x /usr/bin/time ]]; then
+  echo "error: needs GNU time; as root, run: apt-get install time" >&2
+  exit 1
+fi
+compare=build/release/tests/bench/railcast-detail
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+for sensor in vir2rail pandar64 vls128; do
+  printf '{"version": 1, "file": "%s", "lidar": {"file": "%s", "mount": {"position_m": [2.2, 0, 2.5]}}}\n' \
+    "$PWD/scenarios/st_gallen_approach.json" "$PWD/scenarios/sensors/$sensor.json" >"$work/$sensor.json"
+  for rung in surface footprint; do
+    printf '\n%s, %s\n\n' "$sensor" "$rung"
+    "$compare" "$work/$sensor.json" --rung "$rung" --frames "${1:-60}"
+  done
+done
+for scenario in st_gallen_approach open_line forest_rain; do
+  for rung in plausibility footprint; do
+    printf '\n%s, %s\n' "$scenario" "$rung"
+    "$compare" "scenarios/$scenario.json" --rung "$rung" --turns 15
+  done
+done
+for detail in full auto; do
+  printf '{"version": 1, "file": "%s", "world": {"alignment": "%s", "tracks": [{"name": "main"}, {"name": "second", "offset_m": 4.0}], "vegetation": {"trees_per_hectare": 60}, "detail": "%s"}}\n' \
+    "$PWD/scenarios/open_line.json" "$PWD/scenarios/alignments/st_gallen_wil.json" "$detail" >"$work/$detail.json"
+  printf '\nfirst frame, detail %s\n' "$detail"
+  /usr/bin/time -f '%U s of the processor, %M kB' build/release/generator/railcast-generate \
+    sequence "$work/$detail.json" --out "$work/out_$detail" --frames 1 --threads 1 >/dev/null
+done

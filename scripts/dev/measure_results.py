@@ -1,0 +1,322 @@
+#!/usr/bin/env python3
+"""Measures the figures of the pages into docs/results.json, and puts them into the pages (scripts/dev/results.py).
+
+    measure_results.py [PART...] [--build build/release] [--list] [--again]
+
+Without a PART, measures all parts of which the file has no figures of this revision and an idle machine, so that the
+same command goes on where it was stopped. --again measures all; --list says what there is and how long each takes.
+Needs a release build of everything, gnuplot, valgrind and Xvfb. For figures worth quoting nothing else may run on the
+machine: a part that is measured beside other programs says so on its page.
+"""
+
+import argparse
+import csv
+import datetime
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import growth
+import results
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FILE = ROOT / results.FILE
+IDLE_LOAD = 0.5
+BUSY = "other programs ran, to be measured again"
+SCENES = ("open_line", "parallel_wagons", "forest_rain", "fog_yard")
+SENSORS = {"pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette", "narrow": "narrow view"}
+
+
+def said(*command, **options):
+    """What a command prints."""
+    return subprocess.run(list(map(str, command)), check=True, stdout=subprocess.PIPE, text=True, cwd=ROOT,
+                          **options).stdout
+
+
+def tables_in(text):
+    """The rows of all Markdown tables of a text, each with its columns first."""
+    found = re.findall(r"^\|.*\|\n\|[-|]+\|\n(?:\|.*\|\n?)*", text, re.M)
+    return [[results.cells_of(line) for i, line in enumerate(table.splitlines()) if i != 1] for table in found]
+
+
+def table(keys, columns, rows):
+    return {"keys": keys, "columns": columns, "rows": rows}
+
+
+def shown(value, scale=1.0, digits=2):
+    return "-" if value is None else f"{scale * value:.{digits}f}"
+
+
+def error_cells(row):
+    """The cells of a row of `frontier` and their columns."""
+    errors = row.get("errors") or {}
+    share = lambda key: shown(errors.get(key), 100.0)
+    found = lambda key: "-" if errors.get(key) is None else f"{100.0 * (1.0 - errors[key]):.2f}"
+    length = lambda key: shown(errors.get(key), 1e3)
+    return {"time x raw trace": shown(row["ratio_to_raw_trace"]), "missed %": share("missed_share"),
+            "false %": share("false_share"), "range p50 mm": length("range_median_m"),
+            "range p95 mm": length("range_p95_m"), "wires found %": found("thin_missed_share"),
+            "further echoes %": found("further_missed_share"), "second surfaces %": found("second_missed_share"),
+            "steps %": found("step_missed_share"), "at steps mm": length("step_range_median_m"),
+            "persons %": share("person_points_error"), "poles %": share("pole_points_error"),
+            "bright edges %": share("bright_edge_intensity_median")}
+
+
+def by_range(file, names):
+    """Missed echoes in percent by range: a column for each of the rows."""
+    with open(file, encoding="utf-8", newline="") as lines:
+        bins = list(csv.DictReader(lines))
+    ranges = list(dict.fromkeys(bin["range"] for bin in bins))
+    of = {(bin["range"], bin["row"]): bin for bin in bins}
+    rows = [[f"{far} m", f"{int(of[far, names[0]]['reference_echoes']):,}",
+             *(shown(float(of[far, name]["missed_percent"]), digits=1) for name in names)] for far in ranges]
+    return table(1, ["range", "echoes of the reference", *(f"`{name}`" for name in names)], rows)
+
+
+def choice_cells(scene, sensor, choice):
+    left_out = [one["what"] for one in choice["measured"] if not one["is_kept"]]
+    share = lambda key: shown(choice["deviation"][key], 100.0)
+    return [f"`{scene}`", sensor, ", ".join(left_out) or "nothing", f"{choice['instructions_per_firing']:,.0f}",
+            share("missed_share"), share("thin_missed_share"),
+            f"{choice['held_back_beyond_tolerance']} of {len(choice['held_back'])}"]
+
+
+def frontier_tables(folder):
+    """The tables of what draw_frontiers.sh has measured so far."""
+    tables, of_sensors, choices = {}, [], []
+    for scene in SCENES:
+        for suffix, sensor in [("", "raster"), *SENSORS.items()]:
+            file = folder / (f"{scene}_{suffix}" if suffix else scene) / "frontier.json"
+            if not file.exists():
+                continue
+            measured = json.loads(file.read_text(encoding="utf-8"))
+            cells = {row["name"]: error_cells(row) for row in measured["rows"]}
+            columns = list(next(iter(cells.values())))
+            if not suffix:
+                tables[scene] = table(1, ["row", *columns], [[f"`{name}`", *of.values()] for name, of in cells.items()])
+            of_sensors += [[f"`{scene}`", sensor, f"`{name}`", *cells[name].values()]
+                           for name in ("surface", "footprint", "brute_force_64")]
+            choices.append(choice_cells(scene, sensor, measured["fidelity_auto"]))
+    tables["by_range"] = by_range(folder / "open_line/csv/by_range.csv",
+                                  ("surface+thin_conductors", "footprint_16", "footprint", "brute_force_64"))
+    tables["sensors"] = table(3, ["scene", "sensor", "row", *columns], of_sensors)
+    tables["auto"] = table(2, ["scene", "sensor", "measured and left out", "instructions a firing", "missed %",
+                               "wires missed %", "held-back frames beyond"], choices)
+    return tables
+
+
+def frontier(_):
+    said("scripts/dev/draw_frontiers.sh")
+    return frontier_tables(ROOT / "out/frontier")
+
+
+def instructions(build):
+    """Instructions a firing, counted by callgrind."""
+    text = said("scripts/dev/measure_effect_costs.sh", build / "generator/railcast-generate")
+    counted = re.findall(r"^([\w.]+) (\d+)", text, re.M)
+    return {"firing": table(1, ["what", "instructions"], [[f"`{name}`", f"{int(num):,}"] for name, num in counted])}
+
+
+def bench(build):
+    lines = re.findall(r"^(\S+)/(demo|demo-without-plants)/threads:2\S* +([\d.]+) +([\d.]+) +([\d.]+)$",
+                       said(build / "tests/bench/railcast-bench"), re.M)
+    return {"scan": table(2, ["what", "scene", "p50 ms", "p99 ms", "time x raw trace"],
+                          [[f"`{what}`", scene, *cells] for what, scene, *cells in lines])}
+
+
+def largest_change(cells):
+    """The change of a column that is farthest from 0 by more than its interval, with its bin."""
+    changes = [(abs(float(change)) - float(interval), change, interval, far)
+               for far, cell in cells for change, interval in re.findall(r"([-+][\d.]+) ± ([\d.]+)", cell)]
+    if not changes:
+        return "-"
+    _, change, interval, far = max(changes)
+    return f"{change} ± {interval} from {far}"
+
+
+NAMES = {"vir2rail": "raster", **SENSORS}
+
+
+def detail(_):
+    """The largest changes by coarser plants and ground, and the times."""
+    echoes, times = [], []
+    parts = re.split(r"^(\w+), (\w+)$", said("scripts/dev/measure_detail.sh"), flags=re.M)
+    for name, rung, text in zip(parts[1::3], parts[2::3], parts[3::3]):
+        for columns, *rows in tables_in(text):
+            group = ""  # A column without a group is of that before it.
+            for i, column in enumerate(columns[1:], 1):
+                group, _, figure = column.rpartition(": ") if ": " in column else (group, "", column)
+                echoes.append([NAMES.get(name, name), f"`{rung}`", f"{group}: {figure}",
+                               largest_change([(row[0], row[i]) for row in rows])])
+        for ratios in re.findall(r"^x raw trace(.*)", text, re.M):
+            times.append([f"`{name}`", f"`{rung}`", *re.findall(r"\d+(?:\.\d+)?", ratios)])
+    return {"echoes": table(3, ["sensor", "rung", "of", "largest change %"], echoes),
+            "times": table(2, ["scenario", "rung", "raw trace, auto", "raw trace, without plants", "frame, full",
+                               "frame, auto", "frame, without plants"], times)}
+
+
+def of_printed(keys, *command):
+    """A table that a command prints, the first columns of which name its rows."""
+    columns, *rows = tables_in(said(*command))[0]
+    return table(keys, columns, rows)
+
+
+def modules(build):
+    return {"modules": of_printed(1, build / "tests/bench/railcast-modules", "--scans", 1000)}
+
+
+def settings(build):
+    return {"settings": of_printed(1, build / "tests/bench/railcast-settings", "--turns", 100)}
+
+
+def drawn(keys, script):
+    """The table of a script that draws pictures, which go to docs/images."""
+    with tempfile.TemporaryDirectory() as out:
+        printed = of_printed(keys, script, out)
+        for picture in (pathlib.Path(out) / "images").iterdir():
+            shutil.copy(picture, ROOT / "docs/images")
+    return printed
+
+
+def plants(_):
+    return {"landscape": drawn(1, "scripts/dev/draw_plants.sh")}
+
+
+def weather(_):
+    return {"weather": drawn(2, "scripts/dev/draw_weather.sh")}
+
+
+def merged(texts):
+    """Texts that differ in their numbers alone as one, with the range of each number; None if they differ in more."""
+    if len({results.NUMBER.sub("#", text) for text in texts}) != 1:
+        return None
+    columns = iter(list(zip(*(results.NUMBER.findall(text) for text in texts))))
+    def span(_):
+        numbers = sorted(set(next(columns)), key=lambda number: float(number.replace(",", "")))
+        return numbers[0] if len(numbers) == 1 else f"{numbers[0]} to {numbers[-1]}"
+    return results.NUMBER.sub(span, texts[0])
+
+
+def regimes(report):
+    """The rows of docs/where_methods_fail.md in a report of stability_test; those of several sensors are one."""
+    found = {}
+    for suite in json.loads(report)["testsuites"]:
+        for test in suite["testsuite"]:
+            for key, text in test.items():
+                if key.startswith("regime: "):
+                    text = text.encode("latin-1").decode("utf-8")  # GoogleTest escapes single bytes.
+                    name = suite["name"].rpartition("/")[2]
+                    found.setdefault((key[len("regime: "):], f"`{name}.*`"), []).append(text.split(" | "))
+    rows = [[regime, *(merged(cells) or "; ".join(cells) for cells in zip(*texts)), name]
+            for (regime, name), texts in found.items()]
+    return sorted(rows, key=lambda row: (row[1] == "-", row[-1]))  # Those with a simple method first.
+
+
+def stability(build):
+    with tempfile.TemporaryDirectory() as folder:
+        report = pathlib.Path(folder) / "report.json"
+        said(build / "tests/stability/stability_test", f"--gtest_output=json:{report}")
+        rows = regimes(report.read_text(encoding="utf-8"))
+    return {"regimes": table(1, ["regime", "the simple method", "railcast", "test"], [r for r in rows if len(r) == 4]),
+            "rungs": table(1, ["regime", "one ray a beam", "`footprint`", "`reference`", "test"],
+                           [r for r in rows if len(r) == 5])}
+
+
+def python(build):
+    lines = re.findall(r"^(\S+): C\+\+ ([\d.]+) ms, Python ([\d.]+) ms, ratio (.*), \d+ frames$",
+                       said("scripts/dev/measure_python_scan.py", build, 500), re.M)
+    return {"scan": table(1, ["scenario", "C++ ms", "Python ms", "ratio, with its 95 % interval"],
+                          [[f"`{pathlib.Path(name).name}`", *cells] for name, *cells in lines])}
+
+
+def live(build):
+    """Runs on loopback; the rates that each rung sustains."""
+    text = said("scripts/dev/measure_live.py", build, "steady", "limits", "late", "fast")
+    quantiles = (r"compute: p50 ([\d.]+), p99 ([\d.]+).*\n  send: p50 ([\d.]+).*\n"
+                 r"  lateness: p50 ([\d.]+), p99 ([\d.]+), max ([\d.]+)")
+    steady = re.findall(r"^published scan, (\d+ Hz, \w+), .*: (\d+) frames, (\d+) late.*\n  " + quantiles, text, re.M)
+    rates = re.findall(r"^(\w+): (\d+) Hz for", text, re.M)
+    runs = re.findall(r"^(.+), [\d.]+ s: (\d+) frames, (\d+) late; compute p50 ([\d.]+), p99 ([\d.]+)", text, re.M)
+    return {"steady": table(1, ["published scan", "frames", "late", "compute p50 ms", "compute p99 ms", "send p50 ms",
+                                "lateness p50 ms", "lateness p99 ms", "lateness max ms"], list(map(list, steady))),
+            "rates": table(1, ["rung", "Hz"], [[f"`{rung}`", rate] for rung, rate in rates]),
+            "runs": table(1, ["run", "frames", "late", "compute p50 ms", "compute p99 ms"], list(map(list, runs)))}
+
+
+def situations(build):
+    """The table of scenarios/README.md, which has its own check."""
+    said("scripts/dev/measure_situations.py", build, "--write")
+    return {}
+
+
+# Each with the minutes that it takes on two cores.
+PARTS = {"frontier": (frontier, 60), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
+         "modules": (modules, 5), "settings": (settings, 15), "plants": (plants, 2), "weather": (weather, 5),
+         "stability": (stability, 4), "python": (python, 2), "live": (live, 40), "situations": (situations, 10),
+         **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
+UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
+
+
+def machine():
+    cpu = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    isa = next((name for flag, name in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if f" {flag} " in cpu), "SSE")
+    return f"{len(os.sched_getaffinity(0))} cores of {re.search('model name.*: (.*)', cpu)[1]}, {isa}"
+
+
+def revision():
+    """The last one that changed what is measured: pages and their figures do not."""
+    measured = ("core", "generator", "analysis", "viewer", "scenarios", "tests/bench", "tests/stability", ":!*.md")
+    return said("git", "log", "-1", "--format=%h", "--abbrev=12", "--", *measured).strip()
+
+
+def write(measured):
+    """The file, a line for each row."""
+    text = json.dumps(measured, indent=1, ensure_ascii=False)
+    text = re.sub(r"\[\n\s+(\"(?:[^\[\]{}]|\\.)*?\")\n\s+\]", lambda m: "[" + re.sub(r"\n\s+", " ", m[1]) + "]", text)
+    FILE.write_text(text + "\n", encoding="utf-8")
+
+
+def keep(measured, name, tables, load):
+    note = "counts and errors, no times" if name in UNTIMED else "nothing else ran" if load < IDLE_LOAD else BUSY
+    measured[name] = {"made": {"machine": machine(), "date": str(datetime.date.today()), "revision": revision(),
+                               "note": note}, "tables": tables}
+    write(measured)
+    results.fill(ROOT)
+
+
+def is_done(measured, name):
+    made = measured.get(name, {}).get("made", {})
+    return made.get("revision") == revision() and made.get("note") != BUSY
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("parts", nargs="*", metavar="PART", help=", ".join(PARTS))
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--list", action="store_true", help="say what is to be measured")
+    parser.add_argument("--again", action="store_true", help="measure what is of this revision, too")
+    options = parser.parse_args()
+    for name in options.parts:
+        if name not in PARTS:
+            parser.error(f"PART: must be one of {', '.join(PARTS)} (got {name})")
+    measured = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
+    load = os.getloadavg()[0]  # Before, since the parts themselves make some.
+    for name in options.parts or PARTS:
+        part, minutes = PARTS[name]
+        done = is_done(measured, name) and not options.parts and not options.again
+        print(f"{name}: {'measured' if done else f'to be measured, some {minutes} minutes'}", flush=True)
+        if done or options.list:
+            continue
+        keep(measured, name, part(options.build), load)
+    faults = list(results.lint(ROOT))
+    print("\n".join(faults))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,135 @@
+#include "core/detect/detector/effect_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace railcast {
+namespace {
+
+using testing::UnorderedElementsAre;
+
+/// A spec in which no effect has a cause: clear air, dry ground, nothing smooth, a receiver and a
+/// published model without errors, a beam without width.
+DetectorSpec WithoutCauses() {
+  DetectorSpec spec;
+  spec.plausibility.noise_sigma0_m = spec.plausibility.noise_sigma1 = 0.0;
+  spec.receiver.range_noise_floor_m = spec.receiver.range_noise_scale_m = 0.0;
+  spec.receiver.channel_bias_sigma_m = spec.receiver.pointing_jitter_deg = 0.0;
+  spec.beam.divergence_mrad = {0.0, 0.0};
+  spec.has_mirrors = false;
+  return spec;
+}
+
+// The effects that act on every beam that meets a surface.
+const std::set<std::string> kAlways = {"threshold", "surface_response", "pulse_stretch",
+                                       "detection", "detection_probability"};
+
+std::set<std::string> CausedBeyondAlways(const DetectorSpec& spec) {
+  std::set<std::string> names;
+  for (const Effect& effect : EffectTable()) {
+    if (effect.has_cause(spec) && !kAlways.contains(effect.name)) names.insert(effect.name);
+  }
+  return names;
+}
+
+template <class Change>
+std::set<std::string> CausedBy(const Change& change) {
+  DetectorSpec spec = WithoutCauses();
+  change(spec);
+  return CausedBeyondAlways(spec);
+}
+
+TEST(EffectTable, SwitchesEachEffectByItsOwnFlag) {
+  EffectSet on;
+  std::set<std::string> names;
+  for (const Effect& effect : EffectTable()) {
+    EXPECT_FALSE(on.*effect.is_on) << effect.name;
+    on.*effect.is_on = true;
+    EXPECT_TRUE(names.insert(effect.name).second) << effect.name;
+    EXPECT_EQ(FindEffect(effect.name), &effect);
+  }
+  EXPECT_EQ(EffectNames(on), EffectNames());
+  EXPECT_EQ(FindEffect("rian"), nullptr);
+}
+
+TEST(EffectTable, GivesNoEffectTheCauseOfAnother) {
+  EXPECT_THAT(CausedBy([](DetectorSpec&) {}), UnorderedElementsAre());
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.rain_rate_mmph = 1.0; }),
+              UnorderedElementsAre("rain", "extinction", "clutter", "surface_condition"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) {
+                s.weather.rain_rate_mmph = 1.0;
+                s.weather.wetness = 0.0;
+              }),
+              UnorderedElementsAre("rain", "extinction", "clutter"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.snow_rate_mmph = 1.0; }),
+              UnorderedElementsAre("snow", "extinction", "clutter"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.visibility_m = 100.0; }),
+              UnorderedElementsAre("extinction", "fog_echo"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.wetness = 0.5; }),
+              UnorderedElementsAre("surface_condition"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.sun.illuminance_klx = 1.0; }),
+              UnorderedElementsAre("sunlight"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.dropout_probability = 0.1; }),
+              UnorderedElementsAre("sensor_dropout"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.noise_sigma1 = 1e-4; }),
+              UnorderedElementsAre("noise"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.range_noise_scale_m = 0.1; }),
+              UnorderedElementsAre("range_noise"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.channel_bias_sigma_m = 0.1; }),
+              UnorderedElementsAre("channel_bias"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.pointing_jitter_deg = 0.1; }),
+              UnorderedElementsAre("pointing_jitter"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.dropout_per_m = 1e-4; }),
+              UnorderedElementsAre("sensor_dropout"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.plausibility.dark_dropout_probability = 0.1; }),
+              UnorderedElementsAre("sensor_dropout"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.dead_time_ns = 8.0; }),
+              UnorderedElementsAre("dead_time"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.spray_extinction_per_m = 0.1; }),
+              UnorderedElementsAre());
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) {
+                s.weather.spray_extinction_per_m = 0.1;
+                s.weather.snow_cover = 0.5;
+              }),
+              UnorderedElementsAre("spray", "surface_condition"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.weather.puddle_share = 0.1; }),
+              UnorderedElementsAre("mirror_paths"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.has_mirrors = true; }),
+              UnorderedElementsAre("mirror_paths"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.cover.snow_coverage = 0.1; }),
+              UnorderedElementsAre("cover"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.halo_share_at_1_deg = 1e-6; }),
+              UnorderedElementsAre("halo"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.range_walk_m = 0.1; }),
+              UnorderedElementsAre("range_walk"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.foreign_pulses_hz = 1.0; }),
+              UnorderedElementsAre("interference"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.saturation_power_ratio = 1e3; }),
+              UnorderedElementsAre("saturation"));
+  EXPECT_THAT(CausedBy([](DetectorSpec& s) { s.receiver.ghost_reflectance = 0.1; }),
+              UnorderedElementsAre("ghost"));
+  EXPECT_THAT(
+      CausedBy([](DetectorSpec& s) { s.beam.divergence_mrad[1] = 1.0; }),
+      UnorderedElementsAre("footprint", "thin_conductors", "dense_footprint", "sampled_waveform"));
+}
+
+TEST(EffectTable, KnowsThePhysicalEffects) {
+  EXPECT_FALSE(IsPhysical({}));
+  EXPECT_FALSE(IsPhysical(
+      {.threshold = true, .rain = true, .snow = true, .noise = true, .sensor_dropout = true}));
+  EXPECT_TRUE(IsPhysical({.extinction = true}));
+  EXPECT_TRUE(IsPhysical({.threshold = true, .sampled_waveform = true}));
+}
+
+TEST(EffectTable, LeavesRandomRangeErrorsOutOfComparisonsOnly) {
+  std::vector<std::string> names;
+  for (const Effect& effect : EffectTable()) {
+    if (effect.is_range_error) names.emplace_back(effect.name);
+  }
+  EXPECT_THAT(names, testing::ElementsAre("noise", "range_noise", "channel_bias"));
+}
+
+}  // namespace
+}  // namespace railcast

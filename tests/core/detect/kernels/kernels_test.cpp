@@ -1,0 +1,195 @@
+#include "core/detect/kernels/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/base/random.h"
+#include "core/detect/clutter/fog_patches.h"
+#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/fog_echo.h"
+#include "core/detect/kernels/measurement.h"
+#include "core/detect/kernels/rain_dropout.h"
+#include "core/detect/kernels/saturation.h"
+#include "core/detect/kernels/sensor_dropout.h"
+#include "core/detect/kernels/snow_clutter.h"
+#include "core/detect/kernels/surface_response.h"
+#include "core/detect/kernels/threshold.h"
+#include "railcast/outcome.h"
+
+namespace railcast {
+namespace {
+
+std::unique_ptr<DetectTile> MixedTile() {
+  auto tile = std::make_unique<DetectTile>();
+  std::memset(static_cast<void*>(tile.get()), 0, sizeof(DetectTile));
+  tile->num_rays = kTileSize;
+  tile->frame = 12;
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(99, RandomUse::kNoise, 0, i);
+    const bool hit = i % 5 != 0;
+    tile->firing[i] = 1000 + i;
+    tile->direction_x[i] = 0.8F;
+    tile->direction_y[i] = 0.6F;
+    tile->true_range_m[i] =
+        hit ? 300.0F * UnitFloat(words[0]) : std::numeric_limits<float>::quiet_NaN();
+    tile->cos_incidence[i] = hit ? UnitFloat(words[1]) : std::numeric_limits<float>::quiet_NaN();
+    tile->reflectivity[i] = hit ? UnitFloat(words[2]) : std::numeric_limits<float>::quiet_NaN();
+    tile->outcome[i] = static_cast<std::uint32_t>(hit ? Outcome::kReturned : Outcome::kNoSurface);
+  }
+  return tile;
+}
+
+MeasurementParameters Measurement(float sigma0_m, float sigma1) {
+  return {.seed = 7,
+          .sigma0_m = sigma0_m,
+          .sigma1 = sigma1,
+          .range_min_m = 0.5F,
+          .range_max_m = 280.0F};
+}
+
+void RunAll(const Kernels& kernels, DetectTile& tile) {
+  const ThresholdParameters threshold{400'000.0F, 0.002F};
+  kernels.hit(tile, 0.5F);
+  kernels.threshold(tile, threshold);
+  kernels.rain(tile, {7, 0.002F});
+  kernels.snow(tile, {7, 0.3F, 8.0F, 0.5F, 0.02F, true, 24, threshold});
+  kernels.sensor_dropout(tile, {7, 0.1F, 1e-3F, 0.2F, 30.0F});
+  kernels.measure_isotropic(tile, Measurement(0.02F, 1e-4F));
+}
+
+TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
+  const auto& all = AvailableKernels();
+  const auto expected = MixedTile();
+  RunAll(all.front(), *expected);
+  for (const Kernels& kernels : all) {
+    const auto tile = MixedTile();
+    RunAll(kernels, *tile);
+    // Compare bits, so that a NaN equals itself. The padding was set to zero with the tile.
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
+    EXPECT_EQ(std::memcmp(tile.get(), expected.get(), sizeof(DetectTile)), 0) << kernels.isa;
+  }
+  if (all.size() == 1) GTEST_SKIP() << "this machine runs only the baseline instruction set";
+}
+
+// Rays of which some hit planes of various slopes and the others hit nothing.
+std::unique_ptr<RayTile> MixedRays() {
+  auto rays = std::make_unique<RayTile>();
+  std::memset(static_cast<void*>(rays.get()), 0, sizeof(RayTile));
+  rays->num_rays = kTileSize;
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(98, RandomUse::kNoise, 0, i);
+    const float azimuth_rad = UnitFloat(words[0]);
+    const bool hit = i % 5 != 0;
+    rays->direction_x[i] = 0.8F * std::cos(azimuth_rad);
+    rays->direction_y[i] = 0.8F * std::sin(azimuth_rad);
+    rays->direction_z[i] = i % 2 == 0 ? 0.6F : -0.6F;
+    rays->range_m[i] = hit ? 300.0F * UnitFloat(words[1]) : 300.0F;
+    rays->normal_x[i] = hit ? UnitFloat(words[1]) - 0.5F : 0.0F;
+    rays->normal_y[i] = hit ? UnitFloat(words[2]) - 0.5F : 0.0F;
+    rays->normal_z[i] = hit ? UnitFloat(words[3]) : 0.0F;
+  }
+  return rays;
+}
+
+// Runs every kernel of the physical rungs in order; returns the results that are not in the tiles.
+std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile& tile) {
+  BeamFrame beam;
+  beam.sigma_h_rad = 7.5e-4F;
+  beam.sigma_v_rad = 3.75e-4F;
+  std::vector<float> values(kTileSize);
+  kernels.pointing(rays, tile, beam, {7, 2e-4F});
+  kernels.uniforms(tile, {7, RandomUse::kClutter, 200}, values.data());
+  kernels.incidence(rays, tile);
+  kernels.spread(rays, beam, tile);
+  kernels.response(tile, {false, 400'000.0F, 0.3F, 0.9F, 0.1F});
+  kernels.pulse_stretch(tile, {0.32F, true, true});
+  kernels.extinction(tile, 0.004F);
+  kernels.sunlight(tile, {2.0F});
+  kernels.cover_loss(tile);
+  kernels.detection(tile, {7, 5.0F});
+  kernels.smooth_detection(tile, {7, 5.0F});
+  kernels.blame_cover(tile);
+  kernels.range_walk(tile, 0.2F);
+  kernels.saturation(tile, {20.0F, 0.32F});
+  kernels.hit(tile, 0.5F);
+  const std::vector<float> fog_ratio(20, 1.0F);
+  const auto peaks = std::make_unique<FogPeaks>();
+  kernels.fog_peaks(
+      {rays, tile, FogPatches(7).WavesAt(Transform::Identity(), 3.0)},
+      {7, 2, 20, 0.75F, fog_ratio.data(), 0.3F, 0.14F, 0.1F, 0.2F, 0.5F, 0.75F, 2, 1.0F, false},
+      *peaks);
+  for (std::size_t e = 0; e < 2; ++e) {
+    values.insert(values.end(), peaks->range_m[e], peaks->range_m[e] + kTileSize);
+    values.insert(values.end(), peaks->ratio[e], peaks->ratio[e] + kTileSize);
+  }
+  MeasurementParameters measurement = Measurement(0.015F, 0.0F);
+  const std::vector<float> bias_m(kTileSize, 0.01F);
+  measurement.scale_m = 0.1F;
+  measurement.snr_at_threshold = 5.0F;
+  measurement.channel_bias_m = bias_m.data();
+  kernels.measure_by_signal(tile, measurement);
+  const EchoWave wave{32, rays.range_m, tile.share, tile.specular_f0};
+  for (float from_m = 10.0F; from_m < 300.0F; from_m += 10.0F) {
+    const WavePeak peak = kernels.climb_wave(wave, from_m, {});
+    values.push_back(peak.range_m);
+    values.push_back(peak.value);
+  }
+  values.resize(values.size() + 1000);
+  kernels.sample_wave(wave, 0.0F, 0.3F, 1000, &values[values.size() - 1000]);
+  return values;
+}
+
+// A mixed tile with the optics that the physical effects need in addition.
+std::unique_ptr<DetectTile> MixedPhysicalTile() {
+  auto tile = MixedTile();
+  for (std::uint32_t i = 0; i < kTileSize; ++i) {
+    const auto words = RandomWords(97, RandomUse::kNoise, 0, i);
+    tile->channel[i] = i;
+    tile->share[i] = UnitFloat(words[0]);
+    tile->diffuse_a[i] = tile->reflectivity[i] * 0.8F;
+    tile->diffuse_b[i] = tile->reflectivity[i] * 0.3F;
+    tile->specular_f0[i] = UnitFloat(words[1]);
+    tile->specular_alpha2[i] = UnitFloat(words[2]);
+    tile->retro[i] = i % 7 == 0 ? 1000.0F : 0.0F;
+    tile->peak_shift_m[i] = 0.1F * UnitFloat(words[3]);
+    tile->cover[i] = i % 3 == 0 ? 1.0F : UnitFloat(words[3]);
+  }
+  return tile;
+}
+
+TEST(Kernels, OfPhysicsGiveTheSameBitsOnEveryInstructionSet) {
+  const auto& all = AvailableKernels();
+  const auto expected_rays = MixedRays();
+  const auto expected = MixedPhysicalTile();
+  const auto expected_values = RunPhysics(all.front(), *expected_rays, *expected);
+  for (const Kernels& kernels : all) {
+    const auto rays = MixedRays();
+    const auto tile = MixedPhysicalTile();
+    const auto values = RunPhysics(kernels, *rays, *tile);
+    // NOLINTBEGIN(bugprone-suspicious-memory-comparison): as above.
+    EXPECT_EQ(std::memcmp(rays.get(), expected_rays.get(), sizeof(RayTile)), 0) << kernels.isa;
+    EXPECT_EQ(std::memcmp(tile.get(), expected.get(), sizeof(DetectTile)), 0) << kernels.isa;
+    // NOLINTEND(bugprone-suspicious-memory-comparison)
+    EXPECT_EQ(std::memcmp(values.data(), expected_values.data(), values.size() * sizeof(float)), 0)
+        << kernels.isa;
+  }
+  if (all.size() == 1) GTEST_SKIP() << "this machine runs only the baseline instruction set";
+}
+
+TEST(Kernels, LeaveFiringsWithoutASurfaceWithoutAPoint) {
+  const auto tile = MixedTile();
+  AvailableKernels().back().measure_exact(*tile, Measurement(0.0F, 0.0F));
+  for (std::size_t i = 0; i < kTileSize; i += 5) {
+    EXPECT_EQ(tile->outcome[i], static_cast<std::uint32_t>(Outcome::kNoSurface));
+    EXPECT_TRUE(std::isnan(tile->x[i]));
+    EXPECT_TRUE(std::isnan(tile->range_m[i]));
+  }
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,87 @@
+#include "railcast/io/cloud_files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/io/cloud/point_table.h"
+#include "tests/core/io/example_frame.h"
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+std::vector<std::string> Names(const std::string& format, std::uint32_t number) {
+  std::vector<FrameFile> files;
+  EncodeFrameFiles(ExampleFrame(0), {&ParseFrameFormat(format), {}, ExampleLabels()}, number,
+                   files);
+  std::vector<std::string> names;
+  for (const FrameFile& file : files) names.push_back(file.name);
+  return names;
+}
+
+TEST(FrameFiles, AreNamedByFormatAndNumber) {
+  using Strings = std::vector<std::string>;
+  EXPECT_EQ(Names("pcd", 0), Strings{"frames/000000.pcd"});
+  EXPECT_EQ(Names("pcd-compressed", 12), Strings{"frames/000012.pcd"});
+  EXPECT_EQ(Names("pcd-ascii", 1234567), Strings{"frames/1234567.pcd"});
+  EXPECT_EQ(Names("ply", 3), Strings{"frames/000003.ply"});
+  EXPECT_EQ(Names("ply-cloudcompare", 3), Strings{"frames/000003.ply"});
+  EXPECT_EQ(Names("kitti", 3),
+            (Strings{"sequences/00/velodyne/000003.bin", "sequences/00/labels/000003.label"}));
+}
+
+TEST(FrameFiles, OfOneFrameAreTheSameWhateverWasEncodedBefore) {
+  std::vector<FrameFile> used;
+  for (const FrameFormat& format : FrameFormats()) {
+    const FrameFileSpec spec{&format, {}, ExampleLabels()};
+    EncodeFrameFiles(ExampleFrame(5, 8, 20), spec, 0, used);
+    EncodeFrameFiles(ExampleFrame(1), spec, 0, used);
+    std::vector<FrameFile> fresh;
+    EncodeFrameFiles(ExampleFrame(1), spec, 0, fresh);
+    ASSERT_EQ(used.size(), fresh.size());
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      EXPECT_EQ(used[i].bytes, fresh[i].bytes) << format.name;
+  }
+}
+
+TEST(FrameFormat, NamesReadBack) {
+  for (const std::string& name : FrameFormatNames()) {
+    EXPECT_EQ(ParseFrameFormat(name).name, name);
+  }
+  EXPECT_EQ(MessageOf([] { (void)ParseFrameFormat("las"); }),
+            "--format: unknown format \"las\" (valid: pcd, pcd-compressed, pcd-ascii, ply, "
+            "ply-cloudcompare, kitti, objects)");
+}
+
+TEST(FrameFormat, ReadsBackAsManyPointsAsItHolds) {
+  const Frame frame = ExampleFrame(5, 8, 20);
+  const auto num_points =
+      static_cast<std::size_t>(std::count_if(frame.outcome.begin(), frame.outcome.end(), HasPoint));
+  ASSERT_LT(num_points, frame.num_slots());
+  for (const FrameFormat& format : FrameFormats()) {
+    if (format.parse == nullptr) continue;
+    std::vector<FrameFile> files;
+    EncodeFrameFiles(frame, {&format, {}, ExampleLabels()}, 7, files);
+    const auto second = files.size() > 1 ? std::optional(files[1].bytes) : std::nullopt;
+    EXPECT_EQ(format.parse(files[0].name, files[0].bytes, second).num_points(),
+              format.has_all_slots ? frame.num_slots() : num_points)
+        << format.name;
+    EXPECT_EQ(FindReader(files[0].name)->files.front().extension, format.files.front().extension);
+  }
+}
+
+TEST(FrameFormat, IsFoundByNoOtherName) {
+  EXPECT_EQ(FindFrameFormat("las"), nullptr);
+  EXPECT_EQ(FindReader("frames/000001.las"), nullptr);
+  EXPECT_EQ(FindReader("frames/pcd"), nullptr);
+}
+
+TEST(FrameFormat, SaysWhichExtensionsAreRead) {
+  EXPECT_EQ(ReadableExtensions(false), ".pcd or .ply");
+  EXPECT_EQ(ReadableExtensions(true), ".pcd, .ply or .bin");
+  EXPECT_EQ(ReadableExtensions(true, {".pcap", ".pcapng"}), ".pcd, .ply, .bin, .pcap or .pcapng");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,120 @@
+#include "core/rail/motion/ride.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace railcast {
+namespace {
+
+constexpr double kPivots_m = 10.4;
+constexpr double kSpeed_mps = 20.0;
+
+// One mode's variance: the integral of the track's spectrum over the wavelengths that count, times
+// the square of what bogies, pivots and suspension make of each.
+double ExpectedVariance(const std::function<double(double)>& spectrum,
+                        const std::function<double(double)>& of_pivots,
+                        const Suspension& suspension) {
+  constexpr int kNumSteps = 200'000;
+  const double least = 2.0 * std::numbers::pi / kLongestIrregularity_m;
+  const double most = 2.0 * std::numbers::pi / kShortestIrregularity_m;
+  const double step = (most - least) / kNumSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kNumSteps; ++i) {
+    const double rad_per_m = least + (i + 0.5) * step;
+    const double hz = rad_per_m * kSpeed_mps / (2.0 * std::numbers::pi);
+    const double ratio = hz / suspension.frequency_hz;
+    const double damped = 4.0 * suspension.damping * suspension.damping * ratio * ratio;
+    const double squared =
+        (1.0 + damped) / ((1.0 - ratio * ratio) * (1.0 - ratio * ratio) + damped);
+    const double of_axles = std::cos(0.5 * rad_per_m * Ride::kAxleDistance_m);
+    const double gain = of_axles * of_pivots(rad_per_m);
+    sum += spectrum(rad_per_m) * squared * gain * gain * step;
+  }
+  return sum / std::numbers::pi;
+}
+
+double MeanGain(double rad_per_m) {
+  return std::cos(0.5 * rad_per_m * kPivots_m);
+}
+
+double SlopeGain(double rad_per_m) {
+  return 2.0 / kPivots_m * std::sin(0.5 * rad_per_m * kPivots_m);
+}
+
+struct Variances {
+  double vertical{}, lateral{}, yaw{}, pitch{}, roll{};
+};
+
+Variances Measured(const Ride& ride) {
+  constexpr int kNumSamples = 20'000;
+  constexpr double kSampling_m = 1.3;
+  Variances sums;
+  for (int i = 0; i < kNumSamples; ++i) {
+    const RideMotion motion = ride.At(kSampling_m * i, kSpeed_mps, false);
+    sums.vertical += motion.vertical_m * motion.vertical_m / kNumSamples;
+    sums.lateral += motion.lateral_m * motion.lateral_m / kNumSamples;
+    sums.yaw += motion.yaw_rad * motion.yaw_rad / kNumSamples;
+    sums.pitch += motion.pitch_rad * motion.pitch_rad / kNumSamples;
+    sums.roll += motion.roll_rad * motion.roll_rad / kNumSamples;
+  }
+  return sums;
+}
+
+// Bands are 4.5 % wide, over which spectrum and resonance change little: a few percent. Waves whose
+// frequencies differ by that are uncorrelated over 26 km to less than a percent.
+TEST(Ride, HasTheVarianceThatTheTracksSpectrumGives) {
+  for (const TrackQuality quality : {TrackQuality::kGood, TrackQuality::kPoor}) {
+    const TrackSpectrum track = SpectrumOf(quality);
+    const auto vertical = [&](double w) { return track.Vertical(w); };
+    const auto lateral = [&](double w) { return track.Lateral(w); };
+    const auto cant = [&](double w) { return track.Cant(w); };
+    const Variances is = Measured(Ride({quality}, 7, kPivots_m));
+    const auto expect = [](double measured, double expected) {
+      EXPECT_NEAR(measured, expected, 0.05 * expected);
+    };
+    expect(is.vertical, ExpectedVariance(vertical, MeanGain, Ride::kVertical));
+    expect(is.pitch, ExpectedVariance(vertical, SlopeGain, Ride::kVertical));
+    expect(is.lateral, ExpectedVariance(lateral, MeanGain, Ride::kLateral));
+    expect(is.yaw, ExpectedVariance(lateral, SlopeGain, Ride::kLateral));
+    expect(is.roll, ExpectedVariance(cant, MeanGain, Ride::kRoll));
+  }
+}
+
+TEST(Ride, IsAFunctionOfThePlace) {
+  const Ride ride({}, 7, kPivots_m);
+  const Ride again({}, 7, kPivots_m);
+  const Ride elsewhere({}, 8, kPivots_m);
+  EXPECT_EQ(ride.At(512.5, 15.0, false).vertical_m, again.At(512.5, 15.0, false).vertical_m);
+  EXPECT_NE(ride.At(512.5, 15.0, false).vertical_m, elsewhere.At(512.5, 15.0, false).vertical_m);
+}
+
+// A standing body leans and bends as the track below it: seen from the other end, it is as high,
+// and everything sideways has the other sign.
+TEST(Ride, StandsOnTheSameTrackInBothDirections) {
+  const Ride ride({TrackQuality::kPoor}, 7, kPivots_m);
+  const RideMotion forth = ride.At(300.0, 0.0, false);
+  const RideMotion back = ride.At(300.0 - kPivots_m, 0.0, true);
+  EXPECT_NEAR(back.vertical_m, forth.vertical_m, 1e-12);
+  EXPECT_NEAR(back.lateral_m, -forth.lateral_m, 1e-12);
+  EXPECT_NEAR(back.roll_rad, -forth.roll_rad, 1e-12);
+  EXPECT_NEAR(back.pitch_rad, -forth.pitch_rad, 1e-12);
+  EXPECT_NEAR(back.yaw_rad, forth.yaw_rad, 1e-12);
+  EXPECT_GT(std::abs(forth.vertical_m), 1e-5);
+}
+
+// The front pivot rises by the mean and by half the pivots' distance times the slope.
+TEST(Ride, TurnsTheVehicleAboutTheMiddleBetweenItsPivots) {
+  const Ride ride({}, 7, kPivots_m);
+  const Transform pose = ride.PerfectFromVehicle(
+      {.lateral_m = 0.002, .vertical_m = 0.004, .yaw_rad = 0.001, .pitch_rad = -0.002});
+  EXPECT_TRUE(pose.translation().isApprox(
+      Vector3(0.0, 0.002 + 0.001 * kPivots_m / 2.0, 0.004 + 0.002 * kPivots_m / 2.0), 5e-3));
+  EXPECT_TRUE((pose * Vector3(-kPivots_m / 2.0, 0, 0))
+                  .isApprox(Vector3(-kPivots_m / 2.0, 0.002, 0.004), 1e-12));
+}
+
+}  // namespace
+}  // namespace railcast

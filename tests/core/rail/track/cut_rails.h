@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/rail/line/rail_section.h"
+#include "tests/core/rail/test_line.h"
+
+namespace railcast {
+
+inline constexpr double kHalf_m = 0.5 * kGauge_m;
+
+/// Rails and parts of turnouts and crossings near a place, cut by the plane across a track.
+class CutRails {
+ public:
+  CutRails(const TestLine& line, std::size_t track, double s_m);
+  /// @param chunk As ChunkAt() makes it.
+  CutRails(const TestLine& line, const Chunk& chunk, std::size_t track, double s_m);
+
+  [[nodiscard]] static Chunk ChunkAt(const TestLine& line, double s_m);
+
+  /// Whether nothing lies in the rectangle of y and z.
+  [[nodiscard]] bool IsFree(const Eigen::AlignedBox2d& area_m) const;
+  /// The y of all points of the cut at a height, ascending.
+  [[nodiscard]] std::vector<double> At(double z_m) const;
+
+ private:
+  void Cut(const Mesh& mesh, const Transform& track_from_chunk);
+
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> cuts_;
+};
+
+/// A part of a track on which wheels are to find their way.
+struct WayOfWheels {
+  std::size_t track{};
+  double begin_s_m{};
+  double end_s_m{};
+};
+
+/// Expects that every 0.37 m, at both gauge faces, there is room for flanges, which are at most 33
+/// mm thick (EN 13715) and run with play.
+void ExpectFlangesFindAWay(const TestLine& line, const WayOfWheels& way, const std::string& what);
+
+}  // namespace railcast
