@@ -12,8 +12,9 @@
 namespace railcast {
 
 // Every spec has one description: `Describe(archive, spec)` names each field's key, value, meaning
-// and rule (json_rules.h). Three archives visit it, so that reading, writing and the published
-// schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved scenario,
+// and rule (json_rules.h). Four archives visit it, so that reading, writing, checking and the
+// published schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved
+// scenario and the short files that are made for users, SpecChecker checks what was made in C++,
 // SchemaWriter (tests/core/scenario) makes the schema. An archive has:
 //
 // - Required(key, value, meaning, rule): the key must be given.

@@ -10,7 +10,10 @@
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_surfaces.h"
 #include "core/rail/objects/rail_vehicles.h"
+#include "core/scenario/describe_lidar.h"
+#include "core/scenario/describe_weather.h"
 #include "core/scenario/json_rules.h"
+#include "core/scenario/spec_checker.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -97,6 +100,19 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
   const auto words = RandomWords(seed, RandomUse::kSensorKey, static_cast<std::uint32_t>(hash),
                                  static_cast<std::uint32_t>(hash >> 32U));
   return std::uint64_t{words[0]} << 32U | words[1];
+}
+
+void CheckDetectorSpec(const DetectorSpec& spec) {
+  DetectorSpec copy = spec;  // Descriptions take mutable values because the reader fills them.
+  ErrorList errors;
+  SpecChecker checker("", errors);
+  DescribeRange(checker, copy);
+  checker.Required("plausibility", copy.plausibility, "");
+  checker.Required("beam", copy.beam, "");
+  checker.Required("receiver", copy.receiver, "");
+  checker.Required("cover", copy.cover, "");
+  checker.Required("weather", copy.weather, "");
+  errors.ThrowIfAny();
 }
 
 bool HasMirrors(const ScenarioSpec& spec) {

@@ -1,4 +1,4 @@
-#include "generator/randomize/random_weather.h"
+#include "generator/dataset/random_weather.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "generator/randomize/random_weather.h"
+#include "generator/dataset/random_weather.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +7,9 @@
 #include <cmath>
 #include <map>
 #include <string>
+
+#include "generator/dataset/recipe.h"
+#include "generator/dataset/scenario_draw.h"
 
 namespace railcast {
 namespace {
@@ -70,6 +73,59 @@ TEST(RandomWeather, HasASunAsBrightAsItIsHigh) {
     const double elevation_rad = sun.at("elevation_deg").get<double>() * M_PI / 180.0;
     EXPECT_NEAR(sun.at("illuminance_klx").get<double>(), 120.0 * std::sin(elevation_rad), 0.5);
   }
+}
+
+class RandomWeatherRecipe : public testing::Test {
+ protected:
+  /// Draws scenarios and counts them by family.
+  void Draw(std::uint32_t num) {
+    const ScenarioDrawer drawer(recipe_);
+    for (std::uint32_t i = 0; i < num; ++i) {
+      const DrawnScenario drawn = drawer.Draw(i);
+      weathers_.emplace(drawn.record.at("drawn").at("weather"), drawn.scenario.weather);
+    }
+  }
+  void ExpectWithin(const std::string& family, auto value, double from, double to) const {
+    const auto [begin, end] = weathers_.equal_range(family);
+    for (auto it = begin; it != end; ++it) {
+      EXPECT_GE(value(it->second), from) << family;
+      EXPECT_LE(value(it->second), to) << family;
+    }
+  }
+
+  Recipe recipe_ = ReadRecipe(RAILCAST_SOURCE_DIR "/scenarios/recipes/random_weather.json");
+  std::multimap<std::string, WeatherSpec> weathers_;
+};
+
+// The published RandomWeather names the four families; shares and ranges are those of
+// docs/dataset.md.
+TEST_F(RandomWeatherRecipe, DrawsTheFourPublishedFamiliesWithinTheirRanges) {
+  constexpr std::uint32_t kNum = 200;
+  Draw(kNum);
+  for (const char* family : {"sunny", "foggy", "rainy", "snowy"}) {
+    EXPECT_NEAR(static_cast<double>(weathers_.count(family)), 0.25 * kNum,
+                4.0 * std::sqrt(kNum * 0.25 * 0.75))
+        << family;
+  }
+  const auto sun_klx = [](const WeatherSpec& w) { return w.sun.illuminance_klx; };
+  ExpectWithin(
+      "sunny", [](const WeatherSpec& w) { return w.sun.elevation_deg; }, 5.0, 65.0);
+  ExpectWithin("sunny", sun_klx, 10.0, 109.0);
+  ExpectWithin(
+      "foggy", [](const WeatherSpec& w) { return w.visibility_m.value(); }, 30.0, 1000.0);
+  ExpectWithin(
+      "foggy", [](const WeatherSpec& w) { return w.wetness.value(); }, 0.0, 0.5);
+  ExpectWithin(
+      "rainy", [](const WeatherSpec& w) { return w.rain_rate_mmph; }, 0.5, 50.0);
+  ExpectWithin("rainy", sun_klx, 1.0, 20.0);
+  ExpectWithin(
+      "snowy", [](const WeatherSpec& w) { return w.snow_rate_mmph; }, 0.1, 5.0);
+  ExpectWithin(
+      "snowy", [](const WeatherSpec& w) { return w.snow_cover; }, 0.2, 1.0);
+  const auto rain_and_snow_mmph = [](const WeatherSpec& w) {
+    return w.rain_rate_mmph + w.snow_rate_mmph;
+  };
+  for (const char* dry : {"sunny", "foggy"}) ExpectWithin(dry, rain_and_snow_mmph, 0.0, 0.0);
 }
 
 }  // namespace

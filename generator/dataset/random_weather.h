@@ -9,7 +9,7 @@
 namespace railcast {
 
 /// The families of weather that the published system (Vir2Rail) draws from. It names them only; the
-/// distributions are ours (docs/scenario.md, "Random weather").
+/// distributions are ours (docs/dataset.md, "Random weather").
 enum class WeatherFamily { kSunny, kFoggy, kRainy, kSnowy };
 template <>
 inline constexpr auto kEnumNames<WeatherFamily> =
