@@ -36,7 +36,7 @@ EXPLAINED_IN = {
     "weather": "scenario.md#weather", "interfaces": "live.md", "camera": "camera.md",
     "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "world.md#contact-line",
     "world.terrain": "world.md#ground-and-vegetation", "world.vegetation": "world.md#ground-and-vegetation",
-    "world.structures[]": "world.md#structures", "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
+    "models[]": "models.md", "world.structures[]": "world.md#structures", "world.objects[]": "scenario.md#objects", "vehicle": "world.md#movement",
     "output": "files.md#fields", "materials[]": "scenario.md#materials",
 }
 
@@ -60,6 +60,8 @@ def without_file(schema):
 def limits(schema):
     if "enum" in schema:
         return ", ".join(f"`{name}`" for name in schema["enum"])
+    if "examples" in schema:
+        return ", ".join(f"`{name}`" for name in schema["examples"]) + ", or a model of `models`"
     above, least = schema.get("exclusiveMinimum"), schema.get("minimum")
     below, most = schema.get("exclusiveMaximum"), schema.get("maximum")
     low = f"above {number(above)}" if above is not None else None if least is None else number(least)

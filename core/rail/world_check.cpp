@@ -292,7 +292,7 @@ const TrackSpec* CheckTrackPlace(const WorldSpec& world,
 }
 
 void CheckWheelsFit(const WorldSpec& world,
-                    ObjectType type,
+                    const ObjectType& type,
                     const std::string& pointer,
                     WorldFaults& faults) {
   CheckFitsGauge(

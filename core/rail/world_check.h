@@ -44,7 +44,7 @@ void CheckObject(const WorldSpec& world,
 
 /// Reports a rail vehicle on a line of another gauge than its wheels. Faults begin with `pointer`.
 void CheckWheelsFit(const WorldSpec& world,
-                    ObjectType type,
+                    const ObjectType& type,
                     const std::string& pointer,
                     WorldFaults& faults);
 

@@ -19,6 +19,7 @@
 #include "core/rail/map_placing.h"
 #include "core/rail/network_check.h"
 #include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/train/bogies.h"
 #include "core/rail/train/own_train.h"
 #include "core/rail/train/train_draft.h"
@@ -221,11 +222,28 @@ std::vector<MeshPartSpec> KnownParts(const std::vector<MeshPartSpec>& parts,
   return known;
 }
 
-// Whether the places of an object's faults are pointers that continue the object's.
-bool HasPointers(const InputError& error) {
-  const std::vector<Fault>& all = error.faults();
-  return std::all_of(all.begin(), all.end(),
-                     [](const Fault& fault) { return fault.place.starts_with('/'); });
+// Adds the faults of an object. Those of its model stand in the table of models, once for all
+// objects that are one.
+void AddFaultsOfObject(const InputError& error, const std::string& pointer, ErrorList& errors) {
+  for (const Fault& fault : error.faults()) {
+    if (!fault.place.starts_with("/models/")) {
+      AddAtPointer(pointer, InputError({fault}), errors);
+    } else if (std::ranges::find(errors.faults(), fault) == errors.faults().end()) {
+      errors.Add(fault);
+    }
+  }
+}
+
+// Checks that the tables have what the models of the sensor's own train need.
+void CheckNamesOfOwnTrain(const WorldSource& source, WorldFaults& faults) {
+  for (std::size_t i = 0; i < source.vehicle.consist.size(); ++i) {
+    const std::string pointer = "/vehicle/consist/" + std::to_string(i);
+    if (!faults.AreKnown({pointer + "/type", "/labels", "/materials"})) continue;
+    Attempt(pointer + ": ", faults.errors, [&] {
+      CheckNamesOfModel(source.vehicle.consist[i].type, source.labels, source.materials);
+      return true;
+    });
+  }
 }
 
 }  // namespace
@@ -281,9 +299,10 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
     return SceneObject{.name = known.name,
                        .type = std::string(NameOf(known.type)),
                        .label = ObjectLabel(known, tables.surfaces, tables.labels),
-                       .model = tables.models.Of(known)};
+                       .model = tables.models.Of(known),
+                       .is_rail_vehicle = IsRailVehicle(known.type)};
   } catch (const InputError& error) {
-    AddPlaced(pointer + (HasPointers(error) ? "" : ": "), error, faults.errors);
+    AddFaultsOfObject(error, pointer, faults.errors);
     return std::nullopt;
   }
 }
@@ -358,15 +377,13 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       if (!draft.network.turnouts.empty() || !draft.network.diamonds.empty()) {
         surfaces.AddTurnoutSurfaces(source.labels, source.materials);
       }
-      if (HasVehicleSurfaces(world, source.vehicle)) {
-        surfaces.AddVehicleSurfaces(source.labels, source.materials);
-      }
       return surfaces;
     });
     if (!source.vehicle.ego_boxes_m.empty() || !source.vehicle.consist.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
   }
+  CheckNamesOfOwnTrain(source, faults);
   const TracksOfWorld tracks{world, draft.network};
   draft.vehicle_path = DraftVehicle(source, tracks, faults);
   if (draft.vehicle_path && draft.alignment) {

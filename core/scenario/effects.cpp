@@ -7,8 +7,7 @@
 #include "core/base/random.h"
 #include "core/base/text.h"
 #include "core/detect/effect_table.h"
-#include "core/rail/objects/object_surfaces.h"
-#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/rail_surfaces.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/scenario.h"
@@ -100,21 +99,26 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
 }
 
 bool HasMirrors(const ScenarioSpec& spec) {
-  return std::any_of(spec.materials.begin(), spec.materials.end(), [&](const Material& material) {
+  std::vector<ObjectType> vehicles;
+  for (const TrainVehicleSpec& vehicle : spec.vehicle.consist) vehicles.push_back(vehicle.type);
+  for (const TrainSpec& train : spec.world.trains) {
+    for (const TrainVehicleSpec& vehicle : train.vehicles) vehicles.push_back(vehicle.type);
+  }
+  return std::ranges::any_of(spec.materials, [&](const Material& material) {
     const auto is_of_it = [&](const ObjectSpec& object) {
-      // Words in the names of a mesh may stand for any material.
       return object.material == material.name ||
-             (!object.material &&
-              (object.type == ObjectType::kMesh || IsMaterialOf(object.type, material.name))) ||
+             (!object.material && MayHaveMaterial(object.type, material.name)) ||
              std::ranges::find(object.parts, material.name, &MeshPartSpec::material) !=
                  object.parts.end();
     };
-    const std::vector<ObjectSpec>& objects = spec.world.objects;
+    const auto is_of_vehicle = [&](const ObjectType& type) {
+      return MayHaveMaterial(type, material.name);
+    };
     return material.height_rms_um &&
            (IsRailMaterial(material.name) ||
             (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
-            (HasVehicleSurfaces(spec.world, spec.vehicle) && IsVehicleMaterial(material.name)) ||
-            std::any_of(objects.begin(), objects.end(), is_of_it));
+            std::ranges::any_of(vehicles, is_of_vehicle) ||
+            std::ranges::any_of(spec.world.objects, is_of_it));
   });
 }
 

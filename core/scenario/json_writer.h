@@ -12,6 +12,7 @@
 #include "core/scenario/json_rules.h"
 #include "core/scenario/json_text.h"
 #include "railcast/enum_names.h"
+#include "railcast/objects.h"
 
 namespace railcast {
 
@@ -34,6 +35,10 @@ class JsonWriter {
   template <class T>
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
     Required(key, values, doc);
+  }
+  template <class T>
+  void Types(std::string_view key, std::vector<T>& models, const char* doc) {
+    if (!models.empty()) Required(key, models, doc);
   }
   void Switches(std::string_view key,
                 const std::map<std::string, bool>& switches,
@@ -63,7 +68,8 @@ template <class T>
 Json JsonWriter::Write(T& value) {
   if constexpr (requires { value.valueless_by_exception(); }) {
     return WriteVariant(value);
-  } else if constexpr (NamedEnum<std::remove_const_t<T>>) {
+  } else if constexpr (NamedEnum<std::remove_const_t<T>> ||
+                       std::is_same_v<std::remove_const_t<T>, ObjectType>) {
     return NameOf(value);
   } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
     return value;
