@@ -12,6 +12,7 @@
 #include "core/scenario/json_rules.h"
 #include "core/scenario/json_text.h"
 #include "railcast/enum_names.h"
+#include "railcast/objects.h"
 
 namespace railcast {
 
@@ -37,6 +38,10 @@ class JsonWriter {
   template <class T>
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
     Required(key, values, doc);
+  }
+  template <class T>
+  void Types(std::string_view key, std::vector<T>& models, const char* doc) {
+    if (!models.empty()) Required(key, models, doc);
   }
   void Switches(std::string_view key,
                 const std::map<std::string, bool>& switches,
@@ -89,7 +94,7 @@ Json JsonWriter::Written(T& value, const Json* assumed) const {
           return json;
         },
         value);
-  } else if constexpr (NamedEnum<Plain>) {
+  } else if constexpr (NamedEnum<Plain> || std::is_same_v<Plain, ObjectType>) {
     return NameOf(value);
   } else if constexpr (std::is_arithmetic_v<Plain> || std::is_same_v<Plain, std::string>) {
     return value;
