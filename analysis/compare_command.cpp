@@ -38,6 +38,7 @@ struct CompareOptions {
   int num_frames = 10;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> sensor;
+  bool takes_all_effects = false;
 };
 
 // Parses a list such as "0.05,0.1".
@@ -79,16 +80,16 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-int RunAblation(const CompareOptions& options, const std::string& command_line) {
-  const std::vector<double> distances_m = ParseDistances(options.distances);
-  ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), options.sensor);
-  if (options.seed) scenario.seed = *options.seed;
-  const auto simulator = MakeSimulator(scenario, options.num_threads);
-  const std::vector<std::uint32_t> frames = SampleFrames(scenario, *simulator, options.num_frames);
+Report AblateSensor(const CompareOptions& options,
+                    const ScenarioSpec& scenario,
+                    Simulator& simulator,
+                    const std::string& command_line) {
+  const std::vector<std::uint32_t> frames = SampleFrames(scenario, simulator, options.num_frames);
   const ProgressLine progress;
-  const std::vector<EffectStudy> studies =
-      Ablate(*simulator, frames, distances_m,
-             [&](const std::string& what, double done) { progress.Show(what, done); });
+  const std::vector<EffectStudy> studies = Ablate(
+      simulator, frames, ParseDistances(options.distances),
+      [&](const std::string& what, double done) { progress.Show(what, done); },
+      options.takes_all_effects ? StudyScope::kAll : StudyScope::kCompatible);
   progress.End();
   Facts facts = {
       {"Scenario", ShownPath(options.scenario)},
@@ -99,9 +100,23 @@ int RunAblation(const CompareOptions& options, const std::string& command_line) 
       {"Scenario hash", IdentityOf(scenario).scenario_hash},
       {"Weather", WeatherText(scenario.weather)}};
   for (auto& fact : MakerFacts(ProgramVersion())) facts.push_back(std::move(fact));
-  EmitReport(MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
-                                command_line),
-             options.output, "ablation");
+  return MakeAblationReport(studies, "Effects of " + ShownPath(options.scenario.stem()), facts,
+                            command_line);
+}
+
+int RunAblation(const CompareOptions& options, const std::string& command_line) {
+  static_cast<void>(ParseDistances(options.distances));
+  ScenarioSpec scenario = ReadScenario(options.scenario);
+  if (options.sensor) scenario = PickSensor(scenario, options.sensor);
+  if (options.seed) scenario.seed = *options.seed;
+  const auto simulators = MakeSimulators(scenario, options.num_threads);
+  const std::vector<std::string> names = SensorNames(scenario);
+  for (std::size_t i = 0; i < simulators.size(); ++i) {
+    ReportOutput output = options.output;
+    if (simulators.size() > 1 && !output.out.empty()) output.out /= names[i];
+    const ScenarioSpec picked = simulators.size() > 1 ? PickSensor(scenario, names[i]) : scenario;
+    EmitReport(AblateSensor(options, picked, *simulators[i], command_line), output, "ablation");
+  }
   return kExitSuccess;
 }
 
@@ -127,7 +142,15 @@ void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
       ->transform(Whole({}))
       ->needs(ablate);
   compare
-      .add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several")
+      .add_option("--sensor", options.sensor,
+                  "Name of the sensor; where the scenario has several, default: all, with a report "
+                  "for each in OUT/NAME")
+      ->needs(ablate);
+  compare
+      .add_flag(
+          "--all-effects", options.takes_all_effects,
+          "Study those, too, that do not go together with the scenario's effects, each on the "
+          "first rung that has it")
       ->needs(ablate);
 }
 

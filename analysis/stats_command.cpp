@@ -16,6 +16,7 @@
 #include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -160,10 +161,9 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
   stats
       ->add_option(
           "SOURCE", options->sources,
-          "Sequence directory, .pcd or .ply file, directory of such files, or .pcap "
-          "capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or QT128, or a folder of "
-          "KITTI's layout or a data set; "
-          "several are summed up")
+          "Sequence directory, .pcd or .ply file, directory of such files, or .pcap capture of " +
+              ReadableSensorsText() +
+              ", or a folder of KITTI's layout or a data set; several are summed up")
       ->required();
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))

@@ -17,8 +17,6 @@ void AddStream(CLI::App& app, ProgramCommand& command);
 void AddCheck(CLI::App& app, ProgramCommand& command);
 /// Writes the scene as triangles: a stretch of the line, or the window of frame 0.
 void AddWorld(CLI::App& app, ProgramCommand& command);
-/// Writes scenarios that differ from a given one in random weather.
-void AddRandomize(CLI::App& app, ProgramCommand& command);
 /// Writes a data set of many scenarios that a recipe draws, or finishes an interrupted one.
 void AddDataset(CLI::App& app, ProgramCommand& command);
 /// Makes one data set of its shards.

@@ -11,7 +11,6 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
-  railcast::AddRandomize(app, command);
   railcast::AddDataset(app, command);
   railcast::AddMerge(app, command);
 #ifdef RAILCAST_HAS_IMPORT

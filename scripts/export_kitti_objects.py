@@ -22,11 +22,11 @@ import sys
 import numpy as np
 
 from join_semantic_kitti import BadInput, common_configuration, link_or_copy, read_arguments
+from model_tables import models_of
 
 SPLITS = ("train", "val", "test")
-# KITTI's class by railcast's label; an object's type says more where it is named in TYPES.
+# KITTI's class by railcast's label; the table of an object's model may say more (`kitti`).
 LABELS = {"person": "Pedestrian", "wagon": "Tram", "train": "Tram", "road_vehicle": "Car"}
-TYPES = {"lorry": "Truck", "bus": "Truck", "tractor": "Truck", "bicycle": "Cyclist", "motorcycle": "Cyclist"}
 # Shares of an object that is hidden, below which it is fully visible and partly occluded.
 PARTLY, LARGELY = 0.1, 0.5
 UNKNOWN = 3
@@ -71,8 +71,8 @@ def image_box_of(corners):
     return seen, 1.0 - area / np.prod(whole[2:] - whole[:2])
 
 
-def class_of(seen):
-    return TYPES.get(seen["type"], LABELS.get(seen["label"], "Misc"))
+def class_of(seen, models):
+    return models.get(seen["type"], {}).get("kitti", LABELS.get(seen["label"], "Misc"))
 
 
 def occluded_of(seen):
@@ -105,7 +105,7 @@ def objects_of(line, place):
     return objects
 
 
-def label_line(seen):
+def label_line(seen, models):
     """KITTI's line about an object of objects.jsonl: class, truncated, occluded, alpha, box in the image, size as
     height, width and length, middle of the underside in the camera's axes, rotation about its y axis."""
     box = seen["sensor"]
@@ -116,12 +116,13 @@ def label_line(seen):
     alpha = (rotation_y - np.arctan2(x, z) + np.pi) % (2 * np.pi) - np.pi
     image_box, truncated = image_box_of(corners_of(center, size, yaw))
     numbers = [alpha, *image_box, size[2], size[1], size[0], x, y, z, rotation_y]
-    return f"{class_of(seen)} {truncated:.2f} {occluded_of(seen)} " + " ".join(f"{value:.4f}" for value in numbers)
+    return f"{class_of(seen, models)} {truncated:.2f} {occluded_of(seen)} " + " ".join(f"{value:.4f}" for value in numbers)
 
 
 def export_run(run, training, first):
     """Adds a run's frames from number `first` on. Returns how many frames and objects these are."""
     num_objects = 0
+    models = models_of(json.loads((run / "scenario.resolved.json").read_text("utf-8")))
     lines = (run / "objects.jsonl").read_text("utf-8").splitlines()
     for place, line in enumerate(lines):
         name = f"{first + place:06}"
@@ -130,7 +131,7 @@ def export_run(run, training, first):
         if any("points_time_ns" not in each for each in with_points):
             raise BadInput(f"{run / 'objects.jsonl'}:{place + 1}: must have the key points_time_ns, "
                            "which older programs did not write")
-        seen = [label_line(each) for each in with_points]
+        seen = [label_line(each, models) for each in with_points]
         (training / "label_2" / f"{name}.txt").write_text("".join(f"{text}\n" for text in seen), "ascii")
         (training / "calib" / f"{name}.txt").write_text(calibration_text(), "ascii")
         num_objects += len(seen)

@@ -29,6 +29,7 @@ try:
     import railcast
 except ImportError as error:
     sys.exit(f"{error}: the Python module is needed, docs/python.md says how to build it")
+from model_tables import models_of
 from osdar_truth import Ontology
 
 DEFINITIONS = pathlib.Path(__file__).resolve().parents[2] / "shared" / "data" / "raillabel"
@@ -134,7 +135,8 @@ def export(arguments):
     lidar = LIDARS[arguments.ontology]
     is_merged = arguments.merged or len(runs) > 1
     mounts = [matrix_of_mount(run.scenario["lidar"]["mount"]) for run in runs]
-    scene = osdar_scene.Scene(out.name, Ontology(arguments.ontology, definitions), lidar,
+    ontology = Ontology(arguments.ontology, definitions, models_of(runs[0].scenario))
+    scene = osdar_scene.Scene(out.name, ontology, lidar,
                               np.eye(4) if is_merged else mounts[0])
     simulator = railcast.Simulator(paths[0] / "scenario.resolved.json")
     begun = out.with_name(out.name + ".partial")

@@ -216,7 +216,7 @@ class Scene:
                  if thing.points > 0 and self.ontology.class_of(thing, of_label[thing.label])}
         for name, thing in shown.items():
             class_name = self.ontology.class_of(thing, of_label[thing.label])
-            truth = truth_of(thing, specs.get(name, {}))
+            truth = truth_of(thing, specs.get(name, {}), self.ontology.entry_of(thing))
             order, beside = place_in_train(name, shown)
             truth.update(connectedTo=[self.uid(other) for other in beside], isFront=order in (None, 1))
             truth["order"] = str(order) if order else "1"

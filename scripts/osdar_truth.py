@@ -2,33 +2,6 @@
 
 import math
 
-FREIGHT = {"type": "freight"}
-LOCOMOTIVE = {"type": "locomotive"}
-# Classes are those of OSDaR23, and attributes those of both ontologies, by type in the scenario.
-CLASSES = {
-    "person": ("person", {}),
-    "open_wagon": ("wagons", FREIGHT),
-    "flat_wagon": ("wagons", FREIGHT),
-    "tank_wagon": ("wagons", FREIGHT),
-    "container_wagon": ("wagons", FREIGHT),
-    "covered_wagon": ("wagons", FREIGHT),
-    "hopper_wagon": ("wagons", FREIGHT),
-    "coach": ("wagons", {}),
-    "shunting_locomotive": ("train", LOCOMOTIVE),
-    "electric_locomotive": ("train", LOCOMOTIVE),
-    "multiple_unit": ("train", {"type": "regional"}),
-    "metro_car": ("train", {"type": "commuter"}),
-    "car": ("road_vehicle", {"type": "car"}),
-    "lorry": ("road_vehicle", {"type": "truck"}),
-    "tractor": ("road_vehicle", {"type": "other"}),
-    "bus": ("road_vehicle", {"type": "bus"}),
-    "bicycle": ("bicycle", {}),
-    "motorcycle": ("motorcycle", {}),
-    "deer": ("animal", {"species": "deer", "pose": "upright"}),
-    "dog": ("animal", {"species": "dog", "pose": "upright"}),
-    "cow": ("animal", {"species": "cow", "pose": "upright"}),
-    "drag_shoe": ("drag_shoe", {}),
-}
 # A pole may be labelled as a signal: the class of OSDaR for that is a signal's face.
 POLES = {"pole": "signal_pole", "signal": "signal_pole", "mast": "catenary_pole"}
 NAMES_OF_26 = {"wagons": "wagon"}
@@ -46,16 +19,23 @@ NEUTRAL = ("unknown", "undefined", "alone", "steady", "other", "none", "light", 
 class Ontology:
     """The classes and attributes that a scene may have."""
 
-    def __init__(self, name, definitions):
+    def __init__(self, name, definitions, models):
         self.name = name
         self.classes = definitions
+        self.models = models  # model_tables.models_of().
 
     def class_of(self, thing, label_class):
         """The class of an object, or None if the ontology has none for it."""
-        name = CLASSES[thing.type][0] if thing.type in CLASSES else label_class
+        name = self.entry_of(thing).get("class", label_class)
+        if thing.type == "person":
+            name = "person"
         if thing.type == "pole":
             name = POLES.get(thing.label)
         return self.class_named(name)
+
+    def entry_of(self, thing):
+        """Class and attributes of the object's model; empty if it is none, or its table says nothing."""
+        return self.models.get(thing.type, {}).get("osdar", {})
 
     def class_named(self, name):
         known = name if name in self.classes else NAMES_OF_26.get(name)
@@ -101,9 +81,10 @@ def occlusion_of(occlusion, rule):
     return options[min(int(4 * occlusion), 3)]
 
 
-def truth_of(thing, spec):
-    """The attributes of an object that railcast knows: by its type, and by its section of the scenario, if any."""
-    truth = dict(CLASSES.get(thing.type, (None, {}))[1])
+def truth_of(thing, spec, entry):
+    """The attributes of an object that railcast knows: by its model (Ontology.entry_of()), and by its section of the
+    scenario, if any."""
+    truth = {name: value for name, value in entry.items() if name != "class"}
     if thing.type == "person":
         person = spec.get("person", {})
         truth["pose"] = POSES[person.get("posture", "walking")]
@@ -112,7 +93,7 @@ def truth_of(thing, spec):
         truth["aid"] = "none"
         truth["carrying"] = ["suitcase"] if person.get("luggage") == "suitcase" else ["none"]
     height_m = thing.size_m[2]
-    if thing.type in ("deer", "dog", "cow"):
+    if entry.get("class") == "animal":
         truth["size"] = "small" if height_m < SMALL_ANIMAL_M else "medium" if height_m < LARGE_ANIMAL_M else "large"
     return truth
 

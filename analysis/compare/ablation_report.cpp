@@ -19,7 +19,13 @@ Estimate Percentage(std::uint64_t num, std::uint64_t num_all) {
 }
 
 std::string NameOf(const EffectStudy& study) {
+  if (study.rung) return Joined({InWords(study.effect), " (on ", NameOf(*study.rung), ")"});
   return Joined({InWords(study.effect), study.is_in_scenario ? "" : " (switched on)"});
+}
+
+std::string WhereStudied(const EffectStudy& study) {
+  if (study.rung) return "on " + std::string(NameOf(*study.rung));
+  return study.is_in_scenario ? "on" : "off";
 }
 
 std::uint64_t NumChanged(const EffectStudy& study) {
@@ -90,6 +96,7 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
                  "intensities changed are of those that are there both times.",
                  {{"effect", "Effect", ""},
                   {"in_scenario", "In the scenario", ""},
+                  {"beams", "Beams", ""},
                   {"identical_percent", "Identical beams", "%"},
                   {"outcome_percent", "Outcome changed", "%"},
                   {"points_taken", "Points taken away", ""},
@@ -105,7 +112,7 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
     const BeamChanges& beams = study.beams;
     constexpr double kShare = 0.95;
     table.rows.push_back(
-        {study.effect, std::string(study.is_in_scenario ? "on" : "off"),
+        {study.effect, WhereStudied(study), beams.num_beams,
          Percentage(beams.num_identical, beams.num_beams),
          Percentage(beams.num_outcome_changed, beams.num_beams), beams.num_removed, beams.num_added,
          Percentage(beams.num_moved, beams.num_both), beams.moved_m.Median(),

@@ -71,9 +71,13 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
       ->check(NonEmpty());
   where
       ->add_option_function<std::string>(
-          "--format", [&output](const std::string&) { output.is_text = true; },
-          "text: print the report on the terminal")
-      ->check(CLI::IsMember({"text"}));
+          "--format",
+          [&output](const std::string& format) {
+            output.is_text = format == "text";
+            output.is_json = format == "json";
+          },
+          "text: print the report on the terminal; json: print it as JSON")
+      ->check(CLI::IsMember({"text", "json"}));
   where->require_option(1, 0);
 }
 
@@ -83,9 +87,11 @@ void EmitReport(const Report& report,
                 const std::string& details) {
   CheckSound(report);
   if (output.is_text) std::cout << ShownLines(ReportText(report)) << std::flush;
+  if (output.is_json) std::cout << ReportJson(report, details) << std::flush;
   if (output.out.empty()) return;
   const std::string json = std::string(name) + ".json";
   WriteFiles(report, output.out, json, ReportJson(report, details));
+  if (output.is_json) return;
   if (!output.is_text) std::cout << ShownLines(HeadlinesText(report));
   std::cout << "report.html, " << json << ", csv/ and charts/ in " << ShownPath(output.out) << "\n"
             << std::flush;

@@ -13,9 +13,10 @@ namespace railcast {
 struct ReportOutput {
   std::filesystem::path out;  ///< Directory; no files are written if empty.
   bool is_text = false;       ///< Whether the whole report is printed to stdout.
+  bool is_json = false;       ///< Whether it is printed as JSON, and nothing else is.
 };
 
-/// Adds --out DIR and --format text, of which at least one must be given.
+/// Adds --out DIR and --format text or json, of which at least one must be given.
 void AddReportOptions(CLI::App& command, ReportOutput& output);
 
 /// Makes a directory and its parents if they do not exist.
@@ -23,7 +24,7 @@ void AddReportOptions(CLI::App& command, ReportOutput& output);
 void MakeFolder(const std::filesystem::path& folder);
 
 /// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
-/// and prints the report or, without --format text, its headlines and the paths of the files.
+/// and prints the report or, without --format, its headlines and the paths of the files.
 /// @param details A JSON object whose members are added to the JSON.
 /// @throws InputError if a file cannot be written, or if gnuplot is missing: then the page has no
 ///   charts, but everything else is written.

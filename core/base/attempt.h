@@ -26,6 +26,14 @@ inline void AddPlaced(const std::string& place, const InputError& error, ErrorLi
   }
 }
 
+/// As AddPlaced() for the faults of what stands at `pointer`: those whose places are pointers
+/// continue it, and those of files stand apart.
+inline void AddAtPointer(const std::string& pointer, const InputError& error, ErrorList& errors) {
+  for (const Fault& fault : error.faults()) {
+    AddPlaced(pointer + (fault.place.starts_with('/') ? "" : ": "), InputError({fault}), errors);
+  }
+}
+
 /// Returns what `make` returns.
 /// @throws InputError as `make` throws it, with `place` in front of each fault's own (AddPlaced).
 template <typename Make>

@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/shipped_files.h"
 #include "core/base/text.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mesh_format.h"
@@ -131,7 +132,7 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
       IsScene(*format) || *format == MeshFormat::kAsciiStl || *format == MeshFormat::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
   CheckCorners(shown, soup);
-  ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
+  ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false), units.keeps_origin);
   mesh.has_own_up = IsScene(*format) && *format != MeshFormat::k3ds;
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");
   return mesh;
@@ -199,6 +200,10 @@ std::vector<FileBeside> FilesBesideMesh(const std::string& bytes,
 }
 
 ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units) {
+  if (const auto shipped = ShippedFile(file.native())) {
+    if (!units.unit_m && !units.y_up && units.keeps_origin) return ReadShippedPly(*shipped);
+    return ParseMesh(std::string(*shipped), file, units);
+  }
   std::string bytes = ReadFileWhole(file);
   std::vector<FileBeside> beside = FilesBesideMesh(bytes, file);
   return ParseSource({.bytes = std::move(bytes), .file = file, .beside = std::move(beside)}, units);

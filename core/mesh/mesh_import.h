@@ -13,16 +13,19 @@ namespace railcast {
 /// How a mesh file is to be understood. What is absent is taken from the file where its format
 /// says it (glTF, FBX and DAE); all others are taken to be in metres with z up.
 struct MeshUnits {
-  std::optional<double> unit_m;  ///< Metres per file unit.
-  std::optional<bool> y_up;
+  std::optional<double> unit_m{};  ///< Metres per file unit.
+  std::optional<bool> y_up{};
+  /// Whether vertices are rounded to float32 about the file's origin, for meshes that stay there,
+  /// and not about the middle of the mesh.
+  bool keeps_origin = false;
 };
 
 /// How many corners a face may have.
 inline constexpr std::size_t kMostFaceCorners = 10'000;
 
-/// Reads a mesh file: OBJ, PLY, STL or OFF, and if railcast was built with assimp also glTF, FBX,
-/// DAE and 3DS. The content decides which it is; the extension counts only for OBJ files without
-/// vertices.
+/// Reads a mesh file, or one that railcast holds (ShippedFile()): OBJ, PLY, STL or OFF, and if
+/// railcast was built with assimp also glTF, FBX, DAE and 3DS. The content decides which it is; the
+/// extension counts only for OBJ files without vertices.
 /// @throws InputError with lines "file: rule" or "file: line N: rule (got value)", of OBJ and OFF
 ///   files one for each line with a fault (20 at most), if the file cannot be read, is damaged or
 ///   of no known format, has coordinates that are not finite or too far from its origin for the

@@ -90,6 +90,9 @@ class Reader {
       const auto line = TakeLine(rest_);
       if (!line) Fail("its header has no end_header line");
       const auto words = Words(*line);
+      if (words.size() == 3 && words[0] == "comment" && words[1] == "material") {
+        soup_.materials.emplace_back(words[2]);
+      }
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") break;
       if (words[0] == "format") {
@@ -187,22 +190,49 @@ class Reader {
 
   /// Reads the faces, and passes over all other elements.
   void ReadOthers(const Element& element) {
+    const bool is_face = element.name == "face";
+    std::vector<FaceUse> uses;
+    for (const Property& property : element.properties) {
+      uses.push_back(is_face ? UseOfProperty(property) : FaceUse::kNone);
+    }
+    const bool has_corners = std::ranges::find(uses, FaceUse::kCorners) != uses.end();
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      for (const Property& property : element.properties) {
-        const bool is_corners = element.name == "face" && (property.name == "vertex_indices" ||
-                                                           property.name == "vertex_index");
+      std::vector<std::uint32_t> corners;
+      std::uint32_t material = PolygonSoup::kUnnamed;
+      for (std::size_t p = 0; p < uses.size(); ++p) {
+        const Property& property = element.properties[p];
         const std::size_t num = property.length ? Length(element, *property.length) : 1;
-        std::vector<std::uint32_t> corners;
+        if (uses[p] == FaceUse::kCorners) corners.reserve(num);
         for (std::size_t k = 0; k < num; ++k) {
           const double value = Next(element, property.type);
-          if (!is_corners) continue;
-          if (!(value >= 0.0 && value < kMaxIndex && value == std::floor(value)))
-            FailCorner(i, value);
-          corners.push_back(static_cast<std::uint32_t>(value));
+          if (uses[p] == FaceUse::kCorners) corners.push_back(CornerOf(i, value));
+          if (uses[p] == FaceUse::kMaterial) material = MaterialOfFace(i, value);
         }
-        if (is_corners) soup_.AddFace(std::move(corners));
       }
+      if (has_corners) soup_.AddFace(std::move(corners), material);
     }
+  }
+
+  enum class FaceUse { kNone, kCorners, kMaterial };
+  [[nodiscard]] FaceUse UseOfProperty(const Property& property) const {
+    const std::string_view name = property.name;
+    if (name == "vertex_indices" || name == "vertex_index") return FaceUse::kCorners;
+    const bool is_material = name == "material_index" && !property.length;
+    return is_material && !soup_.materials.empty() ? FaceUse::kMaterial : FaceUse::kNone;
+  }
+
+  [[nodiscard]] std::uint32_t CornerOf(std::uint64_t face, double value) const {
+    if (!(value >= 0.0 && value < kMaxIndex && value == std::floor(value))) FailCorner(face, value);
+    return static_cast<std::uint32_t>(value);
+  }
+
+  [[nodiscard]] std::uint32_t MaterialOfFace(std::uint64_t face, double value) const {
+    const auto count = static_cast<double>(soup_.materials.size());
+    if (!(value >= 0.0 && value < count && value == std::floor(value))) {
+      Fail("face " + std::to_string(face) + " must name one of the " +
+           std::to_string(soup_.materials.size()) + " materials, counted from 0" + Got(value));
+    }
+    return static_cast<std::uint32_t>(value);
   }
 
   void CheckCorners() const {
@@ -290,6 +320,60 @@ class Reader {
 
 PolygonSoup ReadPlyMesh(const std::string& shown, std::string_view bytes, double largest) {
   return Reader(shown, bytes, largest).Read();
+}
+
+ImportedMesh ReadShippedPly(std::string_view bytes) {
+  constexpr std::string_view kMaterial = "comment material ";
+  constexpr std::size_t kVertexBytes = 3 * sizeof(float);
+  constexpr std::size_t kFaceBytes = 8;
+  std::string_view rest = bytes;
+  const auto take = [&](std::string_view beginning) {
+    const auto line = TakeLine(rest);
+    Check(line && line->starts_with(beginning), "a shipped mesh has the header of all of them");
+    return line->substr(beginning.size());
+  };
+  take("ply");
+  take("format binary_little_endian 1.0");
+  ImportedMesh mesh;
+  while (rest.starts_with(kMaterial)) {
+    mesh.parts.push_back(
+        {.material = std::string(take(kMaterial)), .group = {}, .luminance = {}, .mesh = {}});
+  }
+  const auto num_vertices = ParseNumber<std::uint32_t>(take("element vertex ")).value_or(0);
+  for (const char* axis : {"x", "y", "z"}) take("property float " + std::string(axis));
+  const auto num_faces = ParseNumber<std::uint32_t>(take("element face ")).value_or(0);
+  take("property list uchar ushort vertex_indices");
+  take("property uchar material_index");
+  take("end_header");
+  Check(rest.size() == num_vertices * kVertexBytes + num_faces * kFaceBytes,
+        "a shipped mesh has as many bytes as its header says");
+  std::vector<Eigen::Vector3f> vertices(num_vertices);
+  std::memcpy(static_cast<void*>(vertices.data()), rest.data(), num_vertices * kVertexBytes);
+  const char* face = rest.data() + num_vertices * kVertexBytes;
+  std::vector<std::uint32_t> ends(mesh.parts.size(), 0);  // Of the parts' vertices.
+  mesh.num_faces = num_faces;
+  for (std::uint32_t i = 0; i < num_faces; ++i, face += kFaceBytes) {
+    std::array<std::uint16_t, 3> corners{};
+    std::memcpy(corners.data(), face + 1, sizeof corners);
+    const auto part = static_cast<std::uint8_t>(face[7]);
+    mesh.parts.at(part).mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+    ends[part] = std::max({ends[part], corners[0] + 1U, corners[1] + 1U, corners[2] + 1U});
+    const Eigen::Vector3f& first = vertices.at(corners[0]);
+    mesh.area_m2 +=
+        0.5 * static_cast<double>(
+                  (vertices.at(corners[1]) - first).cross(vertices.at(corners[2]) - first).norm());
+  }
+  std::uint32_t begin = 0;
+  for (std::size_t part = 0; part < ends.size(); ++part) {
+    Mesh& own = mesh.parts[part].mesh;
+    own.vertices.assign(vertices.begin() + begin, vertices.begin() + ends[part]);
+    for (auto& triangle : own.triangles) {
+      for (std::uint32_t& corner : triangle) corner -= begin;
+    }
+    begin = ends[part];
+  }
+  mesh.origin_m = Vector3::Zero();
+  return mesh;
 }
 
 }  // namespace railcast

@@ -86,23 +86,32 @@ class PartBuilder {
  public:
   explicit PartBuilder(NamedMesh part) : part_(std::move(part)) {}
 
-  void Add(const std::array<std::uint32_t, 3>& triangle,
-           const std::vector<Eigen::Vector3f>& positions) {
-    std::array<std::uint32_t, 3> corners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [it, is_new] = index_of_.try_emplace(
-          triangle[i], static_cast<std::uint32_t>(part_.mesh.vertices.size()));
-      if (is_new) part_.mesh.vertices.push_back(positions[triangle[i]]);
-      corners[i] = it->second;
-    }
-    part_.mesh.triangles.push_back(corners);
+  void Add(const std::array<std::uint32_t, 3>& triangle) {
+    part_.mesh.triangles.push_back(triangle);
   }
 
-  [[nodiscard]] NamedMesh Take() { return std::move(part_); }
+  /// @param positions Of the points of the soup.
+  [[nodiscard]] NamedMesh Take(const std::vector<Eigen::Vector3f>& positions) {
+    std::vector<std::uint32_t> used;
+    used.reserve(3 * part_.mesh.triangles.size());
+    for (const auto& triangle : part_.mesh.triangles) {
+      used.insert(used.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    part_.mesh.vertices.reserve(used.size());
+    for (const std::uint32_t point : used) part_.mesh.vertices.push_back(positions[point]);
+    for (auto& triangle : part_.mesh.triangles) {
+      for (std::uint32_t& corner : triangle) {
+        corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner) -
+                                            used.begin());
+      }
+    }
+    return std::move(part_);
+  }
 
  private:
-  NamedMesh part_;
-  std::unordered_map<std::uint32_t, std::uint32_t> index_of_;  // By index in the soup.
+  NamedMesh part_;  // Its corners are points of the soup.
 };
 
 /// The parts of a soup, begun in the order of its faces.
@@ -123,9 +132,9 @@ class PartBuilders {
     return builders_[it->second];
   }
 
-  [[nodiscard]] std::vector<NamedMesh> Take() {
+  [[nodiscard]] std::vector<NamedMesh> Take(const std::vector<Eigen::Vector3f>& positions) {
     std::vector<NamedMesh> parts;
-    for (PartBuilder& builder : builders_) parts.push_back(builder.Take());
+    for (PartBuilder& builder : builders_) parts.push_back(builder.Take(positions));
     return parts;
   }
 
@@ -166,8 +175,8 @@ std::size_t ImportedMesh::num_triangles() const {
       [](std::size_t sum, const NamedMesh& part) { return sum + part.mesh.triangles.size(); });
 }
 
-ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up) {
-  const Vector3 middle = MiddleOf(soup);
+ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up, bool keeps_origin) {
+  const Vector3 middle = keeps_origin ? Vector3(Vector3::Zero()) : MiddleOf(soup);
   const auto z_up_m = [&](const Vector3& p) {
     return Vector3(unit_m * (y_up ? Vector3(p.x(), -p.z(), p.y()) : p));
   };
@@ -194,10 +203,10 @@ ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up) {
         continue;
       }
       result.area_m2 += 0.5 * twice_area_m2.norm();
-      builders.Of(face).Add(triangle, positions);
+      builders.Of(face).Add(triangle);
     }
   }
-  result.parts = builders.Take();
+  result.parts = builders.Take(positions);
   return result;
 }
 

@@ -62,8 +62,8 @@ struct NamedMesh {
 /// A mesh file as triangles in metres, z up.
 struct ImportedMesh {
   std::vector<NamedMesh> parts;  ///< In the order in which the file names them; none is empty.
-  Vector3 origin_m;              ///< The middle of the file's bounding box, in the file's frame.
-  std::size_t num_faces{};       ///< Faces in the file with three different corners or more.
+  Vector3 origin_m;         ///< The middle of the file's bounding box, in the file's frame; or 0.
+  std::size_t num_faces{};  ///< Faces in the file with three different corners or more.
   std::size_t num_cornerless{};  ///< Faces left out because they have fewer.
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
   double area_m2{};              ///< Of all triangles.
@@ -74,8 +74,12 @@ struct ImportedMesh {
 
 /// Cuts all faces into triangles. Every face keeps its area. Lengths are multiplied by `unit_m`; if
 /// `y_up`, y becomes z and z becomes -y. Vertices are centred in double precision before they are
-/// rounded to float32, so that a mesh in map coordinates is as exact as one about its origin.
-/// Triangles without area in float32 and unused points are left out.
-[[nodiscard]] ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up);
+/// rounded to float32, so that a mesh in map coordinates is as exact as one about its origin; with
+/// `keeps_origin` they are not centred. Triangles without area in float32 and unused points are
+/// left out. The vertices of a part are in the order of the file.
+[[nodiscard]] ImportedMesh MakeTriangles(const PolygonSoup& soup,
+                                         double unit_m,
+                                         bool y_up,
+                                         bool keeps_origin = false);
 
 }  // namespace railcast

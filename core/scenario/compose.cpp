@@ -57,22 +57,6 @@ void CheckOutput(const ScenarioSpec& spec, ErrorList& errors) {
   }
 }
 
-bool HasHalos(const ScenarioSpec& spec) {
-  const auto sensors = SensorsOf(spec);
-  return SwitchedEffects(spec).halo &&
-         std::any_of(sensors.begin(), sensors.end(), [](const auto& sensor) {
-           return sensor.lidar.receiver.halo_share_at_1_deg > 0.0;
-         });
-}
-
-bool HasGhosts(const ScenarioSpec& spec) {
-  const auto sensors = SensorsOf(spec);
-  return SwitchedEffects(spec).ghost &&
-         std::any_of(sensors.begin(), sensors.end(), [](const auto& sensor) {
-           return sensor.lidar.receiver.ghost_reflectance > 0.0;
-         });
-}
-
 // Labels and materials that the effects, as opposed to the world, look up by name.
 struct EffectNamesInUse {
   ClutterLabels labels;
@@ -82,22 +66,12 @@ struct EffectNamesInUse {
 std::optional<EffectNamesInUse> TryNames(const ScenarioSpec& spec, ErrorList& errors) {
   return Located(spec, "", errors, [&] {
     const LabelTable labels(spec.labels);
-    EffectNamesInUse names;
-    names.labels.snow = labels.Id("snow");
     // Conflicts between effects are reported where the effects are read.
-    if (IsPhysical(SwitchedEffects(spec))) {
-      names.labels.rain = labels.Id("rain");
-      names.labels.fog = labels.Id("fog");
-      names.labels.false_alarm = labels.Id("false_alarm");
-      if (HasHalos(spec)) names.labels.halo = labels.Id("halo");
-      if (SwitchedEffects(spec).mirror_paths &&
-          (HasMirrors(spec) || spec.weather.puddle_share > 0.0)) {
-        names.labels.mirror_image = labels.Id("mirror_image");
-      } else if (const Label* label = labels.Find("mirror_image")) {
-        names.labels.mirror_image = label->id;  // Commands may still bring mirrors.
-      }
-      if (HasGhosts(spec)) names.labels.ghost = labels.Id("ghost");
-      if (spec.weather.spray_extinction_per_m > 0.0) names.labels.spray = labels.Id("spray");
+    const EffectSet effects = SwitchedEffects(spec);
+    EffectNamesInUse names;
+    // Sensors differ in the labels that they need, not in the identifiers of these.
+    for (const SensorPlace& sensor : SensorsOf(spec)) {
+      names.labels = ClutterLabelsOf(labels, DetectorSpecOf(spec, sensor.lidar, effects));
     }
     if (spec.weather.snow_cover > 0.0) {
       names.snow_material = MaterialLibrary(spec.materials).Index("snow");
@@ -208,18 +182,12 @@ std::unique_ptr<Simulator> MakeSimulator(const ScenarioSpec& spec,
 }
 
 void UseWeather(const ScenarioSpec& scenario, const WeatherSpec& weather, SimulatorSpec& spec) {
-  if (weather.snow_cover > 0.0) {
-    spec.snow_material = MaterialLibrary(scenario.materials).Index("snow");
-  } else {
-    spec.snow_material = 0;
-  }
-  if (weather.spray_extinction_per_m > 0.0) {
-    spec.detector.clutter_labels.spray = LabelTable(scenario.labels).Id("spray");
-  }
-  if (weather.puddle_share > 0.0 && SwitchedEffects(scenario).mirror_paths) {
-    spec.detector.clutter_labels.mirror_image = LabelTable(scenario.labels).Id("mirror_image");
-  }
-  spec.detector.weather = weather;
+  DetectorSpec detector = spec.detector;
+  detector.weather = weather;
+  detector.clutter_labels = ClutterLabelsOf(LabelTable(scenario.labels), detector);
+  spec.snow_material =
+      weather.snow_cover > 0.0 ? MaterialLibrary(scenario.materials).Index("snow") : 0;
+  spec.detector = detector;
 }
 
 std::vector<std::string> CheckScenario(const std::filesystem::path& file) {

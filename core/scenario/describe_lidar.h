@@ -177,6 +177,16 @@ void Describe(Archive& a, CoverSpec& s) {
   a.Optional("snow_diameter_mm", s.snow_diameter_mm, "Diameter of a spot of snow.", SpotLimits());
 }
 
+/// The range gate, of a sensor or of a detector.
+template <class Archive, class Spec>
+void DescribeRange(Archive& a, Spec& s) {
+  a.Optional("range_min_m", s.range_min_m,
+             "Least range; nearer surfaces block the beam and give no point.", Within(0, 10'000));
+  a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
+             PositiveUpTo(10'000));
+  a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
+}
+
 template <>
 inline constexpr bool kElementMayBeFile<LidarSpec> = true;
 
@@ -186,10 +196,7 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Required("scan", s.scan, "The firings of a frame.");
   a.Optional("phase_s", s.scan.phase_s,
              "When the sensor's first frame begins, for sensors that take turns.", Within(0, 100));
-  a.Optional("range_min_m", s.range_min_m,
-             "Least range; nearer surfaces block the beam and give no point.", Within(0, 10'000));
-  a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
-             PositiveUpTo(10'000));
+  DescribeRange(a, s);
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("mount_error", s.mount_error,
              "By how much it does not: rays leave from its true pose, all reports use mount.");
@@ -198,7 +205,6 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");
   a.Optional("cover", s.cover, "What lies on the sensor's window, on the physical rungs.");
   a.Ensure({"phase_s", "scan"}, s.scan.phase_s * s.scan.rate_hz < 1.0, "must be < 1 / rate_hz");
-  a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
 }
 
 }  // namespace railcast

@@ -3,6 +3,7 @@
 #include "core/detect/detector/effect_table.h"
 #include "core/scenario/describe_camera.h"
 #include "core/scenario/describe_lidar.h"
+#include "core/scenario/describe_models.h"
 #include "core/scenario/describe_weather.h"
 #include "core/scenario/describe_world.h"
 #include "core/scenario/sensors.h"
@@ -12,8 +13,9 @@
 namespace railcast {
 
 // Every spec has one description: `Describe(archive, spec)` names each field's key, value, meaning
-// and rule (json_rules.h). Three archives visit it, so that reading, writing and the published
-// schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved scenario,
+// and rule (json_rules.h). Four archives visit it, so that reading, writing, checking and the
+// published schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved
+// scenario and the short files that are made for users, SpecChecker checks what was made in C++,
 // SchemaWriter (tests/core/scenario) makes the schema. An archive has:
 //
 // - Required(key, value, meaning, rule): the key must be given.
@@ -23,6 +25,8 @@ namespace railcast {
 //   of a base file. Must come before the descriptions of both keys.
 // - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key.
 // - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key.
+// - Types(key, models, meaning): a list or file like a library, which may be absent, of types that
+//   the objects described after it may have.
 // - Switches(key, map, meaning, names): an object of flags.
 // - Ensure(keys, holds, rule): a rule across the fields of `keys`. The message is about the value
 // of
@@ -164,6 +168,7 @@ void Describe(Archive& a, ScenarioSpec& s) {
            "must have a rate_hz that is each sensor's scan rate_hz divided by a whole number");
   const std::string images_fault = s.camera ? ImagesFault(*s.camera, s.interfaces) : "";
   a.Ensure({"camera", "interfaces"}, images_fault.empty(), images_fault);
+  a.Types("models", s.models, "Types of objects and vehicles beside those that railcast has.");
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");

@@ -8,9 +8,11 @@
 #include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/objects/object_surfaces.h"
-#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
+#include "core/scenario/describe_lidar.h"
+#include "core/scenario/describe_weather.h"
 #include "core/scenario/json_rules.h"
+#include "core/scenario/spec_checker.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -99,22 +101,40 @@ std::uint64_t SensorSeed(std::uint64_t seed, const std::string& sensor_name) {
   return std::uint64_t{words[0]} << 32U | words[1];
 }
 
+void CheckDetectorSpec(const DetectorSpec& spec) {
+  DetectorSpec copy = spec;  // Descriptions take mutable values because the reader fills them.
+  ErrorList errors;
+  SpecChecker checker("", errors);
+  DescribeRange(checker, copy);
+  checker.Required("plausibility", copy.plausibility, "");
+  checker.Required("beam", copy.beam, "");
+  checker.Required("receiver", copy.receiver, "");
+  checker.Required("cover", copy.cover, "");
+  checker.Required("weather", copy.weather, "");
+  errors.ThrowIfAny();
+}
+
 bool HasMirrors(const ScenarioSpec& spec) {
-  return std::any_of(spec.materials.begin(), spec.materials.end(), [&](const Material& material) {
+  std::vector<ObjectType> vehicles;
+  for (const TrainVehicleSpec& vehicle : spec.vehicle.consist) vehicles.push_back(vehicle.type);
+  for (const TrainSpec& train : spec.world.trains) {
+    for (const TrainVehicleSpec& vehicle : train.vehicles) vehicles.push_back(vehicle.type);
+  }
+  return std::ranges::any_of(spec.materials, [&](const Material& material) {
     const auto is_of_it = [&](const ObjectSpec& object) {
-      // Words in the names of a mesh may stand for any material.
       return object.material == material.name ||
-             (!object.material &&
-              (object.type == ObjectType::kMesh || IsMaterialOf(object.type, material.name))) ||
+             (!object.material && MayHaveMaterial(object.type, material.name)) ||
              std::ranges::find(object.parts, material.name, &MeshPartSpec::material) !=
                  object.parts.end();
     };
-    const std::vector<ObjectSpec>& objects = spec.world.objects;
+    const auto is_of_vehicle = [&](const ObjectType& type) {
+      return MayHaveMaterial(type, material.name);
+    };
     return material.height_rms_um &&
            (IsRailMaterial(material.name) ||
             (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
-            (HasVehicleSurfaces(spec.world, spec.vehicle) && IsVehicleMaterial(material.name)) ||
-            std::any_of(objects.begin(), objects.end(), is_of_it));
+            std::ranges::any_of(vehicles, is_of_vehicle) ||
+            std::ranges::any_of(spec.world.objects, is_of_it));
   });
 }
 

@@ -32,6 +32,8 @@ class JsonReader {
                    const Limits& limits);
   template <class T>
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc);
+  template <class T>
+  void Types(std::string_view key, std::vector<T>& models, const char* doc);
   void Switches(std::string_view key,
                 std::map<std::string, bool>& switches,
                 const char* doc,
@@ -194,6 +196,30 @@ void JsonReader::RequiredLibrary(std::string_view key, std::vector<T>& values, c
   reader.Required(key, values, doc, NonEmptyList());
   reader.Finish();
   source_.sources().Add(node->resolved_pointer, root->file->shown, PointerStep(key));
+}
+
+template <class T>
+void JsonReader::Types(std::string_view key, std::vector<T>& models, const char* doc) {
+  const Node* node = Find(key);
+  if (node == nullptr) {
+    keys_.emplace_back(key);
+    return;
+  }
+  const std::string list = node->resolved_pointer;
+  RequiredLibrary(key, models, doc);
+  Unique(key, models, "name", &T::name);
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const std::string place = list + "/" + std::to_string(i);
+    if (!source_.unknown().IsKnown(place)) continue;  // Nor are objects that are one.
+    if (!source_.types().Find(models[i].name)) {
+      source_.types().Add(models[i], i);
+      continue;
+    }
+    source_.errors().Add({source_.sources().Place(place + "/name"),
+                          "must not be the name of a type that railcast has",
+                          ValueText(models[i].name)});
+    source_.unknown().Add(place + "/name");
+  }
 }
 
 template <class T, class V>

@@ -17,15 +17,6 @@ std::string Number(double value) {
   return text;
 }
 
-std::string Alternatives(const std::vector<std::string>& names) {
-  std::string words;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
-    words += names[i];
-  }
-  return words;
-}
-
 }  // namespace
 
 std::optional<std::string> Broken(const Limits& limits, double value) {
@@ -82,6 +73,15 @@ std::optional<std::string> Broken(HostAndPort, std::string_view value) {
     if (error == std::errc() && end == digits.end() && port > 0) return std::nullopt;
   }
   return "must be host:port with a port from 1 to 65535";
+}
+
+std::string Alternatives(const std::vector<std::string>& names) {
+  std::string words;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) words += i + 1 == names.size() ? " or " : ", ";
+    words += names[i];
+  }
+  return words;
 }
 
 std::string InWords(const std::vector<std::string>& names) {

@@ -120,6 +120,9 @@ inline constexpr bool kIsWrittenInPlace = false;
 [[nodiscard]] std::optional<std::string> Broken(OneLine, std::string_view value);
 [[nodiscard]] std::optional<std::string> Broken(HostAndPort, std::string_view value);
 
+/// Lists names in prose: `a, b or c`.
+[[nodiscard]] std::string Alternatives(const std::vector<std::string>& names);
+
 /// Lists names as messages show them: `"a", "b" or "c"`.
 [[nodiscard]] std::string InWords(const std::vector<std::string>& names);
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/base/input_file.h"
+#include "core/base/shipped_files.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -88,6 +89,13 @@ std::optional<Node> JsonSource::OpenText(const std::string& text, const std::str
   return Parse(text, {{}, shown, nullptr, {}}, "");
 }
 
+std::optional<Node> JsonSource::OpenShipped(const std::string& text, const std::string& name) {
+  is_shipped_ = true;
+  auto root = Parse(text, {name, name, nullptr, {}}, "");
+  if (!root || !CheckRoot(*root)) return std::nullopt;
+  return root;
+}
+
 // Whether a key belongs to the file and not to the object that is its root.
 bool JsonSource::IsOfFile(const Node& node, const std::string& key) const {
   return may_read_files_ && node.pointer.empty() && (key == "version" || key == "$schema");
@@ -141,7 +149,10 @@ std::optional<fs::path> JsonSource::FileNamedBy(const Node& node) {
     Fault(node, "must be the name of a file");
     return std::nullopt;
   }
-  const fs::path name = node.json->get<std::string>();
+  const auto given = node.json->get<std::string>();
+  const std::string shipped = is_shipped_ ? std::string(kShippedPrefix) + given : given;
+  if (ShippedFile(shipped)) return shipped;
+  const fs::path name = given;
   const fs::path absolute = (node.file->absolute.parent_path() / name).lexically_normal();
   if (const std::string obstacle = Obstacle(absolute); !obstacle.empty()) {
     Fault(node, obstacle);

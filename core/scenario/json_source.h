@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/unknown_places.h"
 #include "core/scenario/json_text.h"
+#include "core/scenario/object_types.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -69,13 +70,18 @@ class JsonSource {
   /// value may name a file: the sender must not be able to make this program read files.
   [[nodiscard]] std::optional<Node> OpenText(const std::string& text, const std::string& shown);
 
+  /// The root of a table that the library holds, as the files are that it names.
+  /// @param name With the prefix of ShippedFile().
+  [[nodiscard]] std::optional<Node> OpenShipped(const std::string& text, const std::string& name);
+
   /// The members of an object, whether written in place or given as a file. Nothing if faulty.
   [[nodiscard]] std::optional<MemberList> Members(const Node& node);
   /// As above for an object that may not be given as a file, because it is part of a list or has a
   /// key "file" of its own.
   [[nodiscard]] std::optional<MemberList> PlainMembers(const Node& node);
 
-  /// The absolute name of the file that the string `node` names; nothing if there is no such file.
+  /// The absolute name of the file that the string `node` names, or its name as it is if the
+  /// library holds it (ShippedFile()); nothing if there is no such file.
   [[nodiscard]] std::optional<std::filesystem::path> FileNamedBy(const Node& node);
   /// The root of that file, whose place in the resolved scenario is `resolved_pointer`.
   [[nodiscard]] std::optional<Node> FileRoot(const Node& node, std::string resolved_pointer);
@@ -90,6 +96,8 @@ class JsonSource {
   /// Places whose values are unknown because of faults, as pointers in the resolved scenario.
   [[nodiscard]] UnknownPlaces& unknown() { return unknown_; }
   [[nodiscard]] ScenarioSources& sources() { return sources_; }
+  /// Those that objects may have, as far as they are read.
+  [[nodiscard]] ObjectTypes& types() { return types_; }
 
  private:
   std::optional<Node> CheckedRoot(std::optional<Node> root, const std::filesystem::path& file);
@@ -98,6 +106,8 @@ class JsonSource {
   [[nodiscard]] bool IsOfFile(const Node& node, const std::string& key) const;
 
   bool may_read_files_ = true;
+  bool is_shipped_ = false;  // Whether the files are those that the library holds.
+  ObjectTypes types_;
   ErrorList errors_;
   UnknownPlaces unknown_;
   ScenarioSources sources_;

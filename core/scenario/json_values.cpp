@@ -1,6 +1,7 @@
 #include "core/scenario/json_values.h"
 
 #include <cmath>
+#include <utility>
 
 namespace railcast {
 namespace {
@@ -77,6 +78,19 @@ void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAnd
 
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile) {
   if (const auto file = source.FileNamedBy(node)) value = file->string();
+}
+
+void ReadValue(JsonSource& source, const Node& node, ObjectType& value, Anything) {
+  if (node.json->is_string()) {
+    if (auto type = source.types().Find(node.json->get<std::string>())) {
+      value = std::move(*type);
+      return;
+    }
+    // The name may be that of a model with a fault.
+    if (!source.unknown().IsKnown("/models")) return source.unknown().Add(node.resolved_pointer);
+  }
+  std::string name;
+  ReadValue(source, node, name, OneOf(source.types().Names()));
 }
 
 std::optional<std::uint64_t> ReadWhole(JsonSource& source,

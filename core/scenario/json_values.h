@@ -27,6 +27,7 @@ void ReadValue(JsonSource& source,
                const AllowedNames& choices);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile);
+void ReadValue(JsonSource& source, const Node& node, ObjectType& value, Anything);
 
 /// Reads an integer within limits; returns nothing if the value is faulty.
 [[nodiscard]] std::optional<std::uint64_t> ReadWhole(JsonSource& source,

@@ -81,19 +81,28 @@ void CheckReferences(const ScenarioSpec& spec, JsonSource& source) {
     const TrainSpec& train = spec.world.trains[i];
     check_tracks("/world/trains/" + std::to_string(i), train.track, train.route);
   }
+  const auto check_parts = [&](const std::string& place, const std::vector<MeshPartSpec>& parts) {
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const std::string part_place = place + "/parts/" + std::to_string(j);
+      if (parts[j].label) check(part_place, "label", *parts[j].label, labels);
+      if (parts[j].material) check(part_place, "material", *parts[j].material, materials);
+    }
+    CheckPartsDiffer(place + "/parts/", parts, source);
+  };
+  for (std::size_t i = 0; i < spec.models.size(); ++i) {
+    const ModelSpec& model = spec.models[i];
+    const std::string place = "/models/" + std::to_string(i);
+    check(place, "label", model.label, labels);
+    if (model.material) check(place, "material", *model.material, materials);
+    check_parts(place, model.parts);
+  }
   for (std::size_t i = 0; i < spec.world.objects.size(); ++i) {
     const ObjectSpec& object = spec.world.objects[i];
     const std::string place = "/world/objects/" + std::to_string(i);
     check_tracks(place, object.track, object.route);
     if (object.label) check(place, "label", *object.label, labels);
     if (object.material) check(place, "material", *object.material, materials);
-    for (std::size_t j = 0; j < object.parts.size(); ++j) {
-      const MeshPartSpec& part = object.parts[j];
-      const std::string part_place = place + "/parts/" + std::to_string(j);
-      if (part.label) check(part_place, "label", *part.label, labels);
-      if (part.material) check(part_place, "material", *part.material, materials);
-    }
-    CheckPartsDiffer(place + "/parts/", object.parts, source);
+    check_parts(place, object.parts);
   }
 }
 

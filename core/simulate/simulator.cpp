@@ -227,7 +227,7 @@ void Simulator::Parts::UseSpec() {
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
   halo.reset();
-  if (detector.effects.halo && FindEffect("halo")->has_cause(detector)) halo.emplace(detector);
+  if (EffectBetweenBeams(detector) != nullptr) halo.emplace(detector);
 }
 
 const SimulatorSpec& Simulator::spec() const {
@@ -404,7 +404,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   const RayTile& rays = work.rays;
   if (parts.halo) {
     parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast));
-    record("halo");
+    record(EffectBetweenBeams(spec().detector)->name);
   }
   const Transform world_from_window = scene.window->window_from_world.inverse();
   const double time_s = SecondsFromNs(parts.pattern.StampNs(frame_index));

@@ -1,9 +1,6 @@
 #include "core/simulate/spray_clouds.h"
 
-#include <optional>
-
 #include "core/base/units.h"
-#include "railcast/objects.h"
 
 namespace railcast {
 namespace {
@@ -13,8 +10,7 @@ constexpr double kCloudHeight_m = 3.0;
 constexpr double kDecayTime_s = 1.0;
 
 bool IsOfATrain(const SceneObject& object) {
-  const std::optional<ObjectType> type = ValueNamed<ObjectType>(object.type);
-  return object.moves && !object.is_ego && type && IsRailVehicle(*type);
+  return object.moves && !object.is_ego && object.is_rail_vehicle;
 }
 
 void Put(const Vector3& from, float (&to)[3]) {

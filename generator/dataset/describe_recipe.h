@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/scenario/json_reader.h"
+#include "generator/dataset/random_weather.h"
 #include "generator/dataset/recipe.h"
-#include "generator/randomize/random_weather.h"
 
 namespace railcast {
 

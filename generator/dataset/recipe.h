@@ -74,7 +74,7 @@ struct GroupOption {
   DrawList draws;
 };
 
-/// A choice between options, or a weather of the families of `railcast-generate randomize`.
+/// A choice between options, or a weather of the published families.
 struct DrawGroup {
   std::string name;
   std::vector<GroupOption> options;

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/scenario/json_text.h"
-#include "generator/randomize/random_weather.h"
+#include "generator/dataset/random_weather.h"
 
 namespace railcast {
 namespace {

@@ -37,6 +37,7 @@ EXPLAINED_IN = {
     "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "structures.md#contact-line",
     "world.terrain": "land.md#terrain", "world.vegetation": "land.md#ground-and-vegetation",
     "world.structures[]": "structures.md#structures", "world.objects[]": "scenario.md#objects",
+    "models[]": "models.md",
     "vehicle": "world.md#movement", "output": "files.md#fields", "materials[]": "scenario.md#materials",
 }
 
@@ -60,6 +61,8 @@ def without_file(schema):
 def limits(schema):
     if "enum" in schema:
         return ", ".join(f"`{name}`" for name in schema["enum"])
+    if "examples" in schema:
+        return ", ".join(f"`{name}`" for name in schema["examples"]) + ", or a model of `models`"
     above, least = schema.get("exclusiveMinimum"), schema.get("minimum")
     below, most = schema.get("exclusiveMaximum"), schema.get("maximum")
     low = f"above {number(above)}" if above is not None else None if least is None else number(least)

@@ -65,6 +65,24 @@ class Exported(unittest.TestCase):
             ended = run_script("check_osdar.py", path)
             self.assertEqual((ended.returncode, ended.stdout), (0, f"{path}: passes all checks\n"), ended.stderr)
 
+    def test_a_type_of_ones_own_table_has_the_class_that_it_says(self):
+        table = {"version": 1, "models": [{"name": "sweeper", "file": "railcast:tractor.ply", "label": "road_vehicle",
+                                           "size_m": [4.15, 2.275, 2.76], "material": "grey_paint",
+                                           "osdar": {"class": "road_vehicle", "type": "other"}}]}
+        (self.folder / "models.json").write_text(json.dumps(table), "utf-8")
+        scenario = self.folder / "sweeper.json"
+        scenario.write_text(json.dumps({
+            "version": 1, "file": str(ROOT / "scenarios" / "minimal.json"), "models": "models.json",
+            "world": {"alignment": {"course": {"type": "elements",
+                                               "elements": [{"type": "straight", "length_m": 1000}]}},
+                      "objects": [{"name": "sweeper", "type": "sweeper", "s_m": 430, "d_m": 4}]}}), "utf-8")
+        generate("sequence", scenario, "--out", self.folder / "sweeper", "--frames", 1)
+        ended = run_script("export_osdar.py", self.folder / "sweeper", "--out", self.folder / "own")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        whole = json.loads((self.folder / "own" / "own_labels.json").read_text("utf-8"))
+        kinds = {entry["name"]: entry["type"] for entry in whole["openlabel"]["objects"].values()}
+        self.assertEqual(kinds["sweeper"], "road_vehicle")
+
     def test_clouds_are_the_points_of_the_frames(self):
         for frame in self.recording:
             uri = self.label["frames"][str(frame.index)]["frame_properties"]["streams"]["lidar_merged"]["uri"]

@@ -29,8 +29,8 @@ def export(*arguments):
     return subprocess.run([SCRIPT, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-def generate(out, *options):
-    command = [GENERATE, "sequence", SCENARIO, "--out", out, "--frames", FRAMES, *options]
+def generate(out, *options, scenario=SCENARIO):
+    command = [GENERATE, "sequence", scenario, "--out", out, "--frames", FRAMES, *options]
     subprocess.run([str(word) for word in command], check=True, capture_output=True)
 
 
@@ -70,6 +70,31 @@ class Exported(unittest.TestCase):
         self.assertEqual((ended.returncode, ended.stderr),
                          (1, f"{path}:2: /objects/1/occlusion: must be from 0 to 1 (got -4.0)\n"))
         self.assertEqual(list(self.folder.glob("bad*")), [])
+
+    def test_a_type_of_ones_own_table_has_the_class_that_it_says(self):
+        corners = [(x, y, z) for x in (-2, 2) for y in (-1, 1) for z in (0, 2)]
+        mesh = "".join(f"v {x} {y} {z}\n" for x, y, z in corners)
+        mesh += "usemtl body\nf 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
+        (self.folder / "dumper.obj").write_text(mesh, "ascii")
+        table = {"version": 1, "models": [{"name": "dumper", "file": "dumper.obj", "label": "road_vehicle",
+                                           "size_m": [4, 2, 2], "kitti": "Truck",
+                                           "parts": [{"of": "body", "material": "car_paint"}]}]}
+        (self.folder / "models.json").write_text(json.dumps(table), "utf-8")
+        scenario = self.folder / "dumper.json"
+        scenario.write_text(json.dumps({
+            "version": 1, "file": str(ROOT / "scenarios" / "minimal.json"), "models": "models.json",
+            "world": {"alignment": {"course": {"type": "elements",
+                                               "elements": [{"type": "straight", "length_m": 1000}]}},
+                      "objects": [{"name": "dumper", "type": "dumper", "s_m": 430, "d_m": 4}]}}), "utf-8")
+        run = self.folder / "dumper"
+        generate(run, "--format", "kitti", scenario=scenario)
+        ended = export(self.folder / "own", "--train", run)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        words = (self.folder / "own" / "training" / "label_2" / "000000.txt").read_text("ascii").split()
+        self.assertEqual(words[0], "Truck")
+        self.assertEqual([float(word) for word in words[8:11]], [2, 2, 4])
+        inputs = json.loads((run / "manifest.json").read_text("utf-8"))["inputs"]
+        self.assertIn("dumper.obj", [each["name"] for each in inputs])
 
     def test_frames_are_numbered_through_and_split(self):
         self.assertEqual((self.set / "ImageSets" / "train.txt").read_text("ascii"), "000000\n000001\n")

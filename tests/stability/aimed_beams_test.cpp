@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "core/scenario/object_types.h"
 #include "railcast/rail_world.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/stability/regime.h"
@@ -142,8 +143,9 @@ TEST_P(AimedBeamsAt, ReturnWhatMoves) {
 }
 
 std::vector<ObjectType> AllTypes() {
+  const ObjectTypes all;
   std::vector<ObjectType> types;
-  for (const auto& named : kEnumNames<ObjectType>) types.push_back(named.value);
+  for (const std::string& name : all.Names()) types.push_back(*all.Find(name));
   return types;
 }
 

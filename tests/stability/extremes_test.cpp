@@ -95,7 +95,7 @@ std::vector<Setting> Settings() {
     change(settings.back());
   };
   add("visibility 1 m", [](Setting& s) { s.spec.detector.weather.visibility_m = 1.0; });
-  add("visibility 1 mm", [](Setting& s) { s.spec.detector.weather.visibility_m = 1e-3; });
+  add("visibility 0.3 m", [](Setting& s) { s.spec.detector.weather.visibility_m = 0.3; });
   add("rain 200 mm/h", [](Setting& s) { s.spec.detector.weather.rain_rate_mmph = 200.0; });
   add("snow 50 mm/h", [](Setting& s) { s.spec.detector.weather.snow_rate_mmph = 50.0; });
   add("rain of a trace", [](Setting& s) { s.spec.detector.weather.rain_rate_mmph = 1e-6; });

@@ -11,6 +11,7 @@
 
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
 #include "tests/support/scan_once.h"
@@ -118,7 +119,7 @@ TEST(MovingPieces, OfARunningPersonAreHitAtTheirTimes) {
 TEST(MovingPieces, OfAWagonInACurveAreHitAtTheirTimes) {
   ObjectSpec wagon;
   wagon.name = "it";
-  wagon.type = ObjectType::kFlatWagon;
+  wagon.type = TypeNamed("flat_wagon");
   wagon.track = "second";
   wagon.s_m = 390.0;
   wagon.motion = MotionSpec{};

@@ -16,6 +16,7 @@
 #include "core/fidelity/yardstick.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_models.h"
+#include "railcast/scenario.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"
@@ -134,7 +135,7 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
 // References of 1,000 and of 1,024 sub-rays differ in 0.7 to 3 % of these echoes.
 TEST_P(ThinObjectsOn, HaveTheEchoesOfTheReferenceBeamByBeam) {
   ObjectSpec wire;
-  wire.type = ObjectType::kHangingWire;
+  wire.type = TypeNamed("hanging_wire");
   ThinEchoes all;
   const auto compare = [&](const std::shared_ptr<const Model>& model, double range_m) {
     SCOPED_TRACE(model->name + " at " + std::to_string(range_m) + " m");

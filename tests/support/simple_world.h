@@ -36,7 +36,8 @@ class SimpleWorld final : public World {
                         .instance = instance,
                         .model = std::move(model),
                         .moves = !object_velocity_mps.isZero(0.0),
-                        .is_ego = is_ego});
+                        .is_ego = is_ego,
+                        .is_rail_vehicle = type == "open_wagon"});
     object_places_.emplace_back(chunk_from_object, object_velocity_mps);
   }
 

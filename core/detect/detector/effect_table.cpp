@@ -41,6 +41,30 @@ std::vector<std::string> EffectNames(const EffectSet& effects) {
   return names;
 }
 
+const Effect* EffectBetweenBeams(const DetectorSpec& spec) {
+  for (const Effect& effect : EffectTable()) {
+    if (effect.acts_between_beams && spec.effects.*effect.is_on && effect.has_cause(spec)) {
+      return &effect;
+    }
+  }
+  return nullptr;
+}
+
+ClutterLabels ClutterLabelsOf(const LabelTable& labels, const DetectorSpec& spec) {
+  ClutterLabels ids;
+  for (const Effect& effect : EffectTable()) {
+    for (const EffectLabel& label : effect.labels) {
+      const auto is_needed = label.is_needed != nullptr ? label.is_needed : &effect.has_cause;
+      if (spec.effects.*effect.is_on && is_needed(spec)) {
+        ids.*label.id = labels.Id(label.name);
+      } else if (const Label* const known = labels.Find(label.name)) {
+        ids.*label.id = known->id;
+      }
+    }
+  }
+  return ids;
+}
+
 bool IsInRung(const Effect& effect, Fidelity rung) {
   return std::find(effect.rungs.begin(), effect.rungs.end(), rung) != effect.rungs.end();
 }

@@ -9,6 +9,7 @@
 #include "core/detect/base/detect_tile.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"
+#include "railcast/frame.h"
 
 namespace railcast {
 
@@ -47,6 +48,14 @@ struct EffectLoop {
   std::function<void(DetectTile&)> (*make)(const DetectorSpec& spec, const Kernels& kernels);
 };
 
+/// The label of echoes that an effect adds and no surface sends.
+struct EffectLabel {
+  const char* name;  ///< In the table of labels.
+  std::uint32_t ClutterLabels::*id;
+  /// Whether the table must have it while the effect is on; null: where the effect has a cause.
+  bool (*is_needed)(const DetectorSpec& spec) = nullptr;
+};
+
 /// Everything that the program knows about one effect.
 struct Effect {
   const char* name;             ///< Name in scenarios and reports.
@@ -59,6 +68,7 @@ struct Effect {
   std::string (*text)(const DetectorSpec& spec) = nullptr;
   /// The keys of section `weather` that it reads. `check` reports keys that no effect reads.
   std::vector<std::string_view> weather_keys{};
+  std::vector<EffectLabel> labels{};  ///< Of the echoes that it adds.
   /// Empty if the effect acts elsewhere: in aiming and tracing beams, in the clutter or in the
   /// measurement.
   std::vector<EffectLoop> loops{};
@@ -72,6 +82,8 @@ struct Effect {
   std::optional<double> instructions{};
   /// Whether it adds random errors to ranges after detection. Comparisons leave such effects out.
   bool is_range_error = false;
+  /// Whether light of one beam's echoes reaches other beams, so that it needs the echoes of all.
+  bool acts_between_beams = false;
   bool EffectSet::*needed = nullptr;    ///< Another effect that must be on with it, or null.
   bool EffectSet::*excluded = nullptr;  ///< Another effect that must be off with it, or null.
 };
@@ -92,6 +104,14 @@ struct Effect {
 /// The names of all effects, or of those that are on.
 [[nodiscard]] std::vector<std::string> EffectNames();
 [[nodiscard]] std::vector<std::string> EffectNames(const EffectSet& effects);
+
+/// The effect that acts between beams, if it is on and has a cause; otherwise null.
+[[nodiscard]] const Effect* EffectBetweenBeams(const DetectorSpec& spec);
+
+/// The labels of the echoes that effects add. A label that no effect needs, and that the table
+/// lacks, is 0.
+/// @throws InputError if the table lacks a label that an effect needs.
+[[nodiscard]] ClutterLabels ClutterLabelsOf(const LabelTable& labels, const DetectorSpec& spec);
 
 /// Whether a rung of the fidelity ladder has the effect.
 [[nodiscard]] bool IsInRung(const Effect& effect, Fidelity rung);

@@ -160,6 +160,7 @@ std::vector<Effect> PublishedEffects() {
        .text = &SnowText,
        .weather_keys = {"snow_rate_mmph", "snow_echoes_per_mmph", "snow_range_scale_m",
                         "snow_intensity"},
+       .labels = {{"snow", &ClutterLabels::snow}},
        .loops = {{StepOrder::kSnow, &SnowLoop}}},
       {.name = "noise",
        .is_on = &EffectSet::noise,

@@ -116,7 +116,9 @@ std::vector<Effect> SensorEffects() {
        .is_on = &EffectSet::halo,
        .rungs = physical,
        .has_cause = HasHalo,
-       .text = &HaloText},
+       .text = &HaloText,
+       .labels = {{"halo", &ClutterLabels::halo}},
+       .acts_between_beams = true},
       {.name = "range_walk",
        .is_on = &EffectSet::range_walk,
        .rungs = physical,
@@ -127,7 +129,8 @@ std::vector<Effect> SensorEffects() {
        .is_on = &EffectSet::interference,
        .rungs = physical,
        .has_cause = HasInterference,
-       .text = &InterferenceText},
+       .text = &InterferenceText,
+       .labels = {{"false_alarm", &ClutterLabels::false_alarm}}},
       {.name = "saturation",
        .is_on = &EffectSet::saturation,
        .rungs = physical,
@@ -138,7 +141,8 @@ std::vector<Effect> SensorEffects() {
        .is_on = &EffectSet::ghost,
        .rungs = physical,
        .has_cause = HasGhost,
-       .text = &GhostText},
+       .text = &GhostText,
+       .labels = {{"ghost", &ClutterLabels::ghost}}},
   };
 }
 

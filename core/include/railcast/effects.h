@@ -300,7 +300,7 @@ struct DetectorSetting {
   SurfaceOptics snow{};  ///< Optics of the snow on covered surfaces.
 };
 
-/// Checks that every number of the spec is in its valid range.
+/// Checks that every number of the spec is within the limits that scenario files have for it.
 /// @throws InputError with a line for every number that is not:
 ///   "/beam/wavelength_nm: must be 905 or 1550 (got 1064)".
 void CheckDetectorSpec(const DetectorSpec& spec);

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "railcast/enum_names.h"
@@ -65,88 +67,6 @@ struct MotionSpec {
   bool operator==(const MotionSpec&) const = default;
 };
 
-enum class ObjectType {
-  kBox,
-  kPole,
-  kPerson,
-  kOpenWagon,
-  kFlatWagon,
-  kTankWagon,
-  kMesh,
-  kContainerWagon,
-  kCoveredWagon,
-  kHopperWagon,
-  kShuntingLocomotive,
-  kElectricLocomotive,
-  kMultipleUnit,
-  kCoach,
-  kMetroCar,
-  kCar,
-  kLorry,
-  kTractor,
-  kBus,
-  kBicycle,
-  kMotorcycle,
-  kDeer,
-  kDog,
-  kCow,
-  kPallet,
-  kBranch,
-  kFallenTree,
-  kTyre,
-  kBoulder,
-  kBallastHeap,
-  kLandslide,
-  kHangingWire,
-  kDragShoe,
-};
-template <>
-inline constexpr auto kEnumNames<ObjectType> =
-    std::to_array<EnumName<ObjectType>>({{ObjectType::kBox, "box"},
-                                         {ObjectType::kPole, "pole"},
-                                         {ObjectType::kPerson, "person"},
-                                         {ObjectType::kOpenWagon, "open_wagon"},
-                                         {ObjectType::kFlatWagon, "flat_wagon"},
-                                         {ObjectType::kTankWagon, "tank_wagon"},
-                                         {ObjectType::kMesh, "mesh"},
-                                         {ObjectType::kContainerWagon, "container_wagon"},
-                                         {ObjectType::kCoveredWagon, "covered_wagon"},
-                                         {ObjectType::kHopperWagon, "hopper_wagon"},
-                                         {ObjectType::kShuntingLocomotive, "shunting_locomotive"},
-                                         {ObjectType::kElectricLocomotive, "electric_locomotive"},
-                                         {ObjectType::kMultipleUnit, "multiple_unit"},
-                                         {ObjectType::kCoach, "coach"},
-                                         {ObjectType::kMetroCar, "metro_car"},
-                                         {ObjectType::kCar, "car"},
-                                         {ObjectType::kLorry, "lorry"},
-                                         {ObjectType::kTractor, "tractor"},
-                                         {ObjectType::kBus, "bus"},
-                                         {ObjectType::kBicycle, "bicycle"},
-                                         {ObjectType::kMotorcycle, "motorcycle"},
-                                         {ObjectType::kDeer, "deer"},
-                                         {ObjectType::kDog, "dog"},
-                                         {ObjectType::kCow, "cow"},
-                                         {ObjectType::kPallet, "pallet"},
-                                         {ObjectType::kBranch, "branch"},
-                                         {ObjectType::kFallenTree, "fallen_tree"},
-                                         {ObjectType::kTyre, "tyre"},
-                                         {ObjectType::kBoulder, "boulder"},
-                                         {ObjectType::kBallastHeap, "ballast_heap"},
-                                         {ObjectType::kLandslide, "landslide"},
-                                         {ObjectType::kHangingWire, "hanging_wire"},
-                                         {ObjectType::kDragShoe, "drag_shoe"}});
-
-/// Whether the type runs on rails: wagons, locomotives, coaches and cars of trains. They follow
-/// gradient and cant on their two pivots, stand on the rails and have fixed sizes.
-[[nodiscard]] constexpr bool IsRailVehicle(ObjectType type) {
-  constexpr auto kTypes = std::to_array<ObjectType>(
-      {ObjectType::kOpenWagon, ObjectType::kFlatWagon, ObjectType::kTankWagon,
-       ObjectType::kContainerWagon, ObjectType::kCoveredWagon, ObjectType::kHopperWagon,
-       ObjectType::kShuntingLocomotive, ObjectType::kElectricLocomotive, ObjectType::kMultipleUnit,
-       ObjectType::kCoach, ObjectType::kMetroCar});
-  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
-}
-
 /// The axis of a mesh file that points upwards.
 enum class UpAxis { kY, kZ };
 template <>
@@ -180,6 +100,79 @@ struct MeshPartSpec {
 
   bool operator==(const MeshPartSpec&) const = default;
 };
+
+/// What makes a model a rail vehicle: it runs on two bogies, follows gradient and cant on their
+/// pivots, and couples to others at both ends of its length.
+struct RailVehicleSpec {
+  double pivot_distance_m{};  ///< Between the pivots of the two bogies.
+  std::string bogie;  ///< Mesh file of either bogie; the origin is in its pivot's axis, at top of
+                      ///< rail.
+
+  bool operator==(const RailVehicleSpec&) const = default;
+};
+
+/// What OSDaR's ontologies call a model: class and attributes.
+struct OsdarSpec {
+  std::string class_name;  ///< As in OSDaR23.
+  std::optional<std::string> type;
+  std::optional<std::string> species;
+  std::optional<std::string> pose;
+
+  bool operator==(const OsdarSpec&) const = default;
+};
+
+/// A thing of fixed shape: an entry of a table of models (docs/models.md). Frame of its mesh: x
+/// forward, y left, z up; metres. Of a rail vehicle the origin is midway between the pivots, at top
+/// of rail; of all others it is what stands at the object's place.
+struct ModelSpec {
+  std::string name;   ///< The `type` of objects and of trains' vehicles.
+  std::string file;   ///< Its mesh, of any format that objects of type mesh may have.
+  std::string label;  ///< Of the whole, and of parts without one of their own.
+  /// Length, width, and height above the origin. The mesh must have them within 2 cm, or 1 % where
+  /// that is more. Vehicles couple at the ends of their length.
+  std::array<double, 3> size_m{};
+  std::vector<MeshPartSpec> parts{};
+  std::optional<std::string>
+      material{};  ///< Of parts for which neither `parts` nor a word says it.
+  std::optional<UpAxis> up{};
+  std::optional<double> unit_m{};
+  MeshOrigin origin = MeshOrigin::kFile;
+  double tolerance_mm{};
+  std::optional<RailVehicleSpec> rail_vehicle{};
+  bool lies_on_rail{};                 ///< Without `h_m` it is at top of rail, not on the ground.
+  std::optional<OsdarSpec> osdar{};    ///< Absent: as its label.
+  std::optional<std::string> kitti{};  ///< Class in KITTI's benchmark; absent: as its label.
+
+  bool operator==(const ModelSpec&) const = default;
+};
+
+/// What an object is: one of four shapes that its own keys describe, or a model.
+struct ObjectType {
+  static const ObjectType kBox, kPole, kPerson, kMesh;
+
+  std::string_view shape = "box";            ///< Counts only without a model.
+  std::shared_ptr<const ModelSpec> model{};  ///< Null for the four shapes.
+  std::optional<std::size_t> entry{};  ///< Its place in the scenario's table; absent: shipped.
+};
+inline const ObjectType ObjectType::kBox{.shape = "box"};
+inline const ObjectType ObjectType::kPole{.shape = "pole"};
+inline const ObjectType ObjectType::kPerson{.shape = "person"};
+inline const ObjectType ObjectType::kMesh{.shape = "mesh"};
+
+/// What scenarios call it.
+[[nodiscard]] inline std::string_view NameOf(const ObjectType& type) {
+  return type.model ? std::string_view(type.model->name) : type.shape;
+}
+/// A name means one type in a scenario.
+[[nodiscard]] inline bool operator==(const ObjectType& a, const ObjectType& b) {
+  return NameOf(a) == NameOf(b);
+}
+
+/// Whether the type runs on rails: wagons, locomotives, coaches and cars of trains. They follow
+/// gradient and cant on their two pivots, stand on the rails and have fixed sizes.
+[[nodiscard]] inline bool IsRailVehicle(const ObjectType& type) {
+  return type.model && type.model->rail_vehicle;
+}
 
 enum class Posture { kWalking, kStanding, kCrouching, kSitting, kLying };
 template <>

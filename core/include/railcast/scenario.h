@@ -148,6 +148,7 @@ struct ScenarioSpec {
   OutputSpec output;
   std::vector<Material> materials;  ///< From the material library that the scenario names.
   std::vector<Label> labels;        ///< From the label table that the scenario names.
+  std::vector<ModelSpec> models;    ///< Of the scenario's own table of models, if it has one.
   ScenarioSources sources;          ///< Where all these values were written.
 
   bool operator==(const ScenarioSpec&) const = default;
@@ -177,6 +178,13 @@ class RailWorld;
 /// @throws InputError with the lines that ReadScenario() would give for a file of that content.
 [[nodiscard]] ScenarioSpec ReadScenarioText(const std::string& text,
                                             const std::filesystem::path& file);
+
+/// One of the four shapes, or a model that railcast ships (scenarios/models/models.json).
+///
+///     ObjectSpec wagon{.name = "wagon", .type = TypeNamed("open_wagon")};
+///
+/// @throws InputError if there is none of that name.
+[[nodiscard]] ObjectType TypeNamed(std::string_view name);
 
 /// Reads a label table (labels.json of a scenario or of a sequence) as strictly as ReadScenario().
 /// @throws InputError with a line for every fault.

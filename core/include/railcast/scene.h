@@ -112,6 +112,7 @@ struct SceneObject {
   std::shared_ptr<const Model> model;
   bool moves{};   ///< Whether World::WorldFromObject() depends on time.
   bool is_ego{};  ///< Part of the sensor's own vehicle: blocks beams but returns no points.
+  bool is_rail_vehicle{};  ///< Whether its type runs on rails.
   /// The rigid pieces of an object that bends, such as limbs and bogies, placed by
   /// World::WorldFromPieces(). Together they have the parts of `model`, which shows the object at
   /// rest and whose bounds contain the pieces at all times. Empty: `model` is the only piece.

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "core/io/hesai/hesai_channels.h"
+#include "core/io/sensor_tables.h"
 
 namespace railcast {
 namespace {
@@ -22,6 +22,16 @@ std::vector<std::vector<std::uint8_t>> OneLoopOf(std::size_t lasers) {
   std::vector<std::uint8_t> loop(lasers);
   std::iota(loop.begin(), loop.end(), std::uint8_t{0});
   return {loop};
+}
+
+/// Lasers 32 to 127, then 0 to 31 and 64 to 127: half of them fire in both loops.
+std::vector<std::vector<std::uint8_t>> LoopsOfQt128() {
+  std::vector<std::vector<std::uint8_t>> loops(2);
+  for (std::uint8_t laser = 0; laser < 128; ++laser) {
+    if (laser >= 32) loops[0].push_back(laser);
+    if (laser < 32 || laser >= 64) loops[1].push_back(laser);
+  }
+  return loops;
 }
 
 }  // namespace
@@ -48,7 +58,7 @@ const HesaiModel& Pandar64Model() {
                  .time_place = 1182},
       .single_modes = {kFirst, kStrongest, kLast},
       .dual_modes = {kLastAndStrongest, kFirstAndLast, kFirstAndStrongest},
-      .channels = Pandar64Channels(),
+      .channels = SensorTable("pandar64").channels,
       .loops = OneLoopOf(64),
       .loop_ns = 55'560,
       .last_loop_ns = -42'580 - 54'668,
@@ -77,7 +87,7 @@ const HesaiModel& Xt32Model() {
                  .time_place = 1071},
       .single_modes = {kFirst, kStrongest, kLast},
       .dual_modes = {kLastAndStrongest, kFirstAndLast, kFirstAndStrongest},
-      .channels = Xt32Channels(),
+      .channels = SensorTable("xt32").channels,
       .loops = OneLoopOf(32),
       .loop_ns = 50'000,
       .last_loop_ns = 6'000,
@@ -95,7 +105,7 @@ const HesaiModel& Qt128Model() {
                                            .blocks_place = 7,
                                            .unit_place = 9,
                                            .header_size = 12,
-                                           .lasers = kQt128Lasers,
+                                           .lasers = 128,
                                            .blocks = 2,
                                            .return_size = 4,
                                            .loop_place = 1066,
@@ -106,12 +116,16 @@ const HesaiModel& Qt128Model() {
                                 .single_modes = {kFirst, kSecond, kStrongest, kLast},
                                 .dual_modes = {kLastAndStrongest, kFirstAndSecond, kFirstAndLast,
                                                kFirstAndStrongest, kStrongestAndSecond},
-                                .channels = Qt128Channels(),
-                                .loops = Qt128Loops(),
+                                .channels = SensorTable("qt128").channels,
+                                .loops = LoopsOfQt128(),
                                 .loop_ns = 111'111,
                                 .last_loop_ns = 9'600,
                                 .turned_us = 0.6};
   return model;
+}
+
+std::vector<const HesaiModel*> HesaiModels() {
+  return {&Pandar64Model(), &Xt32Model(), &Qt128Model()};
 }
 
 }  // namespace railcast

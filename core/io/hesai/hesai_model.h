@@ -62,6 +62,9 @@ struct HesaiModel {
 /// packet has 1127 bytes.
 [[nodiscard]] const HesaiModel& Qt128Model();
 
+/// All of them.
+[[nodiscard]] std::vector<const HesaiModel*> HesaiModels();
+
 /// The flag that begins all packets, EE FF.
 inline constexpr std::uint16_t kHesaiFlag = 0xFFEE;
 

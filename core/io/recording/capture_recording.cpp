@@ -97,9 +97,7 @@ CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
   while (const auto datagram = reader.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
   }
-  throw InputError(name +
-                   ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
-                   "QT128 (" +
+  throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
                    finder.Findings(reader.num_torn()) + ")");
 }
 

@@ -5,7 +5,9 @@
 
 #include "core/base/text.h"
 #include "core/io/hesai/hesai_model.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/scenario/json_rules.h"
 
 namespace railcast {
 namespace {
@@ -20,15 +22,6 @@ constexpr std::array<OtherModel, 4> kOtherModels = {
      {0x31, "Velarray"},
      {0xA1, "VLS-128, of which only single returns are read"}}};
 
-/// The models whose packets do not depend on a calibration.
-std::vector<const VelodyneModel*> ReadableModels() {
-  std::vector<const VelodyneModel*> models{&Vls128Model()};
-  for (const std::string_view name : {"vlp16", "hdl32e", "vlp32c"}) {
-    models.push_back(FindVelodyneFormat(name).model);
-  }
-  return models;
-}
-
 /// Returns the first packet of that size from a payload that may hold several.
 std::span<const char> FirstPacket(std::span<const char> payload, std::size_t size) {
   return payload.first(std::min(payload.size(), size));
@@ -37,13 +30,13 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
 /// A sensor of each kind that can be decoded, without any packet so far.
 std::vector<CaptureSensor> ReadableSensors() {
   std::vector<CaptureSensor> sensors;
-  for (const VelodyneModel* model : ReadableModels()) {
+  for (const VelodyneModel* model : ModelsWithoutCalibration()) {
     sensors.push_back({.name = model->name,
                        .packet_size = kVelodynePacketSize,
                        .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
                        .decoder = VelodyneDecoder(*model)});
   }
-  for (const HesaiModel* model : {&Pandar64Model(), &Xt32Model(), &Qt128Model()}) {
+  for (const HesaiModel* model : HesaiModels()) {
     sensors.push_back({.name = model->name,
                        .packet_size = model->layout.packet_size,
                        .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
@@ -93,6 +86,12 @@ std::string NameOfStranger(std::span<const char> payload) {
 }
 
 }  // namespace
+
+std::string ReadableSensorsText() {
+  std::vector<std::string> names;
+  for (const CaptureSensor& sensor : ReadableSensors()) names.emplace_back(sensor.name);
+  return Alternatives(names);
+}
 
 SensorFinder::SensorFinder() : probes_(ReadableSensors()) {}
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,10 +12,13 @@
 
 namespace railcast {
 
-/// Opens a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or
-/// QT128. Each turn is a frame; the first and the last turn are usually cut short. The first packet
-/// of one of these sensors decides which sensor it is; other and damaged datagrams are skipped.
-/// Packets that segmentation offload merged into one datagram are cut apart.
+/// The sensors whose captures can be opened: "VLP-16, HDL-32E or QT128".
+[[nodiscard]] std::string ReadableSensorsText();
+
+/// Opens a .pcap or .pcapng capture of one of these sensors. Each turn is a frame; the first and
+/// the last turn are usually cut short. The first packet of one of these sensors decides which
+/// sensor it is; other and damaged datagrams are skipped. Packets that segmentation offload merged
+/// into one datagram are cut apart.
 /// @throws InputError with one line that says what was found instead; reading throws it, too, where
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);

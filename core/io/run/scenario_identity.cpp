@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/base/error.h"
+#include "core/base/shipped_files.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -31,6 +32,7 @@ class FileNaming {
   }
   /// A mesh and what is read with it: their copies lie beside each other, too.
   void RenameMesh(std::string& file) {
+    if (ShippedFile(file)) return;  // It is the program's.
     if (!copy_of_.contains(file)) {
       const std::filesystem::path path = file;
       std::vector<InputFile> inputs = {InputOf(path.filename().string(), ReadFileWhole(file))};
@@ -57,6 +59,10 @@ class FileNaming {
     if (auto& elevation = scenario.world.terrain.elevation) Rename(elevation->file);
     for (ObjectSpec& object : scenario.world.objects) {
       if (object.file) RenameMesh(*object.file);
+    }
+    for (ModelSpec& model : scenario.models) {
+      RenameMesh(model.file);
+      if (model.rail_vehicle) RenameMesh(model.rail_vehicle->bogie);
     }
   }
 

@@ -13,15 +13,15 @@ namespace railcast {
 /// The properties that distinguish the packets of one Velodyne sensor from those of another.
 struct VelodyneModel {
   std::string_view name;
-  std::uint8_t id{};       ///< The last byte of a packet.
-  bool has_mode_and_id{};  ///< False for HDL-64E, whose packets end in status bytes instead.
+  std::uint8_t id{};            ///< The last byte of a packet.
+  bool has_mode_and_id = true;  ///< False for HDL-64E, whose packets end in status bytes instead.
   /// Whether each unit has a calibration, as with HDL-64E: elevations and azimuths below are then
   /// 0.
   bool has_own_angles{};
   double distance_unit_m{};  ///< 65535 units are the greatest range that a packet can hold.
   double cycle_us{};         ///< Time from one firing cycle to the next.
   /// In the order of the packets. Azimuths count clockwise, times from the start of the cycle.
-  std::vector<ChannelSpec> lasers;
+  std::vector<ChannelSpec> lasers{};
 
   [[nodiscard]] std::size_t blocks_per_cycle() const {
     return lasers.size() > kLasersPerBlock ? lasers.size() / kLasersPerBlock : 1;
@@ -46,5 +46,8 @@ struct VelodyneFormat {
 /// VLS-128, whose packets can be read but are no format to send: a cycle takes four blocks, and
 /// dual packets, which are padded, are not known to the decoder.
 [[nodiscard]] const VelodyneModel& Vls128Model();
+
+/// The models whose packets do not depend on a calibration.
+[[nodiscard]] std::vector<const VelodyneModel*> ModelsWithoutCalibration();
 
 }  // namespace railcast

@@ -34,10 +34,6 @@ constexpr SurfaceRow<RailSurfaces> kSurfaceRows[] = {
     {&RailSurfaces::mast, "galvanised_steel", "mast"},
     {&RailSurfaces::cantilever, "galvanised_steel", "cantilever"},
     {&RailSurfaces::insulator, "ceramic", "cantilever"},
-    {&RailSurfaces::wagon_body, "wagon_paint", "wagon"},
-    {&RailSurfaces::wagon_frame, "rusty_steel", "wagon"},
-    {&RailSurfaces::wheel, "wheel_steel", "wagon"},
-    {&RailSurfaces::tank, "tank_paint", "wagon"},
     {&RailSurfaces::skin, "skin", "person"},
     {&RailSurfaces::clothing, "clothing", "person"},
     {&RailSurfaces::pole, "galvanised_steel", "pole"},
@@ -108,21 +104,6 @@ constexpr SurfaceRow<TurnoutSurfaces> kTurnoutRows[] = {
     {&TurnoutSurfaces::point_machine, "grey_paint", "point_machine"},
 };
 
-constexpr SurfaceRow<VehicleSurfaces> kVehicleRows[] = {
-    {&VehicleSurfaces::container, "red_paint", "wagon"},
-    {&VehicleSurfaces::light_container, "white_paint", "wagon"},
-    {&VehicleSurfaces::sliding_wall, "grey_paint", "wagon"},
-    {&VehicleSurfaces::paint, "red_paint", "train"},
-    {&VehicleSurfaces::light_paint, "white_paint", "train"},
-    {&VehicleSurfaces::roof, "grey_paint", "train"},
-    {&VehicleSurfaces::frame, "rusty_steel", "train"},
-    {&VehicleSurfaces::rubber, "black_paint", "train"},
-    {&VehicleSurfaces::wheel, "wheel_steel", "train"},
-    {&VehicleSurfaces::glass, "glass", "train"},
-    {&VehicleSurfaces::collector, "galvanised_steel", "train"},
-    {&VehicleSurfaces::insulator, "ceramic", "train"},
-};
-
 template <class Surfaces, std::size_t kCount>
 void LookUp(const SurfaceRow<Surfaces> (&rows)[kCount],
             const LabelTable& labels,
@@ -164,12 +145,6 @@ void RailSurfaces::AddTurnoutSurfaces(const LabelTable& labels, const MaterialLi
   errors.ThrowIfAny();
 }
 
-void RailSurfaces::AddVehicleSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
-  ErrorList errors;
-  LookUp(kVehicleRows, labels, materials, vehicles, errors);
-  errors.ThrowIfAny();
-}
-
 bool IsRailMaterial(std::string_view name) {
   return std::any_of(std::begin(kSurfaceRows), std::end(kSurfaceRows),
                      [&](const auto& row) { return row.material == name; });
@@ -179,11 +154,6 @@ bool IsStructureMaterial(std::string_view name) {
   const auto is_of_it = [&](const auto& row) { return row.material == name; };
   return std::any_of(std::begin(kStructureRows), std::end(kStructureRows), is_of_it) ||
          std::any_of(std::begin(kLinesideRows), std::end(kLinesideRows), is_of_it);
-}
-
-bool IsVehicleMaterial(std::string_view name) {
-  return std::any_of(std::begin(kVehicleRows), std::end(kVehicleRows),
-                     [&](const auto& row) { return row.material == name; });
 }
 
 }  // namespace railcast

@@ -43,14 +43,6 @@ struct TurnoutSurfaces {
   SurfaceClass running_band, rail, point_machine;
 };
 
-/// The surfaces of rail vehicles other than open, flat and tank wagons (objects/rail_vehicles.h).
-/// Tables need their names only if the world has such vehicles.
-struct VehicleSurfaces {
-  SurfaceClass container, light_container, sliding_wall;               ///< Of wagons.
-  SurfaceClass paint, light_paint, roof, frame, rubber, wheel, glass;  ///< Of trains.
-  SurfaceClass collector, insulator;
-};
-
 /// The surfaces of the railway world, looked up by name once.
 struct RailSurfaces {
   SurfaceClass rail_head, rail_side, fastening;
@@ -59,11 +51,9 @@ struct RailSurfaces {
   SurfaceClass gravel, meadow;        ///< Ground with other covers.
   SurfaceClass bush_leaf, bush_bark;  ///< All 0 unless AddBushSurfaces() was called.
   SurfaceClass contact_wire, messenger_wire, dropper, mast, cantilever, insulator;
-  SurfaceClass wagon_body, wagon_frame, wheel, tank;
   SurfaceClass skin, clothing, pole, box;
   StructureSurfaces structures;  ///< All 0 unless AddStructureSurfaces() was called.
   TurnoutSurfaces turnouts;      ///< All 0 unless AddTurnoutSurfaces() was called.
-  VehicleSurfaces vehicles;      ///< All 0 unless AddVehicleSurfaces() was called.
 
   /// Sets all materials and labels to 0, for geometry that is built only to be checked.
   RailSurfaces() = default;
@@ -79,16 +69,11 @@ struct RailSurfaces {
   /// Looks up the surfaces of turnouts.
   /// @throws InputError with a line for every name that the tables lack.
   void AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
-  /// Looks up the surfaces of rail vehicles that have surfaces of their own.
-  /// @throws InputError with a line for every name that the tables lack.
-  void AddVehicleSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
 
 /// Whether the railway itself or one of its models has surfaces of the material.
 [[nodiscard]] bool IsRailMaterial(std::string_view name);
 /// Whether any structure or turnout has surfaces of the material.
 [[nodiscard]] bool IsStructureMaterial(std::string_view name);
-/// Whether any of the VehicleSurfaces has the material.
-[[nodiscard]] bool IsVehicleMaterial(std::string_view name);
 
 }  // namespace railcast

@@ -114,7 +114,7 @@ void CheckFitsGauge(const WorldSpec& world, const OfStandardGauge& thing, WorldF
 }
 
 void CheckWheelsFit(const WorldSpec& world,
-                    ObjectType type,
+                    const ObjectType& type,
                     const std::string& pointer,
                     WorldFaults& faults) {
   CheckFitsGauge(

@@ -106,7 +106,7 @@ void CheckFitsGauge(const WorldSpec& world, const OfStandardGauge& thing, WorldF
 
 /// Reports a rail vehicle on a line of another gauge than its wheels. Faults begin with `pointer`.
 void CheckWheelsFit(const WorldSpec& world,
-                    ObjectType type,
+                    const ObjectType& type,
                     const std::string& pointer,
                     WorldFaults& faults);
 

@@ -12,6 +12,7 @@
 #include "core/mesh/simplify.h"
 #include "core/rail/base/model_parts.h"
 #include "core/rail/objects/named_materials.h"
+#include "core/rail/objects/object_surfaces.h"
 
 namespace railcast {
 namespace {
@@ -22,18 +23,11 @@ constexpr double kFarthestFromOrigin_m = 8192.0;
 constexpr double kNormalTolerance_deg = 20.0;
 
 MeshUnits UnitsOfMesh(const ObjectSpec& spec) {
-  MeshUnits units{.unit_m = spec.unit_m, .y_up = std::nullopt};
+  MeshUnits units{.unit_m = spec.unit_m,
+                  .y_up = std::nullopt,
+                  .keeps_origin = spec.origin == MeshOrigin::kFile};
   if (spec.up) units.y_up = *spec.up == UpAxis::kY;
   return units;
-}
-
-std::optional<std::uint16_t> IndexOfMaterial(const MaterialLibrary& library,
-                                             std::string_view name) {
-  const std::vector<Material>& all = library.materials();
-  const auto it = std::find_if(all.begin(), all.end(),
-                               [&](const Material& material) { return material.name == name; });
-  if (it == all.end()) return std::nullopt;
-  return static_cast<std::uint16_t>(it - all.begin());
 }
 
 /// For example: "body", "glass" and 3 more.
@@ -58,10 +52,14 @@ std::string PlaceOfEntry(std::size_t entry, const char* key) {
 class PartEntries {
  public:
   /// @throws InputError with all faults of the entries.
-  PartEntries(const ObjectSpec& spec, const ImportedMesh& mesh, const MeshTables& tables)
+  PartEntries(const ObjectSpec& spec,
+              std::span<const ImportedMesh> meshes,
+              const MeshTables& tables)
       : spec_(spec) {
     std::set<std::string> names;
-    for (const NamedMesh& part : mesh.parts) names.insert({part.material, part.group});
+    for (const ImportedMesh& mesh : meshes) {
+      for (const NamedMesh& part : mesh.parts) names.insert({part.material, part.group});
+    }
     names.erase("");
     ErrorList faults;
     for (std::size_t i = 0; i < spec.parts.size(); ++i) {
@@ -224,13 +222,10 @@ double SimplifyParts(double tolerance_m, ImportedMesh& mesh) {
   return simplified->deviation_m;
 }
 
-}  // namespace
-
-MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables) {
-  if (!spec.file) throw InputError("file: required for type \"mesh\"");
-  ImportedMesh mesh = WithinMemory([&] { return ReadingText(*spec.file); },
-                                   [&] { return ReadMesh(*spec.file, UnitsOfMesh(spec)); });
-  const PartEntries entries(spec, mesh, tables);
+MeshObject MakeOfMesh(const ObjectSpec& spec,
+                      const PartEntries& entries,
+                      const MeshTables& tables,
+                      ImportedMesh mesh) {
   Eigen::AlignedBox3d box;
   for (const NamedMesh& part : mesh.parts) {
     for (const Eigen::Vector3f& vertex : part.mesh.vertices) box.extend(vertex.cast<double>());
@@ -246,11 +241,39 @@ MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables) {
   const MeshPlace place = PlaceOfMesh(spec, mesh, box);
   for (NamedMesh& part : mesh.parts) place.Apply(part.mesh);
   if (spec.tolerance_mm > 0.0) object.deviation_m = SimplifyParts(1e-3 * spec.tolerance_mm, mesh);
-  for (const NamedMesh& part : mesh.parts) {
+  for (NamedMesh& part : mesh.parts) {
     object.parts.push_back(UseOf(part, entries, spec, tables));
-    MeshOf(object.parts.back().surface, object.model).Append(part.mesh);
+    Mesh& whole = MeshOf(object.parts.back().surface, object.model);
+    if (whole.vertices.empty()) {
+      whole = std::move(part.mesh);
+    } else {
+      whole.Append(part.mesh);
+    }
   }
   return object;
+}
+
+}  // namespace
+
+MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables) {
+  if (!spec.file) throw InputError("file: required for type \"mesh\"");
+  return std::move(MakeMeshObjects(spec, {&*spec.file, 1}, tables).front());
+}
+
+std::vector<MeshObject> MakeMeshObjects(const ObjectSpec& spec,
+                                        std::span<const std::string> files,
+                                        const MeshTables& tables) {
+  std::vector<ImportedMesh> meshes;
+  for (const std::string& file : files) {
+    meshes.push_back(WithinMemory([&] { return ReadingText(file); },
+                                  [&] { return ReadMesh(file, UnitsOfMesh(spec)); }));
+  }
+  const PartEntries entries(spec, meshes, tables);
+  std::vector<MeshObject> objects;
+  for (ImportedMesh& mesh : meshes) {
+    objects.push_back(MakeOfMesh(spec, entries, tables, std::move(mesh)));
+  }
+  return objects;
 }
 
 }  // namespace railcast

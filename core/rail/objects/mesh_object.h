@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,5 +62,11 @@ struct MeshObject {
 /// @throws InputError as MakeObjectModel() does. Faults of `parts` have the places "/parts/0/of",
 ///   "/parts/0/material" and "/parts/0/label".
 [[nodiscard]] MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables);
+
+/// As MakeMeshObject() for each of several files instead of that of `spec`, whose `parts` may name
+/// those of any of them.
+[[nodiscard]] std::vector<MeshObject> MakeMeshObjects(const ObjectSpec& spec,
+                                                      std::span<const std::string> files,
+                                                      const MeshTables& tables);
 
 }  // namespace railcast

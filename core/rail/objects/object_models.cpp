@@ -7,13 +7,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/base/model_parts.h"
-#include "core/rail/objects/animals.h"
-#include "core/rail/objects/debris.h"
 #include "core/rail/objects/leaning.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_surfaces.h"
 #include "core/rail/objects/rail_vehicles.h"
-#include "core/rail/objects/road_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -50,73 +48,35 @@ Mesh MakePole(const ObjectSpec& spec) {
   return MakeTube(axis, 0.5 * size_m.x(), kSides);
 }
 
-Model MakeVehicleOnRails(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (spec.size_m) Fail("size_m: a rail vehicle has its own");
-  return WholeOf(MakeRailVehicle(spec.type, surfaces), MeasuresOf(spec.type).pivot_distance_m);
+Model MakeOfTable(const ObjectSpec& spec,
+                  const RailSurfaces& surfaces,
+                  const LabelTable& labels,
+                  const MaterialLibrary& materials) {
+  if (spec.size_m) Fail("size_m: type \"" + std::string(NameOf(spec.type)) + "\" has its own");
+  std::vector<Model> pieces = MakeTableModel(spec.type, surfaces.box.material, labels, materials);
+  if (!IsRailVehicle(spec.type)) return std::move(pieces.front());
+  return WholeOf(pieces.front(), pieces.back(), MeasuresOf(spec.type).pivot_distance_m);
 }
 
-bool IsThing(ObjectType type) {
-  return type == ObjectType::kPerson || IsRoadVehicle(type) || IsAnimal(type) || IsDebris(type);
-}
-
-/// A person, a road vehicle, an animal or debris.
-/// @throws InputError with a line for every name that the tables lack.
-Model MakeThing(const ObjectSpec& spec,
+Model MakeShape(const ObjectSpec& spec,
+                const RailSurfaces& surfaces,
                 const LabelTable& labels,
                 const MaterialLibrary& materials) {
   if (spec.type == ObjectType::kPerson) {
     const PersonBuild build = PersonBuildOf(spec);
     return MakePerson(FindPersonSurfaces(build.look, labels, materials), build);
   }
-  if (spec.size_m) Fail("size_m: type \"" + std::string(NameOf(spec.type)) + "\" has its own");
-  if (IsRoadVehicle(spec.type)) {
-    return MakeRoadVehicle(spec.type, FindRoadVehicleSurfaces(labels, materials));
-  }
-  if (IsAnimal(spec.type)) return MakeAnimal(spec.type, FindAnimalSurfaces(labels, materials));
-  return MakeDebris(spec.type, FindDebrisSurfaces(labels, materials));
-}
-
-/// Default surface of a type; for rail vehicles only its label is used.
-SurfaceClass DefaultSurface(ObjectType type, const RailSurfaces& surfaces) {
-  switch (type) {
-    case ObjectType::kPole:
-      return surfaces.pole;
-    case ObjectType::kOpenWagon:
-    case ObjectType::kFlatWagon:
-    case ObjectType::kTankWagon:
-    case ObjectType::kContainerWagon:
-    case ObjectType::kCoveredWagon:
-    case ObjectType::kHopperWagon:
-      return surfaces.wagon_body;
-    case ObjectType::kShuntingLocomotive:
-    case ObjectType::kElectricLocomotive:
-    case ObjectType::kMultipleUnit:
-    case ObjectType::kCoach:
-    case ObjectType::kMetroCar:
-      return surfaces.vehicles.paint;
-    default:
-      break;
-  }
-  return surfaces.box;
-}
-
-Model MakeByType(const ObjectSpec& spec, const RailSurfaces& surfaces) {
-  if (IsRailVehicle(spec.type)) return MakeVehicleOnRails(spec, surfaces);
   Model model{.name = std::string(NameOf(spec.type)), .parts = {}};
-  MeshOf(DefaultSurface(spec.type, surfaces), model) =
-      spec.type == ObjectType::kPole ? MakePole(spec) : MakeStandingBox(RequiredSize(spec));
+  const bool is_pole = spec.type == ObjectType::kPole;
+  MeshOf(is_pole ? surfaces.pole : surfaces.box, model) =
+      is_pole ? MakePole(spec) : MakeStandingBox(RequiredSize(spec));
   return model;
 }
 
 std::uint16_t MaterialOf(const ObjectSpec& spec, const MaterialLibrary& materials) {
-  const std::vector<Material>& all = materials.materials();
-  const auto it = std::find_if(all.begin(), all.end(), [&](const Material& material) {
-    return material.name == *spec.material;
-  });
-  if (it == all.end()) {
-    Fail("material: must be in the material library (got \"" + *spec.material + "\")");
-  }
-  return static_cast<std::uint16_t>(it - all.begin());
+  const auto index = IndexOfMaterial(materials, *spec.material);
+  if (!index) Fail("material: must be in the material library (got \"" + *spec.material + "\")");
+  return *index;
 }
 
 /// The highest speed of a motion; 0 if it stands.
@@ -171,7 +131,8 @@ std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
     const SurfaceClass surface = SurfaceOfObject(spec, surfaces, labels, materials);
     model = MakeMeshObject(spec, {surface, labels, materials}).model;
   } else {
-    model = IsThing(spec.type) ? MakeThing(spec, labels, materials) : MakeByType(spec, surfaces);
+    model = spec.type.model ? MakeOfTable(spec, surfaces, labels, materials)
+                            : MakeShape(spec, surfaces, labels, materials);
     Repaint(spec, surfaces, labels, materials, model);
   }
   Lean(spec.roll_deg, spec.pitch_deg, model);
@@ -188,20 +149,29 @@ ObjectModels::Shape ObjectModels::ShapeOf(const ObjectSpec& spec) {
   PartsKey parts;
   for (const MeshPartSpec& part : spec.parts)
     parts.emplace_back(part.of, part.material, part.label);
-  return {spec.type,   spec.size_m,       spec.file,     spec.up,        spec.unit_m,
-          spec.label,  spec.material,     spec.roll_deg, spec.pitch_deg, person,
-          spec.origin, spec.tolerance_mm, parts};
+  return {std::string(NameOf(spec.type)),
+          spec.size_m,
+          spec.file,
+          spec.up,
+          spec.unit_m,
+          spec.label,
+          spec.material,
+          spec.roll_deg,
+          spec.pitch_deg,
+          person,
+          spec.origin,
+          spec.tolerance_mm,
+          parts};
 }
 
 std::vector<std::shared_ptr<const Model>> ObjectModels::VehiclePiecesOf(const ObjectSpec& spec) {
   const Shape shape = ShapeOf(spec);
   const auto found = pieces_.find(shape);
   if (found != pieces_.end()) return found->second;
-  RailVehicleModel vehicle = MakeRailVehicle(spec.type, surfaces_);
   std::vector<std::shared_ptr<const Model>> pieces;
-  for (Model* const piece : {&vehicle.body, &vehicle.bogie}) {
-    Repaint(spec, surfaces_, labels_, materials_, *piece);
-    pieces.push_back(std::make_shared<const Model>(std::move(*piece)));
+  for (Model& piece : MakeTableModel(spec.type, surfaces_.box.material, labels_, materials_)) {
+    Repaint(spec, surfaces_, labels_, materials_, piece);
+    pieces.push_back(std::make_shared<const Model>(std::move(piece)));
   }
   pieces.push_back(pieces.back());
   return pieces_.emplace(shape, std::move(pieces)).first->second;
@@ -242,12 +212,14 @@ void GiveLimbs(const ObjectSpec& spec, ObjectModels& models, SceneObject& object
 std::uint32_t ObjectLabel(const ObjectSpec& spec,
                           const RailSurfaces& surfaces,
                           const LabelTable& labels) {
-  if (!spec.label && IsThing(spec.type)) {
+  if (!spec.label && !spec.type.model && spec.type != ObjectType::kPerson) {
+    return (spec.type == ObjectType::kPole ? surfaces.pole : surfaces.box).label;
+  }
+  if (!spec.label) {
     // Where the table could not be read, or lacks the name, the model says so.
-    const Label* of_type = labels.Find(LabelNameOf(spec.type));
+    const Label* of_type = labels.Find(spec.type.model ? spec.type.model->label : "person");
     return of_type == nullptr ? 0 : of_type->id;
   }
-  if (!spec.label) return DefaultSurface(spec.type, surfaces).label;
   const Label* label = labels.Find(*spec.label);
   if (label == nullptr) {
     Fail("label: must be in the label table (got \"" + *spec.label + "\")");
@@ -259,8 +231,8 @@ SurfaceClass SurfaceOfObject(const ObjectSpec& spec,
                              const RailSurfaces& surfaces,
                              const LabelTable& labels,
                              const MaterialLibrary& materials) {
-  return {.material = spec.material ? MaterialOf(spec, materials)
-                                    : DefaultSurface(spec.type, surfaces).material,
+  const SurfaceClass& of_type = spec.type == ObjectType::kPole ? surfaces.pole : surfaces.box;
+  return {.material = spec.material ? MaterialOf(spec, materials) : of_type.material,
           .label = ObjectLabel(spec, surfaces, labels)};
 }
 

@@ -23,9 +23,9 @@ namespace railcast {
 /// chainage at heading 0), y left, z up; metres. The origin is the middle of the object's footprint
 /// at its foot:
 /// - box, pole, person: the lowest point is at z = 0;
-/// - wagons: z = 0 is top of rail, so that `h_m` = 0 puts them on the track;
-/// - road vehicles, animals, debris: as their headers say; z = 0 is the lowest point but of a drag
-///   shoe, which lies on the rail at z = 0;
+/// - models of a table: the origin of their mesh (railcast/objects.h); of rail vehicles z = 0 is
+/// top
+///   of rail, so that `h_m` = 0 puts them on the track;
 /// - mesh: the middle of the file's bounding box in plan, at its lowest point, as the origin of a
 ///   file may be anywhere (a corner, the survey origin of a town); with origin "file" the file's
 ///   own. With `size_m`, each axis is scaled to its length. Materials and labels of its parts:
@@ -60,7 +60,7 @@ class ObjectModels {
 
   /// As MakeObjectModel().
   [[nodiscard]] std::shared_ptr<const Model> Of(const ObjectSpec& spec);
-  /// The body, the front bogie and the rear bogie of a rail vehicle (rail_vehicles.h).
+  /// The body, the front bogie and the rear bogie of a rail vehicle (table_models.h).
   /// @throws InputError as MakeObjectModel() does.
   [[nodiscard]] std::vector<std::shared_ptr<const Model>> VehiclePiecesOf(const ObjectSpec& spec);
   /// The pieces of a person that walks about, which WalkingPerson(PersonBuildOf(spec)) moves; other
@@ -71,7 +71,7 @@ class ObjectModels {
   using PersonKey = std::tuple<Posture, Physique, Clothing, Luggage, double>;
   using PartsKey =
       std::vector<std::tuple<std::string, std::optional<std::string>, std::optional<std::string>>>;
-  using Shape = std::tuple<ObjectType,
+  using Shape = std::tuple<std::string,
                            std::optional<std::array<double, 3>>,
                            std::optional<std::string>,
                            std::optional<UpAxis>,

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 
 #include "core/rail/base/rail_surfaces.h"
@@ -9,35 +12,33 @@
 
 namespace railcast {
 
-/// The surfaces of objects that tables need only if there are such objects. Each is looked up by
-/// its name in both tables; where one of them is empty because it could not be read, all are 0, for
-/// geometry that is built only to be checked.
+/// Looks up materials and labels by name, and remembers the names that the tables lack, each once.
+class SurfaceFinder {
+ public:
+  SurfaceFinder(const LabelTable& labels, const MaterialLibrary& materials)
+      : labels_(labels), materials_(materials) {}
 
-/// The surfaces of road vehicles (road_vehicles.h).
-struct RoadVehicleSurfaces {
-  SurfaceClass paint;      ///< Of sheet metal bodies.
-  SurfaceClass panel;      ///< Of light loading bodies.
-  SurfaceClass window;     ///< Panes and the glasses of lamps.
-  SurfaceClass trim;       ///< Black plastic, underbody, grilles.
-  SurfaceClass metal;      ///< Rims, frames, engines.
-  SurfaceClass tyre;       ///< Rubber.
-  SurfaceClass reflector;  ///< Number plates, reflectors, contour tape.
+  /// Whether both tables have entries: one that could not be read has none, and then nothing is
+  /// missing, for geometry that is built only to be checked.
+  [[nodiscard]] bool has_tables() const;
+  /// What is missing is 0.
+  [[nodiscard]] std::uint16_t MaterialNamed(std::string_view name);
+  [[nodiscard]] std::uint32_t LabelNamed(std::string_view name);
+  /// @param key Of the object, which requires the names.
+  /// @throws InputError with a line for every name that the tables lack.
+  void ThrowIfAnyIsMissing(const std::string& key) const;
+
+ private:
+  const LabelTable& labels_;
+  const MaterialLibrary& materials_;
+  std::set<std::string> missing_;
 };
 
-/// The surfaces of animals (animals.h).
-struct AnimalSurfaces {
-  SurfaceClass coat;  ///< Fur.
-  SurfaceClass horn;  ///< Antlers, horns, hooves, noses.
-};
+/// The index of a material of that name, if there is one.
+[[nodiscard]] std::optional<std::uint16_t> IndexOfMaterial(const MaterialLibrary& library,
+                                                           std::string_view name);
 
-/// The surfaces of what may lie on the line (debris.h).
-struct DebrisSurfaces {
-  SurfaceClass wood, tyre, stone, soil;
-  SurfaceClass leaf, bark, wire;
-  SurfaceClass shoe_paint, shoe_iron;
-};
-
-/// The surfaces of a person (person.h).
+/// The surfaces of a person (person.h), which tables need only if there are persons.
 struct PersonSurfaces {
   SurfaceClass skin, clothing;
   SurfaceClass hi_vis_fabric, hi_vis_band, helmet;        ///< 0 unless it wears them.
@@ -48,20 +49,5 @@ struct PersonSurfaces {
 [[nodiscard]] PersonSurfaces FindPersonSurfaces(const PersonSpec& look,
                                                 const LabelTable& labels,
                                                 const MaterialLibrary& materials);
-/// @throws InputError with a line for every name that the tables lack.
-[[nodiscard]] RoadVehicleSurfaces FindRoadVehicleSurfaces(const LabelTable& labels,
-                                                          const MaterialLibrary& materials);
-/// @throws InputError with a line for every name that the tables lack.
-[[nodiscard]] AnimalSurfaces FindAnimalSurfaces(const LabelTable& labels,
-                                                const MaterialLibrary& materials);
-/// @throws InputError with a line for every name that the tables lack.
-[[nodiscard]] DebrisSurfaces FindDebrisSurfaces(const LabelTable& labels,
-                                                const MaterialLibrary& materials);
-
-/// The label of a person, a road vehicle, an animal or debris as a whole.
-[[nodiscard]] std::string_view LabelNameOf(ObjectType type);
-
-/// Whether road vehicles, animals or debris of that type have surfaces of the material.
-[[nodiscard]] bool IsMaterialOf(ObjectType type, std::string_view name);
 
 }  // namespace railcast

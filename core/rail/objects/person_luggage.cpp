@@ -1,12 +1,14 @@
 #include "core/rail/objects/person_luggage.h"
 
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "core/base/shipped_files.h"
+#include "core/mesh/mesh_import.h"
 #include "core/rail/base/model_parts.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_pose.h"
-#include "core/rail/objects/road_vehicles.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -138,7 +140,7 @@ void AddPram(const BodyMeasures& body, const PersonSurfaces& surfaces, Model& mo
   AddCarrycot({0.5 * (rear_x_m + front_x_m) + 0.05, 0.0, 0.72}, surfaces, model);
 }
 
-// Of the bicycle (road_vehicles.h), which is upright beside the person.
+// Of the bicycle of scenarios/models, which is upright beside the person.
 const Vector3 kLeftGrip_m(0.21, 0.275, 1.06);
 const Vector3 kSaddle_m(-0.36, 0.05, 0.985);
 
@@ -148,16 +150,16 @@ Vector3 BicyclePlace(const BodyMeasures& body) {
 }
 
 void AddBicycle(const BodyMeasures& body, const PersonSurfaces& surfaces, Model& model) {
-  const Model bicycle = MakeBicycle({.paint = surfaces.frame,
-                                     .panel = surfaces.frame,
-                                     .window = surfaces.frame,
-                                     .trim = surfaces.suitcase,
-                                     .metal = surfaces.frame,
-                                     .tyre = surfaces.tyre,
-                                     .reflector = surfaces.reflector});
+  const ImportedMesh bicycle =
+      ReadMesh(std::string(kShippedPrefix) + "bicycle.ply", {.keeps_origin = true});
+  const auto surface_of = [&](const std::string& part) {
+    if (part == "tyre") return surfaces.tyre;
+    if (part == "reflector") return surfaces.reflector;
+    return part == "trim" ? surfaces.suitcase : surfaces.frame;
+  };
   const Transform placed = MakeTransform(Eigen::Matrix3d::Identity(), BicyclePlace(body));
-  for (const Part& part : bicycle.parts) {
-    MeshOf({part.material, part.label}, model).Append(part.mesh, placed);
+  for (const NamedMesh& part : bicycle.parts) {
+    MeshOf(surface_of(part.material), model).Append(part.mesh, placed);
   }
 }
 

@@ -106,11 +106,16 @@ std::vector<MeshPartSpec> KnownParts(const std::vector<MeshPartSpec>& parts,
   return known;
 }
 
-// Whether the places of an object's faults are pointers that continue the object's.
-bool HasPointers(const InputError& error) {
-  const std::vector<Fault>& all = error.faults();
-  return std::all_of(all.begin(), all.end(),
-                     [](const Fault& fault) { return fault.place.starts_with('/'); });
+// Adds the faults of an object. Those of its model stand in the table of models, once for all
+// objects that are one.
+void AddFaultsOfObject(const InputError& error, const std::string& pointer, ErrorList& errors) {
+  for (const Fault& fault : error.faults()) {
+    if (!fault.place.starts_with("/models/")) {
+      AddAtPointer(pointer, InputError({fault}), errors);
+    } else if (std::ranges::find(errors.faults(), fault) == errors.faults().end()) {
+      errors.Add(fault);
+    }
+  }
 }
 
 }  // namespace
@@ -185,9 +190,10 @@ std::optional<SceneObject> DraftObject(const ObjectSpec& object,
     return SceneObject{.name = known.name,
                        .type = std::string(NameOf(known.type)),
                        .label = ObjectLabel(known, tables.surfaces, tables.labels),
-                       .model = tables.models.Of(known)};
+                       .model = tables.models.Of(known),
+                       .is_rail_vehicle = IsRailVehicle(known.type)};
   } catch (const InputError& error) {
-    AddPlaced(pointer + (HasPointers(error) ? "" : ": "), error, faults.errors);
+    AddFaultsOfObject(error, pointer, faults.errors);
     return std::nullopt;
   }
 }

@@ -12,7 +12,9 @@ namespace {
 /// Rail vehicles stand on the rails unless they have left them, and drag shoes lie there.
 bool StandsOnGround(const ObjectSpec& object) {
   if (object.h_m) return false;
-  if (object.type == ObjectType::kDragShoe) return FollowOf(object) == Follow::kGround;
+  if (object.type.model && object.type.model->lies_on_rail) {
+    return FollowOf(object) == Follow::kGround;
+  }
   return !RestsOnPivots(object);
 }
 

@@ -273,15 +273,7 @@ std::shared_ptr<const RailWorld> RailWorld::WithObject(const ObjectSpec& given,
                             " objects of a run, those that were removed included");
   }
   auto path = DraftPath({line_->world, network}, object, pointer, from_ns, faults);
-  RailSurfaces surfaces = *line_->surfaces;
-  WorldSpec only_this;
-  only_this.objects = {object};
-  Attempt("", faults.errors, [&] {
-    if (HasVehicleSurfaces(only_this, {})) {
-      surfaces.AddVehicleSurfaces(line_->labels, line_->materials);
-    }
-    return true;
-  });
+  const RailSurfaces& surfaces = *line_->surfaces;
   ObjectModels models(surfaces, line_->labels, line_->materials);
   auto made = DraftObject(object, pointer, {surfaces, line_->labels, models}, faults);
   ObjectPath object_path;

@@ -20,6 +20,7 @@
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/network/yard.h"
 #include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/bogies.h"
 #include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/map_placing.h"
@@ -112,6 +113,18 @@ std::optional<DemHeights> DraftElevation(const WorldSpec& world,
   return elevation;
 }
 
+// Checks that the tables have what the models of the sensor's own train need.
+void CheckNamesOfOwnTrain(const WorldSource& source, WorldFaults& faults) {
+  for (std::size_t i = 0; i < source.vehicle.consist.size(); ++i) {
+    const std::string pointer = "/vehicle/consist/" + std::to_string(i);
+    if (!faults.AreKnown({pointer + "/type", "/labels", "/materials"})) continue;
+    Attempt(pointer + ": ", faults.errors, [&] {
+      CheckNamesOfModel(source.vehicle.consist[i].type, source.labels, source.materials);
+      return true;
+    });
+  }
+}
+
 void DraftObjects(const TracksOfWorld& tracks,
                   const ObjectTables& tables,
                   WorldFaults& faults,
@@ -183,15 +196,13 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
       if (!draft.network.turnouts.empty() || !draft.network.diamonds.empty()) {
         surfaces.AddTurnoutSurfaces(source.labels, source.materials);
       }
-      if (HasVehicleSurfaces(world, source.vehicle)) {
-        surfaces.AddVehicleSurfaces(source.labels, source.materials);
-      }
       return surfaces;
     });
     if (!source.vehicle.ego_boxes_m.empty() || !source.vehicle.consist.empty()) {
       Attempt("", faults.errors, [&] { return source.labels.Id("ego"); });
     }
   }
+  CheckNamesOfOwnTrain(source, faults);
   const TracksOfWorld tracks{world, draft.network};
   draft.vehicle_path = DraftVehiclePath(source.vehicle, tracks, faults);
   if (draft.vehicle_path && draft.alignment) {

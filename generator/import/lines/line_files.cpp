@@ -1,89 +1,55 @@
 #include "generator/import/lines/line_files.h"
 
-#include <cmath>
+#include <algorithm>
 #include <iomanip>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/base/text.h"
-#include "generator/import/lines/line_gauge.h"
+#include "core/scenario/describe_alignment.h"
+#include "core/scenario/json_writer.h"
 
 namespace railcast {
 namespace {
 
-using LineJson = nlohmann::ordered_json;
+/// Whether JSON is, or holds in objects, a list of lists or objects.
+bool HasItems(const Json& json) {
+  const auto is_in = [&](bool (*holds)(const Json&)) { return std::ranges::any_of(json, holds); };
+  if (json.is_array()) return is_in([](const Json& item) { return item.is_structured(); });
+  return json.is_object() && is_in(HasItems);
+}
 
-/// A list with one item to a line of text.
-template <typename Values, typename Write>
-std::string ListText(const Values& values, const std::string& indent, const Write& write) {
-  std::string text = "[";
+std::string IndentedText(const Json& json, const std::string& indent) {
+  if (!HasItems(json)) return json.dump();
+  std::string text = json.is_array() ? "[" : "{";
   const char* separator = "\n";
-  for (const auto& value : values) {
-    text += separator + indent + "  " + write(value).dump();
+  for (const auto& [key, value] : json.items()) {
+    text += separator + indent + "  ";
+    text += json.is_array() ? value.dump()
+                            : Json(key).dump() + ": " + IndentedText(value, indent + "  ");
     separator = ",\n";
   }
-  return text + "\n" + indent + "]";
-}
-
-LineJson ElementJson(const AlignmentElement& element) {
-  LineJson json = {{"type", NameOf(element.type)}, {"length_m", element.length_m}};
-  if (element.radius_m) json["radius_m"] = *element.radius_m;
-  return json;
-}
-
-/// With one coefficient to a line of text.
-std::string MapText(const MapProjection& projection) {
-  const MapSpec map = MapSpecOf(projection);
-  const LineJson json = {{"origin_m", map.origin_m},
-                         {"longitude_deg", map.longitude_deg},
-                         {"latitude_deg", map.latitude_deg}};
-  std::string text = json.dump();
-  if (map.coefficients_m.empty()) return text;
-  text.pop_back();
-  return text + ",\n    \"coefficients_m\": " +
-         ListText(map.coefficients_m, "    ",
-                  [](const std::array<double, 2>& pair) { return LineJson(pair); }) +
-         "}";
+  return text + "\n" + indent + (json.is_array() ? "]" : "}");
 }
 
 }  // namespace
 
+std::string TextWithItems(const Json& json) {
+  return IndentedText(json, "");
+}
+
 std::string AlignmentFileText(const ImportedLine& line, const MapProjection& projection) {
-  const AlignmentSpec& alignment = line.alignment;
   std::ostringstream origin;
   origin << std::fixed << std::setprecision(3) << projection.origin_m.x() << ", "
          << projection.origin_m.y();
-  const std::string attribution =
+  AlignmentSpec alignment = line.alignment;
+  alignment.attribution =
       (alignment.attribution.empty() ? "" : alignment.attribution + ". ") +
       "Fitted by railcast-generate import. Coordinates: " + projection.definition + ", minus (" +
       origin.str() + ") m.";
-  const auto value_json = [](const ChainageValue& step) {
-    return LineJson{{"s_m", step.s_m}, {"value", step.value}};
-  };
-  const auto& elements = std::get<AlignmentElementsSpec>(alignment.course).elements;
-  std::string text = "{\n  \"version\": 1,\n";
-  text += "  \"attribution\": " + LineJson(attribution).dump() + ",\n";
-  text += "  \"map\": " + MapText(projection) + ",\n";
-  text += "  \"origin_m\": " +
-          LineJson({alignment.origin_m[0], alignment.origin_m[1], alignment.origin_m[2]}).dump() +
-          ",\n";
-  text += "  \"heading_deg\": " + LineJson(alignment.heading_deg).dump() + ",\n";
-  text +=
-      "  \"speed_limits_kmph\": " + ListText(alignment.speed_limits_kmph, "  ", value_json) + ",\n";
-  if (alignment.gauge_mm != kStandardGauge_mm) {
-    text += "  \"gauge_mm\": " + LineJson(alignment.gauge_mm).dump() + ",\n";
-  }
-  if (!alignment.cants_mm.empty()) {
-    text += "  \"cants_mm\": " + ListText(alignment.cants_mm, "  ", value_json) + ",\n";
-  }
-  if (!alignment.gradients_permil.empty()) {
-    text += "  \"gradients_permil\": " + ListText(alignment.gradients_permil, "  ", value_json) +
-            ",\n  \"gradient_smoothing_m\": " + LineJson(alignment.gradient_smoothing_m).dump() +
-            ",\n";
-  }
-  text += "  \"course\": {\n    \"type\": \"elements\",\n    \"elements\": " +
-          ListText(elements, "    ", ElementJson) + "\n  }\n}\n";
-  return text;
+  alignment.map = MapSpecOf(projection);
+  Json file = {{"version", 1}, {"attribution", alignment.attribution}};
+  file.update(JsonWriter::WriteShort(alignment));
+  return TextWithItems(file) + "\n";
 }
 
 std::string QualityCsv(const std::vector<ImportedLine>& lines) {

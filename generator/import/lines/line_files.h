@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/json_text.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/map/map_projection.h"
 
 namespace railcast {
+
+/// JSON as text, with one item of a list of lists or objects to a line.
+[[nodiscard]] std::string TextWithItems(const Json& json);
 
 /// An alignment as a file that a scenario's world may name, with one element to a line of text.
 [[nodiscard]] std::string AlignmentFileText(const ImportedLine& line,

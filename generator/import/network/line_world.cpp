@@ -5,15 +5,14 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/scenario/describe_world.h"
+#include "core/scenario/json_writer.h"
 #include "generator/import/lines/contact_lines.h"
+#include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_gauge.h"
-#include "generator/import/network/track_json.h"
-#include "generator/import/structures/structure_json.h"
 
 namespace railcast {
 namespace {
-
-using FileJson = nlohmann::ordered_json;
 
 /// Without what would end a field of CSV.
 std::string CsvText(std::string_view text) {
@@ -27,19 +26,6 @@ TrackDraft MainTrack(const RailMap& map, const TrackLine& track, const ImportedL
   TrackDraft main = TrackNetwork(line.alignment).tracks().front();
   main.spec.electrified = HasContactLine(map, track);
   return main;
-}
-
-/// A list with one item to a line of text.
-template <class Item>
-std::string ItemsText(const std::vector<Item>& items, const auto& json_of) {
-  std::string text = "[";
-  const char* separator = "\n    ";
-  for (const Item& item : items) {
-    text += separator;
-    text += json_of(item).dump();
-    separator = ",\n    ";
-  }
-  return text + "\n  ]";
 }
 
 }  // namespace
@@ -60,23 +46,22 @@ LineWorld MakeLineWorld(const RailMap& map, const TrackLine& track, const Import
   return world;
 }
 
+Json JsonOf(TrackSpec track) {
+  Json json = {{"name", track.name}};  // A list reads better with names, also with the usual one.
+  json.update(JsonWriter::WriteShort(track));
+  return json;
+}
+
+Json JsonOf(StructureSpec structure) {
+  return JsonWriter::WriteShort(structure);
+}
+
 std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool has_elevation) {
-  std::string text =
-      "{\n  \"version\": 1,\n  \"alignment\": " + FileJson(line.name + ".alignment.json").dump() +
-      ",\n";
-  if (has_elevation) {
-    text += "  \"terrain\": " +
-            FileJson{{"elevation", {{"file", line.name + ".elevation.asc"}}}}.dump() + ",\n";
-  }
-  if (!world.structures.empty()) {
-    text += "  \"structures\": " +
-            ItemsText(world.structures,
-                      [](const StructureSpec& structure) { return JsonOf(structure); }) +
-            ",\n";
-  }
-  return text + "  \"tracks\": " +
-         ItemsText(world.tracks, [](const WorldTrack& track) { return JsonOf(track.draft.spec); }) +
-         "\n}\n";
+  Json file = {{"version", 1}, {"alignment", line.name + ".alignment.json"}};
+  if (has_elevation) file["terrain"]["elevation"]["file"] = line.name + ".elevation.asc";
+  for (const StructureSpec& spec : world.structures) file["structures"].push_back(JsonOf(spec));
+  for (const WorldTrack& track : world.tracks) file["tracks"].push_back(JsonOf(track.draft.spec));
+  return TextWithItems(file) + "\n";
 }
 
 std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,

@@ -3,12 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "core/scenario/json_text.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_stretches.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/track_network.h"
 #include "generator/import/network/track_runs.h"
+#include "railcast/rail_world.h"
 #include "railcast/structures.h"
 
 namespace railcast {
@@ -49,6 +51,10 @@ struct LineWorld {
 [[nodiscard]] LineWorld MakeLineWorld(const RailMap& map,
                                       const TrackLine& track,
                                       const ImportedLine& line);
+
+/// A track and a structure as scenario files have them, without keys that have their defaults.
+[[nodiscard]] Json JsonOf(TrackSpec track);
+[[nodiscard]] Json JsonOf(StructureSpec structure);
 
 /// The world as a file that a scenario may name, with one item to a line of text.
 /// @param has_elevation Whether NAME.elevation.asc stands beside it.

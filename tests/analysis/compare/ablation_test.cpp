@@ -5,6 +5,7 @@
 
 #include "analysis/compare/compare_report.h"
 #include "analysis/report/formats.h"
+#include "core/detect/detector/effect_table.h"
 #include "railcast/effects.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
@@ -134,6 +135,19 @@ TEST(StudiedEffects, GoTogetherWithTheOthers) {
   EXPECT_THAT(of_footprint, Not(Contains("dense_footprint")));
   // The dense footprint needs the effect footprint.
   EXPECT_THAT(StudiedEffects(EffectsOfRung(Fidelity::kReference)), Not(Contains("footprint")));
+}
+
+TEST(Ablation, StudiesWhatDoesNotGoTogetherOnTheFirstRungThatHasIt) {
+  Simulator simulator = MakeStudied(EffectsOfRung(Fidelity::kSurface));
+  const auto silent = [](const std::string&, double) {};
+  const std::vector<EffectStudy> all = Ablate(simulator, {0}, {0.1}, silent, StudyScope::kAll);
+  EXPECT_EQ(all.size(), EffectNames().size());
+  const EffectStudy rain = Of(all, "rain");
+  EXPECT_EQ(rain.rung, Fidelity::kPlausibility);
+  const EffectStudy alone = Of(Study(EffectsOfRung(Fidelity::kPlausibility), {0}), "rain");
+  EXPECT_EQ(rain.beams.transitions, alone.beams.transitions);
+  EXPECT_EQ(alone.rung, std::nullopt);
+  EXPECT_EQ(Of(all, "extinction").rung, std::nullopt);
 }
 
 TEST(AblationReport, HasARowForEveryEffect) {

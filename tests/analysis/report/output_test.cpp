@@ -33,6 +33,8 @@ TEST(ReportOptions, WantFilesOrText) {
   EXPECT_EQ(Parsed("--out here a b").out, "here");
   EXPECT_FALSE(Parsed("--out here").is_text);
   EXPECT_TRUE(Parsed("--format text").is_text);
+  EXPECT_FALSE(Parsed("--format json").is_text);
+  EXPECT_TRUE(Parsed("--format json").is_json);
   EXPECT_TRUE(Parsed("a --out here --format text").is_text);
   EXPECT_THROW(Parsed(""), CLI::ParseError);
   EXPECT_THROW(Parsed("--format html"), CLI::ParseError);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/shipped_files.h"
 
 namespace railcast {
 namespace {
@@ -178,6 +179,49 @@ TEST(ReadPlyMesh, NamesMaterialsByTheColoursOfVertices) {
 TEST(ReadPlyMesh, TakesManyColoursForAPhotograph) {
   EXPECT_EQ(ReadPlyMesh("p.ply", ShadedFan(32), kLargest).materials.size(), 32U);
   EXPECT_TRUE(ReadPlyMesh("p.ply", ShadedFan(33), kLargest).materials.empty());
+}
+
+TEST(ReadPlyMesh, NamesTheMaterialsOfFacesThatItsHeaderNames) {
+  const std::string head =
+      "ply\nformat ascii 1.0\ncomment material shell\ncomment material wheels\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nproperty uchar material_index\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1\n";
+  const PolygonSoup soup = ReadPlyMesh("p.ply", head + "3 2 1 0 0\n", kLargest);
+  EXPECT_EQ(soup.materials, (std::vector<std::string>{"shell", "wheels"}));
+  ASSERT_EQ(soup.faces.size(), 2U);
+  EXPECT_EQ(soup.faces[0].material, 1U);
+  EXPECT_EQ(soup.faces[1].material, 0U);
+  try {
+    (void)ReadPlyMesh("p.ply", head + "3 2 1 0 2\n", kLargest);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "p.ply: face 1 must name one of the 2 materials, counted from 0 (got 2)");
+  }
+}
+
+TEST(ReadShippedPly, ReadsWhatTheReaderOfAllPlyFilesReads) {
+  std::size_t num_files = 0;
+  for (const std::string_view name : ShippedFileNames()) {
+    if (!name.ends_with(".ply")) continue;
+    ++num_files;
+    const std::string_view bytes = ShippedFile(std::string(kShippedPrefix).append(name)).value();
+    const ImportedMesh fast = ReadShippedPly(bytes);
+    const ImportedMesh slow =
+        MakeTriangles(ReadPlyMesh(std::string(name), bytes, kLargest), 1.0, false, true);
+    ASSERT_EQ(fast.parts.size(), slow.parts.size()) << name;
+    for (std::size_t i = 0; i < fast.parts.size(); ++i) {
+      EXPECT_EQ(fast.parts[i].material, slow.parts[i].material) << name;
+      EXPECT_EQ(fast.parts[i].mesh.vertices, slow.parts[i].mesh.vertices) << name;
+      EXPECT_EQ(fast.parts[i].mesh.triangles, slow.parts[i].mesh.triangles) << name;
+    }
+    EXPECT_EQ(fast.origin_m, slow.origin_m);
+    EXPECT_EQ(fast.num_faces, slow.num_faces);
+    EXPECT_EQ(slow.num_flat + slow.num_cornerless, 0U) << name;
+    EXPECT_NEAR(fast.area_m2, slow.area_m2, 1e-5 * slow.area_m2);  // float32 has 24 bits.
+  }
+  EXPECT_EQ(num_files, 35U);
 }
 
 }  // namespace

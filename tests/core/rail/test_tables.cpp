@@ -72,7 +72,6 @@ RailSurfaces TestSurfaces() {
   surfaces.AddBushSurfaces(RailLabels(), RailMaterials());
   surfaces.AddStructureSurfaces(RailLabels(), RailMaterials());
   surfaces.AddTurnoutSurfaces(RailLabels(), RailMaterials());
-  surfaces.AddVehicleSurfaces(RailLabels(), RailMaterials());
   return surfaces;
 }
 

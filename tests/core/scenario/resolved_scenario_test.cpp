@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "core/scenario/describe_scenario.h"
+#include "core/scenario/json_writer.h"
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 
@@ -15,6 +17,15 @@ TEST_P(ShippedScenario, ReadsBackFromItsResolvedJson) {
   const ScenarioSpec again = ReadScenario(folder.Write("resolved.json", resolved));
   EXPECT_EQ(again, spec);
   EXPECT_EQ(ResolvedScenarioJson(again), resolved);
+}
+
+TEST_P(ShippedScenario, ReadsBackFromItsShortJson) {
+  ScenarioSpec spec = ReadScenario(GetParam());
+  Json brief = {{"version", 1}};
+  brief.update(JsonWriter::WriteShort(spec));
+  const TemporaryFolder folder;
+  EXPECT_EQ(ReadScenario(folder.Write("short.json", brief.dump())), spec);
+  EXPECT_LT(brief.dump().size(), Json::parse(ResolvedScenarioJson(spec)).dump().size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios,
@@ -164,6 +175,23 @@ TEST(ResolvedScenario, HoldsPlacesOnTheMapAsTheyWereGiven) {
   object.longitude_deg = 15.5;
   object.latitude_deg = 48.25;
   EXPECT_EQ(ReadScenario(folder.Write("resolved.json", ResolvedScenarioJson(spec))), spec);
+}
+
+// What a reader assumes is that of the key's owner: a yard's sleepers are of wood, a track's are
+// not.
+TEST(ShortJson, LeavesOutOnlyWhatAReaderAssumesAtThatPlace) {
+  YardSpec yard{.name = "yard", .begin = {.track = "main", .s_m = 100.0}};
+  EXPECT_EQ(JsonWriter::WriteShort(yard).dump(),
+            R"({"name":"yard","begin":{"track":"main","s_m":100.0,"turnout":"1:9-190"},)"
+            R"("num_tracks":1,"usable_length_m":100.0})");
+  yard.sleeper = SleeperType::kConcrete;
+  EXPECT_EQ(JsonWriter::WriteShort(yard)["sleeper"], "concrete");
+  TrackSpec track;
+  track.begin = TurnoutSpec{.track = "main", .position = TurnoutPosition::kDiverging};
+  track.sleeper = SleeperType::kWood;
+  EXPECT_EQ(JsonWriter::WriteShort(track).dump(),
+            R"({"begin":{"track":"main","turnout":"1:9-190","position":"diverging"},)"
+            R"("sleeper":"wood"})");
 }
 
 }  // namespace

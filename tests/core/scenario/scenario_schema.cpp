@@ -35,6 +35,7 @@ std::map<std::string, std::string> ScenarioSchemas() {
       {"alignment.schema.json", SchemaOfFile<AlignmentSpec>("railcast alignment section")},
       {"vehicle.schema.json", SchemaOfFile<VehicleSpec>("railcast vehicle section")},
       {"materials.schema.json", SchemaOfLibrary<Material>("materials", "railcast materials")},
+      {"models.schema.json", SchemaOfLibrary<ModelSpec>("models", "railcast table of models")},
       {"labels.schema.json", SchemaOfLibrary<Label>("labels", "railcast label table")},
   };
 }

@@ -13,6 +13,7 @@
 #include "core/scenario/json_rules.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/json_writer.h"
+#include "core/scenario/object_types.h"
 
 namespace railcast {
 
@@ -58,6 +59,10 @@ class SchemaWriter {
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
     Add(key, doc, {{"anyOf", {FileNameSchema(), SchemaOf(values, NonEmptyList())}}});
     required_.push_back(std::string(key));
+  }
+  template <class T>
+  void Types(std::string_view key, std::vector<T>& models, const char* doc) {
+    Add(key, doc, {{"anyOf", {FileNameSchema(), SchemaOf(models, NonEmptyList())}}});
   }
   void Switches(std::string_view key,
                 const std::map<std::string, bool>&,
@@ -106,7 +111,10 @@ class SchemaWriter {
 
 template <class T, class Rule>
 Json SchemaWriter::SchemaOf(T& value, const Rule& rule) {
-  if constexpr (std::is_class_v<T> && !std::is_same_v<T, std::string>) {
+  if constexpr (std::is_same_v<T, ObjectType>) {
+    // Editors offer the types that railcast has; a scenario's own table may have others.
+    return {{"type", "string"}, {"minLength", 1}, {"examples", ObjectTypes().Names()}};
+  } else if constexpr (std::is_class_v<T> && !std::is_same_v<T, std::string>) {
     SchemaWriter writer;
     Describe(writer, value);
     if constexpr (kIsWrittenInPlace<T>) return writer.PlainObject();

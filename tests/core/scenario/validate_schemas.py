@@ -27,6 +27,7 @@ SHIPPED = {
     "alignment": ["alignments/*.json", "osm_sankt_poelten/*.alignment.json"],
     "materials": ["materials/*.json"],
     "labels": ["labels.json"],
+    "models": ["models/*.json"],
 }
 # Faults that concern a single value, which a schema can detect.
 REFUSED = """unknown_key unknown_section unknown_key_in_list missing_keys missing_key_nested

@@ -172,7 +172,7 @@ TEST(GaugeEntries, HoldAWagonFoulOfAnotherTrackButNotOnItsOwn) {
   WorldSpec world = CurveOfTwoTracks();
   ObjectSpec wagon;
   wagon.name = "wagon";
-  wagon.type = ObjectType::kOpenWagon;
+  wagon.type = TypeNamed("open_wagon");
   wagon.s_m = 150.0;
   world.objects = {wagon};
   EXPECT_TRUE(EntriesOf(world).empty());

@@ -15,7 +15,6 @@
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/structure_json.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
@@ -171,6 +170,16 @@ TEST_F(OfOneLine, IsAWorldFile) {
   EXPECT_EQ(world["terrain"]["elevation"]["file"], "line.elevation.asc");
   EXPECT_EQ(world["tracks"][0]["name"], "main");
   EXPECT_THAT(world["structures"], SizeIs(4));
+}
+
+TEST_F(OfOneLine, KeepsInItsFileWhatItsTracksAndAlignmentAre) {
+  Make("");
+  world_.tracks[0].draft.spec.sleeper = SleeperType::kWood;
+  line_.alignment.cant_max_mm = 130.0;
+  const WorldJson world = WorldJson::parse(WorldFileText(line_, world_, false));
+  EXPECT_EQ(world["tracks"][0].value("sleeper", "none"), "wood");
+  const WorldJson alignment = WorldJson::parse(AlignmentFileText(line_, {}));
+  EXPECT_EQ(alignment.value("cant_max_mm", 0.0), 130.0);
 }
 
 }  // namespace

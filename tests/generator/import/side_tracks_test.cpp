@@ -16,7 +16,6 @@
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/moved_run.h"
-#include "generator/import/network/track_json.h"
 #include "generator/import/structures/map_coverage.h"
 #include "generator/import/structures/standing_world.h"
 

@@ -61,12 +61,12 @@ TEST_F(TrackLimits, NameTheFirstFrameBeyondTheEnd) {
 // The buffers of an open wagon of 14.04 m are 2.52 m ahead of its front pivot, and 7.02 m ahead of
 // its middle.
 TEST_F(TrackLimits, HoldForTheForemostBuffersOfTrains) {
-  scenario.vehicle.consist = {{ObjectType::kOpenWagon, {}, false}};
+  scenario.vehicle.consist = {{TypeNamed("open_wagon"), {}, false}};
   scenario.vehicle.motion = Constantly(25.0);
   TrainSpec train;
   train.name = "freight";
   train.s_m = 600.0;
-  train.vehicles = {{ObjectType::kOpenWagon, {}, false}};
+  train.vehicles = {{TypeNamed("open_wagon"), {}, false}};
   train.motion = Constantly(50.0, true);
   scenario.world.trains = {train};
   // 597.48 m at 25 m/s take 23.9 s, and 600 - 14.04 m at 50 m/s 11.72 s.

@@ -131,8 +131,7 @@ class Recording {
 };
 
 /// Opens a sequence directory, a .pcd or .ply file, a directory of such files (in order of their
-/// names), or a .pcap or .pcapng capture of a VLP-16, HDL-32E, VLP-32C, VLS-128,
-/// Pandar64, XT32 or QT128.
+/// names), or a .pcap or .pcapng capture of one of the sensors that docs/packets.md lists.
 /// @throws InputError with one line if `source` is none of these.
 [[nodiscard]] std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source);
 

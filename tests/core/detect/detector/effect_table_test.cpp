@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
 
 namespace railcast {
 namespace {
@@ -129,6 +133,43 @@ TEST(EffectTable, LeavesRandomRangeErrorsOutOfComparisonsOnly) {
     if (effect.is_range_error) names.emplace_back(effect.name);
   }
   EXPECT_THAT(names, testing::ElementsAre("noise", "range_noise", "channel_bias"));
+}
+
+/// Labels of these names with the identifiers 1, 2 and so on.
+LabelTable Labels(const std::vector<std::string>& names) {
+  std::vector<Label> labels;
+  for (const std::string& name : names) {
+    Label& label = labels.emplace_back();
+    label.id = static_cast<std::uint32_t>(labels.size());
+    label.name = name;
+  }
+  return LabelTable(labels);
+}
+
+TEST(ClutterLabelsOf, AsksForALabelOnlyWhereItsEffectIsOnAndHasACause) {
+  DetectorSpec spec;
+  EXPECT_EQ(ClutterLabelsOf(Labels({}), spec).halo, 0U);
+  spec.effects.halo = true;
+  EXPECT_EQ(ClutterLabelsOf(Labels({}), spec).halo, 0U);
+  spec.receiver.halo_share_at_1_deg = 1e-6;
+  EXPECT_THROW(static_cast<void>(ClutterLabelsOf(Labels({"snow"}), spec)), InputError);
+  EXPECT_EQ(ClutterLabelsOf(Labels({"snow", "halo"}), spec).halo, 2U);
+  spec.effects.halo = false;
+  EXPECT_EQ(ClutterLabelsOf(Labels({"halo"}), spec).halo, 1U) << "it may be switched on later";
+}
+
+TEST(ClutterLabelsOf, AsksForFalseAlarmsInTheDark) {
+  DetectorSpec spec{.effects = {.sunlight = true}};
+  EXPECT_THROW(static_cast<void>(ClutterLabelsOf(Labels({}), spec)), InputError);
+}
+
+TEST(EffectBetweenBeams, IsTheHaloWhereItHasACause) {
+  DetectorSpec spec{.effects = {.halo = true}};
+  EXPECT_EQ(EffectBetweenBeams(spec), nullptr);
+  spec.receiver.halo_share_at_1_deg = 1e-6;
+  EXPECT_EQ(EffectBetweenBeams(spec), FindEffect("halo"));
+  spec.effects.halo = false;
+  EXPECT_EQ(EffectBetweenBeams(spec), nullptr);
 }
 
 }  // namespace

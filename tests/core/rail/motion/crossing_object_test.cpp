@@ -9,6 +9,7 @@
 #include "core/rail/objects/object_models.h"
 #include "core/rail/objects/person.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -214,7 +215,7 @@ TEST_F(CrossingObjects, LieOnTheGroundEvenIfTheyHaveNoWidth) {
 TEST_F(CrossingObjects, LetARailVehicleThatLeansLieOnTheGround) {
   ObjectSpec wagon;
   wagon.name = "wagon";
-  wagon.type = ObjectType::kOpenWagon;
+  wagon.type = TypeNamed("open_wagon");
   wagon.s_m = 100.0;
   wagon.d_m = 8.0;
   EXPECT_NEAR(Make(wagon)->WorldFromObject(0, 0).translation().z(), 0.0, 1e-9);

@@ -1,5 +1,3 @@
-#include "core/rail/objects/debris.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +7,9 @@
 #include <set>
 
 #include "core/rail/line/rail_section.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/shipped_models.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -17,20 +17,15 @@ namespace {
 
 constexpr double kDebrisRounding_m = 1e-6;
 
-class Debris : public testing::Test {
- protected:
-  const DebrisSurfaces surfaces_ = FindDebrisSurfaces(RailLabels(), RailMaterials());
-};
-
-TEST_F(Debris, HasItsSizesAndItsFootOnTheGround) {
+TEST(Debris, HasItsSizesAndItsFootOnTheGround) {
   const std::vector<std::pair<ObjectType, Vector3>> sizes_m = {
-      {ObjectType::kPallet, {1.200, 0.800, 0.144}},
-      {ObjectType::kTyre, {1.014, 1.014, 0.312}},
-      {ObjectType::kBoulder, {0.80, 0.68, 0.56}},
-      {ObjectType::kBallastHeap, {1.5, 1.5, 0.75 * std::tan(37.0 * std::numbers::pi / 180.0)}},
-      {ObjectType::kLandslide, {8.0, 6.0, 1.2}}};
+      {TypeNamed("pallet"), {1.200, 0.800, 0.144}},
+      {TypeNamed("tyre"), {1.014, 1.014, 0.312}},
+      {TypeNamed("boulder"), {0.80, 0.68, 0.56}},
+      {TypeNamed("ballast_heap"), {1.5, 1.5, 0.75 * std::tan(37.0 * std::numbers::pi / 180.0)}},
+      {TypeNamed("landslide"), {8.0, 6.0, 1.2}}};
   for (const auto& [type, size_m] : sizes_m) {
-    const Model model = MakeDebris(type, surfaces_);
+    const Model model = WholeModel(type);
     const Eigen::AlignedBox3d box = model.Bounds();
     EXPECT_LT((box.sizes() - size_m).cwiseAbs().maxCoeff(), 1e-3)
         << model.name << ": " << box.sizes().transpose();
@@ -39,22 +34,21 @@ TEST_F(Debris, HasItsSizesAndItsFootOnTheGround) {
   }
 }
 
-TEST_F(Debris, ConsistsOfClosedBodiesButForLeaves) {
-  for (const EnumName<ObjectType>& name : kEnumNames<ObjectType>) {
-    if (!IsDebris(name.value)) continue;
-    Model model = MakeDebris(name.value, surfaces_);
+TEST(Debris, ConsistsOfClosedBodiesButForLeaves) {
+  for (const ObjectType& type : TypesLabelled({"object", "tree", "contact_wire"})) {
+    Model model = WholeModel(type);
     EXPECT_EQ(CountBadTriangles(model), 0U) << model.name;
     EXPECT_LE(model.num_triangles(), 5000U) << model.name;
     std::erase_if(model.parts,
-                  [&](const Part& part) { return part.material == surfaces_.leaf.material; });
+                  [&](const Part& part) { return part.material == RailMaterials().Index("leaf"); });
     EXPECT_GT(model.num_triangles(), 100U) << model.name;
     EXPECT_EQ(CountOpenEdges(model), 0U) << model.name;
   }
 }
 
 /// The boards of EN 13698-1, found by their corners: MakeBox() has eight vertices.
-TEST_F(Debris, HasThePalletsBoardsAndBlocks) {
-  const Model pallet = MakePallet(surfaces_);
+TEST(Debris, HasThePalletsBoardsAndBlocks) {
+  const Model pallet = WholeModel(TypeNamed("pallet"));
   const auto& vertices = pallet.parts.at(0).mesh.vertices;
   std::multiset<std::array<int, 3>> boards_mm;
   for (std::size_t first = 0; first < vertices.size(); first += 8) {
@@ -73,13 +67,28 @@ TEST_F(Debris, HasThePalletsBoardsAndBlocks) {
   EXPECT_EQ(boards_mm.count({145, 100, 78}), 6U);
 }
 
-TEST_F(Debris, HangsAWireOfTheLengthOfItsCatenaryStretchAndCoils) {
-  const std::vector<Vector3> axis = HangingWireAxis();
+/// The wire is a tube of eight sides: rings of eight vertices from its top to its end, and the
+/// middles of its two ends.
+TEST(Debris, HangsAWireOfTheLengthOfItsCatenaryStretchAndCoils) {
+  constexpr double kDiameter_m = 0.012;
+  constexpr double kTop_m = 5.7;
+  constexpr std::size_t kSides = 8;
+  const Model wire = WholeModel(TypeNamed("hanging_wire"));
+  const auto& vertices = wire.parts.at(0).mesh.vertices;
+  std::vector<Vector3> axis;
+  for (std::size_t ring = 0; ring + kSides <= vertices.size(); ring += kSides) {
+    Vector3 middle_m = Vector3::Zero();
+    for (std::size_t i = 0; i < kSides; ++i) middle_m += vertices[ring + i].cast<double>() / kSides;
+    for (std::size_t i = 0; i < kSides; ++i) {
+      ASSERT_NEAR((vertices[ring + i].cast<double>() - middle_m).norm(), 0.5 * kDiameter_m, 5e-4);
+    }
+    axis.push_back(middle_m);
+  }
   double length_m = 0.0;
   for (std::size_t i = 1; i < axis.size(); ++i) length_m += (axis[i] - axis[i - 1]).norm();
   // z = a (cosh(x / a) - 1) has the arc length sqrt((z + a)^2 - a^2) from its lowest point.
   constexpr double kA_m = 0.5;
-  const double high_m = kHangingWireTop_m - 0.5 * kHangingWireDiameter_m + kA_m;
+  const double high_m = kTop_m - 0.5 * kDiameter_m + kA_m;
   const double expected_m =
       std::sqrt(high_m * high_m - kA_m * kA_m) + 1.5 + 2.5 * 2.0 * std::numbers::pi * 0.35;
   // Chords of 15 degrees are 0.3 % shorter than their arcs.
@@ -90,14 +99,13 @@ TEST_F(Debris, HangsAWireOfTheLengthOfItsCatenaryStretchAndCoils) {
     const Vector3 before = (axis[i - 1] - axis[i - 2]).normalized();
     EXPECT_GT(before.dot((axis[i] - axis[i - 1]).normalized()), std::cos(0.35)) << i;
   }
-  const Model wire = MakeHangingWire(surfaces_);
-  EXPECT_NEAR(wire.Bounds().sizes().z(), kHangingWireTop_m, 0.01);
-  EXPECT_EQ(wire.parts.at(0).label, surfaces_.wire.label);
+  EXPECT_NEAR(wire.Bounds().sizes().z(), kTop_m, 0.01);
+  EXPECT_EQ(wire.parts.at(0).label, RailLabels().Id("contact_wire"));
 }
 
 /// The guides of the shoe clear the rail that it lies on, and its sole covers the rail's head.
-TEST_F(Debris, LaysTheDragShoeOnTheRail) {
-  const Model shoe = MakeDragShoe(surfaces_);
+TEST(Debris, LaysTheDragShoeOnTheRail) {
+  const Model shoe = WholeModel(TypeNamed("drag_shoe"));
   const Eigen::AlignedBox3d box = shoe.Bounds();
   EXPECT_NEAR(box.max().z(), 0.125, kDebrisRounding_m);
   EXPECT_NEAR(box.min().z(), -0.020, kDebrisRounding_m);
@@ -125,24 +133,12 @@ TEST_F(Debris, LaysTheDragShoeOnTheRail) {
   }
 }
 
-TEST_F(Debris, LaysTheFallenTreeAcrossTheTrack) {
-  const Eigen::AlignedBox3d box = MakeFallenTree(surfaces_).Bounds();
+TEST(Debris, LaysTheFallenTreeAcrossTheTrack) {
+  const Eigen::AlignedBox3d box = WholeModel(TypeNamed("fallen_tree")).Bounds();
   EXPECT_NEAR(box.sizes().y(), 10.0, 0.6);
   EXPECT_LT(box.sizes().x(), 6.0);
   EXPECT_NEAR(box.min().z(), 0.0, kDebrisRounding_m);
-  EXPECT_NEAR(MakeBranch(surfaces_).Bounds().sizes().x(), 2.5, kDebrisRounding_m);
-}
-
-TEST_F(Debris, IsTheSameEveryTime) {
-  for (const ObjectType type : {ObjectType::kBoulder, ObjectType::kBallastHeap,
-                                ObjectType::kLandslide, ObjectType::kFallenTree}) {
-    const Model first = MakeDebris(type, surfaces_);
-    const Model second = MakeDebris(type, surfaces_);
-    ASSERT_EQ(first.parts.size(), second.parts.size());
-    for (std::size_t i = 0; i < first.parts.size(); ++i) {
-      EXPECT_EQ(first.parts[i].mesh.vertices, second.parts[i].mesh.vertices) << first.name;
-    }
-  }
+  EXPECT_NEAR(WholeModel(TypeNamed("branch")).Bounds().sizes().x(), 2.5, kDebrisRounding_m);
 }
 
 }  // namespace

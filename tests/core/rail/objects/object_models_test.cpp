@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -65,12 +66,12 @@ TEST(MakeObjectModel, GivesEveryTypeItsLabelAndMaterials) {
   const RailSurfaces surfaces = TestSurfaces();
   const LabelTable labels = RailLabels();
   for (const auto& [type, label] :
-       {std::pair(ObjectType::kOpenWagon, "wagon"), std::pair(ObjectType::kFlatWagon, "wagon"),
-        std::pair(ObjectType::kTankWagon, "wagon"), std::pair(ObjectType::kPerson, "person"),
-        std::pair(ObjectType::kCar, "road_vehicle"),
-        std::pair(ObjectType::kBicycle, "road_vehicle"), std::pair(ObjectType::kDeer, "animal"),
-        std::pair(ObjectType::kFallenTree, "tree"), std::pair(ObjectType::kLandslide, "object"),
-        std::pair(ObjectType::kDragShoe, "object")}) {
+       {std::pair(TypeNamed("open_wagon"), "wagon"), std::pair(TypeNamed("flat_wagon"), "wagon"),
+        std::pair(TypeNamed("tank_wagon"), "wagon"), std::pair(ObjectType::kPerson, "person"),
+        std::pair(TypeNamed("car"), "road_vehicle"),
+        std::pair(TypeNamed("bicycle"), "road_vehicle"), std::pair(TypeNamed("deer"), "animal"),
+        std::pair(TypeNamed("fallen_tree"), "tree"), std::pair(TypeNamed("landslide"), "object"),
+        std::pair(TypeNamed("drag_shoe"), "object")}) {
     EXPECT_EQ(ObjectLabel(ObjectOfType(type), surfaces, labels), labels.Id(label));
     const auto model = MakeModel(ObjectOfType(type));
     EXPECT_GE(model->parts.size(), 2U) << "more than one material";
@@ -194,10 +195,10 @@ TEST(MakeObjectModel, RefusesWhatItCannotMake) {
   spec = ObjectOfType(ObjectType::kPole);
   spec.size_m = {0.2, 0.25, 5.0};
   EXPECT_EQ(Complaint(spec), "size_m: a pole must have one diameter (got 0.2 and 0.25)");
-  spec = ObjectOfType(ObjectType::kOpenWagon);
+  spec = ObjectOfType(TypeNamed("open_wagon"));
   spec.size_m = {1.0, 1.0, 1.0};
-  EXPECT_EQ(Complaint(spec), "size_m: a rail vehicle has its own");
-  spec = ObjectOfType(ObjectType::kCow);
+  EXPECT_EQ(Complaint(spec), "size_m: type \"open_wagon\" has its own");
+  spec = ObjectOfType(TypeNamed("cow"));
   spec.size_m = {1.0, 1.0, 1.0};
   EXPECT_EQ(Complaint(spec), "size_m: type \"cow\" has its own");
   spec = ObjectOfType(ObjectType::kMesh);
@@ -241,13 +242,13 @@ TEST(MakeObjectModel, NeedsMaterialsAndLabelsOfThingsOnlyWhereTheyAre) {
   std::erase_if(materials, [](const Material& material) { return material.name == "fur"; });
   std::vector<Label> labels = RailLabels().labels();
   std::erase_if(labels, [](const Label& label) { return label.name == "animal"; });
-  const auto make = [&](ObjectType type) {
+  const auto make = [&](const ObjectType& type) {
     return MakeObjectModel(ObjectOfType(type), TestSurfaces(), LabelTable(labels),
                            MaterialLibrary(materials));
   };
-  EXPECT_NE(make(ObjectType::kCar), nullptr);
+  EXPECT_NE(make(TypeNamed("car")), nullptr);
   try {
-    (void)make(ObjectType::kCow);
+    (void)make(TypeNamed("cow"));
     FAIL() << "a cow without fur";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),

@@ -11,8 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/objects/wagon_parts.h"
+#include "core/rail/objects/table_models.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/shipped_models.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -31,27 +33,28 @@ struct DataSheet {
 
 const std::vector<DataSheet>& DataSheets() {
   static const std::vector<DataSheet> sheets = {
-      {ObjectType::kOpenWagon, {14.04, 9.0, 3.0, 3.34}, 1.8, 0.46, "wagon"},
-      {ObjectType::kFlatWagon, {19.74, 14.2, 2.6, 1.285}, 1.8, 0.46, "wagon"},
-      {ObjectType::kTankWagon, {16.0, 10.5, 3.1, 4.27}, 1.8, 0.46, "wagon"},
-      {ObjectType::kContainerWagon, {19.74, 14.2, 2.6, 1.16 + 2.591}, 1.8, 0.46, "wagon"},
-      {ObjectType::kCoveredWagon, {23.264, 17.7, 2.9, 4.28}, 1.8, 0.46, "wagon"},
-      {ObjectType::kHopperWagon, {13.5, 7.2, 3.068, 3.996}, 1.8, 0.46, "wagon"},
-      {ObjectType::kShuntingLocomotive, {14.32, 7.0, 3.115, 4.25}, 2.5, 0.55, "train"},
-      {ObjectType::kElectricLocomotive, {18.98, 9.5, 3.012, 5.5}, 3.0, 0.625, "train"},
-      {ObjectType::kMultipleUnit, {25.835, 17.375, 2.95, 3.89}, 2.5, 0.46, "train"},
-      {ObjectType::kCoach, {26.4, 19.0, 2.825, 4.05}, 2.5, 0.46, "train"},
-      {ObjectType::kMetroCar, {37.15 / 2.0, 12.0, 2.9, 3.55}, 2.1, 0.45, "train"}};
+      {TypeNamed("open_wagon"), {14.04, 9.0, 3.0, 3.34}, 1.8, 0.46, "wagon"},
+      {TypeNamed("flat_wagon"), {19.74, 14.2, 2.6, 1.285}, 1.8, 0.46, "wagon"},
+      {TypeNamed("tank_wagon"), {16.0, 10.5, 3.1, 4.27}, 1.8, 0.46, "wagon"},
+      {TypeNamed("container_wagon"), {19.74, 14.2, 2.6, 1.16 + 2.591}, 1.8, 0.46, "wagon"},
+      {TypeNamed("covered_wagon"), {23.264, 17.7, 2.9, 4.28}, 1.8, 0.46, "wagon"},
+      {TypeNamed("hopper_wagon"), {13.5, 7.2, 3.068, 3.996}, 1.8, 0.46, "wagon"},
+      {TypeNamed("shunting_locomotive"), {14.32, 7.0, 3.115, 4.25}, 2.5, 0.55, "train"},
+      {TypeNamed("electric_locomotive"), {18.98, 9.5, 3.012, 5.5}, 3.0, 0.625, "train"},
+      {TypeNamed("multiple_unit"), {25.835, 17.375, 2.95, 3.89}, 2.5, 0.46, "train"},
+      {TypeNamed("coach"), {26.4, 19.0, 2.825, 4.05}, 2.5, 0.46, "train"},
+      {TypeNamed("metro_car"), {37.15 / 2.0, 12.0, 2.9, 3.55}, 2.1, 0.45, "train"}};
   return sheets;
 }
 
 class RailVehicles : public testing::TestWithParam<DataSheet> {
  protected:
   const DataSheet& sheet_ = GetParam();
-  const RailSurfaces surfaces_ = TestSurfaces();
-  const RailVehicleModel vehicle_ = MakeRailVehicle(sheet_.type, surfaces_);
-  const Model whole_ = WholeOf(vehicle_, sheet_.measures.pivot_distance_m);
-  const SurfaceClass wheel_ = sheet_.label == "wagon" ? surfaces_.wheel : surfaces_.vehicles.wheel;
+  const std::vector<Model> pieces_ = PiecesOfModel(sheet_.type);
+  const Model& body_ = pieces_.at(0);
+  const Model& bogie_ = pieces_.at(1);
+  const Model whole_ = WholeModel(sheet_.type);
+  const SurfaceClass wheel_ = SurfaceNamed("wheel_steel", sheet_.label);
 };
 
 INSTANTIATE_TEST_SUITE_P(Types,
@@ -60,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Types,
                          [](const auto& type) { return std::string(NameOf(type.param.type)); });
 
 TEST_P(RailVehicles, HaveTheMeasuresOfTheirDataSheets) {
-  const RailVehicleMeasures& measures = MeasuresOf(sheet_.type);
+  const RailVehicleMeasures measures = MeasuresOf(sheet_.type);
   EXPECT_DOUBLE_EQ(measures.length_m, sheet_.measures.length_m);
   EXPECT_DOUBLE_EQ(measures.pivot_distance_m, sheet_.measures.pivot_distance_m);
   EXPECT_DOUBLE_EQ(measures.width_m, sheet_.measures.width_m);
@@ -134,8 +137,8 @@ double HalfWidthOfG1_m(double z_m) {
 
 TEST_P(RailVehicles, KeepWithinGaugeG1ExceptForPantographs) {
   for (const Part& part : whole_.parts) {
-    if (part.material == surfaces_.vehicles.collector.material &&
-        sheet_.type == ObjectType::kElectricLocomotive) {
+    if (part.material == SurfaceNamed("galvanised_steel", "train").material &&
+        sheet_.type == TypeNamed("electric_locomotive")) {
       continue;
     }
     for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
@@ -158,58 +161,49 @@ TEST_P(RailVehicles, AreMadeOfFewAndSoundTrianglesWithTheirLabel) {
 }
 
 TEST_P(RailVehicles, AreMadeOfClosedBodies) {
-  EXPECT_EQ(CountOpenEdges(vehicle_.body), 0U);
-  // The side frames of wagon bogies have three corners on one line (SideFrameOutline()), where a
-  // triangle without area is left out.
+  EXPECT_EQ(CountOpenEdges(body_), 0U);
+  // The side frames of wagon bogies have three corners on one line, where a triangle without area
+  // is left out.
   if (sheet_.label == "train") {
-    EXPECT_EQ(CountOpenEdges(vehicle_.bogie), 0U);
+    EXPECT_EQ(CountOpenEdges(bogie_), 0U);
   }
 }
 
 TEST_P(RailVehicles, AreWholeWithOneBodyAndTwoBogies) {
-  EXPECT_EQ(whole_.num_triangles(),
-            vehicle_.body.num_triangles() + 2 * vehicle_.bogie.num_triangles());
-  const Eigen::AlignedBox3d bogie = vehicle_.bogie.Bounds();
+  EXPECT_EQ(whole_.num_triangles(), body_.num_triangles() + 2 * bogie_.num_triangles());
+  const Eigen::AlignedBox3d bogie = bogie_.Bounds();
   const double reach_m = sheet_.axle_base_m / 2.0 + sheet_.wheel_radius_m + kFlangeHeight_m;
   EXPECT_GE(bogie.max().x(), reach_m - kRounding_m) << "with its wheels";
   EXPECT_LT(bogie.max().x(), reach_m + 0.3) << "about its pivot";
   EXPECT_LT(-bogie.min().x(), reach_m + 0.3);
-  EXPECT_GT(vehicle_.body.Bounds().min().z(), 0.1) << "without wheels";
+  EXPECT_GT(body_.Bounds().min().z(), 0.1) << "without wheels";
 }
 
-class TrainVehicles : public testing::Test {
- protected:
-  [[nodiscard]] Model WholeVehicle(ObjectType type) const {
-    return WholeOf(MakeRailVehicle(type, surfaces_), MeasuresOf(type).pivot_distance_m);
-  }
-
-  const RailSurfaces surfaces_ = TestSurfaces();
-};
-
-TEST_F(TrainVehicles, HaveWindowsOfGlass) {
+TEST(TrainVehicles, HaveWindowsOfGlass) {
   for (const DataSheet& sheet : DataSheets()) {
-    const auto glass = VerticesOf(WholeVehicle(sheet.type), surfaces_.vehicles.glass);
+    const auto glass = VerticesOf(WholeModel(sheet.type), SurfaceNamed("glass", "train"));
     EXPECT_EQ(glass.empty(), sheet.label == "wagon") << NameOf(sheet.type);
     for (const Vector3& p : glass) EXPECT_GT(p.z(), 1.0) << NameOf(sheet.type);
   }
 }
 
-TEST_F(TrainVehicles, RecessTheWindowsOfTheCoachBy2CentimetresInItsWalls) {
+TEST(TrainVehicles, RecessTheWindowsOfTheCoachBy2CentimetresInItsWalls) {
   double outermost_m = 0.0;
-  for (const Vector3& p : VerticesOf(WholeVehicle(ObjectType::kCoach), surfaces_.vehicles.glass)) {
+  for (const Vector3& p :
+       VerticesOf(WholeModel(TypeNamed("coach")), SurfaceNamed("glass", "train"))) {
     if (std::abs(p.x()) < 9.5) outermost_m = std::max(outermost_m, std::abs(p.y()));
   }
   EXPECT_NEAR(outermost_m, 2.825 / 2.0 - 0.02, kRounding_m);
 }
 
-TEST_F(TrainVehicles, RaiseOnePantographOfTheElectricLocomotiveToTheContactWire) {
+TEST(TrainVehicles, RaiseOnePantographOfTheElectricLocomotiveToTheContactWire) {
   constexpr double kContactWire_m = 5.5;      // The default of CatenarySpec.
   constexpr double kLowered_m = 4.248;        // The locomotive's height with both lowered.
   constexpr double kHalfHeadWidth_m = 0.975;  // Heads of 1950 mm.
   double widest_m = 0.0;
   std::map<bool, double> highest_m;
-  const Model locomotive = WholeVehicle(ObjectType::kElectricLocomotive);
-  for (const Vector3& p : VerticesOf(locomotive, surfaces_.vehicles.collector)) {
+  const Model locomotive = WholeModel(TypeNamed("electric_locomotive"));
+  for (const Vector3& p : VerticesOf(locomotive, SurfaceNamed("galvanised_steel", "train"))) {
     highest_m[p.x() > 0.0] = std::max(highest_m[p.x() > 0.0], p.z());
     widest_m = std::max(widest_m, std::abs(p.y()));
   }
@@ -218,10 +212,10 @@ TEST_F(TrainVehicles, RaiseOnePantographOfTheElectricLocomotiveToTheContactWire)
   EXPECT_NEAR(widest_m, kHalfHeadWidth_m, 0.02);
 }
 
-TEST_F(TrainVehicles, StandContainersOfTheirIsoSizesOnTheSupports) {
-  const Model wagon = WholeVehicle(ObjectType::kContainerWagon);
-  for (const auto& [surface, length_m] : {std::pair(surfaces_.vehicles.container, 12.192),
-                                          std::pair(surfaces_.vehicles.light_container, 6.058)}) {
+TEST(TrainVehicles, StandContainersOfTheirIsoSizesOnTheSupports) {
+  const Model wagon = WholeModel(TypeNamed("container_wagon"));
+  for (const auto& [surface, length_m] : {std::pair(SurfaceNamed("red_paint", "wagon"), 12.192),
+                                          std::pair(SurfaceNamed("white_paint", "wagon"), 6.058)}) {
     Eigen::AlignedBox3d box;
     for (const Vector3& p : VerticesOf(wagon, surface)) box.extend(p);
     EXPECT_NEAR(box.sizes().x(), length_m, kRounding_m);
@@ -231,8 +225,8 @@ TEST_F(TrainVehicles, StandContainersOfTheirIsoSizesOnTheSupports) {
   }
 }
 
-TEST_F(TrainVehicles, LeaveTheHopperOpenAtTheTop) {
-  for (const Part& part : WholeVehicle(ObjectType::kHopperWagon).parts) {
+TEST(TrainVehicles, LeaveTheHopperOpenAtTheTop) {
+  for (const Part& part : WholeModel(TypeNamed("hopper_wagon")).parts) {
     for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
       const Vector3 p = vertex.cast<double>();
       const bool is_in_opening = std::abs(p.x()) < 11.94 / 2.0 - 1e-3 && p.z() > 3.5 &&
@@ -242,32 +236,11 @@ TEST_F(TrainVehicles, LeaveTheHopperOpenAtTheTop) {
   }
 }
 
-/// Objects and vehicles of trains that have nothing but a type.
-template <class Spec>
-std::vector<Spec> OfTypes(const std::vector<ObjectType>& types) {
-  std::vector<Spec> specs(types.size());
-  for (std::size_t i = 0; i < types.size(); ++i) specs[i].type = types[i];
-  return specs;
-}
-
-TEST(HasVehicleSurfaces, AsksForThemOnlyWhereAVehicleHasThem) {
-  WorldSpec world;
-  VehicleSpec vehicle;
-  world.objects =
-      OfTypes<ObjectSpec>({ObjectType::kBox, ObjectType::kOpenWagon, ObjectType::kTankWagon});
-  world.trains.resize(1);
-  world.trains[0].vehicles = OfTypes<TrainVehicleSpec>({ObjectType::kFlatWagon});
-  vehicle.consist = OfTypes<TrainVehicleSpec>({ObjectType::kFlatWagon});
-  EXPECT_FALSE(HasVehicleSurfaces(world, vehicle));
-  world.trains[0].vehicles =
-      OfTypes<TrainVehicleSpec>({ObjectType::kFlatWagon, ObjectType::kHopperWagon});
-  EXPECT_TRUE(HasVehicleSurfaces(world, vehicle)) << "in a train";
-  world.trains.clear();
-  vehicle.consist = OfTypes<TrainVehicleSpec>({ObjectType::kCoach});
-  EXPECT_TRUE(HasVehicleSurfaces(world, vehicle)) << "in the sensor's own train";
-  vehicle.consist.clear();
-  world.objects = OfTypes<ObjectSpec>({ObjectType::kMetroCar});
-  EXPECT_TRUE(HasVehicleSurfaces(world, vehicle)) << "as an object";
+TEST(MayHaveMaterial, KnowsThePartsOfShippedModels) {
+  EXPECT_TRUE(MayHaveMaterial(TypeNamed("coach"), "glass"));
+  EXPECT_FALSE(MayHaveMaterial(TypeNamed("open_wagon"), "glass"));
+  EXPECT_FALSE(MayHaveMaterial(ObjectType::kBox, "glass"));
+  EXPECT_TRUE(MayHaveMaterial(ObjectType::kMesh, "glass")) << "by a word in its file";
 }
 
 }  // namespace

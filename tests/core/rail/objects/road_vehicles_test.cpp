@@ -1,11 +1,11 @@
-#include "core/rail/objects/road_vehicles.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/shipped_models.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -20,25 +20,26 @@ struct RoadVehicle {
   double wheelbase_m{};
 };
 
-// Data sheets as in road_vehicles.h; tyres by their names: 205/55 R 16 has 0.055 x 205 x 2 / 100
+// Data sheets as in scenarios/models/README.md; tyres by their names: 205/55 R 16 has 0.055 x 205 x
+// 2 / 100
 // + 16 inches of diameter.
 const std::vector<RoadVehicle> kRoadVehicles = {
-    {ObjectType::kCar, {4.284, 2.073, 1.456}, 1.789, 0.316, 1.272, 2.636},
-    {ObjectType::kLorry, {16.5, 2.55, 4.0}, 2.55, 0.536, 6.83, 3.70},
-    {ObjectType::kBus, {12.135, 2.95, 3.12}, 2.55, 0.478, 3.2625, 5.9},
-    {ObjectType::kTractor, {4.150, 2.275, 2.760}, 2.275, 0.783, 1.295, 2.35},
-    {ObjectType::kBicycle, {1.80, 0.60, 1.07}, 0.60, 0.348, 0.552, 1.104},
-    {ObjectType::kMotorcycle, {2.080, 0.790, 1.060}, 0.790, 0.312, 0.740, 1.410}};
+    {TypeNamed("car"), {4.284, 2.073, 1.456}, 1.789, 0.316, 1.272, 2.636},
+    {TypeNamed("lorry"), {16.5, 2.55, 4.0}, 2.55, 0.536, 6.83, 3.70},
+    {TypeNamed("bus"), {12.135, 2.95, 3.12}, 2.55, 0.478, 3.2625, 5.9},
+    {TypeNamed("tractor"), {4.150, 2.275, 2.760}, 2.275, 0.783, 1.295, 2.35},
+    {TypeNamed("bicycle"), {1.80, 0.60, 1.07}, 0.60, 0.348, 0.552, 1.104},
+    {TypeNamed("motorcycle"), {2.080, 0.790, 1.060}, 0.790, 0.312, 0.740, 1.410}};
 
 constexpr double kOfDataSheet_m = 0.02;
 constexpr double kVehicleRounding_m = 1e-5;  // Of float32 at 16 m.
 
 class RoadVehicles : public testing::Test {
  protected:
-  [[nodiscard]] Model Make(const RoadVehicle& vehicle) const {
-    return MakeRoadVehicle(vehicle.type, surfaces_);
-  }
-  const RoadVehicleSurfaces surfaces_ = FindRoadVehicleSurfaces(RailLabels(), RailMaterials());
+  [[nodiscard]] static Model Make(const RoadVehicle& vehicle) { return WholeModel(vehicle.type); }
+
+  const SurfaceClass tyre_ = SurfaceNamed("black_rubber", "road_vehicle");
+  const SurfaceClass reflector_ = SurfaceNamed("retro_sheeting", "road_vehicle");
 };
 
 TEST_F(RoadVehicles, HaveTheSizesOfTheirDataSheets) {
@@ -55,10 +56,10 @@ TEST_F(RoadVehicles, HaveTheSizesOfTheirDataSheets) {
 /// Mirrors are the widest parts, and only bodies reach below them.
 TEST_F(RoadVehicles, AreAsWideAsTheirDataSheetsSayBelowTheirMirrors) {
   for (const RoadVehicle& vehicle : kRoadVehicles) {
-    if (vehicle.type == ObjectType::kBicycle || vehicle.type == ObjectType::kMotorcycle) continue;
+    if (vehicle.type == TypeNamed("bicycle") || vehicle.type == TypeNamed("motorcycle")) continue;
     double half_width_m = 0.0;
     const Model model = Make(vehicle);
-    const double mirrors_m = vehicle.type == ObjectType::kCar ? 0.85 : 1.9;
+    const double mirrors_m = vehicle.type == TypeNamed("car") ? 0.85 : 1.9;
     for (const Part& part : model.parts) {
       for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
         if (static_cast<double>(vertex.z()) > mirrors_m) continue;
@@ -75,7 +76,7 @@ TEST_F(RoadVehicles, StandOnTheirTyresAtTheirWheelbase) {
     double highest_m = 0.0;
     double front_m = 0.0;
     double rear_m = 0.0;
-    for (const Vector3& p : VerticesOf(model, surfaces_.tyre)) {
+    for (const Vector3& p : VerticesOf(model, tyre_)) {
       highest_m = std::max(highest_m, p.z());
       if (p.z() > kVehicleRounding_m) continue;
       if (std::abs(p.x() - vehicle.front_axle_x_m) < 0.01) front_m = p.x();
@@ -93,7 +94,7 @@ TEST_F(RoadVehicles, AreClosedBodiesOfAFewThousandTriangles) {
     EXPECT_LE(model.num_triangles(), 5000U) << model.name;
     EXPECT_EQ(CountBadTriangles(model), 0U) << model.name;
     EXPECT_EQ(CountOpenEdges(model), 0U) << model.name;
-    for (const Part& part : model.parts) EXPECT_EQ(part.label, surfaces_.paint.label);
+    for (const Part& part : model.parts) EXPECT_EQ(part.label, tyre_.label);
   }
 }
 
@@ -118,19 +119,20 @@ double EndArea_m2(const Model& model, const SurfaceClass& surface, const Vector3
 }
 
 TEST_F(RoadVehicles, CarryRetroreflectivePlatesOf520By110MillimetresAtBothEnds) {
-  for (const Model& model : {MakeCar(surfaces_), MakeBus(surfaces_)}) {
-    const double front_m2 = EndArea_m2(model, surfaces_.reflector, Vector3::UnitX());
+  for (const Model& model : {WholeModel(TypeNamed("car")), WholeModel(TypeNamed("bus"))}) {
+    const double front_m2 = EndArea_m2(model, reflector_, Vector3::UnitX());
     EXPECT_NEAR(front_m2, 0.520 * 0.110, 1e-6) << model.name;
   }
-  const double rear_m2 = EndArea_m2(MakeCar(surfaces_), surfaces_.reflector, -Vector3::UnitX());
+  const double rear_m2 = EndArea_m2(WholeModel(TypeNamed("car")), reflector_, -Vector3::UnitX());
   EXPECT_NEAR(rear_m2, 0.520 * 0.110, 1e-6);
 }
 
 TEST_F(RoadVehicles, HaveWindowsAllAroundWhereTheyHaveABody) {
-  for (const ObjectType type : {ObjectType::kCar, ObjectType::kBus, ObjectType::kTractor}) {
-    const Model model = MakeRoadVehicle(type, surfaces_);
+  for (const ObjectType type : {TypeNamed("car"), TypeNamed("bus"), TypeNamed("tractor")}) {
+    const Model model = WholeModel(type);
     Eigen::AlignedBox3d windows;
-    for (const Vector3& p : VerticesOf(model, surfaces_.window)) windows.extend(p);
+    for (const Vector3& p : VerticesOf(model, SurfaceNamed("glass", "road_vehicle")))
+      windows.extend(p);
     const Vector3 share = windows.sizes().cwiseQuotient(model.Bounds().sizes());
     EXPECT_GT(share.x(), 0.4) << model.name;
     EXPECT_GT(share.y(), 0.6) << model.name;

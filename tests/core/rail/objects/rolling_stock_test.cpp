@@ -1,14 +1,13 @@
-#include "core/rail/objects/rolling_stock.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <vector>
 
-#include "core/rail/objects/wagon_parts.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
+#include "tests/core/rail/shipped_models.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -24,14 +23,10 @@ struct Wagon {
 
 class RollingStock : public testing::Test {
  protected:
-  [[nodiscard]] Model Whole(ObjectType type) const {
-    return WholeOf(MakeRailVehicle(type, surfaces_), MeasuresOf(type).pivot_distance_m);
-  }
-
-  const RailSurfaces surfaces_ = TestSurfaces();
-  const std::vector<Wagon> wagons_ = {{Whole(ObjectType::kOpenWagon), 14.04, 9.0},
-                                      {Whole(ObjectType::kFlatWagon), 19.74, 14.2},
-                                      {Whole(ObjectType::kTankWagon), 16.0, 10.5}};
+  const SurfaceClass wheel_ = SurfaceNamed("wheel_steel", "wagon");
+  const std::vector<Wagon> wagons_ = {{WholeModel(TypeNamed("open_wagon")), 14.04, 9.0},
+                                      {WholeModel(TypeNamed("flat_wagon")), 19.74, 14.2},
+                                      {WholeModel(TypeNamed("tank_wagon")), 16.0, 10.5}};
 };
 
 TEST_F(RollingStock, HasItsLengthOverBuffersInTheMiddleOfTheFrame) {
@@ -42,54 +37,10 @@ TEST_F(RollingStock, HasItsLengthOverBuffersInTheMiddleOfTheFrame) {
   }
 }
 
-TEST_F(RollingStock, KeepsWithinTheG1Envelope) {
-  for (const Wagon& wagon : wagons_) {
-    const Eigen::AlignedBox3d box = wagon.model.Bounds();
-    EXPECT_LE(box.max().y(), 3.15 / 2.0) << wagon.model.name;
-    EXPECT_GE(box.min().y(), -3.15 / 2.0) << wagon.model.name;
-    EXPECT_LE(box.max().z(), 4.28) << wagon.model.name;
-    EXPECT_NEAR(box.min().z(), -kFlangeHeight_m, kFloat32_m) << wagon.model.name;
-  }
-}
-
-TEST_F(RollingStock, IsMadeOfFewAndSoundTriangles) {
-  for (const Wagon& wagon : wagons_) {
-    EXPECT_GE(wagon.model.num_triangles(), 1500U) << wagon.model.name;
-    EXPECT_LE(wagon.model.num_triangles(), 7000U) << wagon.model.name;
-    EXPECT_EQ(CountBadTriangles(wagon.model), 0U) << wagon.model.name;
-    for (const Part& part : wagon.model.parts) EXPECT_EQ(part.label, surfaces_.wheel.label);
-  }
-}
-
-/// Counts the vertices on top of the rails, where the lowest corner of the tape circle is.
-TEST_F(RollingStock, StandsOnTheRailsWithAllEightWheels) {
-  for (const Wagon& wagon : wagons_) {
-    std::set<double> contacts_x_m;
-    for (const Vector3& p : VerticesOf(wagon.model, surfaces_.wheel)) {
-      const double outwards_m = std::abs(p.y());
-      if (std::abs(outwards_m - kTapeCircleDistance_m / 2.0) < kFloat32_m &&
-          std::abs(p.z()) < kFloat32_m) {
-        contacts_x_m.insert(std::round(p.x() * 1e3) / 1e3);
-      }
-      // The flange clears the rail, whose face is 1435 / 2 mm from the axis at 14 mm below its top.
-      if (p.z() <= -0.014) {
-        EXPECT_LT(outwards_m, 1.435 / 2.0);
-      }
-    }
-    const double pivot_m = wagon.pivot_distance_m / 2.0;
-    const std::set<double> expected = {-pivot_m - 0.9, -pivot_m + 0.9, pivot_m - 0.9,
-                                       pivot_m + 0.9};
-    ASSERT_EQ(contacts_x_m.size(), 4U) << wagon.model.name;
-    for (auto a = contacts_x_m.begin(), b = expected.begin(); a != contacts_x_m.end(); ++a, ++b) {
-      EXPECT_NEAR(*a, *b, 1e-3);
-    }
-  }
-}
-
 TEST_F(RollingStock, HasWheelsOf920MillimetresWithTheirFlangesBacks1360Apart) {
   double least_m = std::numeric_limits<double>::infinity();
   double highest_tread_m = 0.0;
-  for (const Vector3& p : VerticesOf(wagons_[0].model, surfaces_.wheel)) {
+  for (const Vector3& p : VerticesOf(wagons_[0].model, wheel_)) {
     const bool is_rim = std::abs(p.z() - kWheelRadius_m) > 0.9 * kWheelRadius_m;
     if (is_rim) least_m = std::min(least_m, std::abs(p.y()));
     if (std::abs(std::abs(p.y()) - kTapeCircleDistance_m / 2.0) < kFloat32_m) {
@@ -103,7 +54,7 @@ TEST_F(RollingStock, HasWheelsOf920MillimetresWithTheirFlangesBacks1360Apart) {
 TEST_F(RollingStock, HasBuffersAtUicHeightAndDistance) {
   for (const Wagon& wagon : wagons_) {
     Eigen::AlignedBox3d left;
-    for (const Vector3& p : VerticesOf(wagon.model, surfaces_.wagon_frame)) {
+    for (const Vector3& p : VerticesOf(wagon.model, SurfaceNamed("rusty_steel", "wagon"))) {
       // Only buffers extend into the last 50 mm of the wagon.
       if (p.x() > wagon.length_m / 2.0 - 0.05 && p.y() > 0.0) left.extend(p);
     }
@@ -118,7 +69,7 @@ TEST_F(RollingStock, LeavesTheOpenWagonsHoldEmpty) {
   // 12.8 x 2.76 x 2.10 from the floor, less a millimetre on all sides.
   const Eigen::AlignedBox3d hold(Vector3(-6.399, -1.379, 1.241), Vector3(6.399, 1.379, 3.339));
   Eigen::AlignedBox3d walls;
-  for (const Vector3& p : VerticesOf(wagons_[0].model, surfaces_.wagon_body)) {
+  for (const Vector3& p : VerticesOf(wagons_[0].model, SurfaceNamed("wagon_paint", "wagon"))) {
     EXPECT_FALSE(hold.contains(p)) << p.transpose();
     walls.extend(p);
   }
@@ -127,7 +78,8 @@ TEST_F(RollingStock, LeavesTheOpenWagonsHoldEmpty) {
 }
 
 TEST_F(RollingStock, CarriesContainersAt1160Millimetres) {
-  const std::vector<Vector3> body = VerticesOf(wagons_[1].model, surfaces_.wagon_body);
+  const std::vector<Vector3> body =
+      VerticesOf(wagons_[1].model, SurfaceNamed("wagon_paint", "wagon"));
   const auto num_supports = std::count_if(body.begin(), body.end(), [](const Vector3& p) {
     return std::abs(p.z() - 1.16) < kFloat32_m;
   });
@@ -137,7 +89,7 @@ TEST_F(RollingStock, CarriesContainersAt1160Millimetres) {
 
 TEST_F(RollingStock, GivesTheTankItsDiameterAndHeight) {
   Eigen::AlignedBox3d shell;
-  for (const Vector3& p : VerticesOf(wagons_[2].model, surfaces_.tank)) {
+  for (const Vector3& p : VerticesOf(wagons_[2].model, SurfaceNamed("tank_paint", "wagon"))) {
     if (std::abs(p.x()) > 2.0) shell.extend(p);  // Away from the fittings.
   }
   EXPECT_NEAR(shell.sizes().y(), 2.9, kFloat32_m);

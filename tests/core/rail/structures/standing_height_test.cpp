@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -88,7 +89,7 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   }
   ObjectSpec wagon = spec.objects.front();
   wagon.name = "wagon";
-  wagon.type = ObjectType::kFlatWagon;
+  wagon.type = TypeNamed("flat_wagon");
   spec.objects.push_back(wagon);
   const RailWorld world(spec, {}, RailLabels(), RailMaterials(), 1);
   const double top_of_rail_m = world.alignment().At(120.0).position_m.z();

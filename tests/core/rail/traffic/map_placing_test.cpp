@@ -12,6 +12,7 @@
 #include "core/base/units.h"
 #include "core/rail/line/map_place.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -134,7 +135,7 @@ TEST_F(PlacedOnAMap, ObjectsOfAWorldWithoutAMapStandAtItsOwnCoordinates) {
 
 TEST_F(PlacedOnAMap, RailVehiclesStandOnTheAxisOfTheirTrack) {
   ObjectSpec wagon = Person("branch", 250.0, 0.0);
-  wagon.type = ObjectType::kFlatWagon;
+  wagon.type = TypeNamed("flat_wagon");
   wagon.heading_deg = 0.0;
   const Transform world_from_wagon = Make(wagon)->WorldFromObject(0, 0);
   const auto beside_m = [&](double d_m) -> Eigen::Vector2d {

@@ -10,6 +10,7 @@
 #include "core/base/units.h"
 #include "core/rail/objects/rail_vehicles.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -34,9 +35,9 @@ WorldSpec LineWithTrain(const std::string& track, double s_m) {
   train.name = "freight";
   train.track = track;
   train.s_m = s_m;
-  train.vehicles = {{ObjectType::kTankWagon, {}, false},
-                    {ObjectType::kFlatWagon, "container", false},
-                    {ObjectType::kOpenWagon, {}, true}};
+  train.vehicles = {{TypeNamed("tank_wagon"), {}, false},
+                    {TypeNamed("flat_wagon"), "container", false},
+                    {TypeNamed("open_wagon"), {}, true}};
   world.trains = {train};
   return world;
 }
@@ -96,10 +97,10 @@ TEST(Trains, StandInTheirOrderWithTouchingBuffers) {
 // and b^2 / 8 R, which sets their ends off against each other by another 42 mm at most.
 TEST(Trains, TouchWithTheirBuffersBesideACurve) {
   const RailWorld world = WorldOf(LineWithTrain("second", 500.0));
-  const Vector3 rear_of_first = EndOf(world, 0, ObjectType::kTankWagon, -1.0);
-  const Vector3 front_of_second = EndOf(world, 1, ObjectType::kFlatWagon, 1.0);
-  const Vector3 rear_of_second = EndOf(world, 1, ObjectType::kFlatWagon, -1.0);
-  const Vector3 front_of_third = EndOf(world, 2, ObjectType::kOpenWagon, -1.0);  // Turned.
+  const Vector3 rear_of_first = EndOf(world, 0, TypeNamed("tank_wagon"), -1.0);
+  const Vector3 front_of_second = EndOf(world, 1, TypeNamed("flat_wagon"), 1.0);
+  const Vector3 rear_of_second = EndOf(world, 1, TypeNamed("flat_wagon"), -1.0);
+  const Vector3 front_of_third = EndOf(world, 2, TypeNamed("open_wagon"), -1.0);  // Turned.
   const Vector3 along = world.WorldFromObject(1, 0).linear().col(0);
   EXPECT_NEAR((rear_of_first - front_of_second).dot(along), 0.0, 0.01);
   EXPECT_NEAR((rear_of_second - front_of_third).dot(along), 0.0, 0.01);
@@ -113,7 +114,7 @@ TEST(Trains, TurnTheBogiesOfStandingVehiclesInACurve) {
   const std::vector<Transform> pieces = world.WorldFromPieces(1, 0);
   ASSERT_THAT(pieces, SizeIs(3));
   EXPECT_TRUE(pieces[0].isApprox(world.WorldFromObject(1, 0), 1e-15));
-  const double half_m = 0.5 * MeasuresOf(ObjectType::kFlatWagon).pivot_distance_m;
+  const double half_m = 0.5 * MeasuresOf(TypeNamed("flat_wagon")).pivot_distance_m;
   const Eigen::Matrix3d body_from_front = pieces[0].linear().transpose() * pieces[1].linear();
   EXPECT_NEAR(std::asin(body_from_front(1, 0)), std::asin(half_m / kArcRadius_m), 1e-6);
   // Body, front bogie and rear bogie are all of the vehicle.
@@ -154,7 +155,7 @@ TEST(Trains, MustBeOnTheirTracks) {
   EXPECT_EQ(TrainFaultOf(LineWithTrain("third", 300.0)),
             "/world/trains/0/track: must be one of \"main\", \"second\" (got \"third\")");
   WorldSpec spec = LineWithTrain("main", 300.0);
-  spec.trains[0].vehicles.resize(50, {ObjectType::kFlatWagon, {}, false});
+  spec.trains[0].vehicles.resize(50, {TypeNamed("flat_wagon"), {}, false});
   EXPECT_EQ(TrainFaultOf(spec),
             "/world/trains/0/vehicles: must be at most as long together as track \"main\", 700 m "
             "(got 977.56 m)");
@@ -169,11 +170,11 @@ TEST(Trains, HavePivotsThatFitIntoTheirCurves) {
   spec.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 700.0, 12.0}}};
   spec.terrain.half_width_m = 5.0;
   spec.tracks.pop_back();
-  spec.trains[0].vehicles = {{ObjectType::kOpenWagon, {}, false},
-                             {ObjectType::kFlatWagon, {}, false}};
+  spec.trains[0].vehicles = {{TypeNamed("open_wagon"), {}, false},
+                             {TypeNamed("flat_wagon"), {}, false}};
   ObjectSpec coach;
   coach.name = "coach";
-  coach.type = ObjectType::kCoach;
+  coach.type = TypeNamed("coach");
   coach.s_m = 400.0;
   spec.objects = {coach};
   VehicleSpec vehicle;
@@ -217,9 +218,9 @@ TEST(Trains, LoseNoSingleVehicle) {
 VehicleSpec OwnTrain() {
   VehicleSpec vehicle;
   vehicle.start_s_m = 450.0;
-  vehicle.consist = {{ObjectType::kTankWagon, {}, false},
-                     {ObjectType::kFlatWagon, {}, false},
-                     {ObjectType::kOpenWagon, {}, false}};
+  vehicle.consist = {{TypeNamed("tank_wagon"), {}, false},
+                     {TypeNamed("flat_wagon"), {}, false},
+                     {TypeNamed("open_wagon"), {}, false}};
   vehicle.sensor_vehicle = 1;
   return vehicle;
 }

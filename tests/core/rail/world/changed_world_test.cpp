@@ -9,6 +9,7 @@
 #include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
 #include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/test_tables.h"
 
 namespace railcast {
@@ -26,7 +27,7 @@ ObjectSpec Object(const std::string& name, ObjectType type, double s_m) {
 std::shared_ptr<const RailWorld> Make(bool vehicle_moves = true) {
   WorldSpec world;
   world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}}}};
-  world.objects = {Object("wagon", ObjectType::kOpenWagon, 100.0)};
+  world.objects = {Object("wagon", TypeNamed("open_wagon"), 100.0)};
   VehicleSpec vehicle;
   vehicle.start_s_m = 30.0;
   if (vehicle_moves) vehicle.motion.profile = {{0.0, std::nullopt, 20.0}};

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
+#include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -125,7 +126,7 @@ TEST(RailWorld, KnowsWhereTheVehicleIsInItsHomeChunk) {
 
 TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
   WorldSpec spec = CurvedWorld();
-  spec.objects = {ObjectAt("wagon", ObjectType::kOpenWagon, 100.0),
+  spec.objects = {ObjectAt("wagon", TypeNamed("open_wagon"), 100.0),
                   ObjectAt("walker", ObjectType::kPerson, 120.0)};
   spec.objects[1].motion = MotionSpec{{{0.0, std::nullopt, 1.5}}};
   VehicleSpec vehicle = MovingVehicle();
@@ -152,7 +153,7 @@ TEST(RailWorld, NumbersItsObjectsAndPutsTheVehicleLast) {
 
 TEST(RailWorld, PlacesObjectsByTheirTrack) {
   WorldSpec spec = CurvedWorld();
-  spec.objects = {ObjectAt("wagon", ObjectType::kTankWagon, 500.0),
+  spec.objects = {ObjectAt("wagon", TypeNamed("tank_wagon"), 500.0),
                   ObjectAt("walker", ObjectType::kPerson, 500.0)};
   spec.objects[0].track = "second";
   spec.objects[1].d_m = -2.0;
@@ -177,7 +178,7 @@ TEST(RailWorld, PlacesObjectsByTheirTrack) {
 
 TEST(RailWorld, LaysADragShoeOnTheRail) {
   WorldSpec spec = CurvedWorld();
-  spec.objects = {ObjectAt("shoe", ObjectType::kDragShoe, 500.0)};
+  spec.objects = {ObjectAt("shoe", TypeNamed("drag_shoe"), 500.0)};
   spec.objects[0].d_m = 0.753;
   const RailWorld world = MakeRailWorld(spec, {});
   EXPECT_TRUE(world.WorldFromObject(0, 0).translation().isApprox(

@@ -60,7 +60,7 @@ TEST(CheckWorld, HasTurnoutsAndWagonsOfStandardGaugeOnly) {
                           .begin = TurnoutSpec{"main", 300.0, TurnoutType::k9_190, {}, {}}});
   world.diamond_crossings = {{{"main", "loop"}, 600.0}};
   world.objects = {Box("box", 100.0), Box("wagon", 150.0)};
-  world.objects[1].type = ObjectType::kTankWagon;
+  world.objects[1].type = TypeNamed("tank_wagon");
   EXPECT_THAT(
       Faults(world),
       ElementsAre("/world/diamond_crossings/0/tracks: must be tracks that cross (got "

@@ -1,0 +1,278 @@
+#!/usr/bin/python3
+"""Measures what each effect changes in each shipped situation, for docs/effects_table.md.
+
+    scripts/effects_table.py BUILD [--results FILE] [--frames N] [--costs] [NAME...]
+
+Each situation is simulated by `railcast-analyze compare --ablate` with four sensors in place of its own, whose window
+and receiver they keep, on rung `footprint`; effects of other rungs on the first rung that has them. Of the sensors
+every third to 32nd column fires, which changes no share. What has been measured is kept in FILE
+(out/effects_table.json) and not measured again; NAME measures these situations anew. --costs counts instructions
+with valgrind. Shares are the same on every machine and beside any other work.
+"""
+
+import argparse
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+SITUATIONS = ROOT / "scenarios" / "situations"
+PAGE = ROOT / "docs" / "effects_table.md"
+SENSORS = {"vir2rail": 3, "vlp16": 8, "pandar64": 32, "rosette": 3}
+# Keys that are no effects: the situation that has each, where, and on which of its sensors it acts.
+KEYS = {
+    "fog_variation": ("metre_gauge", ["weather"], 0),
+    "gauge_mm": ("metre_gauge", ["world", "alignment"], 0),
+    "ride": ("metre_gauge", ["vehicle"], 0),
+    "mount_error": ("two_lidars", ["lidars", 1], 1),
+    "phase_s": ("two_lidars", ["lidars", 1], 1),
+    "tolerance_mm": ("scanned_boulder", ["world", "objects", 0], 0),
+}
+
+
+def read(path):
+    return json.loads(path.read_text())
+
+
+def section_of(path):
+    return {key: value for key, value in read(path).items() if key not in ("$schema", "version")}
+
+
+def sensors_of(situation, folder):
+    """The lidars of a situation's file or of its base: the four sensors, thinned, where its first one sits."""
+    own = situation if "lidar" in situation or "lidars" in situation else read(SITUATIONS / "base.json")
+    own = own["lidar"] if "lidar" in own else own["lidars"][0]
+    lidars = []
+    for name, every in SENSORS.items():
+        lidar = section_of(ROOT / "scenarios" / "sensors" / f"{name}.json")
+        pattern = lidar["scan"]["pattern"]
+        if "angular_resolution_deg" in pattern:
+            pattern["angular_resolution_deg"] *= every
+        elif "columns" in pattern:
+            pattern["columns"] //= every
+            pattern["cycle_us"] *= every
+        else:
+            rows = (ROOT / "scenarios" / "sensors" / pattern["file"]).read_text().splitlines()
+            pattern["file"] = str(folder / f"{name}.csv")
+            pathlib.Path(pattern["file"]).write_text("\n".join([rows[0], *rows[1::every]]) + "\n")
+        receiver = {k: v for k, v in own.get("receiver", {}).items() if k != "range_at_10_percent_m"}
+        lidar["receiver"] = lidar.get("receiver", {}) | receiver
+        lidar |= {"name": name, "mount": own["mount"]}
+        if "cover" in own:
+            lidar["cover"] = own["cover"]
+        lidars.append(lidar)
+    return lidars
+
+
+def scenario_of(path, folder, **changes):
+    return {"version": 1, "file": str(path), "fidelity": "footprint",
+            "lidars": sensors_of(read(path), folder)} | changes
+
+
+def ablated(build, scenario, options, before=()):
+    """{sensor: rows of the report's table of effects} of a scenario."""
+    with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+        json.dump(scenario, file)
+        file.flush()
+        said = subprocess.run([*before, build / "analysis" / "railcast-analyze", "compare", "--ablate", file.name,
+                               "--all-effects", "--format", "json", *options],
+                              check=True, stdout=subprocess.PIPE, text=True).stdout
+    reports, decoder = {}, json.JSONDecoder()
+    for lidar in scenario["lidars"]:
+        report, end = decoder.raw_decode(said.lstrip())
+        said = said.lstrip()[end:]
+        reports[lidar["name"]] = next(table["rows"] for section in report["sections"]
+                                      for table in section["tables"] if table["key"] == "effects")
+    return reports
+
+
+def number(cell):
+    return (cell.get("value") if isinstance(cell, dict) else cell) or 0.0
+
+
+def figures(row):
+    """Of a row of the report: shares of the firings in percent, and sizes of changes."""
+    beams = row["beams"]
+    echoes = 100.0 * (row["points_taken"] + row["points_added"]) / beams
+    return {"any": 100.0 - number(row["identical_percent"]), "outcome": number(row["outcome_percent"]),
+            "echoes": echoes, "moved": number(row["moved_percent"]), "moved_m": number(row["moved_median_m"]),
+            "intensity": number(row["intensity_percent"]), "intensity_by": number(row["intensity_median"])}
+
+
+def measure(build, path, frames):
+    with tempfile.TemporaryDirectory() as folder:
+        reports = ablated(build, scenario_of(path, pathlib.Path(folder)), ["--frames", str(frames)])
+    return {sensor: {row["effect"]: figures(row) for row in rows} for sensor, rows in reports.items()}
+
+
+def measure_costs(build):
+    """{effect: instructions per firing}: of a frame in which everything has a cause, less those of the same frame
+    without the effect (callgrind)."""
+    weather = {"rain_rate_mmph": 10, "snow_rate_mmph": 1, "snow_cover": 0.2, "visibility_m": 200, "puddle_share": 0.1,
+               "spray_extinction_per_m": 0.2, "sun": {"illuminance_klx": 80, "azimuth_deg": 0, "elevation_deg": 10}}
+    path = SITUATIONS / "train_spray.json"
+    world = read(path)["world"] | {"vegetation": {"trees_per_hectare": 0, "grass": False}}  # Which take long to build.
+    with tempfile.TemporaryDirectory() as folder:
+        scenario = scenario_of(path, pathlib.Path(folder), weather=weather, world=world)
+    lidar = scenario["lidars"][0]
+    lidar["scan"]["pattern"]["angular_resolution_deg"] = 1.0
+    lidar["cover"] = {"drop_coverage": 0.05, "dirt_coverage": 0.05}
+    lidar["plausibility"] = {"dropout_probability": 0.01}
+    lidar["receiver"] |= {"halo_share_at_1_deg": 1e-5, "range_walk_m": 0.05, "foreign_pulses_hz": 5000,
+                          "saturation_power_ratio": 1000, "ghost_reflectance": 0.1, "dead_time_ns": 10}
+    scenario["lidars"] = [lidar]
+    with tempfile.TemporaryDirectory() as folder:
+        rows = ablated(build, scenario, ["--frames", "1", "--threads", "1"],
+                       ["valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={folder}/counts",
+                        "--toggle-collect=railcast::Simulator::Parts::Scan*",
+                        "--dump-after=railcast::Simulator::Parts::Scan*"])["vir2rail"]
+        dumps = sorted(pathlib.Path(folder).glob("counts.*"), key=lambda path: int(path.suffix[1:]))
+        scans = [int(re.search(r"^totals: (\d+)", dump.read_text(), re.M)[1]) for dump in dumps]
+    scans = [scan for scan in scans if scan > 0]
+    # A scan of each set of effects that others are switched in comes before the first of these.
+    bases, costs = {}, {}
+    for row in rows:
+        base = row["in_scenario"] if row["in_scenario"].startswith("on ") else ""
+        if base not in bases:
+            bases[base] = scans.pop(0)
+        switched = scans.pop(0)
+        is_on = row["in_scenario"] != "off"
+        costs[row["effect"]] = (bases[base] - switched if is_on else switched - bases[base]) / row["beams"]
+        costs[f"scan {base or 'on footprint'}"] = bases[base] / row["beams"]
+    return costs
+
+
+def measure_keys(build):
+    """{key: percent of the firings that change in some bit where the key is left out}, in the middle of a run."""
+    import sys
+    sys.path.insert(0, str(build / "python"))
+    import numpy as np
+    import railcast
+    shares = {}
+    for key, (situation, place, sensor) in KEYS.items():
+        path = SITUATIONS / f"{situation}.json"
+        if not path.exists():
+            continue
+        frames = []
+        for is_left_out in (False, True):
+            scenario = read(path)
+            section = scenario
+            for step in place:
+                if isinstance(section[step], str):  # A file.
+                    section[step] = section_of(SITUATIONS / section[step])
+                section = section[step]
+            if is_left_out:
+                del section[key]
+            frames.append(railcast.Simulator(scenario, file=str(path)).scan(100, sensor))
+        same = np.ones(frames[0]["range_m"].shape, dtype=bool)
+        for field in ("x", "y", "z", "intensity", "range_m", "outcome"):
+            a, b = (frame[field] for frame in frames)
+            same &= (a == b) | ((a != a) & (b != b))
+        shares[key] = 100.0 * (1.0 - same.mean())
+    return shares
+
+
+def share(value):
+    """A share in percent, short."""
+    return "" if value == 0 else "< 0.01" if value < 0.01 else f"{value:.2g}" if value < 10 else f"{value:.0f}"
+
+
+def matters(cell):
+    """By what effects are sorted: firings that end otherwise, or echoes that come and go."""
+    return max(cell["outcome"], cell["echoes"])
+
+
+def page_of(results):
+    names = sorted(results["situations"])
+    effects = list(next(iter(results["situations"][names[0]].values())))
+
+    def mean(name, effect, figure):
+        return statistics.fmean(rows[effect][figure] for rows in results["situations"][name].values())
+
+    costs = results.get("costs", {})
+    glance = []
+    for effect in effects:
+        cells = [(matters(cell), cell["any"] * (cell["moved_m"] + cell["intensity_by"]), name, sensor, cell)
+                 for name in names for sensor, rows in results["situations"][name].items()
+                 for cell in [rows[effect]]]
+        best = max(cells, key=lambda cell: cell[:3])
+        glance.append((best, effect))
+    glance.sort(key=lambda entry: entry[0][:2], reverse=True)
+    lines = [(PAGE.read_text() if PAGE.exists() else "").split("<!-- table -->")[0].rstrip() + "\n\n<!-- table -->\n",
+             "| effect | matters most in | outcome % | echoes % | moved %, by | intensity %, by | any bit %, median | "
+             "cost |", "|---|---|---|---|---|---|---|---|"]
+    for (_, _, name, sensor, cell), effect in glance:
+        is_idle = cell["any"] == 0
+        moved = f"{share(cell['moved'])}, {1000 * cell['moved_m']:.2g} mm" if cell["moved"] else ""
+        dimmed = f"{share(cell['intensity'])}, {cell['intensity_by']:.2g}" if cell["intensity"] else ""
+        median = statistics.median(mean(other, effect, "any") for other in names)
+        cost = f"{max(costs[effect], 0):,.0f}" if effect in costs else ""
+        where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
+        lines.append(f"| [`{effect}`](effects.md) | {where} | {share(cell['outcome'])} | {share(cell['echoes'])} | "
+                     f"{moved} | {dimmed} | {share(median)} | {cost} |")
+    if costs:
+        scans = {key[8:]: value for key, value in costs.items() if key.startswith("scan on ")}
+        lines += ["", "A whole scan takes " + ", ".join(
+            f"{value:,.0f} on `{rung}`" for rung, value in scans.items()) + ": instructions a firing, as the costs."]
+    lines += ["", "## Keys that are no effects", "",
+              "| key | situation | firings that change without it % |", "|---|---|---|"]
+    for key, value in results.get("keys", {}).items():
+        situation = KEYS[key][0]
+        lines.append(f"| `{key}` | [{situation}](../scenarios/situations/{situation}.json) | {share(value)} |")
+    lines += ["", "## By sensor", "", "Firings of which anything changes, in percent: the median over the situations and "
+              "the most.", "", "| effect | " + " | ".join(f"{sensor}: median, most" for sensor in SENSORS) + " |",
+              "|---|" + "---|" * len(SENSORS)]
+    for effect in effects:
+        cells = []
+        for sensor in SENSORS:
+            shares = [results["situations"][name][sensor][effect]["any"] for name in names]
+            cells.append(f"{share(statistics.median(shares)) or 0}, {share(max(shares)) or 0}")
+        lines.append(f"| `{effect}` | " + " | ".join(cells) + " |")
+    for title, figure in (("Every situation: outcomes", "outcome"), ("Every situation: echoes", "echoes"),
+                          ("Every situation: anything", "any")):
+        lines += ["", f"## {title}", "", {
+            "outcome": "Percent of the firings that end otherwise, mean over the four sensors.",
+            "echoes": "Points that come or go, in percent of the firings, mean over the four sensors.",
+            "any": "Percent of the firings of which any bit changes, mean over the four sensors."}[figure], ""]
+        shown = [effect for effect in effects if any(mean(name, effect, figure) >= 0.005 for name in names)]
+        lines += ["| situation | " + " | ".join(f"`{effect}`" for effect in shown) + " |", "|---|" + "---|" * len(shown)]
+        for name in names:
+            lines.append(f"| {name} | " + " | ".join(share(mean(name, effect, figure)) for effect in shown) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "out" / "effects_table.json")
+    parser.add_argument("--frames", type=int, default=1, help="sample frames of each situation")
+    parser.add_argument("--costs", action="store_true")
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    arguments = parser.parse_args()
+    build = arguments.build.resolve()
+    results = {"situations": {}}
+    if arguments.results.exists():
+        results = read(arguments.results)
+
+    def keep():
+        arguments.results.parent.mkdir(parents=True, exist_ok=True)
+        arguments.results.write_text(json.dumps(results, indent=1) + "\n")
+
+    for path in sorted(SITUATIONS.glob("*.json")):
+        name = path.stem
+        if name != "base" and (name in arguments.names or name not in results["situations"]):
+            results["situations"][name] = measure(build, path, arguments.frames)
+            keep()
+            print(name, flush=True)
+    if arguments.costs or "costs" not in results:
+        results["costs"] = measure_costs(build)
+    results["keys"] = measure_keys(build)
+    keep()
+    PAGE.write_text(page_of(results))
+
+
+if __name__ == "__main__":
+    main()
