@@ -132,7 +132,7 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
       IsScene(*format) || *format == MeshFormat::kAsciiStl || *format == MeshFormat::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
   CheckCorners(shown, soup);
-  ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false), units.keeps_origin);
+  ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
   mesh.has_own_up = IsScene(*format) && *format != MeshFormat::k3ds;
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");
   return mesh;
@@ -201,7 +201,7 @@ std::vector<FileBeside> FilesBesideMesh(const std::string& bytes,
 
 ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units) {
   if (const auto shipped = ShippedFile(file.native())) {
-    if (!units.unit_m && !units.y_up && units.keeps_origin) return ReadShippedPly(*shipped);
+    if (!units.unit_m && !units.y_up) return ReadShippedPly(*shipped);
     return ParseMesh(std::string(*shipped), file, units);
   }
   std::string bytes = ReadFileWhole(file);

@@ -13,11 +13,8 @@ namespace railcast {
 /// How a mesh file is to be understood. What is absent is taken from the file where its format
 /// says it (glTF, FBX and DAE); all others are taken to be in metres with z up.
 struct MeshUnits {
-  std::optional<double> unit_m{};  ///< Metres per file unit.
-  std::optional<bool> y_up{};
-  /// Whether vertices are rounded to float32 about the file's origin, for meshes that stay there,
-  /// and not about the middle of the mesh.
-  bool keeps_origin = false;
+  std::optional<double> unit_m;  ///< Metres per file unit.
+  std::optional<bool> y_up;
 };
 
 /// How many corners a face may have.

@@ -175,8 +175,8 @@ std::size_t ImportedMesh::num_triangles() const {
       [](std::size_t sum, const NamedMesh& part) { return sum + part.mesh.triangles.size(); });
 }
 
-ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up, bool keeps_origin) {
-  const Vector3 middle = keeps_origin ? Vector3(Vector3::Zero()) : MiddleOf(soup);
+ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up) {
+  const Vector3 middle = MiddleOf(soup);
   const auto z_up_m = [&](const Vector3& p) {
     return Vector3(unit_m * (y_up ? Vector3(p.x(), -p.z(), p.y()) : p));
   };

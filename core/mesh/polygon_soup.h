@@ -74,12 +74,9 @@ struct ImportedMesh {
 
 /// Cuts all faces into triangles. Every face keeps its area. Lengths are multiplied by `unit_m`; if
 /// `y_up`, y becomes z and z becomes -y. Vertices are centred in double precision before they are
-/// rounded to float32, so that a mesh in map coordinates is as exact as one about its origin; with
-/// `keeps_origin` they are not centred. Triangles without area in float32 and unused points are
-/// left out. The vertices of a part are in the order of the file.
-[[nodiscard]] ImportedMesh MakeTriangles(const PolygonSoup& soup,
-                                         double unit_m,
-                                         bool y_up,
-                                         bool keeps_origin = false);
+/// rounded to float32, so that a mesh in map coordinates is as exact as one about its origin.
+/// Triangles without area in float32 and unused points are left out. The vertices of a part are in
+/// the order of the file.
+[[nodiscard]] ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up);
 
 }  // namespace railcast

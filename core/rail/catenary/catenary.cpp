@@ -231,7 +231,7 @@ void AddCatenary(const ChunkContext& context,
     if (support.s_m < context.begin_s_m || (support.s_m >= context.end_s_m && !is_last_of_line)) {
       continue;
     }
-    AddSupport(context, plan, models, i, chunk);
+    AddSupport(context, plan, mast_model, i, chunk);
   }
   chunk.wires = WiresInChunk(context, plan);
   for (const Wire& wire : chunk.wires) {

@@ -23,9 +23,7 @@ constexpr double kFarthestFromOrigin_m = 8192.0;
 constexpr double kNormalTolerance_deg = 20.0;
 
 MeshUnits UnitsOfMesh(const ObjectSpec& spec) {
-  MeshUnits units{.unit_m = spec.unit_m,
-                  .y_up = std::nullopt,
-                  .keeps_origin = spec.origin == MeshOrigin::kFile};
+  MeshUnits units{.unit_m = spec.unit_m, .y_up = std::nullopt};
   if (spec.up) units.y_up = *spec.up == UpAxis::kY;
   return units;
 }

@@ -150,8 +150,7 @@ Vector3 BicyclePlace(const BodyMeasures& body) {
 }
 
 void AddBicycle(const BodyMeasures& body, const PersonSurfaces& surfaces, Model& model) {
-  const ImportedMesh bicycle =
-      ReadMesh(std::string(kShippedPrefix) + "bicycle.ply", {.keeps_origin = true});
+  const ImportedMesh bicycle = ReadMesh(std::string(kShippedPrefix) + "bicycle.ply");
   const auto surface_of = [&](const std::string& part) {
     if (part == "tyre") return surfaces.tyre;
     if (part == "reflector") return surfaces.reflector;

@@ -3,28 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "core/base/attempt.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/rail/clearance/system_height.h"
 #include "core/rail/landform/cut_and_fill.h"
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/network/network_check.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/network/route.h"
-#include "core/rail/network/turnout_place.h"
 #include "core/rail/network/yard.h"
 #include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/bogies.h"
-#include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/map_placing.h"
 #include "core/rail/traffic/train_draft.h"
+#include "core/rail/world/world_check.h"
 
 namespace railcast {
 namespace {
