@@ -19,6 +19,11 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net stream recording verify".split(),
+    "generator": ". record run check sequence live trace world dataset import python".split(),
+    "generator/import": "map fit heights lines network structures .".split(),
+    "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
+    "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),
 }
 # The public headers, included by programs that embed railcast. Each header belongs to the folder
 # that implements it, or to a room of that folder.
