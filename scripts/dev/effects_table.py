@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures what each effect changes in each shipped situation, for docs/effects_table.md.
 
-    scripts/effects_table.py BUILD [--results FILE] [--frames N] [--costs] [NAME...]
+    scripts/dev/effects_table.py BUILD [--results FILE] [--frames N] [--costs] [NAME...]
 
 Each situation is simulated by `railcast-analyze compare --ablate` with four sensors in place of its own, whose window
 and receiver they keep, on rung `footprint`; effects of other rungs on the first rung that has them. Of the sensors
@@ -18,7 +18,7 @@ import statistics
 import subprocess
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITUATIONS = ROOT / "scenarios" / "situations"
 PAGE = ROOT / "docs" / "effects_table.md"
 SENSORS = {"vir2rail": 3, "vlp16": 8, "pandar64": 32, "rosette": 3}
