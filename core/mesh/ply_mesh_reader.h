@@ -20,7 +20,7 @@ namespace railcast {
                                       std::string_view bytes,
                                       double largest);
 
-/// Reads a PLY file of scenarios/models as it is, about its own origin, twenty times as fast: it is
+/// Reads a PLY file of scenarios/models as it is, about its own origin, by a shorter way: it is
 /// binary, its vertices are floats in the order of the parts, and its faces are triangles of 16-bit
 /// corners with a `material_index`.
 [[nodiscard]] ImportedMesh ReadShippedPly(std::string_view bytes);

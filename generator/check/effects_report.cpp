@@ -28,7 +28,8 @@ std::string IdleWeatherText(const ScenarioSpec& scenario, const EffectSet& effec
                                             "wetness",           "snow_cover",     "sun"};
   std::string names;
   WeatherSpec weather = scenario.weather;
-  for (const auto& [key, value] : JsonWriter::WriteShort(weather).items()) {
+  const Json given = JsonWriter::WriteShort(weather);
+  for (const auto& [key, value] : given.items()) {
     if (key.starts_with("wind_") || IsReadByAny(key, effects)) continue;
     if (scenario.camera && std::ranges::find(kOfCamera, key) != std::end(kOfCamera)) continue;
     names += (names.empty() ? "" : ", ") + key;

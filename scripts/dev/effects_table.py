@@ -145,6 +145,13 @@ def measure_costs(build):
     return costs
 
 
+def costs_in_source():
+    """The counts that rows of the table of effects hold, of the effects that fidelity auto judges."""
+    text = "".join(path.read_text() for path in sorted((ROOT / "core" / "detect").glob("**/*_effects.cpp")))
+    rows = re.findall(r'\.name = "(\w+)"((?:(?!\.name = ).)*)', text, re.DOTALL)
+    return {name: float(found[1]) for name, row in rows if (found := re.search(r"\.instructions = ([\d.]+)", row))}
+
+
 def measure_keys(build):
     """{key: percent of the firings that change in some bit where the key is left out}, in the middle of a run."""
     import sys
@@ -192,7 +199,8 @@ def page_of(results):
     def mean(name, effect, figure):
         return statistics.fmean(rows[effect][figure] for rows in results["situations"][name].values())
 
-    costs = results.get("costs", {})
+    costs = results.get("costs") or costs_in_source()
+    headings = re.findall(r"^## (.+)$", (ROOT / "docs" / "effects.md").read_text(), re.M)
     glance = []
     for effect in effects:
         cells = [(matters(cell), cell["any"] * (cell["moved_m"] + cell["intensity_by"]), name, sensor, cell)
@@ -206,14 +214,20 @@ def page_of(results):
              "cost |", "|---|---|---|---|---|---|---|---|"]
     for (_, _, name, sensor, cell), effect in glance:
         is_idle = cell["any"] == 0
-        moved = f"{share(cell['moved'])}, {1000 * cell['moved_m']:.2g} mm" if cell["moved"] else ""
-        dimmed = f"{share(cell['intensity'])}, {cell['intensity_by']:.2g}" if cell["intensity"] else ""
+        moved_by = f", {1000 * cell['moved_m']:.2g} mm" if cell["moved_m"] < 1 else f", {cell['moved_m']:.1f} m"
+        moved = share(cell["moved"]) + (moved_by if cell["moved_m"] else "")
+        dimmed = share(cell["intensity"]) + (f", {cell['intensity_by']:.2g}" if cell["intensity_by"] else "")
         median = statistics.median(mean(other, effect, "any") for other in names)
         cost = f"{max(costs[effect], 0):,.0f}" if effect in costs else ""
         where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
-        lines.append(f"| [`{effect}`](effects.md) | {where} | {share(cell['outcome'])} | {share(cell['echoes'])} | "
+        heading = next((heading for heading in headings if effect in heading.split()), "")
+        anchor = "#" + heading.replace(" ", "-") if heading else ""
+        lines.append(f"| [`{effect}`](effects.md{anchor}) | {where} | {share(cell['outcome'])} | {share(cell['echoes'])} | "
                      f"{moved} | {dimmed} | {share(median)} | {cost} |")
-    if costs:
+    num_shipped = len(list(SITUATIONS.glob("*.json"))) - 1
+    if len(names) < num_shipped:
+        lines += ["", f"{len(names)} of {num_shipped} situations are measured so far."]
+    if "costs" in results:
         scans = {key[8:]: value for key, value in costs.items() if key.startswith("scan on ")}
         lines += ["", "A whole scan takes " + ", ".join(
             f"{value:,.0f} on `{rung}`" for rung, value in scans.items()) + ": instructions a firing, as the costs."]
@@ -267,7 +281,7 @@ def main():
             results["situations"][name] = measure(build, path, arguments.frames)
             keep()
             print(name, flush=True)
-    if arguments.costs or "costs" not in results:
+    if arguments.costs:
         results["costs"] = measure_costs(build)
     results["keys"] = measure_keys(build)
     keep()

@@ -52,7 +52,7 @@ SITUATIONS = {
     "deer": (200, ["doe", "second_deer", "dog", "cow"]),
     "debris": (230, ["drag_shoe", "carton", "pallet", "tyre", "boulder", "branch", "ballast_heap"]),
     "hanging_wire": (240, ["wire"]),
-    "train_spray": (70, ["worker"]),
+    "train_spray": (85, ["worker"]),
     "retro_signs": (110, ["worker", "person"]),
     "dirty_window": (260, ["person", "wagons/2"]),
     "two_lidars": (120, ["person", "oncoming/1"]),

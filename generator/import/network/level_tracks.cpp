@@ -22,22 +22,7 @@ struct TrackLevel {
 /// A track that is parallel to its line but for S-curves between its levels.
 struct TrackLevels {
   std::vector<TrackLevel> levels;  ///< At least one, in order of chainage.
-
-  /// As a track with `offsets_m` has it; beyond its ends the first or the last level.
-  [[nodiscard]] double OffsetAt_m(double s_m) const;
 };
-
-double TrackLevels::OffsetAt_m(double s_m) const {
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    if (s_m <= levels[i].end_s_m || i + 1 == levels.size()) return levels[i].d_m;
-    const TrackLevel& next = levels[i + 1];
-    if (s_m >= next.begin_s_m) continue;
-    const double share = (s_m - levels[i].end_s_m) / (next.begin_s_m - levels[i].end_s_m);
-    const double smooth = share * share * share * (10.0 + share * (6.0 * share - 15.0));
-    return std::lerp(levels[i].d_m, next.d_m, smooth);
-  }
-  return levels.back().d_m;
-}
 
 // Divides a run into levels within 0.35 m of which its points lie, each at least 60 m long, and
 // S-curves of radii of 1000 m and more between them. Absent if more than 30 % of the run, or of

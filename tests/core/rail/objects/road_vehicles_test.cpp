@@ -128,7 +128,7 @@ TEST_F(RoadVehicles, CarryRetroreflectivePlatesOf520By110MillimetresAtBothEnds) 
 }
 
 TEST_F(RoadVehicles, HaveWindowsAllAroundWhereTheyHaveABody) {
-  for (const ObjectType type : {TypeNamed("car"), TypeNamed("bus"), TypeNamed("tractor")}) {
+  for (const ObjectType& type : {TypeNamed("car"), TypeNamed("bus"), TypeNamed("tractor")}) {
     const Model model = WholeModel(type);
     Eigen::AlignedBox3d windows;
     for (const Vector3& p : VerticesOf(model, SurfaceNamed("glass", "road_vehicle")))
