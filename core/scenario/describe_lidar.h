@@ -105,9 +105,9 @@ void Describe(Archive& a, BeamSpec& s) {
              "0 = a ray.",
              Within(0, 17.5));
   a.Optional("pulse_length_ns", s.pulse_length_ns,
-             "Full width at half maximum of the received pulse.", Within(0.5, 100));
+             "Full width at half maximum of the received pulse.", Within(0.1, 100));
   a.Optional("reference_rays", s.reference_rays, "Sub-rays per beam of effect dense_footprint.",
-             Within(16, 4096));
+             Within(1, 4096));
   a.Optional(
       "footprint_rays", s.footprint_rays,
       "Sub-rays per beam of effect footprint. For fidelity auto, the most that it may choose.",

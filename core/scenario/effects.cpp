@@ -132,6 +132,8 @@ bool HasMirrors(const ScenarioSpec& spec) {
     };
     return material.height_rms_um &&
            (IsRailMaterial(material.name) ||
+            // A command may place a wagon that the scenario does not have.
+            MayHaveMaterial(TypeNamed("open_wagon"), material.name) ||
             (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
             std::ranges::any_of(vehicles, is_of_vehicle) ||
             std::ranges::any_of(spec.world.objects, is_of_it));

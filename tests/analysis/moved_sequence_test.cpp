@@ -46,7 +46,7 @@ TEST_F(MovedSequence, IsReadByEveryCommandWithoutTheFilesItWasMadeOf) {
 
 TEST_F(MovedSequence, IsNamedInReportsWithItsHashesWeatherAndMaker) {
   // Followed by the commit where it is known.
-  const std::string version = R"(railcast 0\.1\.0[^ ,]*)";
+  const std::string version = R"(railcast [0-9]+\.[0-9]+\.[0-9]+[^ ,]*)";
   for (const char* command : {"stats", "detect", "compare", "fit"}) {
     const Ended run = Analyze(command);
     ASSERT_EQ(run.status, 0) << run.said;

@@ -93,7 +93,7 @@ class Exported(unittest.TestCase):
         words = (self.folder / "own" / "training" / "label_2" / "000000.txt").read_text("ascii").split()
         self.assertEqual(words[0], "Truck")
         self.assertEqual([float(word) for word in words[8:11]], [2, 2, 4])
-        inputs = json.loads((run / "manifest.json").read_text("utf-8"))["inputs"]
+        inputs = json.loads((run / "run.json").read_text("utf-8"))["inputs"]
         self.assertIn("dumper.obj", [each["name"] for each in inputs])
 
     def test_frames_are_numbered_through_and_split(self):

@@ -45,8 +45,8 @@ TEST(CheckDetectorSpec, NamesEveryNumberThatBreaksItsRule) {
             "/range_min_m: must be >= 0 and <= 10000 (got -1)\n"
             "/range_max_m: must be > 0 and <= 10000 (got nan)\n"
             "/beam/divergence_mrad/0: must be >= 0 and <= 17.5 (got -1)\n"
-            "/beam/pulse_length_ns: must be >= 0.5 and <= 100 (got 0)\n"
-            "/beam/reference_rays: must be >= 16 and <= 4096 (got 0)\n"
+            "/beam/pulse_length_ns: must be >= 0.1 and <= 100 (got 0)\n"
+            "/beam/reference_rays: must be >= 1 and <= 4096 (got 0)\n"
             "/beam/footprint_rays: must be 16 or 64 (got 32)\n"
             "/receiver/range_at_10_percent_m: must be > 0 and <= 10000 (got 0)\n"
             "/receiver/snr_at_threshold: must be > 0 and <= 100 (got -5)");
