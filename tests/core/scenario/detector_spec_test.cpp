@@ -10,7 +10,7 @@ namespace railcast {
 namespace {
 
 template <class Change>
-std::string FaultsOf(const Change& change) {
+std::string DetectorFaultsOf(const Change& change) {
   DetectorSpec spec;
   change(spec);
   try {
@@ -22,17 +22,17 @@ std::string FaultsOf(const Change& change) {
 }
 
 TEST(CheckDetectorSpec, TakesTheDefaults) {
-  EXPECT_EQ(FaultsOf([](DetectorSpec&) {}), "none");
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec&) {}), "none");
 }
 
 TEST(CheckDetectorSpec, RefusesAWavelengthAtWhichNoMaterialIsKnown) {
-  EXPECT_EQ(FaultsOf([](DetectorSpec& s) { s.beam.wavelength_nm = 1064; }),
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec& s) { s.beam.wavelength_nm = 1064; }),
             "/beam/wavelength_nm: must be 905 or 1550 (got 1064)");
-  EXPECT_EQ(FaultsOf([](DetectorSpec& s) { s.beam.wavelength_nm = 1550; }), "none");
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec& s) { s.beam.wavelength_nm = 1550; }), "none");
 }
 
 TEST(CheckDetectorSpec, NamesEveryNumberThatBreaksItsRule) {
-  EXPECT_EQ(FaultsOf([](DetectorSpec& s) {
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec& s) {
               s.range_min_m = -1.0;
               s.range_max_m = std::nan("");
               s.beam.divergence_mrad = {-1.0, 1.0};
@@ -53,7 +53,7 @@ TEST(CheckDetectorSpec, NamesEveryNumberThatBreaksItsRule) {
 }
 
 TEST(CheckDetectorSpec, NamesTheWeatherThatCannotBe) {
-  EXPECT_EQ(FaultsOf([](DetectorSpec& s) {
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec& s) {
               s.weather.fog_density_per_m = -0.1;
               s.weather.visibility_m = 0.0;
               s.weather.rain_rate_mmph = -1.0;
@@ -72,7 +72,7 @@ TEST(CheckDetectorSpec, NamesTheWeatherThatCannotBe) {
 // Without a rule of its own, such a number would make points that are nowhere.
 TEST(CheckDetectorSpec, RefusesEveryNumberThatIsNone) {
   const double none = std::nan("");
-  EXPECT_EQ(FaultsOf([&](DetectorSpec& s) {
+  EXPECT_EQ(DetectorFaultsOf([&](DetectorSpec& s) {
               s.plausibility.noise_sigma0_m = none;
               s.receiver.range_noise_floor_m = none;
               s.receiver.saturation_power_ratio = none;
@@ -87,10 +87,10 @@ TEST(CheckDetectorSpec, RefusesEveryNumberThatIsNone) {
 }
 
 TEST(CheckDetectorSpec, HoldsWhatDependsOnTwoNumbersAsFilesDo) {
-  EXPECT_EQ(FaultsOf([](DetectorSpec& s) { s.range_min_m = s.range_max_m; }),
+  EXPECT_EQ(DetectorFaultsOf([](DetectorSpec& s) { s.range_min_m = s.range_max_m; }),
             "/range_min_m: must be < range_max_m (got 300)");
   EXPECT_EQ(
-      FaultsOf([](DetectorSpec& s) {
+      DetectorFaultsOf([](DetectorSpec& s) {
         s.weather.visibility_m = 100.0;
         s.weather.fog_density_per_m = 0.01;
       }),

@@ -31,7 +31,7 @@ std::vector<Material> Materials(double height_rms_um) {
 
 /// One hit at 10 m, under an angle of incidence, on a surface whose normal leans by `slope_deg`
 /// from the vertical, away from the sensor.
-struct OneHit {
+struct MirroredHit {
   std::uint32_t surface = kPane;
   double incidence_deg = 0.0;
   double slope_deg = 0.0;
@@ -45,7 +45,7 @@ struct Result {
   std::vector<MirrorHit> hits;
 };
 
-std::unique_ptr<Result> Meet(const OneHit& one) {
+std::unique_ptr<Result> Meet(const MirroredHit& one) {
   const std::vector<Material> materials = Materials(one.height_rms_um);
   const std::vector<Surface> surfaces{{}, {.material = kPane}, {.material = kGround}};
   const Mirrors mirrors(one.spec, materials);
@@ -105,7 +105,7 @@ TEST(Mirrors, ReflectByFresnelBothWays) {
 TEST(Mirrors, LoseTheirCoherentShareByRayleighsParameter) {
   for (const int wavelength_nm : {905, 1550}) {
     for (const double incidence_deg : {0.0, 60.0, 80.0}) {
-      OneHit one{.incidence_deg = incidence_deg, .height_rms_um = 0.05};
+      MirroredHit one{.incidence_deg = incidence_deg, .height_rms_um = 0.05};
       one.spec.beam.wavelength_nm = wavelength_nm;
       const double parameter =
           4.0 * std::numbers::pi * 50.0 / wavelength_nm * std::cos(RadFromDeg(incidence_deg));
@@ -136,8 +136,8 @@ TEST(Mirrors, KeepOfTheirOwnResponseWhatTheyDoNotReflect) {
   EXPECT_EQ(met->dimmed.diffuse_a[0], met->bare.diffuse_a[0]);
 }
 
-OneHit InWater(double incidence_deg, double slope_deg = 0.0) {
-  OneHit one{.surface = kGround, .incidence_deg = incidence_deg, .slope_deg = slope_deg};
+MirroredHit InWater(double incidence_deg, double slope_deg = 0.0) {
+  MirroredHit one{.surface = kGround, .incidence_deg = incidence_deg, .slope_deg = slope_deg};
   one.spec.weather.puddle_share = 1.0;
   return one;
 }
@@ -169,7 +169,7 @@ TEST(Mirrors, OfWaterReflectAsMuchAsFresnelsTableSays) {
 }
 
 TEST(Mirrors, UnderSnowMirrorWithWhatIsBare) {
-  OneHit one = InWater(80.0);
+  MirroredHit one = InWater(80.0);
   one.spec.effects.surface_condition = true;
   one.spec.weather.snow_cover = 0.25;
   const auto met = Meet(one);
