@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 """Measures what each effect changes in each shipped situation, for docs/effects_table.md.
 
-    scripts/dev/effects_table.py BUILD [--results FILE] [--frames N] [--costs] [NAME...]
+    scripts/dev/effects_table.py BUILD [--results FILE] [--frames N] [NAME...]
 
 Each situation is simulated by `railcast-analyze compare --ablate` with four sensors in place of its own, whose window
 and receiver they keep, on rung `footprint`; effects of other rungs on the first rung that has them. Of the sensors
 every third to 32nd column fires, which changes no share. What has been measured is kept in FILE
-(out/effects_table.json) and not measured again; NAME measures these situations anew. --costs counts instructions
-with valgrind. Shares are the same on every machine and beside any other work.
+(out/effects_table.json) and not measured again; NAME measures these situations anew.
 """
 
 import argparse
@@ -108,43 +107,6 @@ def measure(build, path, frames):
     return {sensor: {row["effect"]: figures(row) for row in rows} for sensor, rows in reports.items()}
 
 
-def measure_costs(build):
-    """{effect: instructions per firing}: of a frame in which everything has a cause, less those of the same frame
-    without the effect (callgrind)."""
-    weather = {"rain_rate_mmph": 10, "snow_rate_mmph": 1, "snow_cover": 0.2, "visibility_m": 200, "puddle_share": 0.1,
-               "spray_extinction_per_m": 0.2, "sun": {"illuminance_klx": 80, "azimuth_deg": 0, "elevation_deg": 10}}
-    path = SITUATIONS / "train_spray.json"
-    world = read(path)["world"] | {"vegetation": {"trees_per_hectare": 0, "grass": False}}  # Which take long to build.
-    with tempfile.TemporaryDirectory() as folder:
-        scenario = scenario_of(path, pathlib.Path(folder), weather=weather, world=world)
-    lidar = scenario["lidars"][0]
-    lidar["scan"]["pattern"]["angular_resolution_deg"] = 1.0
-    lidar["cover"] = {"drop_coverage": 0.05, "dirt_coverage": 0.05}
-    lidar["plausibility"] = {"dropout_probability": 0.01}
-    lidar["receiver"] |= {"halo_share_at_1_deg": 1e-5, "range_walk_m": 0.05, "foreign_pulses_hz": 5000,
-                          "saturation_power_ratio": 1000, "ghost_reflectance": 0.1, "dead_time_ns": 10}
-    scenario["lidars"] = [lidar]
-    with tempfile.TemporaryDirectory() as folder:
-        rows = ablated(build, scenario, ["--frames", "1", "--threads", "1"],
-                       ["valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={folder}/counts",
-                        "--toggle-collect=railcast::Simulator::Parts::Scan*",
-                        "--dump-after=railcast::Simulator::Parts::Scan*"])["vir2rail"]
-        dumps = sorted(pathlib.Path(folder).glob("counts.*"), key=lambda path: int(path.suffix[1:]))
-        scans = [int(re.search(r"^totals: (\d+)", dump.read_text(), re.M)[1]) for dump in dumps]
-    scans = [scan for scan in scans if scan > 0]
-    # A scan of each set of effects that others are switched in comes before the first of these.
-    bases, costs = {}, {}
-    for row in rows:
-        base = row["in_scenario"] if row["in_scenario"].startswith("on ") else ""
-        if base not in bases:
-            bases[base] = scans.pop(0)
-        switched = scans.pop(0)
-        is_on = row["in_scenario"] != "off"
-        costs[row["effect"]] = (bases[base] - switched if is_on else switched - bases[base]) / row["beams"]
-        costs[f"scan {base or 'on footprint'}"] = bases[base] / row["beams"]
-    return costs
-
-
 def costs_in_source():
     """The counts that rows of the table of effects hold, of the effects that fidelity auto judges."""
     text = "".join(path.read_text() for path in sorted((ROOT / "core" / "detect").glob("**/*_effects.cpp")))
@@ -199,7 +161,7 @@ def page_of(results):
     def mean(name, effect, figure):
         return statistics.fmean(rows[effect][figure] for rows in results["situations"][name].values())
 
-    costs = results.get("costs") or costs_in_source()
+    costs = costs_in_source()
     headings = re.findall(r"^## (.+)$", (ROOT / "docs" / "effects.md").read_text(), re.M)
     glance = []
     for effect in effects:
@@ -227,10 +189,6 @@ def page_of(results):
     num_shipped = len(list(SITUATIONS.glob("*.json"))) - 1
     if len(names) < num_shipped:
         lines += ["", f"{len(names)} of {num_shipped} situations are measured so far."]
-    if "costs" in results:
-        scans = {key[8:]: value for key, value in costs.items() if key.startswith("scan on ")}
-        lines += ["", "A whole scan takes " + ", ".join(
-            f"{value:,.0f} on `{rung}`" for rung, value in scans.items()) + ": instructions a firing, as the costs."]
     lines += ["", "## Keys that are no effects", "",
               "| key | situation | firings that change without it % |", "|---|---|---|"]
     for key, value in results.get("keys", {}).items():
@@ -263,7 +221,6 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "out" / "effects_table.json")
     parser.add_argument("--frames", type=int, default=1, help="sample frames of each situation")
-    parser.add_argument("--costs", action="store_true")
     parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
@@ -281,8 +238,6 @@ def main():
             results["situations"][name] = measure(build, path, arguments.frames)
             keep()
             print(name, flush=True)
-    if arguments.costs:
-        results["costs"] = measure_costs(build)
     results["keys"] = measure_keys(build)
     keep()
     PAGE.write_text(page_of(results))
