@@ -19,7 +19,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Of the program, and hashes of what holds it.
-VERSION = re.compile(rb'"(version|program|(manifest|report|line)_xxh3|(run|dataset)\.json|scenarios\.jsonl)": ?"[^"]+"')
+VERSION = re.compile(rb'"(version|program|(manifest|report|line|files)_xxh3|(run|dataset)\.json|scenarios\.jsonl)": ?"[^"]+"')
 # Of measured time, in what commands print.
 TIME = re.compile(rb"in [0-9.]+ (s|ms)|\([0-9.]+ frames/s\)|[0-9.]+ ms")
 
