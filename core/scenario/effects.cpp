@@ -1,6 +1,7 @@
 #include "railcast/effects.h"
 
 #include <algorithm>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
@@ -17,6 +18,12 @@
 
 namespace railcast {
 namespace {
+
+// Whether wagons are made of it, which a command may place where the scenario has none. By name,
+// since most scenarios never need the table of models.
+bool IsWagonMaterial(std::string_view name) {
+  return name == "wagon_paint" || name == "wheel_steel";
+}
 
 const char* NameOfSwitch(bool EffectSet::*is_on) {
   for (const Effect& effect : EffectTable()) {
@@ -131,9 +138,7 @@ bool HasMirrors(const ScenarioSpec& spec) {
       return MayHaveMaterial(type, material.name);
     };
     return material.height_rms_um &&
-           (IsRailMaterial(material.name) ||
-            // A command may place a wagon that the scenario does not have.
-            MayHaveMaterial(TypeNamed("open_wagon"), material.name) ||
+           (IsRailMaterial(material.name) || IsWagonMaterial(material.name) ||
             (!spec.world.structures.empty() && IsStructureMaterial(material.name)) ||
             std::ranges::any_of(vehicles, is_of_vehicle) ||
             std::ranges::any_of(spec.world.objects, is_of_it));

@@ -166,8 +166,10 @@ TEST(EffectsReport, SaysWhatMirrors) {
   // Wagons are painted without a word in the scenario.
   scenario.world.objects.clear();
   scenario.weather.puddle_share = 0.0;
-  scenario.materials = {{.name = "wagon_paint", .height_rms_um = 0.05}};
-  EXPECT_EQ(line(), "mirror_paths: smooth surfaces");
+  for (const MeshPartSpec& part : TypeNamed("open_wagon").model->parts) {
+    scenario.materials = {{.name = part.material.value(), .height_rms_um = 0.05}};
+    EXPECT_EQ(line(), "mirror_paths: smooth surfaces") << *part.material;
+  }
 }
 
 }  // namespace
