@@ -20,7 +20,7 @@ struct TurnoutGeometry {
   [[nodiscard]] double straight_m() const { return length_m - 2.0 * tangent_m; }
 };
 
-/// The standard turnouts of docs/physics.md 7.1: 1:9-300, 1:12-500 and 1:14-760 end where the arc
+/// The standard turnouts of docs/world.md: 1:9-300, 1:12-500 and 1:14-760 end where the arc
 /// does. The arc of 1:9-190 ends before its crossing, and it is as long behind the point where the
 /// tangents meet as a 1:9-300, whose crossing it shares.
 [[nodiscard]] TurnoutGeometry GeometryOf(TurnoutType type);
