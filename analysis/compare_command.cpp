@@ -80,6 +80,13 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
+std::string NumbersText(const std::vector<std::uint32_t>& frames) {
+  std::string text;
+  for (const std::uint32_t frame : frames)
+    text += (text.empty() ? "" : ", ") + std::to_string(frame);
+  return text;
+}
+
 Report AblateSensor(const CompareOptions& options,
                     const ScenarioSpec& scenario,
                     Simulator& simulator,
@@ -95,7 +102,7 @@ Report AblateSensor(const CompareOptions& options,
       {"Scenario", ShownPath(options.scenario)},
       {"Fidelity", scenario.fidelity == Fidelity::kAuto ? "auto, studied as footprint"
                                                         : std::string(NameOf(scenario.fidelity))},
-      {"Frames", std::to_string(frames.size()) + ", spread over the run and where objects are"},
+      {"Frames", NumbersText(frames) + ": spread over the run and where objects are"},
       {"Seed", std::to_string(scenario.seed)},
       {"Scenario hash", IdentityOf(scenario).scenario_hash},
       {"Weather", WeatherText(scenario.weather)}};

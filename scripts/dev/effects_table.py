@@ -21,6 +21,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITUATIONS = ROOT / "scenarios" / "situations"
 PAGE = ROOT / "docs" / "effects_table.md"
 SENSORS = {"vir2rail": 3, "vlp16": 8, "pandar64": 32, "rosette": 3}
+# The first rung that has an effect which `footprint` lacks.
+RUNGS = {"threshold": "plausibility", "rain": "plausibility", "snow": "plausibility", "noise": "plausibility",
+         "dense_footprint": "reference", "sampled_waveform": "reference"}
 # Keys that are no effects: the situation that has each, where, and on which of its sensors it acts.
 KEYS = {
     "fog_variation": ("metre_gauge", ["weather"], 0),
@@ -71,21 +74,26 @@ def scenario_of(path, folder, **changes):
             "lidars": sensors_of(read(path), folder)} | changes
 
 
-def ablated(build, scenario, options, before=()):
-    """{sensor: rows of the report's table of effects} of a scenario."""
+def ablated(build, scenario, *options):
+    """{sensor: report of what each effect changes} of a scenario."""
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(scenario, file)
         file.flush()
-        said = subprocess.run([*before, build / "analysis" / "railcast-analyze", "compare", "--ablate", file.name,
-                               "--all-effects", "--format", "json", *options],
+        said = subprocess.run([build / "analysis" / "railcast-analyze", "compare", "--ablate", file.name,
+                               "--format", "json", *options],
                               check=True, stdout=subprocess.PIPE, text=True).stdout
     reports, decoder = {}, json.JSONDecoder()
     for lidar in scenario["lidars"]:
         report, end = decoder.raw_decode(said.lstrip())
         said = said.lstrip()[end:]
-        reports[lidar["name"]] = next(table["rows"] for section in report["sections"]
-                                      for table in section["tables"] if table["key"] == "effects")
+        reports[lidar["name"]] = report
     return reports
+
+
+def effects_in(report):
+    """The rows of a report's table of effects."""
+    return next(table["rows"] for section in report["sections"] for table in section["tables"]
+                if table["key"] == "effects")
 
 
 def number(cell):
@@ -103,15 +111,65 @@ def figures(row):
 
 def measure(build, path, frames):
     with tempfile.TemporaryDirectory() as folder:
-        reports = ablated(build, scenario_of(path, pathlib.Path(folder)), ["--frames", str(frames)])
-    return {sensor: {row["effect"]: figures(row) for row in rows} for sensor, rows in reports.items()}
+        reports = ablated(build, scenario_of(path, pathlib.Path(folder)), "--all-effects", "--frames", str(frames))
+    return {sensor: {row["effect"]: figures(row) for row in effects_in(report)} for sensor, report in reports.items()}
 
 
-def costs_in_source():
-    """The counts that rows of the table of effects hold, of the effects that fidelity auto judges."""
-    text = "".join(path.read_text() for path in sorted((ROOT / "core" / "detect").glob("**/*_effects.cpp")))
-    rows = re.findall(r'\.name = "(\w+)"((?:(?!\.name = ).)*)', text, re.DOTALL)
-    return {name: float(found[1]) for name, row in rows if (found := re.search(r"\.instructions = ([\d.]+)", row))}
+def matters(cell):
+    """By what effects are sorted: firings that end otherwise, or echoes that come and go."""
+    return max(cell["outcome"], cell["echoes"])
+
+
+def most_of(situations):
+    """{effect: (situation, sensor, its figures there)} where each matters most, the effects in that order."""
+    def rank(name, sensor, effect):
+        cell = situations[name][sensor][effect]
+        return matters(cell), cell["any"] * (cell["moved_m"] + cell["intensity_by"]), name, sensor
+
+    most = {effect: max(rank(name, sensor, effect) for name, rows in situations.items() for sensor in rows)
+            for effect in next(iter(situations.values()))["vir2rail"]}
+    ordered = sorted(most, key=lambda effect: most[effect][:2], reverse=True)
+    return {effect: (*most[effect][2:], situations[most[effect][2]][most[effect][3]][effect]) for effect in ordered}
+
+
+def sample_frame(build, scenario):
+    """The number of the frame that is looked at when one is, of a scenario with one sensor."""
+    report, = ablated(build, scenario | {"fidelity": "plausibility"}, "--frames", "1").values()
+    return report["facts"]["Frames"].partition(":")[0]
+
+
+def instructions(build, scenario, frame):
+    """Those of Simulator::Scan a firing on a frame of a scenario, without making the scene, by callgrind."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "scenario.json"
+        file.write_text(json.dumps(scenario))
+        run = subprocess.run(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
+                              "--toggle-collect=railcast::Simulator::Parts::Scan*",
+                              build / "generator" / "railcast-generate", "sequence", file, "--frames", "1",
+                              "--start-frame", frame, "--threads", "1", "--out", file.parent / "out"],
+                             check=True, capture_output=True, text=True)
+    collected = int(re.search(r"Collected : (\d+)", run.stderr)[1])
+    return collected / int(re.search(r"firings by outcome \((\d+)\)", run.stdout)[1])
+
+
+def measure_costs(build, results, keep):
+    """Adds to results what each effect costs where it matters most: instructions a firing with it less those without."""
+    costs, with_it = results.setdefault("costs", {}), {}
+    for effect, (name, sensor, cell) in most_of(results["situations"]).items():
+        if cell["any"] == 0 or costs.get(effect, {}).get("at") == [name, sensor]:
+            continue
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = scenario_of(SITUATIONS / f"{name}.json", pathlib.Path(folder))
+            scenario["lidars"] = [lidar for lidar in scenario["lidars"] if lidar["name"] == sensor]
+            scenario["fidelity"] = RUNGS.get(effect, "footprint")
+            key = (name, sensor, scenario["fidelity"])
+            frame = sample_frame(build, scenario)
+            if key not in with_it:
+                with_it[key] = instructions(build, scenario, frame)
+            without = instructions(build, scenario | {"effects": {effect: False}}, frame)
+        costs[effect] = {"at": [name, sensor], "instructions": with_it[key] - without, "of": with_it[key]}
+        keep()
+        print(f"{effect}: {with_it[key] - without:.0f} of {with_it[key]:.0f} instructions a firing", flush=True)
 
 
 def measure_keys(build):
@@ -149,11 +207,6 @@ def share(value):
     return "" if value == 0 else "< 0.01" if value < 0.01 else f"{value:.2g}" if value < 10 else f"{value:.0f}"
 
 
-def matters(cell):
-    """By what effects are sorted: firings that end otherwise, or echoes that come and go."""
-    return max(cell["outcome"], cell["echoes"])
-
-
 def page_of(results):
     names = sorted(results["situations"])
     effects = list(next(iter(results["situations"][names[0]].values())))
@@ -161,26 +214,18 @@ def page_of(results):
     def mean(name, effect, figure):
         return statistics.fmean(rows[effect][figure] for rows in results["situations"][name].values())
 
-    costs = costs_in_source()
     headings = re.findall(r"^## (.+)$", (ROOT / "docs" / "effects.md").read_text(), re.M)
-    glance = []
-    for effect in effects:
-        cells = [(matters(cell), cell["any"] * (cell["moved_m"] + cell["intensity_by"]), name, sensor, cell)
-                 for name in names for sensor, rows in results["situations"][name].items()
-                 for cell in [rows[effect]]]
-        best = max(cells, key=lambda cell: cell[:3])
-        glance.append((best, effect))
-    glance.sort(key=lambda entry: entry[0][:2], reverse=True)
+    costs = results.get("costs", {})
     lines = [(PAGE.read_text() if PAGE.exists() else "").split("<!-- table -->")[0].rstrip() + "\n\n<!-- table -->\n",
              "| effect | matters most in | outcome % | echoes % | moved %, by | intensity %, by | any bit %, median | "
              "cost |", "|---|---|---|---|---|---|---|---|"]
-    for (_, _, name, sensor, cell), effect in glance:
+    for effect, (name, sensor, cell) in most_of(results["situations"]).items():
         is_idle = cell["any"] == 0
         moved_by = f", {1000 * cell['moved_m']:.2g} mm" if cell["moved_m"] < 1 else f", {cell['moved_m']:.1f} m"
         moved = share(cell["moved"]) + (moved_by if cell["moved_m"] else "")
         dimmed = share(cell["intensity"]) + (f", {cell['intensity_by']:.2g}" if cell["intensity_by"] else "")
         median = statistics.median(mean(other, effect, "any") for other in names)
-        cost = f"{max(costs[effect], 0):,.0f}" if effect in costs else ""
+        cost = f"{costs[effect]['instructions']:,.0f}" if effect in costs else ""
         where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
         heading = next((heading for heading in headings if effect in heading.split()), "")
         anchor = "#" + heading.replace(" ", "-") if heading else ""
@@ -240,6 +285,7 @@ def main():
             print(name, flush=True)
     results["keys"] = measure_keys(build)
     keep()
+    measure_costs(build, results, keep)
     PAGE.write_text(page_of(results))
 
 
