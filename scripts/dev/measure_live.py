@@ -154,11 +154,11 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", []])
-    parser.add_argument("--seconds", type=float, help="of each run (default: 300, 60, 10, 10, 30)")
+    parser.add_argument("--seconds", type=float, help="of each run (default: 60, 60, 10, 10, 30)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
-        for name, measure, seconds in (("steady", steady, 300.0), ("clients", clients, 60.0),
+        for name, measure, seconds in (("steady", steady, 60.0), ("clients", clients, 60.0),
                                        ("limits", limits, 10.0), ("late", late, 10.0),
                                        ("fast", fast, 30.0)):
             if not options.what or name in options.what:

@@ -257,7 +257,7 @@ def situations(build):
 # Each with the minutes that it takes on two cores.
 PARTS = {"frontier": (frontier, 60), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 15), "plants": (plants, 2), "weather": (weather, 5),
-         "stability": (stability, 4), "python": (python, 2), "live": (live, 40), "situations": (situations, 10),
+         "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "situations": (situations, 10),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
 UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
 
