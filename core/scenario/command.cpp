@@ -107,7 +107,7 @@ std::optional<Command> ReadCommandObject(JsonSource& source, const Node& object,
   return command;
 }
 
-CommandLine ReadCommand(std::string_view line) {
+CommandLine ReadCommand(std::string_view line, const std::vector<ModelSpec>& models) {
   CommandLine result;
   if (line.ends_with('\n')) line.remove_suffix(1);
   if (line.size() > kMaxCommandBytes) {
@@ -116,6 +116,7 @@ CommandLine ReadCommand(std::string_view line) {
     return result;
   }
   JsonSource source;
+  source.types().Add(models);
   if (const auto root = source.OpenText(std::string(line), "command")) {
     result.command = ReadCommandObject(source, *root, result.tag);
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "railcast/effects.h"
+#include "railcast/objects.h"
 #include "railcast/world_spec.h"
 
 namespace railcast {
@@ -99,7 +100,9 @@ struct CommandLine {
 
 /// Reads one line (with or without its end) or one whole datagram, as strictly as scenarios are
 /// read. Never reads a file and never throws, whatever the line contains.
-[[nodiscard]] CommandLine ReadCommand(std::string_view line);
+/// @param models Types that objects may have beside the shipped ones: the scenario's own.
+[[nodiscard]] CommandLine ReadCommand(std::string_view line,
+                                      const std::vector<ModelSpec>& models = {});
 
 /// The command as a line without its end, with every default written out. Reading it back gives the
 /// same command.

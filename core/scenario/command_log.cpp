@@ -65,12 +65,14 @@ std::string CommandLogText(const CommandLog& log) {
   return text;
 }
 
-CommandLog ReadCommandLog(const std::filesystem::path& file) {
+CommandLog ReadCommandLog(const std::filesystem::path& file, const std::vector<ModelSpec>& models) {
   std::ifstream stream = OpenInput(file);
-  return ParseCommandLog(stream, ShownPath(file));
+  return ParseCommandLog(stream, ShownPath(file), models);
 }
 
-CommandLog ParseCommandLog(std::istream& stream, const std::string& shown) {
+CommandLog ParseCommandLog(std::istream& stream,
+                           const std::string& shown,
+                           const std::vector<ModelSpec>& models) {
   CommandLog log;
   std::string line;
   std::size_t number = 0;
@@ -79,6 +81,7 @@ CommandLog ParseCommandLog(std::istream& stream, const std::string& shown) {
     const std::string place = shown + ": line " + std::to_string(number);
     if (stream.eof()) throw InputError(place + ": must end in a line break");
     JsonSource source;
+    source.types().Add(models);
     const auto root = source.OpenText(line, place);
     if (root && number == 1 &&
         !(root->json->is_object() && root->json->contains("railcast_commands"))) {

@@ -43,8 +43,12 @@ struct CommandLog {
 /// Reads a log as strictly as scenarios are read. An incomplete last line, which a killed run may
 /// leave behind, is a fault like any other.
 /// @throws InputError "file: line 3: /command/speed_mps: rule (got value)".
-[[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file);
+/// @param models Those of the scenario that was run, as for ReadCommand().
+[[nodiscard]] CommandLog ReadCommandLog(const std::filesystem::path& file,
+                                        const std::vector<ModelSpec>& models = {});
 /// As above, but reads from a stream; messages call the file `shown`.
-[[nodiscard]] CommandLog ParseCommandLog(std::istream& stream, const std::string& shown);
+[[nodiscard]] CommandLog ParseCommandLog(std::istream& stream,
+                                         const std::string& shown,
+                                         const std::vector<ModelSpec>& models = {});
 
 }  // namespace railcast

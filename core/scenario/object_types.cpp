@@ -46,6 +46,10 @@ void ObjectTypes::Add(const ModelSpec& model, std::size_t entry) {
   own_.push_back({.model = std::make_shared<const ModelSpec>(model), .entry = entry});
 }
 
+void ObjectTypes::Add(const std::vector<ModelSpec>& models) {
+  for (std::size_t i = 0; i < models.size(); ++i) Add(models[i], i);
+}
+
 std::optional<ObjectType> ObjectTypes::Find(std::string_view name) const {
   for (const auto* const types : {&TypesOfShapes(), &ShippedTypes(), &own_}) {
     for (const ObjectType& type : *types) {

@@ -15,6 +15,8 @@ class ObjectTypes {
  public:
   /// Adds a model of the scenario's own table, where it is at place `entry`.
   void Add(const ModelSpec& model, std::size_t entry);
+  /// Adds all models of that table.
+  void Add(const std::vector<ModelSpec>& models);
 
   [[nodiscard]] std::optional<ObjectType> Find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> Names() const;

@@ -57,9 +57,12 @@ std::vector<std::string_view> LinesOf(std::string_view text) {
 
 }  // namespace
 
-CommandChannel::CommandChannel(const Endpoint& at, const Endpoint& peer)
+CommandChannel::CommandChannel(const Endpoint& at,
+                               const Endpoint& peer,
+                               std::vector<ModelSpec> models)
     : receiver_(at),
       peer_(peer),
+      models_(std::move(models)),
       thread_(StartThread("starting to hear commands", [this] { Listen(); })) {}
 
 CommandChannel::~CommandChannel() {
@@ -127,7 +130,7 @@ void CommandChannel::HearDatagram(std::string_view text, const Endpoint& from) {
       continue;
     }
     // Parsed without holding the lock, so that a long line does not delay the run.
-    const CommandLine line = ReadCommand(each);
+    const CommandLine line = ReadCommand(each, models_);
     const std::lock_guard lock(mutex_);
     Hear(each, line, from);
   }

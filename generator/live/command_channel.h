@@ -43,8 +43,9 @@ class CommandChannel {
 
   /// @param peer Address whose commands are accepted, from any port if its port is 0. Datagrams
   ///   from other addresses are dropped without an answer.
+  /// @param models As for ReadCommand().
   /// @throws InputError if the channel cannot listen at `at`.
-  CommandChannel(const Endpoint& at, const Endpoint& peer);
+  CommandChannel(const Endpoint& at, const Endpoint& peer, std::vector<ModelSpec> models = {});
   ~CommandChannel();
   CommandChannel(const CommandChannel&) = delete;
   CommandChannel& operator=(const CommandChannel&) = delete;
@@ -85,6 +86,7 @@ class CommandChannel {
 
   UdpReceiver receiver_;
   Endpoint peer_;
+  std::vector<ModelSpec> models_;
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<CommandRequest> requests_;

@@ -191,7 +191,8 @@ LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario
   return spec;
 }
 
-std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
+std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options,
+                                            const std::vector<ModelSpec>& models) {
   if (!options.commands_port) return nullptr;
   Endpoint peer = AtPlace("--commands-from: ", [&] {
     return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
@@ -200,8 +201,8 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options) {
   const std::uint32_t any_address = 0;
   const std::uint32_t loopback = 0x7F000001;
   const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
-  auto channel =
-      AtPlace("--commands-port: ", [&] { return std::make_unique<CommandChannel>(at, peer); });
+  auto channel = AtPlace("--commands-port: ",
+                         [&] { return std::make_unique<CommandChannel>(at, peer, models); });
   std::cout << "commands at " << EndpointText(channel->at()) << "\n";
   return channel;
 }
@@ -300,7 +301,7 @@ int RunStream(const StreamOptions& options) {
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       options.commands_port ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
-  const auto channel = OpenChannel(options);
+  const auto channel = OpenChannel(options, scenario.models);
   std::optional<CommandLoop> commands;
   if (channel) {
     commands.emplace(streams.maker(), *channel, options.lockstep, options.commands_log,

@@ -35,8 +35,8 @@ std::set<std::string, std::less<>> AllFields() {
   return names;
 }
 
-Command CommandOf(const std::string& line) {
-  CommandLine read = ReadCommand(line);
+Command CommandOf(const std::string& line, const std::vector<ModelSpec>& models) {
+  CommandLine read = ReadCommand(line, models);
   if (read.command) return std::move(*read.command);
   ErrorList faults;
   for (std::string& fault : read.faults) faults.AddLine(std::move(fault));
@@ -194,7 +194,7 @@ std::vector<RailLines> HeldSimulation::Rails(std::int64_t frame,
 
 void HeldSimulation::Apply(const std::string& line, std::int64_t frame, const Sensor& sensor) {
   const std::unique_lock lock = LockHere();
-  const Command command = CommandOf(line);
+  const Command command = CommandOf(line, scenario().models);
   const std::size_t index = IndexOf(sensor);
   const std::int64_t time_ns = maker_.pattern(index).StampNs(FrameOf(frame, index));
   const std::int64_t last_ns = maker_.states().back().time_ns;

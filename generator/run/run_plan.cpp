@@ -131,7 +131,7 @@ void RefuseOtherFiles(const RunPlan& plan) {
 }
 
 void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, RunPlan& plan) {
-  CommandLog read = ReadCommandLog(log);
+  CommandLog read = ReadCommandLog(log, whole.models);
   plan.commands_place = ShownPath(log) + ": ";
   const std::string hash = IdentityOf(whole).scenario_hash;
   const bool is_whole = whole.lidars.size() == plan.scenario.lidars.size();

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -5,7 +6,9 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <variant>
 
+#include "core/scenario/command.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
@@ -88,6 +91,21 @@ TEST_F(OwnModels, CoupleAtTheEndsOfTheirLength) {
   EXPECT_NEAR(x_m(3), 700.0 - 4.0, 1e-6);
   EXPECT_NEAR(x_m(4), 700.0 - 12.0, 1e-6);
   EXPECT_NEAR(x_m(5), 700.0 - 16.0 - 14.04 / 2.0, 1e-6);
+}
+
+TEST_F(OwnModels, ArePlacedByCommandsToTheirScenario) {
+  ScenarioSpec spec = ReadScenario(Scenario());
+  const std::string line =
+      R"({"command": "place_object", "object": {"name": "late", "type": "crate", "s_m": 480}})";
+  const CommandLine read = ReadCommand(line, spec.models);
+  ASSERT_TRUE(read.command.has_value()) << read.faults.front();
+  spec.world.objects.push_back(std::get<PlaceObject>(*read.command).object);
+  EXPECT_TRUE(MakeWorld(spec)->objects().at(3).model->Bounds().sizes().isApprox(
+      Vector3(1, 0.5, 0.4), 1e-6));
+
+  const CommandLine elsewhere = ReadCommand(line);
+  ASSERT_EQ(elsewhere.faults.size(), 1U);
+  EXPECT_THAT(elsewhere.faults.front(), testing::HasSubstr("/object/type: must be \"box\""));
 }
 
 TEST_F(OwnModels, MayBeShippedMeshesOfOtherMaterials) {
