@@ -20,7 +20,7 @@ void Describe(Archive& a, RasterSpec& s) {
              PositiveUpTo(180));
   a.Required("angular_resolution_deg", s.angular_resolution_deg,
              "Size of a cell; beams go through the cells' centres.", PositiveUpTo(360));
-  a.Optional("order", s.order, "What advances in time.");
+  a.Optional("order", s.order, "What fires one after the other.");
 }
 
 template <class Archive>
@@ -199,7 +199,8 @@ void Describe(Archive& a, LidarSpec& s) {
   DescribeRange(a, s);
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("mount_error", s.mount_error,
-             "By how much it does not: rays leave from its true pose, all reports use mount.");
+             "Error of calibration, by which the sensor's true pose differs from mount: rays leave "
+             "from the true pose, and all reports use mount.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");

@@ -131,7 +131,7 @@ void Describe(Archive& a, MeshPartSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, PersonSpec& s) {
-  a.Optional("posture", s.posture, "Limbs of a walking person move while it does.");
+  a.Optional("posture", s.posture, "The limbs of a walking person move while the person does.");
   a.Optional("physique", s.physique,
              "Proportions of the body, and its height unless size_m is given.");
   a.Optional("clothing", s.clothing, "hi_vis: with retroreflective bands.");

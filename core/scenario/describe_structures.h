@@ -58,7 +58,8 @@ void Describe(Archive& a, PlatformRoofSpec& s) {
              "Chainage where it ends; absent = with the platform, or before its ramp.",
              ChainageLimits());
   a.Optional("height_m", s.height_m, "Of its lower side above the platform.", Within(2.2, 10));
-  a.Optional("column_spacing_m", s.column_spacing_m, "At most.", Within(2, 50));
+  a.Optional("column_spacing_m", s.column_spacing_m, "Greatest distance between columns.",
+             Within(2, 50));
   a.Ensure({"end_s_m", "begin_s_m"}, !s.begin_s_m || !s.end_s_m || *s.end_s_m > *s.begin_s_m,
            "must be > begin_s_m");
 }
@@ -69,7 +70,7 @@ void Describe(Archive& a, PlatformSpec& s) {
   a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
   a.Optional("edge_distance_m", s.edge_distance_m,
              "Of its edge from the axis of straight track; curves add to it.", Within(0.8, 10));
-  a.Optional("width_m", s.width_m, "Across.", Within(0.5, 50));
+  a.Optional("width_m", s.width_m, "Its width.", Within(0.5, 50));
   a.Optional("has_edge_strip", s.has_edge_strip,
              "Whether a white tactile strip runs along the edge.");
   a.Optional("has_ramps", s.has_ramps,
@@ -82,7 +83,7 @@ void Describe(Archive& a, NoiseWallSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its face from the track's axis.", BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above top of rail.", Within(0.3, 15));
-  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(1, 20));
+  a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.", Within(1, 20));
 }
 
 template <class Archive>
@@ -91,7 +92,8 @@ void Describe(Archive& a, FenceSpec& s) {
   a.Optional("distance_m", s.distance_m, "From the track's axis.", BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above the ground.", Within(0.3, 6));
   a.Optional("fence", s.fence, "What is between its posts.");
-  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(0.5, 20));
+  a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.",
+             Within(0.5, 20));
 }
 
 template <class Archive>
@@ -108,7 +110,7 @@ void Describe(Archive& a, CableTroughSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its nearer side from the track's axis.",
              BesideTrackLimits());
-  a.Optional("width_m", s.width_m, "Across.", Within(0.1, 2));
+  a.Optional("width_m", s.width_m, "Its width.", Within(0.1, 2));
 }
 
 template <class Archive>
@@ -168,7 +170,7 @@ void Describe(Archive& a, ThirdRailSpec& s) {
 template <class Archive>
 void Describe(Archive& a, SlabTrackSpec& s) {
   DescribeStretch(a, s);
-  a.Optional("width_m", s.width_m, "Across.", Within(2.4, 6));
+  a.Optional("width_m", s.width_m, "Its width.", Within(2.4, 6));
 }
 
 }  // namespace railcast

@@ -92,6 +92,13 @@ class Reference(unittest.TestCase):
             "| `way` | object |  |", "## `way`", "| `from` | list of objects |  |",
             "| `from[].s_m` | number |  |", "| `to` | object, as `way.from[]` |  |"])
 
+    def test_open_lists_of_names_are_printed_once(self):
+        kind = {"type": "string", "examples": ["x", "y"]}
+        first = {"type": "object", "properties": {"kind": kind}}
+        later = {"type": "object", "properties": {"kind": kind, "b": {"type": "boolean"}}, "required": ["kind"]}
+        self.assertEqual(lines_of({"p": first, "q": later})[-3:], [
+            "## `q`", "| `kind` | text, as `p.kind` (required) |  |", "| `b` | true, false |  |"])
+
     def test_what_has_been_described_is_not_described_again(self):
         part = {"type": "object", "properties": {"b": {"type": "boolean"}}}
         self.assertEqual(lines_of({"p": part, "q": part})[-2:], ["## `q`", "As `p`."])
