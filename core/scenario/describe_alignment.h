@@ -121,7 +121,8 @@ void Describe(Archive& a, MapSpec& s) {
              "Longitude (WGS 84) of the middle of the transverse Mercator projection with scale 1 "
              "that turns degrees into metres.",
              Within(-180, 180));
-  a.Required("latitude_deg", s.latitude_deg, "Latitude of that middle.", Within(-90, 90));
+  a.Required("latitude_deg", s.latitude_deg, "Latitude of the middle of the projection.",
+             Within(-90, 90));
   a.Optional("coefficients_m", s.coefficients_m,
              "Empty if that is the map's projection. Otherwise the world's x and y are polynomials "
              "of its easting e and northing n in 100 km: the coefficients (x, y) of 1, e, n, e^2, "

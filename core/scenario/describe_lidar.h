@@ -82,7 +82,7 @@ void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("noise_sigma0_m", s.noise_sigma0_m, "Standard deviation of the noise at range 0.",
              Within(0, 10));
   a.Optional("noise_sigma1", s.noise_sigma1,
-             "Growth of that standard deviation per metre of range.", Within(0, 1));
+             "Growth of the noise's standard deviation per metre of range.", Within(0, 1));
   a.Optional("noise_shape", s.noise_shape, "Equally in all directions, or along the beam.");
   a.Optional("dropout_probability", s.dropout_probability,
              "Probability that a firing is lost, whatever it hit.", Within(0, 1));
@@ -92,7 +92,8 @@ void Describe(Archive& a, PlausibilitySpec& s) {
              "Further losses on dark surfaces: the probability as the intensity approaches 0.",
              Within(0, 1));
   a.Optional("dark_dropout_intensity", s.dark_dropout_intensity,
-             "Intensity at which these losses have fallen to 1 / e.", PositiveUpTo(1));
+             "Intensity at which the losses on dark surfaces have fallen to 1 / e.",
+             PositiveUpTo(1));
 }
 
 template <class Archive>

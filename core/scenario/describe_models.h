@@ -40,7 +40,7 @@ void Describe(Archive& a, ModelSpec& s) {
              "Its mesh, x forward and z up: OBJ, PLY, STL, OFF, glTF, FBX, DAE or 3DS, or one of "
              "railcast's own, such as railcast:car.ply.",
              ExistingFile());
-  a.Required("label", s.label, "Of the label table.", NonEmptyString());
+  a.Required("label", s.label, "Name of a label.", NonEmptyString());
   a.Required("size_m", s.size_m,
              "Length, width, and height above the origin, within 2 cm or 1 %; vehicles couple at "
              "the ends of their length.",

@@ -130,7 +130,7 @@ template <class Archive>
 void Describe(Archive& a, BridgeSpec& s) {
   DescribeStretch(a, s);
   a.Optional("depth_m", s.depth_m,
-             "Of the bottom of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
+             "Depth of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
              Within(2.5, 100));
   a.Optional("edge_distance_m", s.edge_distance_m,
              "Of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
@@ -157,14 +157,15 @@ void Describe(Archive& a, OverbridgeSpec& s) {
 template <class Archive>
 void Describe(Archive& a, ThirdRailSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("contact", s.contact, "Where the shoes run.");
+  a.Optional("contact", s.contact, "Side of the rail on which the shoes of trains run.");
   a.Optional("distance_m", s.distance_m,
              "Of its middle from the track's axis; absent = as usual for the contact.",
              Within(0.85, 3));
   a.Optional("height_m", s.height_m,
              "Of its contact surface above top of rail; absent = as usual for the contact.",
              Within(0, 0.6));
-  a.Optional("has_shield", s.has_shield, "Boards beside it, or a cover over it.");
+  a.Optional("has_shield", s.has_shield,
+             "Whether there are boards beside the rail, or a cover over it.");
 }
 
 template <class Archive>

@@ -52,7 +52,7 @@ void Describe(Archive& a, WeatherSpec& s) {
   a.Optional("snow_echoes_per_mmph", s.snow_echoes_per_mmph,
              "Mean detectable flakes per beam at 1 mm/h.", Within(0, 1000));
   a.Optional("snow_range_scale_m", s.snow_range_scale_m,
-             "Maxwell scale of their ranges; the median is 1.538 times this.",
+             "Maxwell scale of the flakes' ranges; the median is 1.538 times this.",
              Within(1e-3, 10'000));
   a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance of a flake.",
              Within(0, 100));

@@ -118,7 +118,7 @@ void Describe(Archive& a, TerrainSpec& s) {
   a.Optional("roughness_sigma_m", s.roughness_sigma_m,
              "Standard deviation of the ground's small heights.", Within(0, 1));
   a.Optional("roughness_wavelength_m", s.roughness_wavelength_m,
-             "Correlation length of these heights.", Within(0.1, 100));
+             "Correlation length of the ground's small heights.", Within(0.1, 100));
   a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
              Within(0, 20));
   a.Optional("relief", s.relief,
@@ -146,7 +146,7 @@ void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("tree_height_max_m", s.tree_height_max_m, "Height of the tallest tree.",
              PositiveUpTo(60));
   a.Optional("woods_share", s.woods_share,
-             "Share of the land on which they stand, in woods; 1 = everywhere.", Within(0, 1));
+             "Share of the land on which trees stand, in woods; 1 = everywhere.", Within(0, 1));
   a.Optional("woods_size_m", s.woods_size_m, "Width of woods and clearings, about.",
              Within(5, 10'000));
   a.Optional("bushes_per_hectare", s.bushes_per_hectare, "0 = none.", Within(0, 5000));
@@ -157,7 +157,8 @@ void Describe(Archive& a, VegetationSpec& s) {
              "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
-  a.Optional("grass_fade_m", s.grass_fade_m, "Distance beyond over which it thins out.",
+  a.Optional("grass_fade_m", s.grass_fade_m,
+             "Distance beyond grass_max_distance_m over which the grass thins out.",
              DistanceLimits());
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
