@@ -205,6 +205,7 @@ class Writer:
 
     def __init__(self):
         self.seen = {}  # The schema's text: path.
+        self.tables = {}  # Path: rows, of objects without a type.
         self.parts = []
 
     def write(self, path, schema):
@@ -241,6 +242,11 @@ class Writer:
                     others.append((inner_path, inner))
         return cells_of, others
 
+    def given_elsewhere(self, cells_of):
+        """As given_before(), of all objects written so far that have several keys alike."""
+        given = given_before(cells_of, self.tables)
+        return {path: keys for path, keys in given.items() if len(keys) > 1}
+
     def write_object(self, path, schema, choices):
         """Returns the rows. `choices`: {name: rows} of the choices that come before this one."""
         title = f"{'###' if '.' in path else '##'} `{path}`"
@@ -249,12 +255,14 @@ class Writer:
             self.parts += [title, f"As `{first}`. {see_of(path)}".rstrip()]
             return {}
         cells_of, others = self.rows(path, schema)
-        known = given_before(cells_of, choices)
+        known = given_before(cells_of, choices) or self.given_elsewhere(cells_of)
         left = {key: row for key, row in cells_of.items() if not any(key in keys for keys in known.values())}
         as_others = "; ".join(", ".join(f"`{key}`" for key in keys) + f" as of `{name}`"
                               for name, keys in known.items())
         self.parts += [part for part in (title, see_of(path), table(left) if left else "",
                                          f"Also {as_others}." if as_others else "") if part]
+        if "(" not in path:
+            self.tables[path] = cells_of
         for inner_path, inner in others:
             self.write(inner_path, inner)
         return cells_of
