@@ -107,9 +107,9 @@ void Describe(Archive& a, AlignmentSplineSpec& s) {
 template <class Archive>
 void Describe(Archive& a, ChainageValue& s) {
   a.Required("s_m", s.s_m, "Chainage of the value.", ChainageLimits());
-  a.Required(
-      "value", s.value,
-      "Value from this chainage on, or, in a list that is linear between its entries, at it.");
+  a.Required("value", s.value,
+             "Value from this chainage on; in lists that are linear between their entries, the "
+             "value at this chainage.");
 }
 
 template <class Archive>
@@ -118,10 +118,11 @@ void Describe(Archive& a, MapSpec& s) {
              "Easting and northing in the map's projection of the world's origin.",
              CoordinateLimits());
   a.Required("longitude_deg", s.longitude_deg,
-             "Middle (WGS 84) of the transverse Mercator with scale 1 that makes metres of "
-             "longitudes and latitudes.",
+             "Longitude (WGS 84) of the middle of the transverse Mercator projection with scale 1 "
+             "that turns degrees into metres.",
              Within(-180, 180));
-  a.Required("latitude_deg", s.latitude_deg, "As above.", Within(-90, 90));
+  a.Required("latitude_deg", s.latitude_deg, "Latitude of the middle of the projection.",
+             Within(-90, 90));
   a.Optional("coefficients_m", s.coefficients_m,
              "Empty if that is the map's projection. Otherwise the world's x and y are polynomials "
              "of its easting e and northing n in 100 km: the coefficients (x, y) of 1, e, n, e^2, "

@@ -20,7 +20,7 @@ void Describe(Archive& a, RasterSpec& s) {
              PositiveUpTo(180));
   a.Required("angular_resolution_deg", s.angular_resolution_deg,
              "Size of a cell; beams go through the cells' centres.", PositiveUpTo(360));
-  a.Optional("order", s.order, "What advances in time.");
+  a.Optional("order", s.order, "What fires one after the other.");
 }
 
 template <class Archive>
@@ -82,7 +82,7 @@ void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("noise_sigma0_m", s.noise_sigma0_m, "Standard deviation of the noise at range 0.",
              Within(0, 10));
   a.Optional("noise_sigma1", s.noise_sigma1,
-             "Growth of that standard deviation per metre of range.", Within(0, 1));
+             "Growth of the noise's standard deviation per metre of range.", Within(0, 1));
   a.Optional("noise_shape", s.noise_shape, "Equally in all directions, or along the beam.");
   a.Optional("dropout_probability", s.dropout_probability,
              "Probability that a firing is lost, whatever it hit.", Within(0, 1));
@@ -92,7 +92,8 @@ void Describe(Archive& a, PlausibilitySpec& s) {
              "Further losses on dark surfaces: the probability as the intensity approaches 0.",
              Within(0, 1));
   a.Optional("dark_dropout_intensity", s.dark_dropout_intensity,
-             "Intensity at which these losses have fallen to 1 / e.", PositiveUpTo(1));
+             "Intensity at which the losses on dark surfaces have fallen to 1 / e.",
+             PositiveUpTo(1));
 }
 
 template <class Archive>
@@ -199,7 +200,8 @@ void Describe(Archive& a, LidarSpec& s) {
   DescribeRange(a, s);
   a.Optional("mount", s.mount, "Where the sensor sits on the vehicle.");
   a.Optional("mount_error", s.mount_error,
-             "By how much it does not: rays leave from its true pose, all reports use mount.");
+             "Error of calibration, by which the sensor's true pose differs from mount: rays leave "
+             "from the true pose, and all reports use mount.");
   a.Optional("plausibility", s.plausibility, "Parameters of the published model.");
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");

@@ -51,7 +51,7 @@ void DescribePoint(Archive& a, Structure& s) {
 template <class Archive, class Structure>
 void DescribeFacing(Archive& a, Structure& s, const char* height_doc) {
   DescribePoint(a, s);
-  a.Required("kind", s.kind, "Which of them.");
+  a.Required("kind", s.kind, "Its kind.");
   a.Optional("direction", s.direction,
              "It faces trains that run with rising or with falling chainage.");
   a.Optional("side", s.side,
@@ -105,7 +105,7 @@ void Describe(Archive& a, RelayBoxSpec& s) {
 template <class Archive>
 void Describe(Archive& a, FurnitureSpec& s) {
   DescribePoint(a, s);
-  a.Required("kind", s.kind, "Which of them.");
+  a.Required("kind", s.kind, "Its kind.");
   a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
   a.Optional("distance_m", s.distance_m, "From the track's axis to its middle.",
              StandingDistanceLimits());
@@ -134,10 +134,10 @@ void Describe(Archive& a, LevelCrossingSpec& s) {
   a.Optional("road_length_m", s.road_length_m,
              "Length of the road to either side of the track's axis.", Within(6, 200));
   a.Optional("barriers", s.barriers, "Half barriers: none, open or closed.");
-  a.Optional("barrier_angle_deg", s.barrier_angle_deg,
-             "Of barriers that stand still half way, in place of their state: 0 = closed, 90 = "
-             "upright.",
-             Within(0, 90));
+  a.Optional(
+      "barrier_angle_deg", s.barrier_angle_deg,
+      "Angle of barriers that stand still half way, instead of barriers: 0 = closed, 90 = upright.",
+      Within(0, 90));
   a.Optional("barrier_angles_deg", s.barrier_angles_deg,
              "Of barriers that move while the scenario runs, by time, linear between the entries.");
   a.Optional("has_signs", s.has_signs, "Whether there are St Andrew's crosses with lamps.");

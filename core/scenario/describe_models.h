@@ -40,13 +40,13 @@ void Describe(Archive& a, ModelSpec& s) {
              "Its mesh, x forward and z up: OBJ, PLY, STL, OFF, glTF, FBX, DAE or 3DS, or one of "
              "railcast's own, such as railcast:car.ply.",
              ExistingFile());
-  a.Required("label", s.label, "Of the label table.", NonEmptyString());
+  a.Required("label", s.label, "Name of a label.", NonEmptyString());
   a.Required("size_m", s.size_m,
              "Length, width, and height above the origin, within 2 cm or 1 %; vehicles couple at "
              "the ends of their length.",
              Within(1e-3, 1000));
   a.Optional("parts", s.parts, "Materials and labels of parts of the mesh.");
-  a.Optional("material", s.material, "Of parts for which nothing else says it.");
+  a.Optional("material", s.material, "Of parts whose material nothing else gives.");
   a.Optional("up", s.up, "Upward axis of the mesh; absent: as its file says, otherwise z.");
   a.Optional("unit_m", s.unit_m, "Metres per file unit; absent: as the file says, otherwise 1.",
              Within(1e-6, 1e6));

@@ -36,7 +36,7 @@ template <class Archive>
 void Describe(Archive& a, SpeedPoint& s) {
   a.Optional("time_s", s.time_s, "Simulation time of the point; or s_m instead.", Within(0, 1e9));
   a.Optional("s_m", s.s_m, "Chainage of the point; or time_s instead.", PlaceLimits());
-  a.Required("speed_mps", s.speed_mps, "Speed there.", Within(0, 200));
+  a.Required("speed_mps", s.speed_mps, "Speed at the point.", Within(0, 200));
   a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
            "must have either time_s or s_m");
 }
@@ -72,7 +72,8 @@ void Describe(Archive& a, PathPoint& s) {
   a.Optional("s_m", s.s_m, "Chainage.", PlaceLimits());
   a.Optional("d_m", s.d_m, "Left of its track's axis.", Within(-1000, 1000));
   DescribeMapPlace(a, s);
-  a.Optional("speed_mps", s.speed_mps, "On the way there; absent = the path's.", PositiveUpTo(200));
+  a.Optional("speed_mps", s.speed_mps, "Speed on the way to the point; absent = the path's.",
+             PositiveUpTo(200));
   a.Optional("wait_s", s.wait_s, "How long it stands there; 0 = it does not stop.", Within(0, 1e9));
   a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
            HasOnePlace(s.s_m && s.d_m, !s.s_m && !s.d_m, s),
@@ -131,10 +132,10 @@ void Describe(Archive& a, MeshPartSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, PersonSpec& s) {
-  a.Optional("posture", s.posture, "Limbs of a walking person move while it does.");
+  a.Optional("posture", s.posture, "The limbs of a walking person move while the person does.");
   a.Optional("physique", s.physique,
              "Proportions of the body, and its height unless size_m is given.");
-  a.Optional("clothing", s.clothing, "hi_vis: with retroreflective bands.");
+  a.Optional("clothing", s.clothing, "Clothes; hi_vis has retroreflective bands.");
   a.Optional("luggage", s.luggage, "What it pulls or pushes.");
 }
 
@@ -177,7 +178,7 @@ void Describe(Archive& a, ObjectSpec& s) {
              "Length, width, height. Required for box and pole; scales a person or mesh.",
              Within(1e-3, 1000));
   a.Optional("roll_deg", s.roll_deg, "It leans to the right, about its x axis.", Within(-180, 180));
-  a.Optional("pitch_deg", s.pitch_deg, "Then it leans forwards, about its y axis.",
+  a.Optional("pitch_deg", s.pitch_deg, "After roll_deg, it leans forwards, about its y axis.",
              Within(-180, 180));
   a.Optional("follow", s.follow,
              "What it stands upright on; absent: track for rail vehicles, otherwise upright.");
@@ -199,8 +200,8 @@ void Describe(Archive& a, ObjectSpec& s) {
       "as it is.",
       Within(0, 100));
   a.Optional("person", s.person, "How a person looks.");
-  a.Optional("label", s.label, "Overrides the type's; of the label table.");
-  a.Optional("material", s.material, "Overrides the type's; of the materials.");
+  a.Optional("label", s.label, "Name of a label, in place of the type's.");
+  a.Optional("material", s.material, "Name of a material, in place of the type's.");
   a.Optional("motion", s.motion, "Along its track or a path; absent = stands.");
 
   const bool is_mesh = s.type == ObjectType::kMesh;

@@ -139,7 +139,7 @@ void Describe(Archive& a, ScenarioSpec& s) {
   a.Optional("seed", s.seed, "Seed of the sensor's and the weather's random numbers.");
   a.Optional("fidelity", s.fidelity,
              "Rung of the fidelity ladder, or auto: no more than the scene needs.");
-  a.Optional("tolerance", s.tolerance, "What fidelity auto may differ from the reference.");
+  a.Optional("tolerance", s.tolerance, "By how much fidelity auto may differ from the reference.");
   a.Switches("effects", s.effects, "Switches this effect on or off.", EffectNames());
   const auto conflict = ConflictIn(SwitchedEffects(s));
   a.Ensure({"effects", "fidelity"}, !conflict, conflict.value_or(""));

@@ -58,7 +58,8 @@ void Describe(Archive& a, PlatformRoofSpec& s) {
              "Chainage where it ends; absent = with the platform, or before its ramp.",
              ChainageLimits());
   a.Optional("height_m", s.height_m, "Of its lower side above the platform.", Within(2.2, 10));
-  a.Optional("column_spacing_m", s.column_spacing_m, "At most.", Within(2, 50));
+  a.Optional("column_spacing_m", s.column_spacing_m, "Greatest distance between columns.",
+             Within(2, 50));
   a.Ensure({"end_s_m", "begin_s_m"}, !s.begin_s_m || !s.end_s_m || *s.end_s_m > *s.begin_s_m,
            "must be > begin_s_m");
 }
@@ -69,7 +70,7 @@ void Describe(Archive& a, PlatformSpec& s) {
   a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
   a.Optional("edge_distance_m", s.edge_distance_m,
              "Of its edge from the axis of straight track; curves add to it.", Within(0.8, 10));
-  a.Optional("width_m", s.width_m, "Across.", Within(0.5, 50));
+  a.Optional("width_m", s.width_m, "Its width.", Within(0.5, 50));
   a.Optional("has_edge_strip", s.has_edge_strip,
              "Whether a white tactile strip runs along the edge.");
   a.Optional("has_ramps", s.has_ramps,
@@ -82,7 +83,7 @@ void Describe(Archive& a, NoiseWallSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its face from the track's axis.", BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above top of rail.", Within(0.3, 15));
-  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(1, 20));
+  a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.", Within(1, 20));
 }
 
 template <class Archive>
@@ -91,7 +92,8 @@ void Describe(Archive& a, FenceSpec& s) {
   a.Optional("distance_m", s.distance_m, "From the track's axis.", BesideTrackLimits());
   a.Optional("height_m", s.height_m, "Above the ground.", Within(0.3, 6));
   a.Optional("fence", s.fence, "What is between its posts.");
-  a.Optional("post_spacing_m", s.post_spacing_m, "At most.", Within(0.5, 20));
+  a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.",
+             Within(0.5, 20));
 }
 
 template <class Archive>
@@ -108,7 +110,7 @@ void Describe(Archive& a, CableTroughSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its nearer side from the track's axis.",
              BesideTrackLimits());
-  a.Optional("width_m", s.width_m, "Across.", Within(0.1, 2));
+  a.Optional("width_m", s.width_m, "Its width.", Within(0.1, 2));
 }
 
 template <class Archive>
@@ -128,7 +130,7 @@ template <class Archive>
 void Describe(Archive& a, BridgeSpec& s) {
   DescribeStretch(a, s);
   a.Optional("depth_m", s.depth_m,
-             "Of the bottom of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
+             "Depth of the gap below top of rail, at least 1.5 more than deck_thickness_m.",
              Within(2.5, 100));
   a.Optional("edge_distance_m", s.edge_distance_m,
              "Of its edges from the axes of the outermost tracks on it.", Within(2.2, 20));
@@ -155,20 +157,21 @@ void Describe(Archive& a, OverbridgeSpec& s) {
 template <class Archive>
 void Describe(Archive& a, ThirdRailSpec& s) {
   DescribeSideStretch(a, s);
-  a.Optional("contact", s.contact, "Where the shoes run.");
+  a.Optional("contact", s.contact, "Side of the rail on which the shoes of trains run.");
   a.Optional("distance_m", s.distance_m,
              "Of its middle from the track's axis; absent = as usual for the contact.",
              Within(0.85, 3));
   a.Optional("height_m", s.height_m,
              "Of its contact surface above top of rail; absent = as usual for the contact.",
              Within(0, 0.6));
-  a.Optional("has_shield", s.has_shield, "Boards beside it, or a cover over it.");
+  a.Optional("has_shield", s.has_shield,
+             "Whether there are boards beside the rail, or a cover over it.");
 }
 
 template <class Archive>
 void Describe(Archive& a, SlabTrackSpec& s) {
   DescribeStretch(a, s);
-  a.Optional("width_m", s.width_m, "Across.", Within(2.4, 6));
+  a.Optional("width_m", s.width_m, "Its width.", Within(2.4, 6));
 }
 
 }  // namespace railcast

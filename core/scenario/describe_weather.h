@@ -48,11 +48,11 @@ void Describe(Archive& a, WeatherSpec& s) {
   a.Optional("rain_dropout_exponent", s.rain_dropout_exponent,
              "Exponent of the rain rate in the dropout rate.", Within(0, 10));
   a.Optional("snow_rate_mmph", s.snow_rate_mmph, "Snow in mm/h of water.", PrecipitationLimits());
-  a.Optional("snow_type", s.snow_type, "What its extinction follows.");
+  a.Optional("snow_type", s.snow_type, "Kind of snow, on which its extinction depends.");
   a.Optional("snow_echoes_per_mmph", s.snow_echoes_per_mmph,
              "Mean detectable flakes per beam at 1 mm/h.", Within(0, 1000));
   a.Optional("snow_range_scale_m", s.snow_range_scale_m,
-             "Maxwell scale of their ranges; the median is 1.538 times this.",
+             "Maxwell scale of the flakes' ranges; the median is 1.538 times this.",
              Within(1e-3, 10'000));
   a.Optional("snow_intensity", s.snow_intensity, "Effective reflectance of a flake.",
              Within(0, 100));

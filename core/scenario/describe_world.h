@@ -78,14 +78,15 @@ void Describe(Archive& a, DiamondCrossingSpec& s) {
 
 template <class Archive>
 void Describe(Archive& a, CatenarySpec& s) {
-  a.Optional("enabled", s.enabled, "Whether there is any.");
+  a.Optional("enabled", s.enabled, "Whether there is a contact line.");
   a.Optional("contact_height_m", s.contact_height_m, "Above top of rail.", Within(4, 8));
   a.Optional("system_height_m", s.system_height_m,
              "Messenger wire above contact wire at a support.", PositiveUpTo(4));
   a.Optional("max_span_m", s.max_span_m, "Greatest span; spans are shorter in curves.",
              Within(10, 100));
   a.Optional("stagger_m", s.stagger_m, "Stagger of the contact wire at supports.", Within(0, 1));
-  a.Optional("dropper_spacing_m", s.dropper_spacing_m, "About.", Within(1, 50));
+  a.Optional("dropper_spacing_m", s.dropper_spacing_m, "Distance between droppers, about.",
+             Within(1, 50));
   a.Optional("mast_distance_m", s.mast_distance_m, "From the face of the mast to the track axis.",
              Within(kMastClearance_m, 20));
 }
@@ -117,7 +118,7 @@ void Describe(Archive& a, TerrainSpec& s) {
   a.Optional("roughness_sigma_m", s.roughness_sigma_m,
              "Standard deviation of the ground's small heights.", Within(0, 1));
   a.Optional("roughness_wavelength_m", s.roughness_wavelength_m,
-             "Correlation length of these heights.", Within(0.1, 100));
+             "Correlation length of the ground's small heights.", Within(0.1, 100));
   a.Optional("undulation_sigma_m", s.undulation_sigma_m, "Slow rise and fall away from the track.",
              Within(0, 20));
   a.Optional("relief", s.relief,
@@ -145,18 +146,19 @@ void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("tree_height_max_m", s.tree_height_max_m, "Height of the tallest tree.",
              PositiveUpTo(60));
   a.Optional("woods_share", s.woods_share,
-             "Share of the land on which they stand, in woods; 1 = everywhere.", Within(0, 1));
+             "Share of the land on which trees stand, in woods; 1 = everywhere.", Within(0, 1));
   a.Optional("woods_size_m", s.woods_size_m, "Width of woods and clearings, about.",
              Within(5, 10'000));
   a.Optional("bushes_per_hectare", s.bushes_per_hectare, "0 = none.", Within(0, 5000));
   a.Optional("bush_min_distance_m", s.bush_min_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
-  a.Optional("grass", s.grass, "Whether there is any.");
+  a.Optional("grass", s.grass, "Whether there is grass.");
   a.Optional("grass_min_distance_m", s.grass_min_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
   a.Optional("grass_max_distance_m", s.grass_max_distance_m,
              "Distance from the outermost track axis.", DistanceLimits());
-  a.Optional("grass_fade_m", s.grass_fade_m, "Distance beyond over which it thins out.",
+  a.Optional("grass_fade_m", s.grass_fade_m,
+             "Distance beyond grass_max_distance_m over which the grass thins out.",
              DistanceLimits());
   a.Ensure({"tree_height_min_m", "tree_height_max_m"}, s.tree_height_min_m <= s.tree_height_max_m,
            "must be <= tree_height_max_m");
@@ -212,8 +214,9 @@ void Describe(Archive& a, VehicleSpec& s) {
   a.Optional("ego_boxes_m", s.ego_boxes_m,
              "Its body in the vehicle frame: min x, y, z, max x, y, z.",
              EachNumber{Within(-1000, 1000)});
-  a.Optional("may_overlap", s.may_overlap,
-             "Whether it may stand or run inside objects; check and sequence refuse it else.");
+  a.Optional(
+      "may_overlap", s.may_overlap,
+      "Whether it may stand or run inside objects, which check and sequence otherwise refuse.");
   a.Optional(
       "consist", s.consist,
       "The train that the vehicle is part of, from front to rear in its direction of travel.");

@@ -149,7 +149,8 @@ def value_of(schema):
 def cells(schema, key, as_path=None):
     """What the table says of a key; `as_path`: of the object that has the same keys."""
     value, default = schema["properties"][key], default_of(schema, key)
-    what = value_of(value) + (f", as `{as_path}`" if as_path else "")
+    what = kind(value) if as_path else value_of(value)
+    what += f", as `{as_path}`" if as_path else ""
     return what + (f" ({default})" if default else ""), description(value) + excluded(schema, key)
 
 
@@ -204,6 +205,7 @@ class Writer:
 
     def __init__(self):
         self.seen = {}  # The schema's text: path.
+        self.tables = {}  # Path: rows, of objects without a type.
         self.parts = []
 
     def write(self, path, schema):
@@ -215,12 +217,18 @@ class Writer:
         else:
             self.write_object(path, schema, {})
 
+    def cells(self, path, schema, key):
+        """Cells of a key; where its names to choose from have been listed before, they say where."""
+        names = schema["properties"][key].get("examples")
+        first = names and self.seen.setdefault(json.dumps(names), f"{path}.{key}")
+        return cells(schema, key, first if first != f"{path}.{key}" else None)
+
     def rows(self, path, schema):
         """({key: cells}, [(path, schema)] of what has tables of its own)."""
         cells_of, others = {}, []
         for key in in_table(schema):
             inner_path, inner = element(f"{path}.{key}", schema["properties"][key])
-            cells_of[key] = cells(schema, key)
+            cells_of[key] = self.cells(path, schema, key)
             if inner_path in EXPLAINED_IN or "oneOf" in inner:
                 others.append((inner_path, inner))
             elif "properties" in inner:
@@ -229,10 +237,15 @@ class Writer:
                     cells_of[key] = cells(schema, key, first)
                 elif is_small(inner):
                     of_list = inner_path.removeprefix(f"{path}.")
-                    cells_of |= {f"{of_list}.{name}": cells(inner, name) for name in in_table(inner)}
+                    cells_of |= {f"{of_list}.{name}": self.cells(inner_path, inner, name) for name in in_table(inner)}
                 else:
                     others.append((inner_path, inner))
         return cells_of, others
+
+    def given_elsewhere(self, cells_of):
+        """As given_before(), of all objects written so far that have several keys alike."""
+        given = given_before(cells_of, self.tables)
+        return {path: keys for path, keys in given.items() if len(keys) > 1}
 
     def write_object(self, path, schema, choices):
         """Returns the rows. `choices`: {name: rows} of the choices that come before this one."""
@@ -242,12 +255,14 @@ class Writer:
             self.parts += [title, f"As `{first}`. {see_of(path)}".rstrip()]
             return {}
         cells_of, others = self.rows(path, schema)
-        known = given_before(cells_of, choices)
+        known = given_before(cells_of, choices) or self.given_elsewhere(cells_of)
         left = {key: row for key, row in cells_of.items() if not any(key in keys for keys in known.values())}
         as_others = "; ".join(", ".join(f"`{key}`" for key in keys) + f" as of `{name}`"
                               for name, keys in known.items())
         self.parts += [part for part in (title, see_of(path), table(left) if left else "",
                                          f"Also {as_others}." if as_others else "") if part]
+        if "(" not in path:
+            self.tables[path] = cells_of
         for inner_path, inner in others:
             self.write(inner_path, inner)
         return cells_of

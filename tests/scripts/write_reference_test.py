@@ -92,6 +92,23 @@ class Reference(unittest.TestCase):
             "| `way` | object |  |", "## `way`", "| `from` | list of objects |  |",
             "| `from[].s_m` | number |  |", "| `to` | object, as `way.from[]` |  |"])
 
+    def test_an_object_names_several_keys_that_it_has_as_an_earlier_one(self):
+        place = {"s_m": {"type": "number"}, "d_m": {"type": "number", "minimum": 1.0}}
+        flag = {"type": "boolean"}
+        self.assertEqual(lines_of({
+            "p": {"type": "object", "properties": place},
+            "q": {"type": "object", "properties": {**place, "b": flag}},
+            "r": {"type": "object", "properties": {"b": flag, "c": {"type": "string"}}}})[-6:], [
+                "## `q`", "| `b` | true, false |  |", "Also `s_m`, `d_m` as of `p`.",
+                "## `r`", "| `b` | true, false |  |", "| `c` | text |  |"])
+
+    def test_open_lists_of_names_are_printed_once(self):
+        kind = {"type": "string", "examples": ["x", "y"]}
+        first = {"type": "object", "properties": {"kind": kind}}
+        later = {"type": "object", "properties": {"kind": kind, "b": {"type": "boolean"}}, "required": ["kind"]}
+        self.assertEqual(lines_of({"p": first, "q": later})[-3:], [
+            "## `q`", "| `kind` | text, as `p.kind` (required) |  |", "| `b` | true, false |  |"])
+
     def test_what_has_been_described_is_not_described_again(self):
         part = {"type": "object", "properties": {"b": {"type": "boolean"}}}
         self.assertEqual(lines_of({"p": part, "q": part})[-2:], ["## `q`", "As `p`."])
