@@ -18,7 +18,7 @@
 #include "core/rail/network/network.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/world_tracks.h"
-#include "core/rail/structures/structure_types.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/traffic/train_places.h"
 #include "generator/check/clipped_polygon.h"
 

@@ -23,7 +23,7 @@ inline constexpr auto kEnumNames<SleeperType> = std::to_array<EnumName<SleeperTy
     {{SleeperType::kConcrete, "concrete"}, {SleeperType::kWood, "wood"}});
 
 /// Types of turnout by the angle and the radius of their diverging track
-/// (network/turnout_geometry.h).
+/// (network/turnout_place.h).
 enum class TurnoutType { k9_190, k9_300, k12_500, k14_760 };
 template <>
 inline constexpr auto kEnumNames<TurnoutType> =

@@ -119,6 +119,16 @@ void LookUp(const SurfaceRow<Surfaces> (&rows)[kCount],
 
 }  // namespace
 
+Part& PartOf(const SurfaceClass& surface, Model& model) {
+  const auto part =
+      std::find_if(model.parts.begin(), model.parts.end(), [&](const Part& candidate) {
+        return candidate.material == surface.material && candidate.label == surface.label;
+      });
+  if (part != model.parts.end()) return *part;
+  model.parts.push_back({.mesh = {}, .material = surface.material, .label = surface.label});
+  return model.parts.back();
+}
+
 RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
   ErrorList errors;
   LookUp(kSurfaceRows, labels, materials, *this, errors);

@@ -5,6 +5,7 @@
 
 #include "railcast/frame.h"
 #include "railcast/material.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
@@ -37,7 +38,7 @@ struct StructureSurfaces {
   LinesideSurfaces lineside;
 };
 
-/// The surfaces of turnouts (track/turnout_structure.h). Tables need their names only if the
+/// The surfaces of turnouts (track/track_structure.h). Tables need their names only if the
 /// world has turnouts.
 struct TurnoutSurfaces {
   SurfaceClass running_band, rail, point_machine;
@@ -70,6 +71,13 @@ struct RailSurfaces {
   /// @throws InputError with a line for every name that the tables lack.
   void AddTurnoutSurfaces(const LabelTable& labels, const MaterialLibrary& materials);
 };
+
+/// Returns the model's part with that surface; adds the part if there is none yet. The reference is
+/// valid until the next part is added.
+[[nodiscard]] Part& PartOf(const SurfaceClass& surface, Model& model);
+[[nodiscard]] inline Mesh& MeshOf(const SurfaceClass& surface, Model& model) {
+  return PartOf(surface, model).mesh;
+}
 
 /// Whether the railway itself or one of its models has surfaces of the material.
 [[nodiscard]] bool IsRailMaterial(std::string_view name);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
 #include "core/rail/catenary/wire_span.h"

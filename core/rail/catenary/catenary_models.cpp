@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/independent_wires.h"
 #include "core/scene/shapes.h"
 

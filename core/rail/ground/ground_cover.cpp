@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/rail/base/model_parts.h"
-#include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/base/rail_surfaces.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {

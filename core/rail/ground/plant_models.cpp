@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "core/base/units.h"
-#include "core/rail/base/model_parts.h"
-#include "core/rail/ground/plant_dice.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/ground/plant_parts.h"
 
 namespace railcast {

@@ -15,7 +15,7 @@ namespace railcast {
 /// ballast is left out.
 ///
 /// Where the terrain has a shape (landform.h), undulation is added to it, and the ground is the
-/// terrain between the slopes of cuttings and embankments (cut_and_fill.h). Where the strip narrows
+/// terrain between the slopes of cuttings and embankments (landform.h). Where the strip narrows
 /// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
 /// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
 ///

@@ -1,18 +1,57 @@
 #include "core/rail/ground/vegetation.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/rail/base/noise_field.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/woods.h"
 #include "core/rail/landform/ground_rise.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 namespace {
+
+/// Where trees stand: in woods with clearings between them, which are the high places of a noise
+/// over the plan on a lattice of the spec's size, with half of its variance on one of a third of
+/// it. A share of the land of VegetationSpec::woods_share is wooded; the edges are ragged.
+class Woods {
+ public:
+  Woods(const VegetationSpec& spec, std::uint64_t seed);
+
+  /// Whether a tree at a place of the world stands in a wood. @param draw Uniform in [0, 1).
+  [[nodiscard]] bool HaveTreeAt(const Eigen::Vector2d& place_m, float draw) const;
+
+ private:
+  double share_;
+  double size_m_;
+  NoiseField outline_;
+  NoiseField edge_;
+};
+
+Woods::Woods(const VegetationSpec& spec, std::uint64_t seed)
+    : share_(spec.woods_share),
+      size_m_(spec.woods_size_m),
+      outline_(seed, RandomUse::kWoods, 0),
+      edge_(seed, RandomUse::kWoods, 1) {}
+
+bool Woods::HaveTreeAt(const Eigen::Vector2d& place_m, float draw) const {
+  if (share_ >= 1.0) return true;
+  if (share_ <= 0.0) return false;
+  /// Width of the edge, as a share of the land: trees become fewer over it.
+  constexpr double kEdge = 0.1;
+  const Eigen::Vector2d at = place_m / size_m_;
+  const double noise =
+      std::sqrt(0.5) * (outline_.At(at.x(), at.y()) + edge_.At(3.0 * at.x(), 3.0 * at.y()));
+  // The noise is about normal, so that this is about uniform in [0, 1].
+  const double rank = 0.5 * std::erfc(noise * std::numbers::sqrt2 / 2.0);
+  return rank + kEdge * (static_cast<double>(draw) - 0.5) < share_;
+}
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr std::array<double, 2> kBothSidesOfTrack = {-1.0, 1.0};

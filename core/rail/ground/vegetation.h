@@ -17,7 +17,7 @@ namespace railcast {
 /// between its minimum and maximum distance beyond the axis of the outermost track. A strip
 /// narrower than a patch has none. Patches lie on the slope of the ground.
 ///
-/// With VegetationSpec::woods_share below 1, trees stand in woods (woods.h) only. Bushes form a
+/// With VegetationSpec::woods_share below 1, trees stand in woods only. Bushes form a
 /// Poisson process, too; low ones are the most frequent. With grass_fade_m, patches of grass follow
 /// beyond the strip at random places, ever fewer outwards. Nothing stands where the strip of ground
 /// has narrowed.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/landform/landform.h"
 
 namespace railcast {
 namespace {

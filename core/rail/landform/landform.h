@@ -1,14 +1,72 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "core/rail/base/noise_field.h"
-#include "core/rail/landform/elevation.h"
+#include "core/rail/landform/elevation_grid.h"
 #include "core/rail/landform/strip_width.h"
+#include "railcast/alignment.h"
 #include "railcast/world_spec.h"
 
 namespace railcast {
+
+/// Half width of the formation beside a track's axis: the ground is level up to there. Masts stand
+/// on it (their foundations reach 4.2 m).
+inline constexpr double kFormationEdge_m = 4.5;
+
+/// Rise per metre of the slopes of cuttings and embankments: 1:1.5, the usual slope of both in
+/// cohesive and sandy soils (Ril 836; steeper ones need a proof of stability).
+inline constexpr double kCutAndFillSlope = 1.0 / 1.5;
+
+/// Height of the ground above the formation at `beyond_m` outside its edge: the terrain, or where
+/// that is higher or lower, the slope of the cutting or the embankment.
+/// @param rise_m Height of the terrain above the formation.
+[[nodiscard]] inline double CutAndFill_m(double rise_m, double beyond_m) {
+  const double slope_m = kCutAndFillSlope * std::max(0.0, beyond_m);
+  return std::clamp(rise_m, -slope_m, slope_m);
+}
+
+/// Ditches of cuttings, between the formation and the slope: trapezes with sides of 1:1.5.
+inline constexpr double kDitchDepth_m = 0.4;
+inline constexpr double kDitchBottom_m = 0.4;
+inline constexpr double kDitchWidth_m = kDitchBottom_m + 2.0 * kDitchDepth_m / kCutAndFillSlope;
+
+/// As CutAndFill_m(), with a ditch where the terrain is higher than the formation. It is no deeper
+/// than the cutting, so that it fades out where an embankment begins.
+[[nodiscard]] inline double CutWithDitchAndFill_m(double rise_m, double beyond_m) {
+  if (rise_m <= 0.0) return CutAndFill_m(rise_m, beyond_m);
+  const double down_m = -kCutAndFillSlope * std::max(0.0, beyond_m);
+  const double up_m = kCutAndFillSlope * (beyond_m - kDitchWidth_m);
+  const double ditch_m = std::max({down_m, -kDitchDepth_m, up_m});
+  return std::min(rise_m, std::max(ditch_m, -rise_m));
+}
+
+/// Heights of ElevationSpec in the world. Cheap to copy, immutable, thread-safe.
+class DemHeights {
+ public:
+  /// @throws InputError as ElevationGrid does.
+  explicit DemHeights(const ElevationSpec& spec);
+
+  [[nodiscard]] double Height_m(const Eigen::Vector2d& place_m) const;
+  [[nodiscard]] bool Covers(const Eigen::Vector2d& place_m) const;
+  [[nodiscard]] double cell_m() const { return grid_->cell_m(); }
+
+ private:
+  std::shared_ptr<const ElevationGrid> grid_;
+  std::array<double, 3> origin_m_;
+};
+
+/// What is wrong, if the file does not cover the ground of the whole line, "must cover the ground
+/// of the whole line: ends at chainage 1240 m". Ground is examined at places as far apart as its
+/// cells and at least 5 m; gaps between them are filled (ElevationGrid).
+[[nodiscard]] std::optional<std::string> CoverageFault(const DemHeights& elevation,
+                                                       const Alignment& alignment,
+                                                       const StripWidth& width);
 
 /// The hills of ReliefSpec: heights that depend on the place in plan and the seed alone, so that
 /// they are continuous everywhere. Two noises: one on a lattice of the spec's wavelength with 0.9

@@ -5,7 +5,6 @@
 #include <limits>
 #include <variant>
 
-#include "core/rail/landform/cut_and_fill.h"
 #include "core/rail/landform/landform.h"
 
 namespace railcast {

@@ -11,7 +11,6 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/cant.h"
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/plan_course.h"
 #include "core/rail/line/plan_spline.h"

@@ -1,7 +1,9 @@
 #include "core/rail/motion/path_way.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/base/units.h"
@@ -9,9 +11,108 @@
 namespace railcast {
 namespace {
 
+/// The speed at a distance from where it is `speed_mps`, changing at a constant rate.
+double SpeedAfter_mps(double speed_mps, double acceleration_mps2, double distance_m) {
+  return std::sqrt(speed_mps * speed_mps + 2.0 * acceleration_mps2 * distance_m);
+}
+
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
+
+PathMotion::PathMotion(const PathSpec& path, const std::vector<double>& points_along_m)
+    : phases_{Phase{}}, length_m_(points_along_m.back()) {
+  std::vector<Stretch> there;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const PathPoint& point = path.points[i];
+    const bool is_last = i + 1 == path.points.size();
+    there.push_back({points_along_m[i + 1] - points_along_m[i],
+                     point.speed_mps.value_or(path.speed_mps), point.wait_s,
+                     is_last || point.wait_s > 0.0, is_last && path.turns_back});
+  }
+  Append(there, path.acceleration_mps2);
+  if (!path.turns_back) return;
+  std::vector<Stretch> back;
+  for (std::size_t i = there.size(); i-- > 0;) {
+    back.push_back({there[i].length_m, there[i].speed_mps, i > 0 ? there[i - 1].wait_s : 0.0,
+                    i == 0 || there[i - 1].stops, i == 0});
+  }
+  Append(back, path.acceleration_mps2);
+  period_s_ = phases_.back().begin_s;
+}
+
+void PathMotion::Append(const std::vector<Stretch>& stretches, double acceleration_mps2) {
+  // Speeds at the ends of the stretches: first what the stretches permit, then what can be reached
+  // from the one before, then what permits slowing down to the one after.
+  std::vector<double> speeds_mps{0.0};
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const double permitted_mps =
+        stretches[i].stops ? 0.0 : std::min(stretches[i].speed_mps, stretches[i + 1].speed_mps);
+    speeds_mps.push_back(
+        std::min(permitted_mps,
+                 SpeedAfter_mps(speeds_mps.back(), acceleration_mps2, stretches[i].length_m)));
+  }
+  for (std::size_t i = stretches.size(); i-- > 0;) {
+    speeds_mps[i] = std::min(
+        speeds_mps[i], SpeedAfter_mps(speeds_mps[i + 1], acceleration_mps2, stretches[i].length_m));
+  }
+  for (std::size_t i = 0; i < stretches.size(); ++i) {
+    const Stretch& stretch = stretches[i];
+    const double begin_mps = speeds_mps[i];
+    const double end_mps = speeds_mps[i + 1];
+    const double peak_mps =
+        std::min(stretch.speed_mps, std::sqrt(0.5 * (begin_mps * begin_mps + end_mps * end_mps) +
+                                              acceleration_mps2 * stretch.length_m));
+    const double up_s = (peak_mps - begin_mps) / acceleration_mps2;
+    const double down_s = (peak_mps - end_mps) / acceleration_mps2;
+    const double cruise_m = stretch.length_m - 0.5 * (begin_mps + peak_mps) * up_s -
+                            0.5 * (peak_mps + end_mps) * down_s;
+    Append(up_s, acceleration_mps2, 0.0);
+    if (cruise_m > 0.0 && peak_mps > 0.0) Append(cruise_m / peak_mps, 0.0, 0.0);
+    Append(down_s, -acceleration_mps2, 0.0);
+    phases_.back().speed_mps = end_mps;  // Exactly, whatever the rounding.
+    if (!stretch.turns) {
+      Append(stretch.wait_s, 0.0, 0.0);
+    } else {
+      Append(std::max(0.0, stretch.wait_s - kTurn_s), 0.0, 0.0);
+      Append(kTurn_s, 0.0, std::numbers::pi / kTurn_s);
+    }
+  }
+}
+
+// The last phase gets its acceleration and a successor.
+void PathMotion::Append(double duration_s, double acceleration_mps2, double turn_radps) {
+  if (duration_s <= 0.0) return;
+  Phase& last = phases_.back();
+  last.acceleration_mps2 = acceleration_mps2;
+  last.turn_radps = turn_radps;
+  Phase next = last;
+  next.begin_s += duration_s;
+  next.walked_m += (last.speed_mps + 0.5 * acceleration_mps2 * duration_s) * duration_s;
+  next.speed_mps += acceleration_mps2 * duration_s;
+  next.turned_rad += turn_radps * duration_s;
+  next.acceleration_mps2 = 0.0;
+  next.turn_radps = 0.0;
+  phases_.push_back(next);
+}
+
+PathMotion::State PathMotion::At(double time_s) const {
+  double inside_s = std::max(0.0, time_s);
+  double rounds = 0.0;
+  if (period_s_ > 0.0) {
+    rounds = std::floor(inside_s / period_s_);
+    inside_s -= rounds * period_s_;
+  }
+  const auto after = std::ranges::upper_bound(phases_, inside_s, {}, &Phase::begin_s);
+  const Phase& phase = *(after - 1);
+  inside_s -= phase.begin_s;
+  const double walked_m =
+      phase.walked_m + (phase.speed_mps + 0.5 * phase.acceleration_mps2 * inside_s) * inside_s;
+  return {.along_m = walked_m <= length_m_ ? walked_m : std::max(0.0, 2.0 * length_m_ - walked_m),
+          .speed_mps = std::max(0.0, phase.speed_mps + phase.acceleration_mps2 * inside_s),
+          .walked_m = walked_m + 2.0 * rounds * length_m_,
+          .turned_rad = phase.turned_rad + phase.turn_radps * inside_s};
+}
 
 PathWay::PathWay(PathCourse course,
                  const PathSpec& path,

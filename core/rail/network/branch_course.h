@@ -7,7 +7,7 @@
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/plan_course.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 
 namespace railcast {
 

@@ -12,7 +12,6 @@
 #include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/network/diamond_site.h"
-#include "core/rail/network/fouling.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/network/world_tracks.h"
 

@@ -1,11 +1,70 @@
 #include "core/rail/network/turnout_place.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/network/branch_course.h"
+#include "core/rail/network/network.h"
 
 namespace railcast {
+namespace {
+
+/// A turnout that ends where its arc does.
+TurnoutGeometry ArcToTheEnd(double radius_m, double run) {
+  const double angle_rad = std::atan(1.0 / run);
+  const double tangent_m = radius_m * std::tan(0.5 * angle_rad);
+  return {radius_m, angle_rad, tangent_m, 2.0 * tangent_m};
+}
+
+}  // namespace
+
+std::optional<double> ClearChainage_m(const TrackCourse& track,
+                                      const TrackCourse& branch,
+                                      const TurnoutSite& turnout,
+                                      double distance_m) {
+  const auto is_clear = [&](double s_m) {
+    return std::abs(branch.OffsetAt(s_m).d_m - track.OffsetAt(s_m).d_m) >= distance_m - 1e-9;
+  };
+  constexpr double kStep_m = 1.0;
+  constexpr double kFarthest_m = 1000.0;
+  constexpr double kExact_m = 1e-6;
+  const double side = turnout.opens_ahead() ? kStep_m : -kStep_m;
+  double before_m = turnout.s_m;
+  double after_m = turnout.s_m;
+  do {
+    before_m = after_m;
+    after_m += side;
+    const bool is_on_both = std::clamp(after_m, branch.begin_s_m(), branch.end_s_m()) == after_m &&
+                            std::clamp(after_m, track.begin_s_m(), track.end_s_m()) == after_m;
+    if (!is_on_both || std::abs(after_m - turnout.s_m) > kFarthest_m) return std::nullopt;
+  } while (!is_clear(after_m));
+  while (std::abs(after_m - before_m) > kExact_m) {
+    const double middle_m = std::midpoint(before_m, after_m);
+    (is_clear(middle_m) ? after_m : before_m) = middle_m;
+  }
+  return after_m;
+}
+
+TurnoutGeometry GeometryOf(TurnoutType type) {
+  switch (type) {
+    case TurnoutType::k9_190: {
+      TurnoutGeometry geometry = ArcToTheEnd(190.0, 9.0);
+      geometry.length_m = geometry.tangent_m + ArcToTheEnd(300.0, 9.0).tangent_m;
+      return geometry;
+    }
+    case TurnoutType::k9_300:
+      return ArcToTheEnd(300.0, 9.0);
+    case TurnoutType::k12_500:
+      return ArcToTheEnd(500.0, 12.0);
+    case TurnoutType::k14_760:
+      return ArcToTheEnd(760.0, 14.0);
+  }
+  Check(false, "the type is one of the enumeration");
+  return {};
+}
 
 double TurnoutEnd_m(const TurnoutPlace& place, double s_m) {
   const double side = place.opens_ahead ? 1.0 : -1.0;

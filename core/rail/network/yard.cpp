@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/rail/network/fouling.h"
-#include "core/rail/network/turnout_geometry.h"
 #include "core/rail/network/turnout_place.h"
 
 namespace railcast {

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "core/base/error.h"
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 
 namespace railcast {
 namespace {

@@ -10,8 +10,7 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_import.h"
 #include "core/mesh/simplify.h"
-#include "core/rail/base/model_parts.h"
-#include "core/rail/objects/named_materials.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_surfaces.h"
 
 namespace railcast {

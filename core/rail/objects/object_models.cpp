@@ -6,16 +6,41 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/base/model_parts.h"
-#include "core/rail/objects/leaning.h"
+#include "core/base/units.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_surfaces.h"
-#include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/objects/table_models.h"
 #include "core/scene/shapes.h"
+#include "railcast/scene.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
+
+Vector3 FootOf(const Model& model) {
+  const Eigen::AlignedBox3d bounds_m = model.Bounds();
+  return {bounds_m.center().x(), bounds_m.center().y(), bounds_m.min().z()};
+}
+
+/// Turns a model about its x axis, to the right, and then about its y axis, forwards, and moves it
+/// so that the middle of its new bounding box in plan and its new lowest point are where they were
+/// before. Angles in degrees, as ObjectSpec::roll_deg and pitch_deg.
+void Tilt(double roll_deg, double pitch_deg, Model& model) {
+  if (roll_deg == 0.0 && pitch_deg == 0.0) return;
+  if (model.Bounds().isEmpty()) return;
+  const auto transform = [&](const Transform& to_from_model) {
+    for (Part& part : model.parts) {
+      for (Eigen::Vector3f& vertex : part.mesh.vertices) {
+        vertex = (to_from_model * vertex.cast<double>()).cast<float>();
+      }
+    }
+  };
+  const Vector3 foot_m = FootOf(model);
+  transform(MakeTransform(
+      RotationFromYawPitchRoll(0.0, RadFromDeg(pitch_deg), RadFromDeg(roll_deg)), Vector3::Zero()));
+  transform(Transform(Eigen::Translation3d(foot_m - FootOf(model))));
+}
 
 [[noreturn]] void Fail(const std::string& line) {
   throw InputError(line);
@@ -135,7 +160,7 @@ std::shared_ptr<const Model> MakeObjectModel(const ObjectSpec& spec,
                             : MakeShape(spec, surfaces, labels, materials);
     Repaint(spec, surfaces, labels, materials, model);
   }
-  Lean(spec.roll_deg, spec.pitch_deg, model);
+  Tilt(spec.roll_deg, spec.pitch_deg, model);
   return std::make_shared<const Model>(std::move(model));
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/person_luggage.h"
 #include "core/rail/objects/person_pose.h"
 #include "core/rail/objects/person_shape.h"

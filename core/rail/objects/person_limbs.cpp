@@ -2,7 +2,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_shape.h"
 #include "core/scene/shapes.h"

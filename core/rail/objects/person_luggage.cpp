@@ -6,7 +6,7 @@
 
 #include "core/base/shipped_files.h"
 #include "core/mesh/mesh_import.h"
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_pose.h"
 #include "core/scene/shapes.h"

@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/structure_types.h"
-#include "core/rail/structures/swept_solid.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/track/cross_section.h"
 #include "core/scene/shapes.h"
 

@@ -2,9 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/structures/lineside_models.h"
-#include "core/rail/structures/lineside_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -4,8 +4,8 @@
 
 #include "core/rail/line/rail_section.h"
 #include "core/rail/structures/lineside_models.h"
-#include "core/rail/structures/lineside_placing.h"
-#include "core/rail/structures/structure_types.h"
+#include "core/rail/structures/standing_height.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {

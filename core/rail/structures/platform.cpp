@@ -3,12 +3,11 @@
 #include <optional>
 
 #include "core/base/text.h"
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/clearance/structure_gauge.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/structure_types.h"
-#include "core/rail/structures/swept_solid.h"
+#include "core/rail/structures/structures.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

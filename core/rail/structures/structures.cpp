@@ -9,10 +9,9 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/lineside_models.h"
-#include "core/rail/structures/structure_types.h"
 
 namespace railcast {
 namespace {

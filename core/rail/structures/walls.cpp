@@ -1,11 +1,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structure_track.h"
-#include "core/rail/structures/structure_types.h"
-#include "core/rail/structures/swept_solid.h"
+#include "core/rail/structures/structures.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/base/model_parts.h"
 #include "core/rail/base/noise_field.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/chunk/coarse_grid.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/line/rail_section.h"

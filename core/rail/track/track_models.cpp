@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
 #include "core/scene/shapes.h"

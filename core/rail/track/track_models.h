@@ -43,7 +43,7 @@ struct TrackModels {
   std::shared_ptr<const Model> concrete_sleeper;
   std::shared_ptr<const Model> wood_sleeper;
 
-  /// Of turnouts (track/turnout_structure.h): bearers from 1.6 m on, each 0.1 m longer.
+  /// Of turnouts (track/track_structure.h): bearers from 1.6 m on, each 0.1 m longer.
   std::vector<std::shared_ptr<const Model>> concrete_bearers;
   std::vector<std::shared_ptr<const Model>> wood_bearers;
   std::shared_ptr<const Model> concrete_plate;

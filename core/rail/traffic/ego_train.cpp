@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/rail/line/track_length.h"
-#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/train_places.h"
 #include "core/scene/shapes.h"
 

@@ -12,7 +12,7 @@
 #include "core/rail/line/map_place.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/traffic/bogies.h"
+#include "core/rail/traffic/object_way.h"
 
 namespace railcast {
 namespace {

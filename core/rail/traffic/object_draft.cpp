@@ -12,9 +12,9 @@
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/objects/rail_vehicles.h"
-#include "core/rail/traffic/bogies.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/ego_train.h"
+#include "core/rail/traffic/object_way.h"
 
 namespace railcast {
 namespace {

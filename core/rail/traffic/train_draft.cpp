@@ -12,7 +12,7 @@
 #include "core/rail/line/track_length.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/traffic/bogies.h"
+#include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/train_places.h"
 
 namespace railcast {

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 
 namespace railcast {
 

@@ -7,11 +7,11 @@
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/objects/rail_vehicles.h"
+#include "core/rail/objects/table_models.h"
 #include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/traffic/bogies.h"
 #include "core/rail/traffic/ego_train.h"
+#include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/train_draft.h"
 #include "core/rail/traffic/train_places.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
-#include "core/rail/landform/elevation.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/landform/strip_width.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/traffic/object_draft.h"

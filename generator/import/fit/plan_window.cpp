@@ -6,7 +6,6 @@
 #include <unsupported/Eigen/NumericalDiff>
 
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/line/cant.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/landform/strip_width.h"
 
 namespace railcast {

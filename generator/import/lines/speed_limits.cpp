@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "core/rail/line/cant.h"
+#include "core/rail/line/alignment_course.h"
 #include "generator/import/fit/plan_window.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/rail/landform/cut_and_fill.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/network/independent_course.h"
 #include "core/rail/network/world_tracks.h"

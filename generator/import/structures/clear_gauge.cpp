@@ -11,7 +11,6 @@
 #include "core/base/text.h"
 #include "core/rail/base/chainage_range.h"
 #include "core/rail/network/network_draft.h"
-#include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/scenario/describe_structures.h"
 #include "generator/check/gauge_entries.h"

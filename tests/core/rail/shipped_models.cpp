@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/rail/objects/rail_vehicles.h"
 #include "core/rail/objects/table_models.h"
 #include "core/scenario/object_types.h"
 #include "tests/core/rail/test_tables.h"

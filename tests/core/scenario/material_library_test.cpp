@@ -6,7 +6,7 @@
 #include <cstring>
 #include <optional>
 
-#include "core/rail/objects/named_materials.h"
+#include "core/rail/objects/object_surfaces.h"
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 

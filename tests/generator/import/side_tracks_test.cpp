@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"

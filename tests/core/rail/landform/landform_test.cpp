@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/rail/ground/terrain.h"
-#include "core/rail/landform/cut_and_fill.h"
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/test_line.h"

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/network/fouling.h"
 #include "core/rail/network/network_draft.h"
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/network/fouling.h"
 #include "core/rail/network/network_check.h"
 #include "core/rail/network/network_draft.h"
+#include "core/rail/network/turnout_place.h"
 #include "core/rail/world/world_draft.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"

@@ -1,4 +1,3 @@
-#include "core/rail/objects/rail_vehicles.h"
 
 #include <gtest/gtest.h>
 

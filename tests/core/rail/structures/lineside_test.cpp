@@ -7,7 +7,6 @@
 
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/structures/lineside_models.h"
-#include "core/rail/structures/structure_types.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/structures/structure_probe.h"

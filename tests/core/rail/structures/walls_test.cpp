@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/base/model_parts.h"
+#include "core/rail/base/rail_surfaces.h"
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structures.h"

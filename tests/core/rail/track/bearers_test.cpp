@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 #include "core/rail/network/yard.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_line.h"

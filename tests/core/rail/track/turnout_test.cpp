@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 #include "core/rail/network/turnout_rails.h"
-#include "core/rail/track/planed_rail.h"
+#include "core/rail/track/switch_parts.h"
 #include "core/rail/track/track_structure.h"
-#include "core/rail/track/turnout_structure.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/track/cut_rails.h"
 

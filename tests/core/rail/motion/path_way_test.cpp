@@ -1,4 +1,4 @@
-#include "core/rail/motion/path_motion.h"
+#include "core/rail/motion/path_way.h"
 
 #include <gtest/gtest.h>
 

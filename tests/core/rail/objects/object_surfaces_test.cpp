@@ -1,4 +1,4 @@
-#include "core/rail/objects/named_materials.h"
+#include "core/rail/objects/object_surfaces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/rail/network/turnout_geometry.h"
+#include "core/rail/network/turnout_place.h"
 
 #include <gtest/gtest.h>
 

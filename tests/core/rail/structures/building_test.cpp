@@ -1,4 +1,4 @@
-#include "core/rail/structures/building_model.h"
+#include "core/rail/structures/building.h"
 
 #include <gtest/gtest.h>
 
