@@ -9,10 +9,9 @@
 
 #include "analysis/commands.h"
 #include "core/base/text.h"
-#include "core/io/run/sensor_folders.h"
-#include "core/io/verify/dataset_content.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"
-#include "core/io/verify/merged_verification.h"
+#include "core/io/verify/scenario_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
 

@@ -7,7 +7,7 @@
 #include "analysis/estimate/moments.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
-#include "core/io/run/dataset_bins.h"
+#include "core/io/run/dataset_files.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

@@ -6,10 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recorded_json.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "core/scenario/json_text.h"
 

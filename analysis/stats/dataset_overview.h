@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/run/dataset_bins.h"
+#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 

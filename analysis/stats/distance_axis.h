@@ -3,7 +3,7 @@
 #include <string>
 
 #include "analysis/report/report.h"
-#include "core/io/run/dataset_bins.h"
+#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 

@@ -5,9 +5,8 @@
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/dataset_content.h"
+#include "core/io/verify/dataset_verification.h"
 
 namespace railcast {
 

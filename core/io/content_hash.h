@@ -21,4 +21,16 @@ struct FileHash {
 /// @throws InputError if it is not a regular file or cannot be read.
 [[nodiscard]] FileHash HashFile(const std::filesystem::path& file);
 
+/// Returns a line of JSON with its last member added: line_xxh3, the hash of the text before it.
+/// Lines of unfinished files have no other protection.
+/// @param object With members of its own, without a line end.
+[[nodiscard]] std::string WithLineHash(std::string_view object);
+
+/// What is wrong with a line's hash of itself; empty if nothing is.
+/// @param line As WithLineHash() returned it, without a line end.
+[[nodiscard]] std::string LineHashFault(std::string_view line);
+
+/// Whether a line has a hash of itself. Those of older programs have none.
+[[nodiscard]] bool HasLineHash(std::string_view line);
+
 }  // namespace railcast

@@ -4,10 +4,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.h"
 
 namespace railcast {
 
@@ -56,5 +59,26 @@ using StrictJsonIn = nlohmann::basic_json<Map,
 using StrictJson = StrictJsonIn<std::map>;
 /// As above, with an object's members in the order of the text.
 using StrictOrderedJson = StrictJsonIn<nlohmann::ordered_map>;
+
+/// Checks that a text is JSON as ParseJson() accepts it, without duplicate keys.
+/// @param place Names the file in errors: "out/run.json".
+/// @throws InputError "place: is damaged: ..." if it is not.
+void CheckRecordedJson(const std::string& text, const std::string& place);
+
+/// Parses JSON that railcast wrote and returns what `read` makes of it.
+/// @tparam Json StrictJson or StrictOrderedJson.
+/// @throws InputError "place: is damaged: ..." if the text is not JSON, or does not have what
+///   `read` asks for.
+template <typename Json, typename Read>
+auto ReadRecordedJson(const std::string& text, const std::string& place, const Read& read)
+    -> decltype(read(Json{})) {
+  // Checked first because the library's own syntax errors quote the text raw and without bound.
+  CheckRecordedJson(text, place);
+  try {
+    return read(Json::parse(text));
+  } catch (const typename Json::exception& error) {
+    throw InputError(place + ": is damaged: " + error.what());
+  }
+}
 
 }  // namespace railcast

@@ -1,30 +1,88 @@
 #include "core/mesh/assimp_reader.h"
 
-#include <assimp/MemoryIOWrapper.h>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
-#include <assimp/IOSystem.hpp>
-#include <assimp/Importer.hpp>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/dae_text.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/limited_process.h"
+#include "core/mesh/mesh_format.h"
 #include "core/mesh/scene_gatherer.h"
 #include "core/mesh/soup_bytes.h"
 
 namespace railcast {
 namespace {
+
+std::string_view WithoutEndBlanks(std::string_view text) {
+  constexpr std::string_view kXmlBlanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(kXmlBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kXmlBlanks) + 1);
+}
+
+/// Takes what comes before `end` off the text, with `end` itself.
+std::string_view TakeThrough(std::string_view& rest, std::string_view end) {
+  const std::size_t place = rest.find(end);
+  const std::string_view part =
+      rest.substr(0, place == std::string_view::npos ? place : place + end.size());
+  rest.remove_prefix(part.size());
+  return part;
+}
+
+/// Takes a tag, which begins with "<", off the text and appends it with its attributes trimmed.
+void AppendTag(std::string_view& rest, std::string& plain) {
+  while (!rest.empty()) {
+    const std::size_t stop = std::min(rest.find_first_of(">\"'"), rest.size() - 1);
+    const char found = rest[stop];
+    plain += rest.substr(0, stop + 1);
+    rest.remove_prefix(stop + 1);
+    if (found == '>') return;
+    if (found != '"' && found != '\'') continue;
+    std::string_view value = TakeThrough(rest, {&found, 1});
+    const bool is_closed = value.ends_with(found);
+    if (is_closed) value.remove_suffix(1);
+    plain += WithoutEndBlanks(value);
+    if (is_closed) plain += found;
+  }
+}
+
+// A DAE file as assimp understands it: in UTF-8, and without blanks at the ends of values. XML
+// Schema passes over these in all values that DAE has, but assimp 5.2 takes a unit of " 0.01 " for
+// 1 m, an axis of " Z_UP " for the default, y, and does not find what " #mesh " names.
+std::string PlainDae(std::string bytes) {
+  const std::string xml = AsUtf8(std::move(bytes));
+  std::string plain;
+  plain.reserve(xml.size());
+  std::string_view rest = xml;
+  while (!rest.empty()) {
+    const std::string_view text = rest.substr(0, rest.find('<'));
+    rest.remove_prefix(text.size());
+    plain += WithoutEndBlanks(text);
+    if (rest.starts_with("<!--")) {
+      plain += TakeThrough(rest, "-->");
+    } else if (rest.starts_with("<![CDATA[")) {
+      plain += TakeThrough(rest, "]]>");
+    } else if (rest.starts_with("<?")) {
+      plain += TakeThrough(rest, "?>");
+    } else {
+      AppendTag(rest, plain);
+    }
+  }
+  return plain;
+}
 
 /// By it assimp chooses its reader.
 std::string ExtensionOf(MeshFormat format) {

@@ -13,20 +13,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
-#include "core/mesh/face_colors.h"
 #include "core/mesh/line_faults.h"
+#include "core/mesh/polygon_soup.h"
 
 namespace railcast {
 namespace {
-
-/// What follows a line's first word, without blanks at its ends, as ObjReader reads names.
-std::string RestOf(std::string_view line, std::string_view word) {
-  constexpr std::string_view kSpaces = " \t\r\v\f";
-  line.remove_prefix(static_cast<std::size_t>(word.data() - line.data()) + word.size());
-  const std::size_t first = line.find_first_not_of(kSpaces);
-  if (first == std::string_view::npos) return "";
-  return std::string(line.substr(first, line.find_last_not_of(kSpaces) - first + 1));
-}
 
 /// The luminance in a Kd line; nothing of one by a spectrum or CIE XYZ.
 std::optional<double> LuminanceOfKd(const std::vector<std::string_view>& words,
@@ -81,7 +72,7 @@ std::vector<std::string> MaterialLibrariesOf(const std::string& obj) {
     if (line->find("mtllib") == std::string_view::npos) continue;
     const auto words = Words(*line);
     if (words.size() < 2 || words[0] != "mtllib") continue;
-    names.push_back(RestOf(*line, words[0]));
+    names.push_back(Name({words[0].end(), line->end()}));
     if (words.size() > 2) names.insert(names.end(), words.begin() + 1, words.end());
   }
   return names;
@@ -98,7 +89,7 @@ void ReadMtl(const std::string& shown,
   for (std::size_t number = 1; const auto line = TakeLine(rest); ++number) {
     const auto words = Words(*line);
     if (words.empty()) continue;
-    if (words[0] == "newmtl") material = RestOf(*line, words[0]);
+    if (words[0] == "newmtl") material = Name({words[0].end(), line->end()});
     if (words[0] == "map_Kd") pictured.insert(material);
     if (words[0] != "Kd") continue;
     faults.Try([&] {

@@ -9,37 +9,18 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/number_type.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
-#include "core/mesh/face_colors.h"
+#include "core/mesh/polygon_soup.h"
 
 namespace railcast {
 namespace {
 
-enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-
-constexpr std::array<std::pair<std::string_view, Type>, 16> kTypeNames = {
-    {{"char", Type::kInt8},
-     {"int8", Type::kInt8},
-     {"uchar", Type::kUint8},
-     {"uint8", Type::kUint8},
-     {"short", Type::kInt16},
-     {"int16", Type::kInt16},
-     {"ushort", Type::kUint16},
-     {"uint16", Type::kUint16},
-     {"int", Type::kInt32},
-     {"int32", Type::kInt32},
-     {"uint", Type::kUint32},
-     {"uint32", Type::kUint32},
-     {"float", Type::kFloat32},
-     {"float32", Type::kFloat32},
-     {"double", Type::kFloat64},
-     {"float64", Type::kFloat64}}};
-
 struct Property {
   std::string name;
-  Type type{};
-  std::optional<Type> length;  ///< The type of a list's length; absent = one number.
+  NumberType type{};
+  std::optional<NumberType> length;  ///< The type of a list's length; absent = one number.
 };
 
 struct Element {
@@ -127,10 +108,9 @@ class Reader {
   [[nodiscard]] Property PropertyOf(const std::vector<std::string_view>& words,
                                     std::string_view line) const {
     const auto type_of = [&](std::string_view name) {
-      const auto* it = std::find_if(kTypeNames.begin(), kTypeNames.end(),
-                                    [&](const auto& known) { return known.first == name; });
-      if (it == kTypeNames.end()) FailLine(line);
-      return it->second;
+      const auto type = PlyTypeNamed(name);
+      if (!type) FailLine(line);
+      return *type;
     };
     if (words.size() == 5 && words[1] == "list") {
       return {std::string(words[4]), type_of(words[3]), type_of(words[2])};
@@ -182,8 +162,8 @@ class Reader {
   }
 
   /// A part of a colour that is given in bytes or, as a fraction, from 0 to 1.
-  [[nodiscard]] static std::uint8_t ByteOf(double value, Type type) {
-    const bool is_fraction = type == Type::kFloat32 || type == Type::kFloat64;
+  [[nodiscard]] static std::uint8_t ByteOf(double value, NumberType type) {
+    const bool is_fraction = type == NumberType::kFloat || type == NumberType::kDouble;
     const double byte = is_fraction ? std::round(255.0 * value) : value;
     return byte >= 0.0 && byte <= 255.0 ? static_cast<std::uint8_t>(byte) : std::uint8_t{0};
   }
@@ -248,7 +228,7 @@ class Reader {
          std::to_string(soup_.points.size()) + " vertices, counted from 0" + Got(corner));
   }
 
-  [[nodiscard]] std::size_t Length(const Element& element, Type type) {
+  [[nodiscard]] std::size_t Length(const Element& element, NumberType type) {
     const double length = Next(element, type);
     if (!(length >= 0.0 && length == std::floor(length))) {
       Fail("element " + ShownText(element.name) + ": a list's length must be a whole number" +
@@ -259,27 +239,10 @@ class Reader {
   }
 
   /// The next number.
-  double Next(const Element& element, Type type) {
+  double Next(const Element& element, NumberType type) {
     if (header_.encoding == Encoding::kAscii) return NextWord(element);
-    switch (type) {
-      case Type::kInt8:
-        return NextBytes<std::int8_t>(element);
-      case Type::kUint8:
-        return NextBytes<std::uint8_t>(element);
-      case Type::kInt16:
-        return NextBytes<std::int16_t>(element);
-      case Type::kUint16:
-        return NextBytes<std::uint16_t>(element);
-      case Type::kInt32:
-        return NextBytes<std::int32_t>(element);
-      case Type::kUint32:
-        return NextBytes<std::uint32_t>(element);
-      case Type::kFloat32:
-        return static_cast<double>(NextBytes<float>(element));
-      case Type::kFloat64:
-        break;
-    }
-    return NextBytes<double>(element);
+    return VisitNumberType(
+        type, [&](auto zero) { return static_cast<double>(NextBytes<decltype(zero)>(element)); });
   }
 
   double NextWord(const Element& element) {

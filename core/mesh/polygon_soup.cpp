@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -12,6 +15,18 @@
 
 namespace railcast {
 namespace {
+
+constexpr std::size_t kMostColors = 32;
+
+std::string NameOfColor(const Rgb8& color) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string name = "#";
+  for (const std::uint8_t part : color) {
+    name += kDigits[part / 16];
+    name += kDigits[part % 16];
+  }
+  return name;
+}
 
 using FaceCorners = std::vector<std::uint32_t>;
 
@@ -149,6 +164,23 @@ class PartBuilders {
 };
 
 }  // namespace
+
+void NameMaterialsByColor(const std::vector<Rgb8>& of_points, PolygonSoup& soup) {
+  if (of_points.empty()) return;
+  const auto is_unnamed = [](const PolygonSoup::Face& face) {
+    return face.material == PolygonSoup::kUnnamed;
+  };
+  std::set<Rgb8> colors;
+  for (const PolygonSoup::Face& face : soup.faces) {
+    if (is_unnamed(face)) colors.insert(of_points[face.corners.front()]);
+    if (colors.size() > kMostColors) return;
+  }
+  NameIndices materials(soup.materials);
+  for (PolygonSoup::Face& face : soup.faces) {
+    if (!is_unnamed(face)) continue;
+    face.material = materials.Of(NameOfColor(of_points[face.corners.front()]));
+  }
+}
 
 void PolygonSoup::AddFace(std::vector<std::uint32_t> corners,
                           std::uint32_t material,

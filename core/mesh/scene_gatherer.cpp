@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/face_colors.h"
+#include "core/mesh/polygon_soup.h"
 
 namespace railcast {
 namespace {

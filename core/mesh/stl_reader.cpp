@@ -1,16 +1,15 @@
 #include "core/mesh/stl_reader.h"
 
-#include <OpenMesh/Core/IO/importer/BaseImporter.hh>
-#include <OpenMesh/Core/IO/reader/STLReader.hh>
-#include <OpenMesh/Core/System/omstream.hh>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <span>
-#include <sstream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -18,77 +17,6 @@
 
 namespace railcast {
 namespace {
-
-/// Collects the vertices and faces that OpenMesh reads, without requiring a manifold, and ignores
-/// everything else.
-class SoupImporter final : public OpenMesh::IO::BaseImporter {
- public:
-  using VertexHandle = OpenMesh::VertexHandle;
-  using FaceHandle = OpenMesh::FaceHandle;
-  using HalfedgeHandle = OpenMesh::HalfedgeHandle;
-  using EdgeHandle = OpenMesh::EdgeHandle;
-
-  VertexHandle add_vertex(const OpenMesh::Vec3f& point) override {
-    return add_vertex(OpenMesh::Vec3d(point));
-  }
-  VertexHandle add_vertex(const OpenMesh::Vec3d& point) override {
-    soup_.points.emplace_back(point[0], point[1], point[2]);
-    return VertexHandle(static_cast<int>(soup_.points.size()) - 1);
-  }
-  FaceHandle add_face(const VHandles& corners) override {
-    PolygonSoup::Face face;
-    for (const VertexHandle corner : corners) {
-      face.corners.push_back(static_cast<std::uint32_t>(corner.idx()));
-    }
-    soup_.faces.push_back(std::move(face));
-    return FaceHandle(static_cast<int>(soup_.faces.size()) - 1);
-  }
-  size_t n_vertices() const override { return soup_.points.size(); }
-  size_t n_faces() const override { return soup_.faces.size(); }
-  size_t n_edges() const override { return 0; }
-
-  [[nodiscard]] PolygonSoup Take() { return std::move(soup_); }
-
-  VertexHandle add_vertex() override { return VertexHandle(); }
-  HalfedgeHandle add_edge(VertexHandle, VertexHandle) override { return HalfedgeHandle(); }
-  FaceHandle add_face(HalfedgeHandle) override { return FaceHandle(); }
-  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec2f>&) override {}
-  void add_face_texcoords(FaceHandle, VertexHandle, const std::vector<OpenMesh::Vec3f>&) override {}
-  void set_face_texindex(FaceHandle, int) override {}
-  void set_point(VertexHandle, const OpenMesh::Vec3f&) override {}
-  void set_halfedge(VertexHandle, HalfedgeHandle) override {}
-  void set_normal(VertexHandle, const OpenMesh::Vec3f&) override {}
-  void set_normal(VertexHandle, const OpenMesh::Vec3d&) override {}
-  void set_color(VertexHandle, const OpenMesh::Vec3uc&) override {}
-  void set_color(VertexHandle, const OpenMesh::Vec4uc&) override {}
-  void set_color(VertexHandle, const OpenMesh::Vec3f&) override {}
-  void set_color(VertexHandle, const OpenMesh::Vec4f&) override {}
-  void set_texcoord(VertexHandle, const OpenMesh::Vec2f&) override {}
-  void set_status(VertexHandle, const OpenMesh::Attributes::StatusInfo&) override {}
-  void set_next(HalfedgeHandle, HalfedgeHandle) override {}
-  void set_face(HalfedgeHandle, FaceHandle) override {}
-  void request_face_texcoords2D() override {}
-  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec2f&) override {}
-  void set_texcoord(VertexHandle, const OpenMesh::Vec3f&) override {}
-  void set_texcoord(HalfedgeHandle, const OpenMesh::Vec3f&) override {}
-  void set_status(HalfedgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
-  void set_color(EdgeHandle, const OpenMesh::Vec3uc&) override {}
-  void set_color(EdgeHandle, const OpenMesh::Vec4uc&) override {}
-  void set_color(EdgeHandle, const OpenMesh::Vec3f&) override {}
-  void set_color(EdgeHandle, const OpenMesh::Vec4f&) override {}
-  void set_status(EdgeHandle, const OpenMesh::Attributes::StatusInfo&) override {}
-  void set_normal(FaceHandle, const OpenMesh::Vec3f&) override {}
-  void set_normal(FaceHandle, const OpenMesh::Vec3d&) override {}
-  void set_color(FaceHandle, const OpenMesh::Vec3uc&) override {}
-  void set_color(FaceHandle, const OpenMesh::Vec4uc&) override {}
-  void set_color(FaceHandle, const OpenMesh::Vec3f&) override {}
-  void set_color(FaceHandle, const OpenMesh::Vec4f&) override {}
-  void set_status(FaceHandle, const OpenMesh::Attributes::StatusInfo&) override {}
-  void add_texture_information(int, std::string) override {}
-
- private:
-  PolygonSoup soup_;
-};
 
 /// Whether a word is a keyword, which some programs write in capitals.
 bool IsStlWord(std::string_view word, std::string_view keyword) {
@@ -163,26 +91,33 @@ bool IsBinaryStl(const std::string& bytes) {
 }
 
 PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes) {
-  // OpenMesh looks corners up by their place, where one that is not a number equals any other.
+  constexpr std::size_t kNormalBytes = 12;
+  using Corner = std::array<float, 3>;
+  PolygonSoup soup;
+  std::map<Corner, std::uint32_t> index_of;
   for (std::size_t i = 0; i < NumBinaryTriangles(bytes); ++i) {
-    std::array<float, 9> corners{};
-    std::memcpy(corners.data(), bytes.data() + kStlHeaderBytes + i * kStlTriangleBytes + 12, 36);
-    for (const float value : corners) {
-      if (!std::isfinite(value)) {
+    std::array<Corner, 3> corners{};
+    std::memcpy(corners.data(),
+                bytes.data() + kStlHeaderBytes + i * kStlTriangleBytes + kNormalBytes,
+                sizeof corners);
+    std::vector<std::uint32_t> face;
+    for (const Corner& corner : corners) {
+      for (const float value : corner) {
+        if (std::isfinite(value)) continue;
         throw InputError(shown + ": triangle " + std::to_string(i) +
                          " must have finite coordinates" + Got(value));
       }
+      const auto next = static_cast<std::uint32_t>(soup.points.size());
+      const auto [known, is_new] = index_of.try_emplace(corner, next);
+      if (is_new) soup.points.emplace_back(corner[0], corner[1], corner[2]);
+      face.push_back(known->second);
+    }
+    // Others have no area, and do not count as faces.
+    if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
+      soup.AddFace(std::move(face));
     }
   }
-  // What OpenMesh has to say about a file would be printed as it is in the file.
-  omerr().disable();
-  SoupImporter importer;
-  std::istringstream in(bytes);
-  OpenMesh::IO::Options options = OpenMesh::IO::Options::Binary;
-  if (!OpenMesh::IO::STLReader().read(in, importer, options)) {
-    throw InputError(shown + ": cannot be read as STL");
-  }
-  return importer.Take();
+  return soup;
 }
 
 PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes) {

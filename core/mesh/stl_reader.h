@@ -12,8 +12,10 @@ namespace railcast {
 inline constexpr std::size_t kStlHeaderBytes = 84;
 inline constexpr std::size_t kStlTriangleBytes = 50;
 
-/// Reads STL files held in `bytes`, binary ones by OpenMesh. Of text OpenMesh would pass over
-/// facets whose lines it does not expect.
+/// Reads STL files held in `bytes`. Corners at one place are one point in binary files.
+///
+/// It is railcast's own because OpenMesh passes over text whose lines it does not expect; a
+/// binary file is a list of triangles.
 /// @param shown Name of the file in error messages.
 /// @throws InputError "shown: rule (got value)" if the file is damaged or ends early.
 [[nodiscard]] PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes);

@@ -9,14 +9,6 @@ namespace {
 // Doubles represent all integers up to this one exactly.
 constexpr double kMaxExactWhole = 0x1p53;
 
-template <class Rule>
-void ReadString(JsonSource& source, const Node& node, std::string& value, const Rule& rule) {
-  if (!node.json->is_string()) return source.Fault(node, "must be a string");
-  const auto text = node.json->get<std::string>();
-  if (const auto broken = Broken(rule, text)) return source.Fault(node, *broken);
-  value = text;
-}
-
 std::optional<std::uint64_t> WholeNumberOf(const Json& json) {
   if (json.is_number_unsigned()) return json.get<std::uint64_t>();
   if (!json.is_number_float()) return std::nullopt;
@@ -55,25 +47,6 @@ void ReadValue(JsonSource& source, const Node& node, int& value, const NumberCho
 void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything) {
   if (!node.json->is_string()) return source.Fault(node, "must be a string");
   value = node.json->get<std::string>();
-}
-
-void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmptyString rule) {
-  ReadString(source, node, value, rule);
-}
-
-void ReadValue(JsonSource& source, const Node& node, std::string& value, OneLine rule) {
-  ReadString(source, node, value, rule);
-}
-
-void ReadValue(JsonSource& source,
-               const Node& node,
-               std::string& value,
-               const AllowedNames& choices) {
-  ReadString(source, node, value, choices);
-}
-
-void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule) {
-  ReadString(source, node, value, rule);
 }
 
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile) {

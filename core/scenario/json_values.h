@@ -19,15 +19,20 @@ void ReadValue(JsonSource& source, const Node& node, double& value, Anything);
 void ReadValue(JsonSource& source, const Node& node, double& value, const Limits& limits);
 void ReadValue(JsonSource& source, const Node& node, int& value, const NumberChoices& choices);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything);
-void ReadValue(JsonSource& source, const Node& node, std::string& value, NonEmptyString rule);
-void ReadValue(JsonSource& source, const Node& node, std::string& value, OneLine rule);
-void ReadValue(JsonSource& source,
-               const Node& node,
-               std::string& value,
-               const AllowedNames& choices);
-void ReadValue(JsonSource& source, const Node& node, std::string& value, HostAndPort rule);
 void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile);
 void ReadValue(JsonSource& source, const Node& node, ObjectType& value, Anything);
+
+/// Reads a string that must keep a rule.
+template <class Rule>
+requires requires(const Rule& rule, std::string_view text) {
+  Broken(rule, text);
+}
+void ReadValue(JsonSource& source, const Node& node, std::string& value, const Rule& rule) {
+  if (!node.json->is_string()) return source.Fault(node, "must be a string");
+  const auto text = node.json->get<std::string>();
+  if (const auto broken = Broken(rule, text)) return source.Fault(node, *broken);
+  value = text;
+}
 
 /// Reads an integer within limits; returns nothing if the value is faulty.
 [[nodiscard]] std::optional<std::uint64_t> ReadWhole(JsonSource& source,

@@ -5,6 +5,7 @@
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/scene.h"
 
 namespace railcast {
 
@@ -36,5 +37,18 @@ void CheckStaysOnTracks(const ScenarioSpec& scenario,
 /// Returns the last frame that is stamped before a time, or the last one whose stamp fits into 64
 /// bits if that comes earlier; 0 if there is none.
 [[nodiscard]] std::uint32_t LastFrameBefore(const ScanPattern& pattern, std::int64_t time_ns);
+
+/// Checks that the sensor's own vehicle is not inside an object at the stamp of any frame, unless
+/// the scenario allows it (`vehicle.may_overlap`). Touching is allowed. A vehicle without ego boxes
+/// is nowhere inside.
+/// @throws InputError with a line for each object, about the first such frame:
+///   "file: /vehicle: must not be inside an object unless may_overlap is true
+///   (got 0.11 m inside "wagon" at frame 54 (5.4 s))".
+/// @param world The world of the scenario.
+void CheckVehicleIsClear(const ScenarioSpec& scenario,
+                         const World& world,
+                         const ScanPattern& pattern,
+                         std::uint32_t first_frame,
+                         std::uint32_t last_frame);
 
 }  // namespace railcast

@@ -9,7 +9,6 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/scenario/track_limits.h"
-#include "core/scenario/vehicle_clearance.h"
 #include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
 #include "generator/check/mesh_report.h"

@@ -8,7 +8,6 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/line_hash.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/scenario_lines.h"
 

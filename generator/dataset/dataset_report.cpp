@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/io/content_hash.h"
-#include "core/io/run/dataset_bins.h"
+#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run/dataset_bins.h"
+#include "core/io/run/dataset_files.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
 #include "generator/dataset/scenario_report.h"

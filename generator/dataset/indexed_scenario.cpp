@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recorded_json.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"

@@ -10,7 +10,6 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "core/program/version.h"
 #include "core/trace/trace_program.h"

@@ -12,7 +12,6 @@
 #include "core/base/text.h"
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
-#include "core/scenario/vehicle_clearance.h"
 #include "generator/dataset/drafted_scenario.h"
 #include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/object_placement.h"

@@ -6,8 +6,8 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/line_hash.h"
 
 namespace railcast {
 

@@ -1,7 +1,7 @@
 #include "generator/live/camera_stream.h"
 
 #include "core/base/attempt.h"
-#include "core/io/stream/image_encoder.h"
+#include "core/io/stream/stream_encoder.h"
 #include "core/scenario/sensors.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "railcast/camera.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"

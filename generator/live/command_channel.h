@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp.h"
 #include "core/scenario/command.h"
 
 namespace railcast {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "generator/live/live_run.h"
 
 namespace railcast {

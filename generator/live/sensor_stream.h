@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "railcast/frame.h"
 #include "railcast/io/cloud_files.h"

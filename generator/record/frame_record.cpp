@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/io/run/line_hash.h"
+#include "core/io/content_hash.h"
 #include "core/io/strict_json.h"
 #include "generator/record/pose_record.h"
 

@@ -24,7 +24,6 @@
 #include "core/io/field_layout.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"

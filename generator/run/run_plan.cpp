@@ -7,7 +7,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/run/camera_files.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"

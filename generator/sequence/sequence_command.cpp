@@ -12,7 +12,7 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
-#include "core/scenario/vehicle_clearance.h"
+#include "core/scenario/track_limits.h"
 #include "generator/commands.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/frame_maker.h"

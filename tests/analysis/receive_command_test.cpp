@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"

@@ -27,8 +27,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/net/udp_receiver.h"
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/io/run/line_hash.h"
+#include "core/io/content_hash.h"
 
 /// Entry point for libFuzzer: a line of frames.jsonl as a resumed run reads it, without its hash,
 /// which is added.

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/image/jpeg.h"
-#include "core/io/stream/image_assembler.h"
+#include "core/io/stream/image_receiver.h"
 #include "railcast/camera.h"
 #include "tests/fuzz/input_datagrams.h"
 

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/verify/count_totals.h"
 #include "core/base/error.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/recording/sequence_summary.h"
+#include "core/io/verify/cloud_counts.h"
 
 namespace railcast {
 namespace {

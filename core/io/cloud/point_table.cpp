@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
-#include "core/io/cloud/pcd_header.h"
+#include "core/io/cloud/pcd_reader.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 
@@ -31,27 +31,6 @@ NumberType TypeOf(const PcdField& field) {
       return is_signed ? NumberType::kInt32 : NumberType::kUint32;
     default:
       return is_signed ? NumberType::kInt64 : NumberType::kUint64;
-  }
-}
-
-NumberType TypeOf(std::uint8_t pcl_type) {
-  switch (pcl_type) {
-    case pcl::PCLPointField::INT8:
-      return NumberType::kInt8;
-    case pcl::PCLPointField::UINT8:
-      return NumberType::kUint8;
-    case pcl::PCLPointField::INT16:
-      return NumberType::kInt16;
-    case pcl::PCLPointField::UINT16:
-      return NumberType::kUint16;
-    case pcl::PCLPointField::INT32:
-      return NumberType::kInt32;
-    case pcl::PCLPointField::UINT32:
-      return NumberType::kUint32;
-    case pcl::PCLPointField::FLOAT32:
-      return NumberType::kFloat;
-    default:
-      return NumberType::kDouble;
   }
 }
 
@@ -136,7 +115,7 @@ PointTable ParsePlyTable(const std::string& file, const std::string& bytes) {
   table.height = 1;
   for (const pcl::PCLPointField& field : cloud.fields) {
     table.columns.push_back({.name = field.name,
-                             .type = TypeOf(field.datatype),
+                             .type = static_cast<NumberType>(field.datatype),
                              .offset = field.offset,
                              .step = cloud.point_step});
   }

@@ -9,21 +9,9 @@
 #include <string_view>
 #include <vector>
 
-namespace railcast {
+#include "core/base/number_type.h"
 
-/// The type in which a number is stored.
-enum class NumberType : std::uint8_t {
-  kInt8,
-  kUint8,
-  kInt16,
-  kUint16,
-  kInt32,
-  kUint32,
-  kInt64,
-  kUint64,
-  kFloat,
-  kDouble
-};
+namespace railcast {
 
 /// One number of every point: a field, or the first element of a field that has several.
 struct PointColumn {
@@ -68,33 +56,6 @@ struct PointTable {
 /// @throws InputError with one line if the file is not a .pcd, .ply or .bin, cannot be read or is
 ///   damaged.
 [[nodiscard]] PointTable ReadPointTable(const std::filesystem::path& file);
-
-/// Calls `visit` with a zero of the type.
-template <typename Visitor>
-void VisitNumberType(NumberType type, Visitor&& visit) {
-  switch (type) {
-    case NumberType::kInt8:
-      return visit(std::int8_t{});
-    case NumberType::kUint8:
-      return visit(std::uint8_t{});
-    case NumberType::kInt16:
-      return visit(std::int16_t{});
-    case NumberType::kUint16:
-      return visit(std::uint16_t{});
-    case NumberType::kInt32:
-      return visit(std::int32_t{});
-    case NumberType::kUint32:
-      return visit(std::uint32_t{});
-    case NumberType::kInt64:
-      return visit(std::int64_t{});
-    case NumberType::kUint64:
-      return visit(std::uint64_t{});
-    case NumberType::kFloat:
-      return visit(float{});
-    case NumberType::kDouble:
-      return visit(double{});
-  }
-}
 
 /// Calls `visit(point, value)` for every point, with the value in its stored type.
 template <typename Visitor>

@@ -1,12 +1,13 @@
 #include "core/io/pcap/pcap_reader.h"
 
-#include <pcap/pcap.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <limits>
+#include <string>
 #include <utility>
+
+#include <pcap/pcap.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -15,6 +16,13 @@
 
 namespace railcast {
 namespace {
+
+constexpr std::size_t kMostUnfinished = 64;
+constexpr std::size_t kMostBytes = 65535;
+
+std::string SpanOf(std::size_t begin, std::size_t end) {
+  return NumberText(begin) + " to " + NumberText(end);
+}
 
 constexpr std::size_t kEthernetSize = 14;
 constexpr std::size_t kVlanTagSize = 4;
@@ -105,7 +113,68 @@ std::int64_t TimeOf(const pcap_pkthdr& header, const std::string& place) {
   return header.ts.tv_sec * kNsPerS + header.ts.tv_usec;
 }
 
+std::FILE* Open(const std::filesystem::path& file) {
+  CheckIsReadable(file);
+  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
+  if (stream == nullptr) throw FileError(file, errno);
+  return stream;
+}
+
 }  // namespace
+
+IpFragments::Packet& IpFragments::PacketOf(const IpFragment& fragment) {
+  // Identifications are used again, on busy networks after some seconds.
+  num_given_up_ += std::erase_if(unfinished_, [&](const Packet& packet) {
+    return fragment.time_ns - packet.time_ns > kNsPerS;
+  });
+  const auto found = std::ranges::find(unfinished_, fragment.packet, &Packet::name);
+  if (found != unfinished_.end()) return *found;
+  if (unfinished_.size() == kMostUnfinished) {
+    unfinished_.pop_front();
+    ++num_given_up_;
+  }
+  return unfinished_.emplace_back(Packet{
+      .name = fragment.packet, .time_ns = fragment.time_ns, .bytes = {}, .parts = {}, .end = {}});
+}
+
+std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment) {
+  const std::size_t begin = fragment.offset;
+  const std::size_t end = begin + fragment.bytes.size();
+  if (end > kMostBytes) {
+    throw InputError("an IP fragment must end within 65535 bytes" + Got(end));
+  }
+  Packet& packet = PacketOf(fragment);
+  const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second;
+  if ((packet.end && end > *packet.end) || (fragment.is_last && end < last)) {
+    throw InputError("an IP fragment must lie before the end of its packet (got bytes " +
+                     SpanOf(begin, end) + ", the end at " +
+                     NumberText(packet.end ? *packet.end : end) + ")");
+  }
+  // The first part that ends behind this one's begin is the only one that may be the same.
+  const auto after =
+      std::ranges::find_if(packet.parts, [&](const auto& part) { return part.second > begin; });
+  if (after != packet.parts.end() && after->first < end) {
+    const bool is_same =
+        after->first == begin && after->second == end &&
+        std::ranges::equal(fragment.bytes,
+                           std::span(packet.bytes).subspan(begin, fragment.bytes.size()));
+    if (is_same) return std::nullopt;
+    throw InputError("an IP fragment must not overlap another (got bytes " + SpanOf(begin, end) +
+                     " beside " + SpanOf(after->first, after->second) + ")");
+  }
+  if (packet.bytes.size() < end) packet.bytes.resize(end);
+  std::ranges::copy(fragment.bytes, packet.bytes.begin() + static_cast<std::ptrdiff_t>(begin));
+  if (begin < end) packet.parts.emplace(begin, end);
+  if (fragment.is_last) packet.end = end;
+  std::size_t reached = 0;
+  for (const auto& [part_begin, part_end] : packet.parts) {
+    if (part_begin == reached) reached = part_end;
+  }
+  if (packet.end != reached) return std::nullopt;
+  whole_ = std::move(packet.bytes);
+  unfinished_.remove_if([&](const Packet& other) { return &other == &packet; });
+  return whole_;
+}
 
 std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
   const auto fragment = FindFragment(frame);
@@ -123,17 +192,6 @@ struct PcapReader::Capture {
     if (pcap != nullptr) pcap_close(pcap);
   }
 };
-
-namespace {
-
-std::FILE* Open(const std::filesystem::path& file) {
-  CheckIsReadable(file);
-  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
-  if (stream == nullptr) throw FileError(file, errno);
-  return stream;
-}
-
-}  // namespace
 
 PcapReader::PcapReader(const std::filesystem::path& file)
     : PcapReader(Open(file), ShownPath(file)) {}

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/io/velodyne/position_packet.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

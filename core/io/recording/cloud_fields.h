@@ -29,10 +29,17 @@ inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max
 /// what follows from the positions: range_m and, in a grid, ring, column, return_index and
 /// return_count. A slot has a point where x, y and z are finite and not all 0, since some drivers
 /// write 0 for "no return". Positions far from 0 are taken from an origin near them
-/// (near_origin.h). Numeric columns that hold no field of ours become foreign fields.
+/// (TakeFromNearOrigin()). Numeric columns that hold no field of ours become foreign fields.
 /// @throws InputError "name: field: rule (got value)" if a value does not fit its field, or if x, y
 ///   or z is missing.
 void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded);
+
+/// Moves positions far from 0 to an origin near them. Where x, y and z are stored as float64 and
+/// the median of the points lies more than 10 km from 0, as in a national grid, the positions are
+/// taken from a whole kilometre near them, RecordedFrame::origin_m; as float32 they would otherwise
+/// be rounded to 0.5 m at 5000 km. Leaves range_m unchanged.
+/// @pre The frame has the positions as stored; slots without a point have NaN.
+void TakeFromNearOrigin(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded);
 
 /// Returns the column of the file that holds our field of this name, or null if none does.
 [[nodiscard]] const PointColumn* FindFieldOf(const PointTable& table, std::string_view name);

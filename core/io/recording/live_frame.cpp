@@ -3,27 +3,11 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/base/error.h"
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/slot_plans.h"
 
 namespace railcast {
 namespace {
-
-NumberType NumberTypeOf(StreamType type) {
-  switch (type) {
-    case StreamType::kU8:
-      return NumberType::kUint8;
-    case StreamType::kU16:
-      return NumberType::kUint16;
-    case StreamType::kU32:
-      return NumberType::kUint32;
-    case StreamType::kF32:
-      return NumberType::kFloat;
-  }
-  Check(false, "a received field has one of the types");
-  return {};
-}
 
 PointTable PointTableOf(const ReceivedFrame& received) {
   PointTable table{.width = static_cast<std::uint32_t>(received.num_points()),
@@ -32,7 +16,7 @@ PointTable PointTableOf(const ReceivedFrame& received) {
                    .bytes = std::string(received.points.begin(), received.points.end())};
   for (const StreamField& field : received.header.fields) {
     table.columns.push_back({.name = field.name,
-                             .type = NumberTypeOf(field.type),
+                             .type = static_cast<NumberType>(field.type),
                              .offset = field.offset,
                              .step = received.header.point_size});
   }

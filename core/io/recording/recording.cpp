@@ -5,7 +5,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"

@@ -6,7 +6,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/run/line_hash.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"

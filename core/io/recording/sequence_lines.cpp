@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"
-#include "core/io/recorded_json.h"
+#include "core/io/strict_json.h"
 
 namespace railcast {
 namespace {

@@ -7,9 +7,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/recorded_json.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
 
 namespace railcast {
 namespace {

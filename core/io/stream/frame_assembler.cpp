@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "railcast/io/stream.h"
+
 namespace railcast {
 namespace {
 
@@ -11,6 +13,17 @@ constexpr std::size_t kMaxGivenFrames = 8;
 constexpr std::uint32_t kMaxStrays = 16;
 
 }  // namespace
+
+const StreamField* StreamHeader::Find(std::string_view name) const {
+  const auto found = std::ranges::find(fields, name, &StreamField::name);
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::uint32_t ReceivedFrame::num_lost_packets() const {
+  std::uint32_t count = 0;
+  for (const IndexRange& range : lost_packets) count += range.count;
+  return count;
+}
 
 std::uint64_t StreamCounts::num_refused() const {
   return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/io/stream/arrivals.h"
-#include "core/io/stream/followed_sender.h"
 #include "core/io/stream/stream_datagram.h"
 #include "railcast/io/stream.h"
 

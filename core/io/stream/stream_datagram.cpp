@@ -1,14 +1,90 @@
 #include "core/io/stream/stream_datagram.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <zlib.h>
 
 #include "core/io/stream/stream_layout.h"
-#include "core/io/stream/wire_values.h"
+#include "railcast/camera.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
 namespace {
 
+using namespace image_layout;
 using namespace stream_layout;
+
+/// A pose as datagrams carry it: x y z qx qy qz qw.
+using WirePose = std::array<double, kNumPoseValues>;
+
+/// What a datagram says of its share of a whole: of a frame's points, or of an image's bytes.
+struct ShareOfWhole {
+  std::uint64_t total{};  ///< In the whole.
+  std::uint64_t first{};  ///< Place of this datagram's first one.
+  std::uint64_t here{};   ///< In this datagram.
+  std::uint32_t packet{};
+  std::uint32_t num_packets{};
+};
+
+// Whether the values are finite and the quaternion is a rotation.
+bool IsPose(const WirePose& pose) {
+  // Allows for quaternions rounded to float32.
+  constexpr double kNormTolerance = 1e-6;
+  const double norm2 =
+      pose[3] * pose[3] + pose[4] * pose[4] + pose[5] * pose[5] + pose[6] * pose[6];
+  return std::ranges::all_of(pose, [](double value) { return std::isfinite(value); }) &&
+         std::abs(norm2 - 1.0) < kNormTolerance;
+}
+
+// Whether the last four bytes of a datagram are the CRC of those before them.
+// @pre The datagram has at least four bytes.
+bool IsChecksumRight(std::span<const char> datagram) {
+  const std::size_t checked = datagram.size() - kTrailerSize;
+  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram.data()), checked);
+  return Get<std::uint32_t>(&datagram[checked]) == crc;
+}
+
+// Returns how many each datagram of the whole but the last holds, at most kMaxStreamDatagram, or
+// nothing if the counts contradict each other.
+std::optional<std::uint32_t> CountEach(const ShareOfWhole& share) {
+  if (share.packet >= share.num_packets) return std::nullopt;
+  const std::uint64_t num_full = share.num_packets - 1U;
+  std::uint64_t each = share.here;
+  if (share.packet == num_full) {
+    if (share.first + share.here != share.total) return std::nullopt;
+    if (num_full > 0) each = share.first / num_full;
+  }
+  const bool is_placed = share.first == each * share.packet;
+  const bool is_counted =
+      num_full == 0 || (each * num_full < share.total && share.total <= each * (num_full + 1));
+  // `each` exceeds what a datagram holds where a last datagram misstates `first`.
+  if (!is_placed || !is_counted || each > kMaxStreamDatagram) return std::nullopt;
+  return static_cast<std::uint32_t>(each);
+}
+
+bool IsOfThisProtocol(std::span<const char> bytes) {
+  return bytes.size() > kImageHeaderSize + kTrailerSize && bytes.size() <= kMaxStreamDatagram &&
+         Get<std::array<char, 4>>(bytes.data()) == kImageMagic &&
+         Get<std::uint8_t>(&bytes[kImageVersionAt]) == kImageVersion &&
+         Get<std::uint8_t>(&bytes[kEncodingAt]) == kJpeg &&
+         Get<std::uint16_t>(&bytes[kImageHeaderSizeAt]) == kImageHeaderSize;
+}
+
+bool IsImageSize(const ImageSize& size) {
+  const std::uint64_t num_pixels = std::uint64_t{size.width_px} * size.height_px;
+  return num_pixels > 0 && num_pixels <= kMostPixels;
+}
+
+bool IsLens(const std::array<double, kNumLensValues>& lens) {
+  return lens[0] > 0.0 &&
+         std::ranges::all_of(lens, [](double value) { return std::isfinite(value); });
+}
 
 bool IsName(std::string_view name) {
   return !name.empty() && std::ranges::all_of(name, [](char c) {
@@ -88,6 +164,40 @@ std::optional<StreamFault> FaultOfWhole(std::span<const char> bytes) {
 }
 
 }  // namespace
+
+std::optional<ImageDatagram> CheckImageDatagram(std::span<const char> bytes) {
+  if (!IsOfThisProtocol(bytes) || !IsChecksumRight(bytes)) return std::nullopt;
+  ImageDatagram datagram;
+  datagram.header = bytes.first(kImageHeaderSize);
+  datagram.piece = bytes.subspan(kImageHeaderSize, bytes.size() - kImageHeaderSize - kTrailerSize);
+  const char* const header = datagram.header.data();
+  datagram.run = Get<std::uint32_t>(header + kImageRunAt);
+  datagram.frame = Get<std::uint32_t>(header + kImageFrameAt);
+  datagram.stamp_ns = Get<std::int64_t>(header + kImageStampAt);
+  datagram.packet = Get<std::uint16_t>(header + kImagePacketAt);
+  datagram.num_packets = Get<std::uint16_t>(header + kNumImagePacketsAt);
+  datagram.size = {Get<std::uint32_t>(header + kWidthAt), Get<std::uint32_t>(header + kHeightAt)};
+  const auto bytes_each = CountEach({.total = Get<std::uint32_t>(header + kImageBytesAt),
+                                     .first = Get<std::uint32_t>(header + kFirstByteAt),
+                                     .here = datagram.piece.size(),
+                                     .packet = datagram.packet,
+                                     .num_packets = datagram.num_packets});
+  if (!bytes_each || !IsImageSize(datagram.size) || !IsPose(Get<WirePose>(header + kImagePoseAt)) ||
+      !IsLens(Get<std::array<double, kNumLensValues>>(header + kLensAt))) {
+    return std::nullopt;
+  }
+  datagram.bytes_each = *bytes_each;
+  return datagram;
+}
+
+bool DescribeOneImage(std::span<const char> header_a, std::span<const char> header_b) {
+  const auto same = [&](std::size_t begin, std::size_t end) {
+    return std::ranges::equal(header_a.subspan(begin, end - begin),
+                              header_b.subspan(begin, end - begin));
+  };
+  return same(0, kImagePacketAt) && same(kNumImagePacketsAt, kFirstByteAt) &&
+         same(kWidthAt, kImageHeaderSize);
+}
 
 std::optional<StreamDatagram> CheckStreamDatagram(std::span<const char> bytes, StreamFault& fault) {
   const auto refuse = [&](StreamFault why) {

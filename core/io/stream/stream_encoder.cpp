@@ -1,23 +1,63 @@
 #include "core/io/stream/stream_encoder.h"
 
-#include <tbb/parallel_for.h>
-#include <zlib.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
 #include <string>
 
+#include <tbb/parallel_for.h>
+#include <zlib.h>
+
 #include "core/base/error.h"
 #include "core/io/field_layout.h"
+#include "core/io/image/jpeg.h"
 #include "core/io/stream/stream_layout.h"
 #include "railcast/io/stream.h"
 
 namespace railcast {
 namespace {
 
+using namespace image_layout;
 using namespace stream_layout;
+
+void PutPose(char* place, const Transform& world_from_sensor) {
+  const Eigen::Quaterniond q(world_from_sensor.linear());
+  const Vector3 position_m = world_from_sensor.translation();
+  const std::array<double, kNumPoseValues> values = {
+      position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()};
+  Put(place, values);
+}
+
+/// Writes the checksum behind the bytes of a datagram.
+void PutTrailer(char* datagram, std::size_t checked) {
+  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram), checked);
+  Put(datagram + checked, static_cast<std::uint32_t>(crc));
+}
+
+constexpr int kJpegQuality = 90;
+
+std::array<char, kImageHeaderSize> ImageHeader(const CameraImage& image,
+                                               const CameraSpec& spec,
+                                               const ImageSending& sending) {
+  std::array<char, kImageHeaderSize> header{};
+  const auto put = [&](std::size_t at, auto value) { Put(header.data() + at, value); };
+  put(0, kImageMagic);
+  put(kImageVersionAt, kImageVersion);
+  put(kEncodingAt, kJpeg);
+  put(kImageHeaderSizeAt, static_cast<std::uint16_t>(kImageHeaderSize));
+  put(kImageRunAt, sending.run);
+  put(kImageFrameAt, sending.frame);
+  put(kImageStampAt, image.stamp_ns);
+  put(kWidthAt, image.width_px);
+  put(kHeightAt, image.height_px);
+  PutPose(header.data() + kImagePoseAt, image.world_from_camera);
+  const Intrinsics k = IntrinsicsOf(spec);
+  const DistortionSpec d = spec.distortion.value_or(DistortionSpec{});
+  put(kLensAt, std::array<double, kNumLensValues>{k.focal_px, k.cx_px, k.cy_px, d.k1, d.k2, d.p1,
+                                                  d.p2, d.k3});
+  return header;
+}
 
 std::uint8_t FlagsOf(const StreamSpec& spec) {
   const auto axes = spec.output.frame == OutputFrame::kWorld     ? StreamAxes::kWorld
@@ -27,14 +67,6 @@ std::uint8_t FlagsOf(const StreamSpec& spec) {
   if (spec.has_all_slots) flags |= kAllSlotsFlag;
   if (spec.output.handedness == Handedness::kLeft) flags |= kLeftHandedFlag;
   return static_cast<std::uint8_t>(flags);
-}
-
-void PutPose(char* place, const Transform& world_from_sensor) {
-  const Eigen::Quaterniond q(world_from_sensor.linear());
-  const Vector3 position_m = world_from_sensor.translation();
-  const std::array<double, kNumPoseValues> values = {
-      position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()};
-  Put(place, values);
 }
 
 template <std::size_t size>
@@ -49,6 +81,37 @@ void GatherValues(const char* values,
 }
 
 }  // namespace
+
+void EncodeImageDatagrams(const CameraImage& image,
+                          const CameraSpec& spec,
+                          const ImageSending& sending,
+                          Datagrams& datagrams) {
+  const std::string jpeg = EncodeJpeg({image.width_px, image.height_px}, image.rgb, kJpegQuality);
+  constexpr std::size_t kBytesEach = kMaxStreamDatagram - kImageHeaderSize - kTrailerSize;
+  const std::size_t num_packets = (jpeg.size() + kBytesEach - 1) / kBytesEach;
+  Check(num_packets <= std::numeric_limits<std::uint16_t>::max(),
+        "images have at most 2^24 pixels");
+  std::array<char, kImageHeaderSize> header = ImageHeader(image, spec, sending);
+  Put(header.data() + kNumImagePacketsAt, static_cast<std::uint16_t>(num_packets));
+  Put(header.data() + kImageBytesAt, static_cast<std::uint32_t>(jpeg.size()));
+  for (std::size_t packet = 0; packet < num_packets; ++packet) {
+    const std::size_t first = packet * kBytesEach;
+    const std::size_t count = std::min(kBytesEach, jpeg.size() - first);
+    Put(header.data() + kImagePacketAt, static_cast<std::uint16_t>(packet));
+    Put(header.data() + kFirstByteAt, static_cast<std::uint32_t>(first));
+    const std::size_t offset = datagrams.bytes.size();
+    const std::size_t checked = header.size() + count;
+    datagrams.bytes.resize(offset + checked + kTrailerSize);
+    char* const datagram = datagrams.bytes.data() + offset;
+    std::copy(header.begin(), header.end(), datagram);
+    std::copy_n(jpeg.data() + first, count, datagram + header.size());
+    PutTrailer(datagram, checked);
+    const std::int64_t since_stamp_ns = sending.spread_ns / static_cast<std::int64_t>(num_packets) *
+                                        static_cast<std::int64_t>(packet);
+    datagrams.items.push_back({offset, static_cast<std::uint16_t>(checked + kTrailerSize),
+                               DatagramPort::kData, image.stamp_ns + since_stamp_ns});
+  }
+}
 
 StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
     : spec_(spec), rows_(pattern.rows), columns_(pattern.columns) {
@@ -137,8 +200,7 @@ void StreamEncoder::WriteDatagram(std::size_t packet,
     }
   }
   const std::size_t checked = header_.size() + count * point_size_;
-  const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram), checked);
-  Put(datagram + checked, static_cast<std::uint32_t>(crc));
+  PutTrailer(datagram, checked);
 }
 
 void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
+#include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/lidar.h"
@@ -57,5 +58,19 @@ class StreamEncoder final : public FrameEncoder {
   std::vector<FieldSource> sources_;  ///< Sources of the current frame.
   std::vector<std::uint32_t> slots_;  ///< Slots to be sent, in firing order.
 };
+
+/// What the datagrams of an image say beside the image.
+struct ImageSending {
+  std::uint32_t run{};       ///< Distinguishes this start from others, as in StreamSpec.
+  std::uint32_t frame{};     ///< Number of the sensor's frame that has the image's stamp.
+  std::int64_t spread_ns{};  ///< Time from the stamp over which the datagrams are spread.
+};
+
+/// Appends the datagrams that carry an image as JPEG, in the railcast protocol for images
+/// (docs/stream.md). All but the last have equal size.
+void EncodeImageDatagrams(const CameraImage& image,
+                          const CameraSpec& spec,
+                          const ImageSending& sending,
+                          Datagrams& datagrams);
 
 }  // namespace railcast

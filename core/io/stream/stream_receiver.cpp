@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
-#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp.h"
 #include "core/io/stream/frame_assembler.h"
 #include "railcast/io/stream.h"
 

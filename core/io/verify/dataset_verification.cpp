@@ -1,7 +1,8 @@
 #include "core/io/verify/dataset_verification.h"
 
+#include <algorithm>
 #include <cstdint>
-#include <set>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,14 +12,13 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/recorded_json.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/dataset_content.h"
+#include "core/io/strict_json.h"
+#include "core/io/verify/findings.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
 
@@ -27,7 +27,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DatasetVerifier {
+// Lines of scenarios.jsonl, which is there from the first scenario on.
+std::size_t NumScenariosDone(const fs::path& directory) {
+  const fs::path file = directory / kScenariosFile;
+  return IsThere(file) ? CountLines(file) : 0;
+}
+
+void CheckIsFinished(const fs::path& sequence) {
+  if (IsThere(sequence / kManifestFile)) return;
+  throw InputError(ShownPath(sequence) +
+                   ": must be a finished sequence, as all of a data set are (got no "
+                   "manifest.json); railcast-analyze verify lists all that is missing");
+}
+
+class DatasetVerifier : private Findings {
  public:
   DatasetVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
       : directory_(directory), on_progress_(on_progress), content_(ReadDatasetContent(directory)) {
@@ -52,34 +65,18 @@ class DatasetVerifier {
     CheckRecipeCopy();
     Try([&] { CheckManifest(); });
   }
-  Verification Take() {
-    result_.faults = faults_.lines();
-    return std::move(result_);
-  }
-
-  template <typename Work>
-  void Try(const Work& work) {
-    static_cast<void>(Attempt("", faults_, [&] { return work(), true; }));
-  }
   void Fault(const std::string& name, const std::string& rule) {
     faults_.Add({ShownPath(directory_ / name), rule, ""});
   }
 
   // Reads a file and compares its hash.
-  void CheckHash(const std::string& name, const std::string& hash, std::string_view said_in) {
+  void CheckKnown(const std::string& name, const std::string& hash, std::string_view said_in) {
     known_.insert(name);
-    Try([&] {
-      const FileHash got = HashFile(directory_ / name);
-      ++result_.num_files;
-      result_.num_bytes += got.num_bytes;
-      if (got.hash == hash) return;
-      Fault(name, "must have the hash " + ShownText(hash) + ", as " + std::string(said_in) +
-                      " says (got " + got.hash + ")");
-    });
+    CheckHash(directory_ / name, hash, std::string(said_in));
   }
 
   void CheckRecipeCopy() {
-    CheckHash(std::string(kRecipeFile), content_.recipe_hash, kDatasetFile);
+    CheckKnown(std::string(kRecipeFile), content_.recipe_hash, kDatasetFile);
   }
 
   void CheckManifest() {
@@ -93,7 +90,7 @@ class DatasetVerifier {
     Try([&] { CheckManifestHash(text, ShownPath(file)); });
     ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
       for (const auto& [name, hash] : json.at("files_xxh3").items()) {
-        CheckHash(name, hash, kDatasetManifestFile);
+        CheckKnown(name, hash, kDatasetManifestFile);
       }
       return true;
     });
@@ -114,39 +111,68 @@ class DatasetVerifier {
                                            " scenarios (got " + NumberText(num_lines) + ")");
   }
 
-  void Add(const Verification& found) {
-    for (const std::string& fault : found.faults) faults_.AddLine(fault);
-    result_.num_frames += found.num_frames;
-    result_.num_files += found.num_files;
-    result_.num_bytes += found.num_bytes;
-  }
-
   // Files of scenarios have been looked at with these.
   void FindOthers() {
-    std::error_code error;
-    fs::recursive_directory_iterator entry(directory_, error);
-    for (const fs::recursive_directory_iterator end; !error && entry != end;
-         entry.increment(error)) {
-      const std::string name = entry->path().lexically_relative(directory_).generic_string();
-      if (entry->symlink_status(error).type() == fs::file_type::directory) {
-        if (scenarios_.contains(name)) entry.disable_recursion_pending();
-        continue;
-      }
+    ForEachFileBelow(directory_, directory_, scenarios_, [&](const std::string& name) {
       if (!known_.contains(name)) Fault(name, "belongs to no scenario of the data set");
-    }
-    if (error) throw FileError(directory_, error.value());
+    });
   }
 
   const fs::path& directory_;
   const std::function<void(double)> on_progress_;
   DatasetContent content_;
-  std::set<std::string, std::less<>> known_;
-  std::set<std::string, std::less<>> scenarios_;  ///< Their folders.
-  ErrorList faults_;
-  Verification result_;
+  NameSet known_;
+  NameSet scenarios_;  ///< Their folders.
 };
 
 }  // namespace
+
+bool IsDataset(const fs::path& directory) {
+  return IsThere(directory / kDatasetFile);
+}
+
+DatasetContent ReadDatasetContent(const fs::path& directory) {
+  const fs::path file = directory / kDatasetFile;
+  return ReadRecordedJson<StrictJson>(
+      ReadFileWhole(file), ShownPath(file), [&](const StrictJson& json) {
+        DatasetContent content;
+        content.num_scenarios = json.at("num_scenarios");
+        content.recipe_hash = json.at("recipe_xxh3");
+        if (!json.contains("shard")) return content;
+        const std::string text = json.at("shard");
+        const std::optional<Shard> shard = ParseShard(text);
+        if (!shard) {
+          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(text) + ")");
+        }
+        content.shard = *shard;
+        return content;
+      });
+}
+
+std::vector<fs::path> FinishedSequences(const fs::path& directory, const DatasetContent& content) {
+  // The manifest is written last.
+  const std::size_t num_done = NumScenariosDone(directory);
+  const bool is_closed = IsThere(directory / kDatasetManifestFile);
+  if (num_done < content.num_own() || !is_closed) {
+    const std::string got =
+        num_done < content.num_own()
+            ? NumberText(num_done) + " of " + NumberText(content.num_own()) + " scenarios"
+            : "no " + std::string(kDatasetManifestFile);
+    throw InputError(ShownPath(directory) + ": must be a finished data set (got " + got +
+                     "); the command that began it, railcast-generate dataset, continues it");
+  }
+  std::vector<fs::path> sequences;
+  for (std::uint32_t i = 0; i < content.num_own(); ++i) {
+    const fs::path scenario = directory / SequenceFolderOf(content.shard.ScenarioAt(i));
+    std::vector<fs::path> of_sensors = SensorFoldersIn(scenario);
+    if (of_sensors.empty()) of_sensors.push_back(scenario);
+    for (fs::path& sequence : of_sensors) {
+      CheckIsFinished(sequence);
+      sequences.push_back(std::move(sequence));
+    }
+  }
+  return sequences;
+}
 
 Verification VerifyDataset(const fs::path& directory,
                            const std::function<void(double)>& on_progress) {

@@ -1,7 +1,6 @@
 #include "core/io/verify/scenario_verification.h"
 
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,19 +10,70 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/recorded_json.h"
+#include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/line_hash.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/merged_verification.h"
+#include "core/io/strict_json.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+
+class MergedVerifier : private Findings {
+ public:
+  explicit MergedVerifier(const MergedFolder& merged) : merged_(merged) {}
+
+  Verification Run(const std::function<void(double)>& on_progress) {
+    for (const KnownFile& file : merged_.files) {
+      CheckFile(file, [&] { return ReadHashedFile(merged_.folder, file, kSensorsFile); });
+    }
+    Try([&] { CheckClouds(on_progress); });
+    Try([&] { FindOthers(); });
+    return Take();
+  }
+
+ private:
+  template <typename Read>
+  void CheckFile(const KnownFile& file, const Read& read) {
+    known_.insert(file.name);
+    Try([&] {
+      result_.num_bytes += read().size();
+      ++result_.num_files;
+    });
+  }
+
+  void CheckClouds(const std::function<void(double)>& on_progress) {
+    const auto num_lines = static_cast<double>(CountLines(merged_.folder / kMergedFile));
+    LineReader lines(merged_.folder / kMergedFile);
+    for (; const auto line = lines.Next(); ++result_.num_frames) {
+      on_progress(static_cast<double>(result_.num_frames) / num_lines);
+      const auto file = Attempt("", faults_, [&] {
+        return ReadRecordedJson<StrictJson>(line->text, line->place, [](const StrictJson& json) {
+          return KnownFile{json.at("file"), json.at("xxh3"), json.at("bytes")};
+        });
+      });
+      if (!file) continue;
+      CheckFile(*file, [&] { return ReadKnownFile(merged_.folder, *file, kMergedFile); });
+    }
+  }
+
+  void FindOthers() {
+    for (const auto& entry : fs::recursive_directory_iterator(merged_.folder)) {
+      if (entry.is_directory()) continue;
+      const std::string name = entry.path().lexically_relative(merged_.folder).generic_string();
+      if (known_.contains(name)) continue;
+      faults_.Add(
+          {ShownPath(entry.path()), "is named neither in sensors.json nor in merged.jsonl", ""});
+    }
+  }
+
+  const MergedFolder& merged_;
+  NameSet known_;
+};
 
 /// What a line of scenarios.jsonl says of a sequence.
 struct SequenceOfLine {
@@ -57,7 +107,7 @@ ScenarioLine ReadScenarioLine(const PlacedLine& line) {
   });
 }
 
-class ScenarioVerifier {
+class ScenarioVerifier : private Findings {
  public:
   ScenarioVerifier(const fs::path& dataset, std::uint32_t scenario, const PlacedLine& line)
       : dataset_(dataset), scenario_(scenario), folder_(SequenceFolderOf(scenario)), line_(line) {}
@@ -69,16 +119,10 @@ class ScenarioVerifier {
       if (!hash_fault.empty()) faults_.Add({line_.place, hash_fault, ""});
       CheckLine(*read);
     }
-    result_.faults = faults_.lines();
-    return std::move(result_);
+    return Take();
   }
 
  private:
-  template <typename Work>
-  void Try(const Work& work) {
-    static_cast<void>(Attempt("", faults_, [&] { return work(), true; }));
-  }
-
   void CheckLine(const ScenarioLine& line) {
     const auto fail = [&](const std::string& got) {
       faults_.Add({line_.place,
@@ -93,12 +137,14 @@ class ScenarioVerifier {
     }
     for (const SequenceOfLine& sequence : line.sequences) CheckSequence(sequence);
     if (!line.sensors_hash) return;
-    CheckHash(folder_ + "/" + std::string(kSensorsFile), *line.sensors_hash);
+    CheckHash(dataset_ / folder_ / kSensorsFile, *line.sensors_hash, line_.place);
     Try([&] {
       const auto merged = MergedFolderIn(dataset_ / folder_);
       if (!merged) return;
       sequences_.insert(merged->folder.lexically_relative(dataset_).generic_string());
-      Add(VerifyMerged(*merged, [](double) {}), 0);
+      Verification found = VerifyMerged(*merged, [](double) {});
+      found.num_frames = 0;  // They are those of the sequences.
+      Add(found);
     });
     Try([&] { FindOthers(); });
   }
@@ -106,13 +152,11 @@ class ScenarioVerifier {
   void CheckSequence(const SequenceOfLine& line) {
     sequences_.insert(line.folder);
     const std::string manifest = line.folder + "/" + std::string(kManifestFile);
-    if (IsThere(dataset_ / manifest) && CheckHash(manifest, line.manifest_hash)) {
+    if (IsThere(dataset_ / manifest) &&
+        CheckHash(dataset_ / manifest, line.manifest_hash, line_.place)) {
       Try([&] { CompareManifest(dataset_ / manifest, line); });
     }
-    Try([&] {
-      const Verification found = VerifySequence(dataset_ / line.folder, [](double) {});
-      Add(found, found.num_frames);
-    });
+    Try([&] { Add(VerifySequence(dataset_ / line.folder, [](double) {})); });
   }
 
   // The line repeats what the manifest says.
@@ -134,55 +178,27 @@ class ScenarioVerifier {
     });
   }
 
-  // Reads a file and compares its hash. Returns whether it is that one.
-  bool CheckHash(const std::string& name, const std::string& hash) {
-    bool is_same = false;
-    Try([&] {
-      const FileHash got = HashFile(dataset_ / name);
-      ++result_.num_files;
-      result_.num_bytes += got.num_bytes;
-      is_same = got.hash == hash;
-      if (is_same) return;
-      faults_.Add({ShownPath(dataset_ / name),
-                   "must have the hash " + ShownText(hash) + ", as " + line_.place + " says",
-                   got.hash});
-    });
-    return is_same;
-  }
-
-  void Add(const Verification& found, std::uint64_t num_frames) {
-    for (const std::string& fault : found.faults) faults_.AddLine(fault);
-    result_.num_frames += num_frames;
-    result_.num_files += found.num_files;
-    result_.num_bytes += found.num_bytes;
-  }
-
   // Files of sequences have been looked at with these.
   void FindOthers() {
-    std::error_code error;
-    fs::recursive_directory_iterator entry(dataset_ / folder_, error);
-    for (const fs::recursive_directory_iterator end; !error && entry != end;
-         entry.increment(error)) {
-      const std::string name = entry->path().lexically_relative(dataset_).generic_string();
-      if (entry->symlink_status(error).type() == fs::file_type::directory) {
-        if (sequences_.contains(name)) entry.disable_recursion_pending();
-      } else if (name != folder_ + "/" + std::string(kSensorsFile)) {
-        faults_.Add({ShownPath(entry->path()), "belongs to no sequence of the scenario", ""});
-      }
-    }
-    if (error) throw FileError(dataset_ / folder_, error.value());
+    ForEachFileBelow(dataset_ / folder_, dataset_, sequences_, [&](const std::string& name) {
+      if (name == folder_ + "/" + std::string(kSensorsFile)) return;
+      faults_.Add({ShownPath(dataset_ / name), "belongs to no sequence of the scenario", ""});
+    });
   }
 
   const fs::path& dataset_;
   std::uint32_t scenario_;
   std::string folder_;
   const PlacedLine& line_;
-  std::set<std::string, std::less<>> sequences_;
-  ErrorList faults_;
-  Verification result_;
+  NameSet sequences_;
 };
 
 }  // namespace
+
+Verification VerifyMerged(const MergedFolder& merged,
+                          const std::function<void(double)>& on_progress) {
+  return MergedVerifier(merged).Run(on_progress);
+}
 
 Verification VerifyScenario(const fs::path& dataset,
                             std::uint32_t scenario,

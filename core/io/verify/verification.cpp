@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "core/base/attempt.h"
 #include "core/base/text.h"
 #include "core/io/cloud/point_table.h"
-#include "core/io/recorded_json.h"
+#include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/line_hash.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
 #include "core/io/verify/cloud_counts.h"
-#include "core/io/verify/count_totals.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
@@ -34,7 +33,7 @@ std::vector<std::string> NeededFiles(const RunSummary& run) {
   return names;
 }
 
-class Verifier {
+class Verifier : private Findings {
  public:
   Verifier(const fs::path& directory, const std::function<void(double)>& on_progress)
       : on_progress_(on_progress) {
@@ -50,18 +49,13 @@ class Verifier {
     ReadLabels();
     are_frames_known_ = Try([&] { CheckFrames(); });
     Try([&] { FindOthers(); });
-    result_.faults = faults_.lines();
-    return std::move(result_);
+    return Take();
   }
 
  private:
   // The path as shown in messages.
   [[nodiscard]] std::string PathOf(std::string_view name) const {
     return ShownPath(summary_.directory / name);
-  }
-  template <typename Work>
-  bool Try(const Work& work) {
-    return Attempt("", faults_, [&] { return work(), true; }).has_value();
   }
   void Fault(std::string_view name, const std::string& rule) {
     faults_.Add({PathOf(name), rule, ""});
@@ -88,10 +82,8 @@ class Verifier {
   StrictJson manifest_json_;
   std::optional<LabelTable> labels_;
   CountTotals totals_;
-  std::set<std::string, std::less<>> known_;
+  NameSet known_;
   bool are_frames_known_ = false;
-  ErrorList faults_;
-  Verification result_;
 };
 
 void Verifier::ReadTheManifest() {
@@ -292,23 +284,16 @@ void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
 }
 
 void Verifier::FindOthers() {
-  std::error_code error;
-  fs::recursive_directory_iterator entry(summary_.directory, error);
-  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-    // A symbolic link counts as a file of its own name, whatever it points to.
-    if (entry->symlink_status(error).type() == fs::file_type::directory) continue;
-    const fs::path relative = entry->path().lexically_relative(summary_.directory);
-    std::string name = relative.generic_string();
-    if (known_.contains(name)) continue;
+  ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
+    if (known_.contains(name)) return;
     if (summary_.manifest && are_frames_known_) {
-      Fault(name, "is named neither in manifest.json nor in frames.jsonl");
-      continue;
+      return Fault(name, "is named neither in manifest.json nor in frames.jsonl");
     }
     // A run that was interrupted or is in progress has files whose hashes are not recorded yet.
+    const std::string found = name;
     if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
-    if (!IsSequenceFile(name)) Fault(relative.native(), "is no file of a sequence");
-  }
-  if (error) throw FileError(summary_.directory, error.value());
+    if (!IsSequenceFile(name)) Fault(found, "is no file of a sequence");
+  });
 }
 
 }  // namespace

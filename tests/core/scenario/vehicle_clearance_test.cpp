@@ -1,4 +1,3 @@
-#include "core/scenario/vehicle_clearance.h"
 
 #include <gtest/gtest.h>
 

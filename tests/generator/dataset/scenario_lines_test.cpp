@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/run/line_hash.h"
+#include "core/io/content_hash.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/net/udp_receiver.h"
+#include "core/io/net/udp.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/stream.h"

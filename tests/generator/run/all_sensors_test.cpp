@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/run/sensor_folders.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "core/io/run/sensor_folders.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/image/jpeg.h"
-#include "core/io/stream/image_layout.h"
+#include "core/io/stream/stream_layout.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/image_example.h"
 #include "tests/core/io/stream/live_stream.h"

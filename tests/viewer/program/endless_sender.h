@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "tests/core/io/stream/stream_example.h"
 
 namespace railcast {

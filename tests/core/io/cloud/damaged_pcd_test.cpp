@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/io/cloud/pcd_header.h"
+#include "core/io/cloud/pcd_reader.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "tests/core/io/damage.h"

@@ -11,8 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "core/io/net/udp_receiver.h"
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "tests/core/io/message_of.h"
 
 namespace railcast {

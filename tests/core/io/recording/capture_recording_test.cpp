@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/io/pcap/pcap_writer.h"
-#include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"

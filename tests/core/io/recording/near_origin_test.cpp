@@ -1,4 +1,4 @@
-#include "core/io/recording/near_origin.h"
+#include "core/io/recording/cloud_fields.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-#include "core/io/run/line_hash.h"
 
 #include <gtest/gtest.h>
 

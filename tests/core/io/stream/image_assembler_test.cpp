@@ -1,11 +1,11 @@
-#include "core/io/stream/image_assembler.h"
+#include "core/io/stream/image_receiver.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "core/io/image/jpeg.h"
-#include "core/io/stream/image_layout.h"
+#include "core/io/stream/stream_layout.h"
 #include "tests/core/io/stream/image_example.h"
 
 namespace railcast {

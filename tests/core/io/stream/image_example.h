@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/io/net/udp_sender.h"
-#include "core/io/stream/image_assembler.h"
-#include "core/io/stream/image_encoder.h"
+#include "core/io/net/udp.h"
+#include "core/io/stream/image_receiver.h"
+#include "core/io/stream/stream_encoder.h"
 #include "railcast/camera.h"
 #include "tests/core/io/stream/stream_example.h"
 

@@ -12,12 +12,11 @@
 #include <sstream>
 #include <thread>
 
-#include "core/io/net/udp_receiver.h"
-#include "core/io/net/udp_sender.h"
+#include "core/io/net/udp.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/velodyne/calibration_xml.h"
-#include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_model.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "tests/core/io/temporary_directory.h"

@@ -1,4 +1,3 @@
-#include "core/io/velodyne/position_packet.h"
 
 #include <gtest/gtest.h>
 

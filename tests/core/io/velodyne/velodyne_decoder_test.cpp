@@ -9,7 +9,7 @@
 
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
-#include "core/io/velodyne/reflectivity.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "railcast/transform.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/io/velodyne/reflectivity.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"

@@ -1,4 +1,4 @@
-#include "core/io/verify/dataset_content.h"
+#include "core/io/verify/dataset_verification.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/verify/dataset_content.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/recipe_project.h"

@@ -1,4 +1,4 @@
-#include "core/io/verify/merged_verification.h"
+#include "core/io/verify/scenario_verification.h"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/content_hash.h"
 #include "core/io/recording/sequence_summary.h"
-#include "core/io/run/line_hash.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/damaged_run.h"
 #include "tests/generator/example_run.h"

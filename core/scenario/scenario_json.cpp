@@ -8,6 +8,7 @@
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
+#include "core/scenario/json_writer.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -133,6 +134,13 @@ ScenarioSpec ReadRoot(const Open& open) {
 }
 
 }  // namespace
+
+std::string ResolvedScenarioJson(const ScenarioSpec& spec) {
+  ScenarioSpec copy = spec;  // Descriptions take mutable values because the reader fills them.
+  Json json = {{"version", 1}};
+  json.update(JsonWriter::Write(copy));
+  return json.dump(2) + '\n';
+}
 
 ScenarioSpec ReadScenario(const std::filesystem::path& file) {
   return WithinMemory(

@@ -1,11 +1,10 @@
-#include "core/io/velodyne/position_packet.h"
+#include "core/io/velodyne/velodyne_packet.h"
 
 #include <array>
 #include <chrono>
 #include <cstdio>
 
 #include "core/io/field_layout.h"
-#include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 namespace {

@@ -6,13 +6,15 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/number_type.h"
+
 namespace railcast {
 
 /// A scalar property of a PLY element.
 struct PlyProperty {
   std::string name;
-  std::uint8_t pcl_type{};  ///< The type code of pcl::PCLPointField.
-  std::size_t size{};       ///< Size in bytes.
+  NumberType type{};
+  std::size_t size{};  ///< Size in bytes.
 };
 
 /// Where the points of a PLY file are and which properties they have.

@@ -1,4 +1,4 @@
-#include "core/io/recorded_json.h"
+#include "core/io/strict_json.h"
 
 #include "core/scenario/json_text.h"
 

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "core/base/attempt.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/verify/verification.h"
+
+namespace railcast {
+
+/// Names of files or folders.
+using NameSet = std::set<std::string, std::less<>>;
+
+/// What a verifier has found so far, and the work that all verifiers do.
+class Findings {
+ protected:
+  /// Does a part of the work, and keeps its faults. Returns whether it has none.
+  template <typename Work>
+  bool Try(const Work& work) {
+    return Attempt("", faults_, [&] { return work(), true; }).has_value();
+  }
+
+  /// Reads a file and compares its hash. Returns whether it is that one.
+  /// @param said_in The file that states the hash.
+  bool CheckHash(const std::filesystem::path& file,
+                 const std::string& hash,
+                 const std::string& said_in) {
+    bool is_same = false;
+    Try([&] {
+      const FileHash got = HashFile(file);
+      ++result_.num_files;
+      result_.num_bytes += got.num_bytes;
+      is_same = got.hash == hash;
+      if (is_same) return;
+      faults_.Add({ShownPath(file),
+                   "must have the hash " + ShownText(hash) + ", as " + said_in + " says",
+                   got.hash});
+    });
+    return is_same;
+  }
+
+  void Add(const Verification& found) {
+    for (const std::string& fault : found.faults) faults_.AddLine(fault);
+    result_.num_frames += found.num_frames;
+    result_.num_files += found.num_files;
+    result_.num_bytes += found.num_bytes;
+  }
+
+  Verification Take() {
+    result_.faults = faults_.lines();
+    return std::move(result_);
+  }
+
+  ErrorList faults_;
+  Verification result_;
+};
+
+/// Calls `visit` with the name, relative to `root`, of each file below a folder but not in those
+/// that `known_folders` names. A symbolic link counts as a file of its own name, whatever it points
+/// to.
+/// @throws InputError if a folder cannot be read.
+template <typename Visit>
+void ForEachFileBelow(const std::filesystem::path& folder,
+                      const std::filesystem::path& root,
+                      const NameSet& known_folders,
+                      const Visit& visit) {
+  std::error_code error;
+  std::filesystem::recursive_directory_iterator entry(folder, error);
+  for (const std::filesystem::recursive_directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    const std::filesystem::path name = entry->path().lexically_relative(root);
+    if (entry->symlink_status(error).type() != std::filesystem::file_type::directory) {
+      visit(name.generic_string());
+    } else if (known_folders.contains(name.generic_string())) {
+      entry.disable_recursion_pending();
+    }
+  }
+  if (error) throw FileError(folder, error.value());
+}
+
+}  // namespace railcast
