@@ -11,8 +11,6 @@
 #include "core/scenario/track_limits.h"
 #include "core/simulate/detail_choice.h"
 #include "generator/check/check_report.h"
-#include "generator/check/mesh_report.h"
-#include "generator/check/network_report.h"
 #include "generator/commands.h"
 #include "generator/run/stopping.h"
 #include "railcast/effects.h"

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <iomanip>
+#include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -14,6 +16,9 @@
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
+#include "railcast/material.h"
+#include "railcast/objects.h"
+#include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -70,5 +75,46 @@ namespace railcast {
 /// States the resolution of float32 at the sensor's start if points are in world coordinates;
 /// otherwise empty.
 [[nodiscard]] std::string OutputText(const OutputSpec& output, const Vector3& sensor_world);
+
+/// The tracks of a world with more than one: name, length, chainages and tightest radius of each,
+/// the turnouts that lie in it, and the tracks that it crosses.
+[[nodiscard]] std::string NetworkText(const RailWorld& world);
+
+/// Name of the track on which the vehicle starts.
+[[nodiscard]] std::string StartTrack(const RailWorld& world, const VehicleSpec& vehicle);
+
+/// The largest lateral acceleration of the vehicle on its way, in the plane of the rails: v^2 times
+/// the curvature of the track, less the part of gravity that the cant balances.
+struct LateralPeak {
+  double acceleration_mps2{};  ///< Towards the outside of the curve.
+  double balanced_mps2{};      ///< What the cant takes from it.
+  WayPoint point;
+};
+
+/// Samples the way from its start to its end or, where it has none, for an hour after the end of
+/// the speed profile. Returns nothing if it stands or if cant balances every curve.
+[[nodiscard]] std::optional<LateralPeak> FindLateralPeak(const RailWorld& world,
+                                                         const VehicleSpec& vehicle,
+                                                         const VehicleWay& way);
+
+/// The route, if it has several tracks, and the peak.
+[[nodiscard]] std::string RouteText(const RailWorld& world, const std::optional<LateralPeak>& peak);
+
+/// Reads the mesh files of all objects and says of each model how large it is, how many triangles
+/// it has, what was left out and why, how far it was simplified, which of its parts has which
+/// material and label and why, and what about it is likely to be a mistake. Objects with one model
+/// share its paragraph. Empty if no object is a mesh.
+///
+/// A mistake is guessed where a model
+/// - is larger than 100 m or smaller than 1 cm;
+/// - has the file's origin and more than half of its height below its place;
+/// - is taken to have z up and in its file stands on the plane y = 0 (within 2 % of its extent in
+///   y) but reaches through z = 0 (by more than a quarter of its extent in z to either side).
+///   Modelling programs with y up have the ground at y = 0 and the model's middle at z = 0.
+///
+/// @throws InputError if a file cannot be read (any more).
+[[nodiscard]] std::string MeshesText(std::span<const ObjectSpec> objects,
+                                     const LabelTable& labels,
+                                     const MaterialLibrary& materials);
 
 }  // namespace railcast

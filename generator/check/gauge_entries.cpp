@@ -2,6 +2,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +21,6 @@
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/traffic/train_places.h"
-#include "generator/check/clipped_polygon.h"
 
 namespace railcast {
 namespace {
@@ -40,35 +40,36 @@ constexpr double kGaugeReach_m = 2.5;
 
 using Triangle = std::array<Vector3, 3>;
 
-/// A point of a triangle, in the world and as seen from the line.
-struct Corner {
+/// A point of a triangle, as seen from the line and in the world.
+struct Corner : PlaceBesideLine {
   Vector3 place_m;
-  PlaceBesideLine line;
 };
 using Corners = std::array<Corner, 3>;
 
 Corner CornerAt(const Alignment& alignment, const Vector3& place_m, double near_s_m) {
-  return {place_m, PlaceOnLine(alignment, place_m, near_s_m)};
+  return {PlaceOnLine(alignment, place_m, near_s_m), place_m};
 }
 
-double CornerChainage_m(const Corner& corner) {
-  return corner.line.s_m;
+/// The part of a polygon on one side of a line parallel to an axis (Sutherland, Hodgman 1974).
+/// @param axis 0: what has x up to the limit is left; 1: y.
+/// @param sign -1: what has at least the limit is left instead.
+std::vector<Eigen::Vector2d> Clipped(const std::vector<Eigen::Vector2d>& polygon,
+                                     int axis,
+                                     double limit,
+                                     double sign) {
+  std::vector<Eigen::Vector2d> inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& a = polygon[i];
+    const Eigen::Vector2d& b = polygon[(i + 1) % polygon.size()];
+    const double from_a = sign * (limit - a[axis]);
+    const double from_b = sign * (limit - b[axis]);
+    if (from_a >= 0.0) inside.push_back(a);
+    if ((from_a >= 0.0) != (from_b >= 0.0)) {
+      inside.emplace_back(a + from_a / (from_a - from_b) * (b - a));
+    }
+  }
+  return inside;
 }
-double CornerLateral_m(const Corner& corner) {
-  return corner.line.d_m;
-}
-double CornerHeight_m(const Corner& corner) {
-  return corner.line.h_m;
-}
-
-/// From where to where a thing reaches, as seen from the line.
-struct Extent {
-  double begin_s_m = std::numeric_limits<double>::infinity();
-  double end_s_m = -std::numeric_limits<double>::infinity();
-  double right_d_m = std::numeric_limits<double>::infinity();
-  double left_d_m = -std::numeric_limits<double>::infinity();
-  double sagitta_m = 0.0;  ///< By which its triangles may reach farther, as chords of curves.
-};
 
 /// Collects what one thing has in the gauge of one track.
 class GaugeProbe {
@@ -86,11 +87,11 @@ class GaugeProbe {
     for (const GaugePart& part : gauge_) top_m_ = std::max(top_m_, part.top_m);
   }
 
-  /// Whether something that reaches from place to place may be in the gauge anywhere. Until the
+  /// Whether something within bounds of chainage and offset may be in the gauge anywhere. Until the
   /// next call, all triangles must be parts of that.
-  bool MayReach(const Extent& extent) {
-    const double begin_s_m = std::max(extent.begin_s_m, course_.begin_s_m());
-    const double end_s_m = std::min(extent.end_s_m, course_.end_s_m());
+  bool MayReach(const Eigen::AlignedBox2d& bounds_m) {
+    const double begin_s_m = std::max(bounds_m.min().x(), course_.begin_s_m());
+    const double end_s_m = std::min(bounds_m.max().x(), course_.end_s_m());
     if (begin_s_m > end_s_m) return false;
     const auto at_m = [&](double step, double num_steps) {
       return num_steps > 0.0 ? std::lerp(begin_s_m, end_s_m, step / num_steps) : begin_s_m;
@@ -107,8 +108,9 @@ class GaugeProbe {
     // What differs between its places and the track's cross-sections: their angle, cant, gradients,
     // and what a track goes aside between samples.
     constexpr double kMargin_m = 6.0;
-    const double reach_m = kGaugeReach_m + kMargin_m + extent.sagitta_m;
-    if (extent.right_d_m > most_m + reach_m || extent.left_d_m < least_m - reach_m) return false;
+    const double reach_m = kGaugeReach_m + kMargin_m;
+    if (bounds_m.min().y() > most_m + reach_m || bounds_m.max().y() < least_m - reach_m)
+      return false;
     constexpr double kCurveStep_m = 2.0;
     constexpr double kBetweenSamples = 1.2;
     sharpest_per_m_ = 0.0;
@@ -125,11 +127,11 @@ class GaugeProbe {
   /// @pre MayReach was true for what it is a part of.
   void Add(const Corners& triangle) {
     ++num_comparisons_;
-    const auto [first, last] = std::ranges::minmax(triangle, {}, &CornerChainage_m);
-    if (last.line.s_m < course_.begin_s_m() || first.line.s_m > course_.end_s_m()) return;
-    const double length_m = last.line.s_m - first.line.s_m;
+    const auto [first, last] = std::ranges::minmax(triangle, {}, &Corner::s_m);
+    if (last.s_m < course_.begin_s_m() || first.s_m > course_.end_s_m()) return;
+    const double length_m = last.s_m - first.s_m;
     if (IsSurelyOutside(triangle, length_m)) return;
-    const double middle_s_m = 0.5 * (first.line.s_m + last.line.s_m);
+    const double middle_s_m = 0.5 * (first.s_m + last.s_m);
     const Transform track_from_world = course_.WorldFromTrack(alignment_, middle_s_m).inverse();
     Triangle here;
     std::ranges::transform(triangle, here.begin(),
@@ -161,14 +163,14 @@ class GaugeProbe {
   [[nodiscard]] bool IsSurelyOutside(const Corners& triangle, double length_m) const {
     constexpr double kMargin_m = 1.0;
     constexpr double kSteepest = 0.1;  // Of gradients and cant.
-    const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &CornerLateral_m);
+    const auto [rightmost, leftmost] = std::ranges::minmax(triangle, {}, &Corner::d_m);
     const double reach_m =
         kGaugeReach_m + kMargin_m + length_m + length_m * length_m / alignment_.tightest_radius_m();
-    if (rightmost.line.d_m > course_.most_d_m() + reach_m) return true;
-    if (leftmost.line.d_m < course_.least_d_m() - reach_m) return true;
+    if (rightmost.d_m > course_.most_d_m() + reach_m) return true;
+    if (leftmost.d_m < course_.least_d_m() - reach_m) return true;
     const double width_m =
-        std::max(leftmost.line.d_m - course_.least_d_m(), course_.most_d_m() - rightmost.line.d_m);
-    const double lowest_m = std::ranges::min(triangle, {}, &CornerHeight_m).line.h_m;
+        std::max(leftmost.d_m - course_.least_d_m(), course_.most_d_m() - rightmost.d_m);
+    const double lowest_m = std::ranges::min(triangle, {}, &Corner::h_m).h_m;
     return lowest_m > top_m_ + kMargin_m + kSteepest * (length_m + width_m);
   }
   /// Whether the triangle is on one side of the gauge, allowing for a curve along its length: an
@@ -195,7 +197,7 @@ class GaugeProbe {
   void Divide(const Corners& triangle) {
     std::size_t longest = 0;
     const auto length_m = [&](std::size_t i) {
-      return std::abs(triangle[(i + 1) % 3].line.s_m - triangle[i].line.s_m);
+      return std::abs(triangle[(i + 1) % 3].s_m - triangle[i].s_m);
     };
     for (std::size_t i = 1; i < 3; ++i) {
       if (length_m(i) > length_m(longest)) longest = i;
@@ -205,7 +207,7 @@ class GaugeProbe {
     if ((triangle[next].place_m - triangle[longest].place_m).norm() < kLeastPiece_m) return;
     const Corner middle =
         CornerAt(alignment_, 0.5 * (triangle[longest].place_m + triangle[next].place_m),
-                 0.5 * (triangle[longest].line.s_m + triangle[next].line.s_m));
+                 0.5 * (triangle[longest].s_m + triangle[next].s_m));
     for (const std::size_t replaced : {longest, next}) {
       Corners half = triangle;
       half[replaced] = middle;
@@ -230,17 +232,11 @@ class GaugeProbe {
     polygon = Clipped(polygon, 1, part.top_m, 1.0);
     polygon = Clipped(polygon, 1, part.bottom_m, -1.0);
     if (polygon.empty()) return;
-    double right_m = std::numeric_limits<double>::infinity();
-    double left_m = -right_m;
-    double bottom_m = right_m;
-    double top_m = left_m;
-    for (const Eigen::Vector2d& point : polygon) {
-      right_m = std::min(right_m, point.x());
-      left_m = std::max(left_m, point.x());
-      bottom_m = std::min(bottom_m, point.y());
-      top_m = std::max(top_m, point.y());
-    }
-    const double from_axis_m = std::max({0.0, right_m, -left_m});
+    Eigen::AlignedBox2d inside_m;  // Right to left and bottom to top.
+    for (const Eigen::Vector2d& point : polygon) inside_m.extend(point);
+    const double bottom_m = inside_m.min().y();
+    const double top_m = inside_m.max().y();
+    const double from_axis_m = std::max({0.0, inside_m.min().x(), -inside_m.max().x()});
     const double depth_m = part.half_width_m - from_axis_m;
     // What only touches the gauge from above or below is not in it.
     const bool touches =
@@ -297,11 +293,11 @@ class Probes {
       for (const Eigen::Vector3f& vertex : part.mesh.vertices) {
         corners.push_back(
             CornerAt(alignment_, world_from_model * vertex.cast<double>(), guess_s_m));
-        guess_s_m = corners.back().line.s_m;
+        guess_s_m = corners.back().s_m;
       }
-      const Extent extent = ExtentOf(corners, part.mesh.triangles);
+      const Eigen::AlignedBox2d bounds_m = BoundsOf(corners, part.mesh.triangles);
       for (GaugeProbe& probe : probes_) {
-        if (!probe.MayReach(extent)) continue;
+        if (!probe.MayReach(bounds_m)) continue;
         for (const auto& [a, b, c] : part.mesh.triangles) {
           probe.Add({corners[a], corners[b], corners[c]});
         }
@@ -322,15 +318,13 @@ class Probes {
   }
 
  private:
+  /// In chainage and offset, as far as chords of curves may reach.
   template <class Triangles>
-  [[nodiscard]] Extent ExtentOf(const std::vector<Corner>& corners,
-                                const Triangles& triangles) const {
-    Extent extent;
+  [[nodiscard]] Eigen::AlignedBox2d BoundsOf(const std::vector<Corner>& corners,
+                                             const Triangles& triangles) const {
+    Eigen::AlignedBox2d bounds_m;
     for (const Corner& corner : corners) {
-      extent.begin_s_m = std::min(extent.begin_s_m, corner.line.s_m);
-      extent.end_s_m = std::max(extent.end_s_m, corner.line.s_m);
-      extent.right_d_m = std::min(extent.right_d_m, corner.line.d_m);
-      extent.left_d_m = std::max(extent.left_d_m, corner.line.d_m);
+      bounds_m.extend(Eigen::Vector2d(corner.s_m, corner.d_m));
     }
     double longest_m = 0.0;
     for (const auto& [a, b, c] : triangles) {
@@ -338,8 +332,10 @@ class Probes {
         longest_m = std::max(longest_m, (corners[to].place_m - corners[from].place_m).norm());
       }
     }
-    extent.sagitta_m = longest_m * longest_m / (8.0 * alignment_.tightest_radius_m());
-    return extent;
+    const double sagitta_m = longest_m * longest_m / (8.0 * alignment_.tightest_radius_m());
+    bounds_m.min().y() -= sagitta_m;
+    bounds_m.max().y() += sagitta_m;
+    return bounds_m;
   }
 
   const Alignment& alignment_;

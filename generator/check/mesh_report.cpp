@@ -1,4 +1,4 @@
-#include "generator/check/mesh_report.h"
+#include "generator/check/check_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 #include "core/base/text.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_models.h"
-#include "generator/check/check_report.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/check/network_report.h"
+#include "generator/check/check_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/route.h"
-#include "generator/check/check_report.h"
 
 namespace railcast {
 namespace {

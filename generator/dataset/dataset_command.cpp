@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
@@ -12,9 +13,10 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
+#include "generator/dataset/dataset_report.h"
+#include "generator/dataset/merge_shards.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/run_dataset.h"
-#include "generator/dataset/scenario_report.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
 #include "generator/run/stopping.h"
@@ -103,25 +105,56 @@ std::string SummaryOfRun(const Recipe& recipe,
   return text.str();
 }
 
+/// Shows which scenario is being made, from the first one on.
+class ScenarioProgress {
+ public:
+  void Show(std::uint32_t num_done, std::uint32_t num_scenarios, double done) {
+    if (!line_) line_.emplace(done);
+    line_->Show("scenario " + std::to_string(num_done + 1) + " of " + std::to_string(num_scenarios),
+                done);
+  }
+  void End() {
+    if (line_) line_->End();
+  }
+
+ private:
+  std::optional<ProgressLine> line_;
+};
+
 int RunDatasetCommand(const DatasetOptions& options) {
   const Recipe recipe = ReadRecipe(options.recipe);
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
-  std::optional<ProgressLine> line;
+  ScenarioProgress line;
   const DatasetHooks hooks = {[&](const DatasetProgress& progress) {
-                                if (!line) line.emplace(progress.done());
-                                line->Show("scenario " + std::to_string(progress.num_done + 1) +
-                                               " of " + std::to_string(progress.num_scenarios),
-                                           progress.done());
+                                line.Show(progress.num_done, progress.num_scenarios,
+                                          progress.done());
                               },
                               StopRequested};
   const DatasetResult result = RunDataset(recipe, options.choices, hooks);
-  if (line) line->End();
+  line.End();
   std::cout << SummaryOfRun(recipe, result, options);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues\n";
   return kExitInterrupted;
+}
+
+struct MergeOptions {
+  std::vector<std::filesystem::path> shards;
+  std::filesystem::path out;
+};
+
+int RunMerge(const MergeOptions& options) {
+  ScenarioProgress line;
+  const std::uint32_t num_scenarios =
+      MergeShards(options.shards, options.out, [&](std::uint32_t num_done, std::uint32_t num_all) {
+        line.Show(num_done, num_all, static_cast<double>(num_done) / num_all);
+      });
+  line.End();
+  std::cout << num_scenarios << " scenarios of " << options.shards.size() << " shards in "
+            << ShownPath(options.out) << "\n";
+  return kExitSuccess;
 }
 
 }  // namespace
@@ -151,6 +184,21 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
     CheckFields(options->choices.fields);
     options->choices.shard = ParseShard(options->shard).value();
     command = [options](const std::string&) { return RunDatasetCommand(*options); };
+  });
+}
+
+void AddMerge(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App* merge = app.add_subcommand(
+      "merge",
+      "Make one data set of the folders of all its shards, with the bytes of a run "
+      "without shards");
+  merge->add_option("SHARD", options->shards, "Folders that dataset --shard made, all of them")
+      ->required()
+      ->check(NonEmpty());
+  merge->add_option("--out", options->out, "Folder of the data set")->required()->check(NonEmpty());
+  merge->callback([&command, options] {
+    command = [options](const std::string&) { return RunMerge(*options); };
   });
 }
 

@@ -7,7 +7,6 @@
 #include "generator/dataset/describe_recipe.h"
 #include "generator/dataset/json_place.h"
 #include "generator/dataset/recipe.h"
-#include "generator/dataset/recipe_check.h"
 
 namespace railcast {
 namespace {

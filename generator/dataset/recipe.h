@@ -135,4 +135,10 @@ struct Recipe {
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
 [[nodiscard]] Recipe ReadRecipe(const std::filesystem::path& file);
 
+/// Checks a recipe beyond its own rules: that no value overwrites another one, and that the reader
+/// of scenarios accepts what is drawn, with every extreme of every distribution and with every
+/// option, on every base.
+/// @throws InputError with a line for every fault, which names the recipe's key.
+void CheckRecipe(const Recipe& recipe);
+
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "generator/dataset/recipe_check.h"
+#include "generator/dataset/recipe.h"
 
 #include <cmath>
 #include <functional>
@@ -13,8 +13,8 @@
 #include "core/scenario/json_source.h"
 #include "generator/dataset/drafted_scenario.h"
 #include "generator/dataset/json_place.h"
-#include "generator/dataset/object_template.h"
-#include "generator/dataset/recipe_bases.h"
+#include "generator/dataset/object_placement.h"
+#include "generator/dataset/recipe_files.h"
 #include "generator/dataset/recipe_values.h"
 #include "generator/dataset/split_plan.h"
 #include "generator/dataset/split_quota.h"

@@ -5,7 +5,10 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
 #include "core/scenario/json_text.h"
@@ -61,6 +64,21 @@ class FileHashes {
 };
 
 }  // namespace
+
+RecipeBases::RecipeBases(const Recipe& recipe) {
+  ErrorList errors;
+  for (const RecipeBase& base : recipe.bases) {
+    // As a user would name it.
+    const std::filesystem::path shown =
+        std::filesystem::path(base.file).lexically_proximate(std::filesystem::current_path());
+    auto spec = Attempt("", errors, [&] { return ReadScenario(shown); });
+    if (!spec) continue;
+    jsons_.push_back(Json::parse(ResolvedScenarioJson(*spec)));
+    hashes_.push_back(IdentityOf(*spec).scenario_hash);
+    specs_.push_back(std::move(*spec));
+  }
+  errors.ThrowIfAny();
+}
 
 std::string HashOfRecipeFiles(const Recipe& recipe) {
   const fs::path folder = fs::absolute(recipe.file).lexically_normal().parent_path();

@@ -6,7 +6,7 @@
 
 #include "core/scenario/json_text.h"
 #include "generator/dataset/recipe.h"
-#include "generator/dataset/recipe_bases.h"
+#include "generator/dataset/recipe_files.h"
 #include "generator/dataset/split_plan.h"
 #include "railcast/scenario.h"
 

@@ -12,7 +12,7 @@
 #include "generator/dataset/drafted_scenario.h"
 #include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/recipe_values.h"
-#include "generator/dataset/split_places.h"
+#include "generator/dataset/split_quota.h"
 #include "railcast/lidar.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 
 #include "core/scenario/json_text.h"
 #include "generator/dataset/recipe.h"
-#include "generator/dataset/recipe_bases.h"
+#include "generator/dataset/recipe_files.h"
 #include "generator/dataset/seen_stretch.h"
 #include "generator/dataset/split_quota.h"
 

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/recipe.h"
 
 namespace railcast {
@@ -41,5 +43,19 @@ inline constexpr double kShareTolerance = 0.02;
 /// again (Black, Rogaway 2002, "Ciphers with arbitrary finite domains").
 /// @pre index < size
 [[nodiscard]] std::uint32_t Permuted(std::uint32_t index, std::uint32_t size, std::uint64_t key);
+
+/// Ground that belongs to one part as a whole: a cell of a line, or a line.
+struct SplitPlace {
+  std::string name;             ///< Unique; its draw depends on it.
+  double weight{};              ///< How often scenarios are there, relative to other places.
+  std::optional<Split> pinned;  ///< The part that the recipe gives it.
+};
+
+/// Gives each place to a part, in random order, but such that the weights of the parts come near to
+/// their shares, and that each part with a share gets a place.
+/// @return The parts of the places; nothing if there are too few for that.
+[[nodiscard]] std::optional<std::vector<Split>> DividePlaces(const std::vector<SplitPlace>& places,
+                                                             const PerPart<double>& shares,
+                                                             const KeyedDraws& draws);
 
 }  // namespace railcast

@@ -22,19 +22,16 @@
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
 #include "generator/empty_folder.h"
-#include "generator/import/lines/contact_lines.h"
+#include "generator/import/import_files.h"
+#include "generator/import/lines/divided_line.h"
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_cants.h"
-#include "generator/import/lines/line_files.h"
 #include "generator/import/lines/line_heights.h"
-#include "generator/import/lines/sharp_arcs.h"
+#include "generator/import/lines/line_tags.h"
 #include "generator/import/lines/track_lines.h"
-#include "generator/import/map/crop_map.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
-#include "generator/import/structures/clear_gauge.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_coverage.h"
 #include "generator/import/structures/standing_world.h"
@@ -187,14 +184,10 @@ std::string TracksCsv(const std::vector<ImportedLine>& lines,
          "p99_m\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SideTrackQuality& q = worlds[i].beside;
-    const auto quantile_m = [](const std::vector<double>& values_m, double share) {
-      const auto last = static_cast<double>(values_m.size()) - 1.0;
-      return values_m.empty() ? 0.0 : values_m[static_cast<std::size_t>(share * last)];
-    };
     csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.num_switches
-        << ',' << q.made.size() << ',' << quantile_m(q.shifts_m, 0.5) << ','
-        << quantile_m(q.shifts_m, 0.95) << ',' << q.length_m << ',' << q.distances_m.size() << ','
-        << quantile_m(q.distances_m, 0.5) << ',' << quantile_m(q.distances_m, 0.99) << '\n';
+        << ',' << q.made.size() << ',' << QuantileOf(q.shifts_m, 0.5) << ','
+        << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m << ',' << q.distances_m.size() << ','
+        << QuantileOf(q.distances_m, 0.5) << ',' << QuantileOf(q.distances_m, 0.99) << '\n';
   }
   return csv.str();
 }

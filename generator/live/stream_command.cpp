@@ -18,7 +18,6 @@
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_loop.h"
-#include "generator/live/lag_report.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
 #include "generator/live/stream_options.h"

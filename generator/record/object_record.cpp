@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "generator/record/pose_record.h"
+#include "generator/record/frame_record.h"
 
 namespace railcast {
 namespace {

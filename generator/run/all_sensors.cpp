@@ -27,7 +27,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
-#include "generator/record/pose_record.h"
+#include "generator/record/frame_record.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {

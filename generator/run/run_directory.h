@@ -7,7 +7,6 @@
 
 #include "generator/record/frame_record.h"
 #include "generator/record/object_record.h"
-#include "generator/record/pose_record.h"
 #include "generator/run/run_folder.h"
 #include "generator/run/run_plan.h"
 #include "railcast/camera.h"

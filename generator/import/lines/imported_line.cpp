@@ -11,7 +11,7 @@
 #include "core/rail/line/plan_spline.h"
 #include "generator/import/fit/line_fit.h"
 #include "generator/import/fit/plan_window.h"
-#include "generator/import/lines/line_gauge.h"
+#include "generator/import/lines/line_tags.h"
 #include "generator/import/lines/speed_limits.h"
 
 namespace railcast {
@@ -113,10 +113,6 @@ std::pair<double, double> SharpestOf(const PlanModel& plan) {
   return {s_m, sharpest_per_m};
 }
 
-double Quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
 LineQuality QualityOf(const LinePoints& points,
                       const LineFit& fit,
                       const std::vector<ChainageValue>& limits_kmph) {
@@ -127,8 +123,8 @@ LineQuality QualityOf(const LinePoints& points,
   quality.num_points = points.places_m.size();
   quality.num_elements = fit.plan.Elements().size();
   quality.length_m = fit.plan.length_m();
-  quality.median_m = Quantile(distances_m, 0.5);
-  quality.p99_m = Quantile(distances_m, 0.99);
+  quality.median_m = QuantileOf(distances_m, 0.5);
+  quality.p99_m = QuantileOf(distances_m, 0.99);
   quality.largest_m = distances_m.back();
 
   const Wiggles before = WigglesOfSpline(points.places_m);
@@ -146,6 +142,11 @@ LineQuality QualityOf(const LinePoints& points,
 }
 
 }  // namespace
+
+double QuantileOf(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return 0.0;
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
 
 ImportedLine ImportLine(const RailMap& map,
                         const TrackLine& line,

@@ -66,6 +66,9 @@ struct ImportOptions {
   double otherwise_kmph = 80.0;  ///< Of running tracks where the map gives no speed.
 };
 
+/// The value a share of the way through ascending ones; 0 if there are none.
+[[nodiscard]] double QuantileOf(const std::vector<double>& sorted, double share);
+
 /// Fits straights, arcs and clothoids to a line (FitLine). Its speed limits are the map's or, where
 /// that has none, those of its kind and its arcs (SpeedLimitsOf). Its heights are all 0 until
 /// SetHeights.

@@ -10,6 +10,11 @@
 
 namespace railcast {
 
+/// Gives a line the surveyed cants of the map's points (MapNode::cant_mm), linear between them. The
+/// outer rail of the fitted line is the higher one. Points without one have none, but if no point
+/// of the line has any, it is left to the rule.
+void SetCants(const RailMap& map, const TrackLine& track, ImportedLine& line);
+
 /// @throws InputError if the model ends before one of the lines does.
 /// @param name Of the model, for messages.
 void CheckCovers(const RailMap& map,

@@ -1,15 +1,11 @@
 #include "generator/import/network/line_world.h"
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/scenario/describe_world.h"
-#include "core/scenario/json_writer.h"
-#include "generator/import/lines/contact_lines.h"
-#include "generator/import/lines/line_files.h"
-#include "generator/import/lines/line_gauge.h"
+#include "generator/import/lines/line_tags.h"
 
 namespace railcast {
 namespace {
@@ -46,53 +42,33 @@ LineWorld MakeLineWorld(const RailMap& map, const TrackLine& track, const Import
   return world;
 }
 
-Json JsonOf(TrackSpec track) {
-  Json json = {{"name", track.name}};  // A list reads better with names, also with the usual one.
-  json.update(JsonWriter::WriteShort(track));
-  return json;
+bool IsTunnel(const MapTags& tags) {
+  return IsThere(TagOf(tags, "tunnel")) && TagOf(tags, "tunnel") != "building_passage";
 }
 
-Json JsonOf(StructureSpec structure) {
-  return JsonWriter::WriteShort(structure);
+bool IsBridge(const MapTags& tags) {
+  return IsThere(TagOf(tags, "bridge")) && !IsTunnel(tags);
 }
 
-std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool has_elevation) {
-  Json file = {{"version", 1}, {"alignment", line.name + ".alignment.json"}};
-  if (has_elevation) file["terrain"]["elevation"]["file"] = line.name + ".elevation.asc";
-  for (const StructureSpec& spec : world.structures) file["structures"].push_back(JsonOf(spec));
-  for (const WorldTrack& track : world.tracks) file["tracks"].push_back(JsonOf(track.draft.spec));
-  return TextWithItems(file) + "\n";
-}
-
-std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
-                       const std::vector<ImportedLine>& lines,
-                       const std::vector<LineWorld>& worlds) {
-  std::ostringstream csv;
-  csv << "line,what,from_s_m,to_s_m,reason\n";
-  const auto add = [&](const std::string& line, const LeftOut& thing) {
-    std::string reason = thing.reason;
-    std::ranges::replace(reason, '"', '\'');
-    csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
-        << RoundedTo(thing.end_s_m, 100.0) << ",\"" << reason << "\"\n";
-  };
-  for (const LeftOutLine& line : left_out)
-    add(line.name, {"line", 0.0, line.length_m, line.reason});
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);
-  }
-  return csv.str();
-}
-
-std::string MovedCsv(const std::vector<ImportedLine>& lines, const std::vector<LineWorld>& worlds) {
-  std::ostringstream csv;
-  csv << "line,track,from_s_m,to_s_m,moved_m\n";
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (const MovedTrack& moved : worlds[i].moved) {
-      csv << lines[i].name << ',' << moved.name << ',' << RoundedTo(moved.begin_s_m, 100.0) << ','
-          << RoundedTo(moved.end_s_m, 100.0) << ',' << RoundedTo(moved.most_m, 100.0) << '\n';
+std::vector<TaggedStretch> StretchesOfAll(const RailMap& map,
+                                          const LineWorld& world,
+                                          const std::function<bool(const MapTags&)>& has) {
+  constexpr double kSteps_per_m = 100.0;
+  std::vector<TaggedStretch> all;
+  for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+    const TrackCourse& course = world.tracks[i].draft.course;
+    const double first_m = std::ceil(course.begin_s_m() * kSteps_per_m) / kSteps_per_m;
+    const double last_m = std::floor(course.end_s_m() * kSteps_per_m) / kSteps_per_m;
+    for (const LineStretch& stretch : StretchesWhere(map, world.tracks[i].ways, has)) {
+      const auto on_track_m = [&](double s_m) {
+        return std::clamp(std::round(s_m * kSteps_per_m) / kSteps_per_m, first_m,
+                          std::max(first_m, last_m));
+      };
+      const TaggedStretch on_track{i, on_track_m(stretch.begin_s_m), on_track_m(stretch.end_s_m)};
+      if (on_track.length_m() > 0.0) all.push_back(on_track);
     }
   }
-  return csv.str();
+  return all;
 }
 
 }  // namespace railcast

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "core/scenario/json_text.h"
 #include "generator/import/lines/imported_line.h"
-#include "generator/import/lines/line_stretches.h"
+#include "generator/import/lines/line_places.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/track_network.h"
@@ -52,30 +53,24 @@ struct LineWorld {
                                       const TrackLine& track,
                                       const ImportedLine& line);
 
-/// A track and a structure as scenario files have them, without keys that have their defaults.
-[[nodiscard]] Json JsonOf(TrackSpec track);
-[[nodiscard]] Json JsonOf(StructureSpec structure);
+/// What lies between two chainages of a track.
+struct TaggedStretch {
+  std::size_t track{};
+  double begin_s_m{};
+  double end_s_m{};
 
-/// The world as a file that a scenario may name, with one item to a line of text.
-/// @param has_elevation Whether NAME.elevation.asc stands beside it.
-[[nodiscard]] std::string WorldFileText(const ImportedLine& line,
-                                        const LineWorld& world,
-                                        bool has_elevation);
-
-/// A line that cannot stand.
-struct LeftOutLine {
-  std::string name;
-  double length_m{};
-  std::string reason;
+  [[nodiscard]] double length_m() const { return end_s_m - begin_s_m; }
 };
 
-/// What was left out as CSV: whole lines first, then what worlds lack.
-[[nodiscard]] std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
-                                     const std::vector<ImportedLine>& lines,
-                                     const std::vector<LineWorld>& worlds);
+/// By so much tags of tracks beside each other may begin and end at different chainages.
+inline constexpr double kSameEnd_m = 15.0;
 
-/// The stretches of tracks that were moved away from others, as CSV.
-[[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
-                                   const std::vector<LineWorld>& worlds);
+/// Whether the tags of a way say that it lies in a tunnel, or on a bridge; never both.
+[[nodiscard]] bool IsTunnel(const MapTags& tags);
+[[nodiscard]] bool IsBridge(const MapTags& tags);
+
+/// Where the ways of a world's tracks have something, in centimetres and on the tracks.
+[[nodiscard]] std::vector<TaggedStretch> StretchesOfAll(
+    const RailMap& map, const LineWorld& world, const std::function<bool(const MapTags&)>& has);
 
 }  // namespace railcast

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/rail/base/chainage_range.h"
 #include "generator/import/fit/plan_model.h"
 #include "generator/import/lines/line_places.h"
-#include "generator/import/lines/line_stretches.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 
@@ -45,5 +47,23 @@ inline constexpr double kRunStrip_m = 60.0;
 
 /// The part of a plan between two lengths along it; its start is not set.
 [[nodiscard]] PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m);
+
+/// The part of a run between two chainages of it; absent if it is shorter than 30 m.
+[[nodiscard]] std::optional<TrackRun> PartOfRun(const TrackRun& run,
+                                                double from_s_m,
+                                                double to_s_m);
+
+/// The tunnels of a run in which it is below its line: on the axis of the line's own track, which
+/// is in no tunnel there. A tunnel that begins or ends on the axis is none of them.
+/// @param line_ways Of the line's own track.
+[[nodiscard]] std::vector<ChainageRange> TunnelsBelowLine(const RailMap& map,
+                                                          std::span<const LineStretch> line_ways,
+                                                          const TrackRun& run);
+
+/// What is left of a run without some stretches of it, as far as it is 30 m long. Without any
+/// stretches this is the run itself.
+/// @param stretches In order of chainage.
+[[nodiscard]] std::vector<TrackRun> PartsBetween(const TrackRun& run,
+                                                 std::span<const ChainageRange> stretches);
 
 }  // namespace railcast

@@ -14,7 +14,7 @@
 #include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
-#include "generator/import/network/tagged_stretches.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/structures/line_structures.h"
 
 namespace railcast {

@@ -1,19 +1,165 @@
 #include "generator/import/structures/standing_world.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/rail/base/chainage_range.h"
+#include "core/rail/network/network_draft.h"
+#include "core/rail/structures/structures.h"
 #include "core/rail/world/world_draft.h"
+#include "core/scenario/describe_structures.h"
+#include "generator/check/gauge_entries.h"
 #include "generator/import/structures/line_structures.h"
 #include "railcast/world_spec.h"
 
 namespace railcast {
 namespace {
+
+/// Parts that are left of a structure must be as long as this.
+template <class Structure>
+constexpr double kShortestPart_m = 5.0;
+template <>
+constexpr double kShortestPart_m<TunnelSpec> = 20.0;
+
+/// So far from what stands in a gauge it is cut.
+constexpr double kGaugeMargin_m = 1.0;
+
+/// What is left of a structure without some stretches of chainage.
+template <class Structure>
+std::vector<StructureSpec> PartsOutside(const Structure& structure,
+                                        const std::vector<ChainageRange>& stretches) {
+  std::vector<Structure> parts{structure};
+  for (const ChainageRange& stretch : stretches) {
+    std::vector<Structure> rest;
+    for (const Structure& part : parts) {
+      Structure before = part;
+      before.end_s_m = std::min(part.end_s_m, RoundedTo(stretch.begin_s_m - kGaugeMargin_m, 100.0));
+      Structure behind = part;
+      behind.begin_s_m =
+          std::max(part.begin_s_m, RoundedTo(stretch.end_s_m + kGaugeMargin_m, 100.0));
+      for (const Structure& piece : {before, behind}) {
+        if (piece.end_s_m - piece.begin_s_m >= kShortestPart_m<Structure>) rest.push_back(piece);
+      }
+    }
+    parts = std::move(rest);
+  }
+  return {parts.begin(), parts.end()};
+}
+
+class StructureClearing {
+ public:
+  StructureClearing(const AlignmentSpec& alignment, LineWorld& world)
+      : alignment_(alignment), world_(world) {
+    spec_.alignment = alignment;
+    spec_.tracks.clear();
+    for (const WorldTrack& track : world.tracks) spec_.tracks.push_back(track.draft.spec);
+    network_ = MakeNetwork(spec_, alignment_.length_m());
+  }
+
+  void LeaveOutFaults() {
+    const std::vector<std::optional<TrackCourse>> courses(network_.courses.begin(),
+                                                          network_.courses.end());
+    const LineOfTracks line{{alignment_.length_m(), alignment_.tightest_radius_m()}, courses};
+    std::erase_if(world_.structures, [&](const StructureSpec& structure) {
+      spec_.structures = {structure};
+      WorldFaults faults;
+      CheckStructures(spec_, line, faults);
+      if (faults.errors.empty()) return false;
+      const Fault& fault = faults.errors.faults().front();
+      LeaveOut(structure, "it " + fault.rule);
+      return true;
+    });
+  }
+
+  /// Cuts tunnels without their portals, so that portals shorten no tunnel.
+  void CutOutOfGauges() {
+    constexpr int kMaxRounds = 6;
+    std::vector<StructureSpec> open = std::exchange(world_.structures, {});
+    for (int round = 0; round < kMaxRounds && !open.empty(); ++round) {
+      const auto entries = EntriesOf(open, false);
+      std::vector<StructureSpec> parts;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        const auto found = entries.find(i);
+        if (found == entries.end()) {
+          world_.structures.push_back(open[i]);
+          continue;
+        }
+        std::vector<ChainageRange> stretches;
+        for (const GaugeEntry& entry : found->second) {
+          for (const ChainageRange& stretch : entry.stretches) {
+            LeaveOut(open[i], "it would stand in the structure gauge of track " + entry.track);
+            world_.left_out.back().begin_s_m = stretch.begin_s_m;
+            world_.left_out.back().end_s_m = stretch.end_s_m;
+            stretches.push_back(stretch);
+          }
+        }
+        std::visit(
+            [&]<class Structure>(const Structure& spec) {
+              if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
+                std::ranges::move(PartsOutside(spec, stretches), std::back_inserter(parts));
+              }
+            },
+            open[i]);
+      }
+      open = std::move(parts);
+    }
+    for (const StructureSpec& structure : open) {
+      LeaveOut(structure, "what is left of it would still stand in the gauge of a track");
+    }
+  }
+
+  void LeaveOutPortals() {
+    std::vector<TunnelSpec*> tunnels;
+    std::vector<StructureSpec> copies;
+    for (StructureSpec& structure : world_.structures) {
+      auto* tunnel = std::get_if<TunnelSpec>(&structure);
+      if (tunnel == nullptr) continue;
+      tunnels.push_back(tunnel);
+      copies.push_back(structure);
+    }
+    for (const auto& [index, entries] : EntriesOf(copies, true)) {
+      tunnels[index]->has_portals = false;
+    }
+  }
+
+ private:
+  /// What of some structures is in the gauge of tracks, by their number.
+  [[nodiscard]] std::map<std::size_t, std::vector<GaugeEntry>> EntriesOf(
+      const std::vector<StructureSpec>& structures, bool has_portals) {
+    spec_.structures = structures;
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      std::visit([&](auto& spec) { spec.name = std::to_string(i); }, spec_.structures[i]);
+      auto* tunnel = std::get_if<TunnelSpec>(&spec_.structures[i]);
+      if (tunnel != nullptr) tunnel->has_portals = has_portals;
+    }
+    std::map<std::size_t, std::vector<GaugeEntry>> entries;
+    for (GaugeEntry& entry : FindStructuresInGauge(spec_, alignment_, network_.courses).entries) {
+      entries[std::stoul(entry.name)].push_back(std::move(entry));
+    }
+    return entries;
+  }
+
+  void LeaveOut(const StructureSpec& structure, const std::string& reason) {
+    world_.left_out.push_back(LeftOutOf(structure, reason));
+  }
+
+  Alignment alignment_;
+  LineWorld& world_;
+  WorldSpec spec_;
+  Network network_;
+};
 
 /// The number of an item that a pointer such as "/world/tracks/12/offset_m" leads into.
 std::optional<std::size_t> ItemOf(std::string_view pointer, std::string_view list) {
@@ -50,6 +196,15 @@ void EraseNumbered(const std::set<std::size_t>& numbers, std::vector<Item>& item
 }
 
 }  // namespace
+
+void ClearStructures(const AlignmentSpec& alignment, LineWorld& world) {
+  if (world.structures.empty()) return;
+  StructureClearing clearing(alignment, world);
+  clearing.LeaveOutFaults();
+  clearing.CutOutOfGauges();
+  clearing.LeaveOutPortals();
+  NameStructures(world.structures);
+}
 
 std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
                                      const std::optional<std::filesystem::path>& elevation,

@@ -1,4 +1,4 @@
-#include "generator/import/structures/tunnels.h"
+#include "generator/import/structures/line_structures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,7 @@
 
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
-#include "generator/import/network/tagged_stretches.h"
-#include "generator/import/structures/line_structures.h"
+#include "generator/import/network/line_world.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/check/network_report.h"
+#include "generator/check/check_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "generator/import/structures/clear_gauge.h"
+#include "generator/import/structures/standing_world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "generator/import/map/crop_map.h"
+#include "generator/import/map/read_map.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/io/write_file.h"
-#include "generator/import/lines/line_files.h"
-#include "generator/import/lines/line_gauge.h"
+#include "generator/import/import_files.h"
+#include "generator/import/lines/line_tags.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"

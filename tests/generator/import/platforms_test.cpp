@@ -1,4 +1,4 @@
-#include "generator/import/structures/platforms.h"
+#include "generator/import/structures/line_structures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/rail/network/turnout_place.h"
+#include "generator/import/import_files.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"

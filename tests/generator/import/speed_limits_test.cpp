@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "generator/import/fit/plan_window.h"
-#include "generator/import/lines/contact_lines.h"
 #include "generator/import/lines/imported_line.h"
+#include "generator/import/lines/line_tags.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 

@@ -1,4 +1,4 @@
-#include "generator/import/structures/way_structures.h"
+#include "generator/import/structures/line_structures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "generator/import/structures/clear_gauge.h"
+#include "generator/import/structures/standing_world.h"
 #include "tests/generator/import/made_map.h"
 
 namespace railcast {

@@ -2,13 +2,27 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/strict_json.h"
+#include "core/io/write_file.h"
 
 namespace railcast {
+
+/// @throws InputError if the file cannot be read or is no JSON.
+[[nodiscard]] inline StrictJson ReadMapJson(const std::filesystem::path& file) {
+  const std::string text = ReadFileWhole(file);
+  try {
+    return StrictJson::parse(text);
+  } catch (const StrictJson::exception& error) {
+    throw InputError(ShownPath(file) + ": must be JSON: " + ShownLines(error.what()));
+  }
+}
 
 /// The number that a text is; absent if it is anything else, or not finite.
 [[nodiscard]] inline std::optional<double> NumberIn(std::string_view text) {

@@ -1,4 +1,4 @@
-#include "generator/import/lines/line_files.h"
+#include "generator/import/import_files.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/scenario/describe_alignment.h"
+#include "core/scenario/describe_world.h"
 #include "core/scenario/json_writer.h"
 
 namespace railcast {
@@ -31,11 +32,12 @@ std::string IndentedText(const Json& json, const std::string& indent) {
   return text + "\n" + indent + (json.is_array() ? "]" : "}");
 }
 
-}  // namespace
-
+/// JSON as text, with one item of a list of lists or objects to a line.
 std::string TextWithItems(const Json& json) {
   return IndentedText(json, "");
 }
+
+}  // namespace
 
 std::string AlignmentFileText(const ImportedLine& line, const MapProjection& projection) {
   std::ostringstream origin;
@@ -107,6 +109,55 @@ std::string ContradictionsCsv(const std::vector<ImportedLine>& lines) {
     for (const Contradiction& point : line.contradictions) {
       csv << line.name << ',' << point.s_m << ',' << point.offset_m << ','
           << point.geographic_deg.x() << ',' << point.geographic_deg.y() << '\n';
+    }
+  }
+  return csv.str();
+}
+
+Json JsonOf(TrackSpec track) {
+  Json json = {{"name", track.name}};  // A list reads better with names, also with the usual one.
+  json.update(JsonWriter::WriteShort(track));
+  return json;
+}
+
+Json JsonOf(StructureSpec structure) {
+  return JsonWriter::WriteShort(structure);
+}
+
+std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool has_elevation) {
+  Json file = {{"version", 1}, {"alignment", line.name + ".alignment.json"}};
+  if (has_elevation) file["terrain"]["elevation"]["file"] = line.name + ".elevation.asc";
+  for (const StructureSpec& spec : world.structures) file["structures"].push_back(JsonOf(spec));
+  for (const WorldTrack& track : world.tracks) file["tracks"].push_back(JsonOf(track.draft.spec));
+  return TextWithItems(file) + "\n";
+}
+
+std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+                       const std::vector<ImportedLine>& lines,
+                       const std::vector<LineWorld>& worlds) {
+  std::ostringstream csv;
+  csv << "line,what,from_s_m,to_s_m,reason\n";
+  const auto add = [&](const std::string& line, const LeftOut& thing) {
+    std::string reason = thing.reason;
+    std::ranges::replace(reason, '"', '\'');
+    csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
+        << RoundedTo(thing.end_s_m, 100.0) << ",\"" << reason << "\"\n";
+  };
+  for (const LeftOutLine& line : left_out)
+    add(line.name, {"line", 0.0, line.length_m, line.reason});
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);
+  }
+  return csv.str();
+}
+
+std::string MovedCsv(const std::vector<ImportedLine>& lines, const std::vector<LineWorld>& worlds) {
+  std::ostringstream csv;
+  csv << "line,track,from_s_m,to_s_m,moved_m\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (const MovedTrack& moved : worlds[i].moved) {
+      csv << lines[i].name << ',' << moved.name << ',' << RoundedTo(moved.begin_s_m, 100.0) << ','
+          << RoundedTo(moved.end_s_m, 100.0) << ',' << RoundedTo(moved.most_m, 100.0) << '\n';
     }
   }
   return csv.str();

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scenario/json_text.h"
+#include "generator/import/lines/imported_line.h"
+#include "generator/import/map/map_projection.h"
+#include "generator/import/network/line_world.h"
+#include "railcast/structures.h"
+#include "railcast/world_spec.h"
+
+namespace railcast {
+
+/// An alignment as a file that a scenario's world may name, with one element to a line of text.
+[[nodiscard]] std::string AlignmentFileText(const ImportedLine& line,
+                                            const MapProjection& projection);
+
+/// The qualities of all lines as CSV, one row for each.
+[[nodiscard]] std::string QualityCsv(const std::vector<ImportedLine>& lines);
+/// The same as a table to be read.
+[[nodiscard]] std::string QualityTable(const std::vector<ImportedLine>& lines);
+/// The qualities of all lines' heights as CSV, one row for each that has heights.
+[[nodiscard]] std::string HeightsCsv(const std::vector<ImportedLine>& lines);
+/// All contradictions as CSV.
+[[nodiscard]] std::string ContradictionsCsv(const std::vector<ImportedLine>& lines);
+
+/// A track and a structure as scenario files have them, without keys that have their defaults.
+[[nodiscard]] Json JsonOf(TrackSpec track);
+[[nodiscard]] Json JsonOf(StructureSpec structure);
+
+/// The world as a file that a scenario may name, with one item to a line of text.
+/// @param has_elevation Whether NAME.elevation.asc stands beside it.
+[[nodiscard]] std::string WorldFileText(const ImportedLine& line,
+                                        const LineWorld& world,
+                                        bool has_elevation);
+
+/// A line that cannot stand.
+struct LeftOutLine {
+  std::string name;
+  double length_m{};
+  std::string reason;
+};
+
+/// What was left out as CSV: whole lines first, then what worlds lack.
+[[nodiscard]] std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+                                     const std::vector<ImportedLine>& lines,
+                                     const std::vector<LineWorld>& worlds);
+
+/// The stretches of tracks that were moved away from others, as CSV.
+[[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
+                                   const std::vector<LineWorld>& worlds);
+
+}  // namespace railcast
