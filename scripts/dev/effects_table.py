@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Measures what each effect changes in each shipped situation, for docs/effects_table.md.
+"""Measures what each effect changes in each shipped situation, for docs/effects_table.md and .csv.
 
     scripts/dev/effects_table.py BUILD [--results FILE] [--frames N] [NAME...]
 
@@ -20,6 +20,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITUATIONS = ROOT / "scenarios" / "situations"
 PAGE = ROOT / "docs" / "effects_table.md"
+FIGURES = ROOT / "docs" / "effects_table.csv"
 SENSORS = {"vir2rail": 3, "vlp16": 8, "pandar64": 32, "rosette": 3}
 # The first rung that has an effect which `footprint` lacks.
 RUNGS = {"threshold": "plausibility", "rain": "plausibility", "snow": "plausibility", "noise": "plausibility",
@@ -207,13 +208,25 @@ def share(value):
     return "" if value == 0 else "< 0.01" if value < 0.01 else f"{value:.2g}" if value < 10 else f"{value:.0f}"
 
 
+def mean_over_sensors(results, situation, effect, figure):
+    return statistics.fmean(rows[effect][figure] for rows in results["situations"][situation].values())
+
+
+def csv_of(results):
+    """Of each situation the effects that change anything, in percent of the firings; means over the sensors."""
+    lines = ["situation,effect,any_percent,outcome_percent,echoes_percent,moved_percent,intensity_percent"]
+    for name in sorted(results["situations"]):
+        for effect in next(iter(results["situations"][name].values())):
+            means = [mean_over_sensors(results, name, effect, figure)
+                     for figure in ("any", "outcome", "echoes", "moved", "intensity")]
+            if means[0] > 0:
+                lines.append(",".join([name, effect, *(f"{value:.3g}" for value in means)]))
+    return "\n".join(lines) + "\n"
+
+
 def page_of(results):
     names = sorted(results["situations"])
     effects = list(next(iter(results["situations"][names[0]].values())))
-
-    def mean(name, effect, figure):
-        return statistics.fmean(rows[effect][figure] for rows in results["situations"][name].values())
-
     headings = re.findall(r"^## (.+)$", (ROOT / "docs" / "effects.md").read_text(), re.M)
     costs = results.get("costs", {})
     lines = [(PAGE.read_text() if PAGE.exists() else "").split("<!-- table -->")[0].rstrip() + "\n\n<!-- table -->\n",
@@ -224,7 +237,7 @@ def page_of(results):
         moved_by = f", {1000 * cell['moved_m']:.2g} mm" if cell["moved_m"] < 1 else f", {cell['moved_m']:.1f} m"
         moved = share(cell["moved"]) + (moved_by if cell["moved_m"] else "")
         dimmed = share(cell["intensity"]) + (f", {cell['intensity_by']:.2g}" if cell["intensity_by"] else "")
-        median = statistics.median(mean(other, effect, "any") for other in names)
+        median = statistics.median(mean_over_sensors(results, other, effect, "any") for other in names)
         cost = f"{costs[effect]['instructions']:,.0f}" if effect in costs else ""
         where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
         heading = next((heading for heading in headings if effect in heading.split()), "")
@@ -248,16 +261,17 @@ def page_of(results):
             shares = [results["situations"][name][sensor][effect]["any"] for name in names]
             cells.append(f"{share(statistics.median(shares)) or 0}, {share(max(shares)) or 0}")
         lines.append(f"| `{effect}` | " + " | ".join(cells) + " |")
-    for title, figure in (("Every situation: outcomes", "outcome"), ("Every situation: echoes", "echoes"),
-                          ("Every situation: anything", "any")):
-        lines += ["", f"## {title}", "", {
-            "outcome": "Percent of the firings that end otherwise, mean over the four sensors.",
-            "echoes": "Points that come or go, in percent of the firings, mean over the four sensors.",
-            "any": "Percent of the firings of which any bit changes, mean over the four sensors."}[figure], ""]
-        shown = [effect for effect in effects if any(mean(name, effect, figure) >= 0.005 for name in names)]
-        lines += ["| situation | " + " | ".join(f"`{effect}`" for effect in shown) + " |", "|---|" + "---|" * len(shown)]
-        for name in names:
-            lines.append(f"| {name} | " + " | ".join(share(mean(name, effect, figure)) for effect in shown) + " |")
+    lines += ["", "## By situation", "",
+              "Effects that change at least 1 % of the firings, the strongest first, in percent; means over the four",
+              f"sensors. [{FIGURES.name}]({FIGURES.name}) has all figures.", "",
+              "| situation | firings that end otherwise | points that come or go |", "|---|---|---|"]
+    for name in names:
+        cells = [name]
+        for figure in ("outcome", "echoes"):
+            means = [(mean_over_sensors(results, name, effect, figure), effect) for effect in effects]
+            cells.append(", ".join(f"`{effect}` {share(value)}" for value, effect in sorted(means, reverse=True)
+                                   if value >= 1))
+        lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"
 
 
@@ -287,6 +301,7 @@ def main():
     keep()
     measure_costs(build, results, keep)
     PAGE.write_text(page_of(results))
+    FIGURES.write_text(csv_of(results))
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ A page takes figures in three ways:
                                        With "all" after the table's name it has all of the file's rows.
     6.7<!-- r: PART/TABLE ; ROW ; COLUMN -->   the number before the mark is a cell of the file; rows with several
                                                keys are named by all of them, divided by ;
-    <!-- made: PART -->                the line below says where and when the part was measured
+    <!-- made: PART... -->             the line below says where and when these parts were measured
 
 The page decides how many digits it shows: the file's figure is rounded to as many. A column that the file's table
 does not have is the page's own, and holds no figures.
@@ -26,7 +26,7 @@ FILE = "docs/results.json"
 NUMBER = re.compile(r"[-+]?\d[\d,]*(?:\.\d+)?")
 TABLE = re.compile(r"<!-- results: (\S+?)( all)? -->\n(?:\n)?((?:\|.*\n)+)")
 INLINE = re.compile(r"([-+]?\d[\d,]*(?:\.\d+)?)<!-- r:\s+(\S+)\s+;\s+([^>]*?)\s+;\s+([^;>]*?)\s+-->")
-MADE = re.compile(r"<!-- made: (\S+) -->\n(?:\*.*\*\n)?")
+MADE = re.compile(r"<!-- made: (\S+(?: \S+)*) -->\n(?:\*.*\*\n)?")
 MARK = re.compile(r"<!-- (?:results|r|made):\s")
 
 
@@ -108,13 +108,18 @@ def table_as_measured(results, name, is_whole, lines):
     return made
 
 
-def made_line(results, part):
-    """Where and when a part was measured, as a line of a page."""
-    if part not in results:
-        raise Fault(f"the file has the part ({part})")
-    made = results[part]["made"]
-    said = [made["machine"], made["date"], f"revision {made['revision']}", made.get("note", "")]
-    return "*" + "; ".join(each for each in said if each) + ".*"
+def made_line(results, parts):
+    """Where and when parts were measured, as a line of a page; parts are named where they differ in it."""
+    parts_by_words = {}
+    for part in parts:
+        if part not in results:
+            raise Fault(f"the file has the part ({part})")
+        made = results[part]["made"]
+        said = [made["machine"], made["date"], f"revision {made['revision']}", made.get("note", "")]
+        parts_by_words.setdefault("; ".join(each for each in said if each), []).append(part)
+    if len(parts_by_words) == 1:
+        return f"*{next(iter(parts_by_words))}.*"
+    return "*" + " ".join(f"{', '.join(named)}: {words}." for words, named in parts_by_words.items()) + "*"
 
 
 def filled(text, results, complain):
@@ -143,7 +148,7 @@ def filled(text, results, complain):
 
     text = replaced(TABLE, table, text)
     text = replaced(INLINE, inline, text)
-    return replaced(MADE, lambda match: f"<!-- made: {match[1]} -->\n{made_line(results, match[1])}\n", text)
+    return replaced(MADE, lambda match: f"<!-- made: {match[1]} -->\n{made_line(results, match[1].split())}\n", text)
 
 
 def pages_of(root):

@@ -24,7 +24,9 @@ def planted(text, run):
         (root / "docs").mkdir()
         (root / "scenarios").mkdir()
         (root / "README.md").write_text(text, encoding="utf-8")
-        (root / results.FILE).write_text(json.dumps({"p": {"made": MADE, "tables": {"t": TABLE}}}), encoding="utf-8")
+        (root / results.FILE).write_text(json.dumps({
+            "p": {"made": MADE, "tables": {"t": TABLE}}, "q": {"made": MADE, "tables": {}},
+            "later": {"made": {**MADE, "date": "2026-01-03"}, "tables": {}}}), encoding="utf-8")
         return run(root)
 
 
@@ -57,6 +59,11 @@ class Check(unittest.TestCase):
         line = "*2 cores of X; 2026-01-02; revision abc; nothing else ran.*"
         self.assertEqual(faults_of(f"<!-- made: p -->\n{line}\n"), [])
         self.assertEqual(len(faults_of("<!-- made: p -->\n*3 cores of X.*\n")), 1)
+
+    def test_parts_measured_together_share_a_line_and_others_are_named_in_it(self):
+        line = "2 cores of X; 2026-01-02; revision abc; nothing else ran."
+        self.assertEqual(faults_of(f"<!-- made: p q -->\n*{line}*\n"), [])
+        self.assertEqual(faults_of(f"<!-- made: p later q -->\n*p, q: {line} later: {line.replace('02;', '03;')}*\n"), [])
 
     def test_a_mark_without_an_answer_is_a_fault(self):
         self.assertEqual(faults_of("1<!-- r: p/u ; a ; time -->\n2<!-- r: p/t ; d ; time -->\n"
