@@ -10,7 +10,7 @@
 #include "analysis/frontier/row_simulators.h"
 #include "core/base/error.h"
 #include "core/fidelity/beam_steps.h"
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 
 namespace railcast {
 namespace {

@@ -14,8 +14,7 @@
 
 #include "core/base/text.h"
 #include "core/c/guard.h"
-#include "core/c/host_caster.h"
-#include "core/c/host_motion.h"
+#include "core/c/host.h"
 #include "core/scenario/json_rules.h"
 #include "core/scenario/track_limits.h"
 #include "railcast/error.h"

@@ -11,7 +11,6 @@
 #include "core/fidelity/effect_search.h"
 #include "core/fidelity/frame_comparison.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/fidelity/yardstick.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 

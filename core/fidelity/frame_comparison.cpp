@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/detect/base/beam_optics.h"
+#include "core/detect/detector/effect_table.h"
 
 namespace railcast {
 namespace {
@@ -70,6 +71,17 @@ double DropoutError(const decltype(FrameDifference::range_bins)& bins) {
 }
 
 }  // namespace
+
+EffectSet YardstickEffects() {
+  return WithoutRangeErrors(EffectsInRung(Fidelity::kReference));
+}
+
+EffectSet WithoutRangeErrors(EffectSet effects) {
+  for (const Effect& effect : EffectTable()) {
+    if (effect.is_range_error) effects.*effect.is_on = false;
+  }
+  return effects;
+}
 
 ComparisonSpec MakeComparisonSpec(const BeamSpec& beam,
                                   double range_max_m,

@@ -14,6 +14,15 @@
 
 namespace railcast {
 
+/// The effects with which all others are compared: the rung `reference` with the effects of the
+/// weather and of the sensor on.
+[[nodiscard]] EffectSet YardstickEffects();
+
+/// The effects without those that add random errors to ranges after detection (`range_noise`,
+/// `channel_bias` and the published `noise`), so that comparisons show only differences between the
+/// models. All other random draws are the same for the same seed.
+[[nodiscard]] EffectSet WithoutRangeErrors(EffectSet effects);
+
 /// How the frames of two effect sets are compared.
 struct ComparisonSpec {
   /// Echoes of a firing can match if their ranges differ by less than this.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -9,13 +10,30 @@
 #include <vector>
 
 #include "core/simulate/frame_poses.h"
-#include "core/simulate/lone_object.h"
 #include "core/simulate/window.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/ray_caster.h"
 #include "railcast/scene.h"
 
 namespace railcast {
+
+/// An object that rays of a packet hit.
+struct ObjectHits {
+  std::size_t object{};   ///< Index into World::objects().
+  std::uint32_t lanes{};  ///< Bit i: the packet's ray i hits it.
+};
+
+/// Objects of a frame in a scene of their own.
+struct LoneObjects {
+  std::shared_ptr<const TraceScene> scene;
+  /// Indices into World::objects() of the first placements of the scene, each of which is a piece
+  /// of its object. Further placements are something else.
+  std::vector<std::size_t> objects;
+
+  /// Appends the objects that rays of the packet beginning at `first` hit within range, whatever
+  /// stands before them. Thread-safe.
+  void AddHits(const RayTile& rays, std::size_t first, std::vector<ObjectHits>& hits) const;
+};
 
 /// The scene of one frame and the poses from which its rays are cast.
 struct FrameScene final : public RayCaster {

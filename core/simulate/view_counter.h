@@ -7,7 +7,7 @@
 
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
-#include "core/simulate/lone_object.h"
+#include "core/simulate/frame_scene.h"
 #include "railcast/ray_caster.h"
 #include "railcast/scene.h"
 #include "railcast/simulator.h"

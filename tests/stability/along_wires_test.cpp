@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "railcast/effects.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "tests/stability/regime.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/sensor_sector.h"

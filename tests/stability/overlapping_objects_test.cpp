@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "core/scene/shapes.h"
 #include "railcast/effects.h"
 #include "tests/stability/regime.h"

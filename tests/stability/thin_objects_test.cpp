@@ -13,7 +13,7 @@
 
 #include "core/base/units.h"
 #include "core/detect/base/normal_table.h"
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/object_models.h"
 #include "railcast/scenario.h"

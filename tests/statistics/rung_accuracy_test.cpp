@@ -10,7 +10,6 @@
 #include <string>
 
 #include "core/fidelity/frame_comparison.h"
-#include "core/fidelity/yardstick.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "railcast/effects.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 #include "viewer/frames/camera_picture.h"
 
 namespace railcast {

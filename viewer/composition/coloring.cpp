@@ -68,6 +68,16 @@ void CheckWhole(double value, const std::string& field) {
 
 }  // namespace
 
+std::vector<bool> FaintPoints(const ShownFrame& shown, const std::set<std::uint32_t>& labels) {
+  std::vector<bool> is_faint;
+  if (labels.empty()) return is_faint;
+  is_faint.reserve(shown.num_points());
+  for (const std::uint32_t slot : shown.slots) {
+    is_faint.push_back(!labels.contains(shown.frame().label[slot]));
+  }
+  return is_faint;
+}
+
 std::array<double, 2> FitScale(const FieldValues& field) {
   std::vector<double> sorted;
   std::ranges::copy_if(field.values, std::back_inserter(sorted),

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 #include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 
@@ -48,5 +51,9 @@ struct Coloring {
                                        const std::string& name,
                                        const RecordingInfo& info,
                                        const RecordedFrame& recorded);
+
+/// Says of each point whether its label is not among those selected; empty if none are selected.
+[[nodiscard]] std::vector<bool> FaintPoints(const ShownFrame& shown,
+                                            const std::set<std::uint32_t>& labels);
 
 }  // namespace railcast

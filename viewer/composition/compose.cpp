@@ -15,7 +15,6 @@
 #include "railcast/scenario.h"
 #include "viewer/color/palette.h"
 #include "viewer/composition/coloring.h"
-#include "viewer/composition/faint_points.h"
 #include "viewer/frames/field_values.h"
 #include "viewer/overlays/beams.h"
 #include "viewer/overlays/overlays.h"

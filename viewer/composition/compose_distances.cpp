@@ -10,7 +10,6 @@
 #include <pcl/point_types.h>
 #include "core/io/cloud/nearest_points.h"
 #include "viewer/composition/coloring.h"
-#include "viewer/composition/faint_points.h"
 #include "viewer/frames/field_values.h"
 
 namespace railcast {

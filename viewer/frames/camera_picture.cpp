@@ -11,7 +11,7 @@
 #include "core/io/image/png.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/scenario.h"
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {

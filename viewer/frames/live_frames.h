@@ -13,8 +13,8 @@
 #include "core/io/stream/image_receiver.h"
 #include "railcast/io/udp_grabber.h"
 #include "viewer/frames/camera_picture.h"
-#include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 

@@ -11,8 +11,8 @@
 
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
-#include "viewer/frames/frame_shelf.h"
 #include "viewer/frames/frames.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 

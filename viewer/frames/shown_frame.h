@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <list>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "railcast/io/recording.h"
@@ -22,5 +25,36 @@ struct ShownFrame {
 };
 
 [[nodiscard]] ShownFrame MakeShownFrame(RecordedFrame recorded);
+
+/// Returns the memory that a frame takes, without the names of its objects.
+[[nodiscard]] std::size_t NumBytesOf(const ShownFrame& shown);
+
+/// A cache of frames, most recently used first. Whatever the size of the frames, they stay within a
+/// budget; only the frame put last is always kept.
+class FrameShelf {
+ public:
+  struct Limits {
+    std::size_t num_frames = std::numeric_limits<std::size_t>::max();
+    std::size_t num_bytes = std::size_t{512} << 20U;
+  };
+
+  explicit FrameShelf(const Limits& limits) : limits_(limits) {}
+
+  /// Puts a frame first; the least recently used ones are dropped if there is no room.
+  /// @pre The shelf has no frame of that place.
+  void Put(std::size_t place, std::shared_ptr<const ShownFrame> shown);
+  /// Returns null if the frame is not, or no longer, on the shelf.
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Find(std::size_t place) const;
+  /// As Find(), and moves the frame to the front.
+  [[nodiscard]] std::shared_ptr<const ShownFrame> Use(std::size_t place);
+
+  [[nodiscard]] std::size_t size() const { return frames_.size(); }
+  [[nodiscard]] std::size_t num_bytes() const { return num_bytes_; }
+
+ private:
+  Limits limits_;
+  std::list<std::pair<std::size_t, std::shared_ptr<const ShownFrame>>> frames_;
+  std::size_t num_bytes_{};
+};
 
 }  // namespace railcast

@@ -10,7 +10,7 @@
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/scan_table.h"
 #include "viewer/color/palette.h"
-#include "viewer/overlays/strokes.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/io/recording/recorded_motion.h"
-#include "viewer/overlays/strokes.h"
 
 namespace railcast {
 namespace {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/recording/scan_table.h"
@@ -11,6 +13,7 @@
 #include "railcast/io/recording.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/transform.h"
 #include "viewer/color/palette.h"
 
 namespace railcast {
@@ -91,5 +94,29 @@ inline constexpr double kAxisAhead_m = 400.0;
 /// the frame has no pose.
 [[nodiscard]] Overlay DrawTrackAxis(const Surroundings& surroundings,
                                     const RecordedFrame& recorded);
+
+// The strokes that overlays are made of, from positions in double precision in the sensor's axes.
+
+inline void AddSegment(const Vector3& from_m, const Vector3& to_m, Rgb rgb, Overlay& drawing) {
+  drawing.segments.push_back(
+      {.from_m = from_m.cast<float>(), .to_m = to_m.cast<float>(), .rgb = rgb});
+}
+
+/// Adds segments from each point to the next.
+inline void AddPolyline(const std::vector<Vector3>& points_m, Rgb rgb, Overlay& drawing) {
+  for (std::size_t i = 1; i < points_m.size(); ++i) {
+    AddSegment(points_m[i - 1], points_m[i], rgb, drawing);
+  }
+}
+
+inline void AddWord(const Vector3& at_m, std::string text, Rgb rgb, Overlay& drawing) {
+  drawing.words.push_back({at_m.cast<float>(), std::move(text), rgb});
+}
+
+/// Returns a chainage as plans and track axes show it: "km 1.250".
+[[nodiscard]] std::string ChainageText(double s_m);
+
+/// Returns the multiples of `step_m` between two chainages.
+[[nodiscard]] std::vector<double> WholeChainages_m(double from_s_m, double to_s_m, double step_m);
 
 }  // namespace railcast

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -7,12 +8,32 @@
 #include <vector>
 
 #include "railcast/io/recording.h"
+#include "railcast/transform.h"
 #include "viewer/composition/composition.h"
 #include "viewer/frames/shown_frame.h"
 #include "viewer/overlays/overlays.h"
-#include "viewer/pick/measure.h"
 
 namespace railcast {
+
+/// A picked point. It does not change when other frames are shown.
+struct Pick {
+  std::shared_ptr<const RecordedFrame> recorded;
+  Vector3 at_stamp_m;  ///< In the sensor's axes at the frame's stamp.
+};
+
+/// @pre point < shown.num_points()
+[[nodiscard]] Pick PickOf(const ShownFrame& shown, std::size_t point);
+
+/// Returns whether both are the same frame of the same recording, which may have been read twice.
+[[nodiscard]] bool AreOfOneFrame(const RecordedFrame& a, const RecordedFrame& b);
+
+/// Returns the distance from one pick to another.
+///
+/// Within one frame it is given along the sensor's axes at the stamp: "12.345 m (dx 12.000, dy
+/// 2.900, dz 0.012; level 12.345 m)". Between two frames, of one recording or of two, it is given
+/// along the axes of the world: "12.345 m (east 12.000, north 2.900, up 0.012; level 12.345 m)";
+/// empty unless both have poses. Level is the distance without dz or up.
+[[nodiscard]] std::optional<std::string> DistanceText(const Pick& from, const Pick& to);
 
 /// The picked points: what is known of the last, and its distance from the one before.
 class Picks {

@@ -7,7 +7,6 @@
 
 #include "core/base/units.h"
 #include "railcast/outcome.h"
-#include "viewer/pick/fixed_text.h"
 
 namespace railcast {
 namespace {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/route.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 
@@ -27,12 +27,6 @@ constexpr double kTrackWidth_px = 2.0;
 constexpr double kTickShare = 1.0 / 60.0;
 constexpr double kMostTicks = 12.0;
 
-std::string PlanChainageText(double s_m) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "km %.3f", s_m * 1e-3);
-  return text.data();
-}
-
 PlanStretch ExtentOf(const TrackCourse& course) {
   return {.from_s_m = course.begin_s_m(), .to_s_m = course.end_s_m()};
 }
@@ -47,8 +41,8 @@ void AddTicks(const PlanScene& scene, Plan& plan) {
   const double beyond_m = kTickShare * scene.stretch.length_m();
   const TrackCourse axis(scene.stretch.from_s_m, scene.stretch.to_s_m, 0.0);
   plan.lines.push_back({.points_m = PlanPoints(scene, axis, scene.stretch, 0.0), .rgb = kPaperRgb});
-  for (const double s_m :
-       scene.stretch.WholeChainages_m(RoundUp125(scene.stretch.length_m() / kMostTicks))) {
+  for (const double s_m : WholeChainages_m(scene.stretch.from_s_m, scene.stretch.to_s_m,
+                                           RoundUp125(scene.stretch.length_m() / kMostTicks))) {
     double least_d_m = 0.0;
     double most_d_m = 0.0;
     for (const TrackCourse& course : scene.world.network().courses) {
@@ -61,7 +55,7 @@ void AddTicks(const PlanScene& scene, Plan& plan) {
     };
     const Eigen::Vector2d left_m = at(most_d_m + beyond_m);
     plan.lines.push_back({.points_m = {at(least_d_m - beyond_m), left_m}, .rgb = kPaperRgb});
-    plan.words.push_back({left_m, PlanChainageText(s_m), {225, 225, 225}, true});
+    plan.words.push_back({left_m, ChainageText(s_m), {225, 225, 225}, true});
   }
 }
 
@@ -137,14 +131,6 @@ void AddObjects(const PlanScene& scene, Plan& plan) {
 }
 
 }  // namespace
-
-std::vector<double> PlanStretch::WholeChainages_m(double step_m) const {
-  std::vector<double> chainages_m;
-  for (double step = std::ceil(from_s_m / step_m); step * step_m <= to_s_m; step += 1.0) {
-    chainages_m.push_back(step * step_m);
-  }
-  return chainages_m;
-}
 
 PlanStretch NetworkStretch(const RailWorld& world) {
   const double line_m = world.alignment().length_m();

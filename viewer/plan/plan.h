@@ -21,8 +21,6 @@ struct PlanStretch {
 
   [[nodiscard]] double length_m() const { return to_s_m - from_s_m; }
   [[nodiscard]] bool Holds(double s_m) const { return s_m >= from_s_m && s_m <= to_s_m; }
-  /// Returns the multiples of `step_m` within the stretch.
-  [[nodiscard]] std::vector<double> WholeChainages_m(double step_m) const;
 };
 
 /// How much of the line a plan shows by itself on either side of where its tracks branch.

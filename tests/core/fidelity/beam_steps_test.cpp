@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/echo_frame.h"
 #include "tests/support/scan_once.h"

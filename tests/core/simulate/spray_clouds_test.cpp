@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/fidelity/yardstick.h"
+#include "core/fidelity/frame_comparison.h"
 #include "railcast/effects.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_bytes.h"

@@ -1,4 +1,4 @@
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/frames/frame_shelf.h"
+#include "viewer/frames/shown_frame.h"
 
 #include <gtest/gtest.h>
 

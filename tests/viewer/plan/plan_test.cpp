@@ -12,6 +12,7 @@
 #include "railcast/error.h"
 #include "tests/viewer/overlays/made_line.h"
 #include "tests/viewer/plan/planned_yard.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 namespace {
@@ -151,7 +152,8 @@ TEST(PlanStretch, MustLieOnTheLine) {
 
 TEST(PlanStretch, HasTicksAtWholeSteps) {
   const PlanStretch stretch{.from_s_m = 90.0, .to_s_m = 300.0};
-  EXPECT_THAT(stretch.WholeChainages_m(100.0), testing::ElementsAre(100.0, 200.0, 300.0));
+  EXPECT_THAT(WholeChainages_m(stretch.from_s_m, stretch.to_s_m, 100.0),
+              testing::ElementsAre(100.0, 200.0, 300.0));
 }
 
 TEST(PlanStretch, RoundsStepsUp) {

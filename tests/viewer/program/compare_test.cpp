@@ -6,7 +6,7 @@
 #include "tests/viewer/program/drawn_points.h"
 #include "tests/viewer/program/recorded_run.h"
 #include "tests/viewer/program/view_program.h"
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 namespace {

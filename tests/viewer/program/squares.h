@@ -10,7 +10,7 @@
 
 #include "railcast/frame.h"
 #include "tests/viewer/program/view_program.h"
-#include "viewer/color/color_map.h"
+#include "viewer/color/palette.h"
 
 namespace railcast {
 
