@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/shipped_files.h"
 #include "core/mesh/mesh_import.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
@@ -150,7 +149,7 @@ Vector3 BicyclePlace(const BodyMeasures& body) {
 }
 
 void AddBicycle(const BodyMeasures& body, const PersonSurfaces& surfaces, Model& model) {
-  const ImportedMesh bicycle = ReadMesh(std::string(kShippedPrefix) + "bicycle.ply");
+  const ImportedMesh bicycle = ReadMesh("railcast:bicycle.ply");
   const auto surface_of = [&](const std::string& part) {
     if (part == "tyre") return surfaces.tyre;
     if (part == "reflector") return surfaces.reflector;
