@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/composition/choices.h"
+#include "viewer/composition/compose.h"
 #include "viewer/draw/cameras.h"
 #include "viewer/draw/look.h"
 

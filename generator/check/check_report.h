@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/check/contact_runs.h"
 #include "generator/check/gauge_entries.h"
 #include "generator/check/scene_audit.h"
 #include "generator/check/vehicle_way.h"

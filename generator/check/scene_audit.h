@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/object_contacts.h"
 #include "core/simulate/window.h"
 #include "railcast/lidar.h"
 #include "railcast/material.h"
@@ -104,5 +105,21 @@ struct OwnHits {
                                    const ScanPattern& pattern,
                                    const Transform& vehicle_from_sensor,
                                    double range_m);
+
+/// Consecutive frames in which two objects touch or overlap.
+struct ContactRun {
+  std::uint32_t first_frame{};
+  std::uint32_t last_frame{};
+  std::uint32_t nearest_frame{};  ///< The first with the smallest gap or the greatest depth.
+  ObjectContact nearest;          ///< In that frame.
+
+  bool operator==(const ContactRun&) const = default;
+};
+
+/// Finds what touches or overlaps at the stamps of frames 0 to `last_frame`, by first frame and
+/// then by object.
+[[nodiscard]] std::vector<ContactRun> FindContactRuns(const World& world,
+                                                      const ScanPattern& pattern,
+                                                      std::uint32_t last_frame);
 
 }  // namespace railcast

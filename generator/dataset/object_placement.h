@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/scenario/json_text.h"
+#include "generator/dataset/distribution.h"
 #include "generator/dataset/drafted_scenario.h"
-#include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/recipe.h"
 #include "generator/dataset/recipe_values.h"
 #include "railcast/rail_world.h"

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/scenario/json_text.h"
+#include "generator/dataset/distribution.h"
 #include "generator/dataset/drafted_scenario.h"
-#include "generator/dataset/keyed_draws.h"
 #include "generator/dataset/recipe.h"
 
 namespace railcast {

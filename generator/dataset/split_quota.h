@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "generator/dataset/keyed_draws.h"
+#include "generator/dataset/distribution.h"
 #include "generator/dataset/recipe.h"
 
 namespace railcast {

@@ -3,6 +3,8 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,6 +14,9 @@
 
 #include "core/io/net/udp.h"
 #include "core/scenario/command.h"
+#include "generator/live/live_run.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/run_folder.h"
 
 namespace railcast {
 
@@ -94,6 +99,41 @@ class CommandChannel {
   std::uint64_t num_strangers_ = 0;
   std::uint64_t num_answers_ = 0;
   std::thread thread_;
+};
+
+/// Applies the commands of a channel to a run and logs them.
+class CommandLoop {
+ public:
+  static constexpr int kMaxPerFrame = 16;
+
+  /// @param lockstep Whether frames wait for the command `step`.
+  /// @param log_file File for the log that `sequence --commands` replays, if any.
+  /// @param scenario_xxh3 Hash of the scenario that the log is for.
+  /// @throws InputError if the log already exists or cannot be written.
+  CommandLoop(FrameMaker& maker,
+              CommandChannel& channel,
+              bool lockstep,
+              const std::optional<std::filesystem::path>& log_file,
+              const std::string& scenario_xxh3);
+
+  /// Applies waiting commands to the frames that begin at this time, at most kMaxPerFrame so that a
+  /// flood of commands cannot delay them; in lockstep, waits for a step.
+  [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns,
+                                       const std::function<bool()>& is_stopped);
+  /// Answers the step that made these frames.
+  void EndFrames(std::int64_t stamp_ns);
+  /// Refuses all waiting commands when the run has ended.
+  void End(const std::string& reason);
+
+ private:
+  /// @return Whether the command was a reset.
+  [[nodiscard]] bool Handle(const CommandRequest& request, std::int64_t stamp_ns);
+
+  FrameMaker& maker_;
+  CommandChannel& channel_;
+  bool lockstep_;
+  std::optional<LineFile> log_;
+  std::optional<CommandRequest> step_;  ///< The step under way.
 };
 
 }  // namespace railcast

@@ -1,21 +1,127 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "generator/live/camera_stream.h"
+#include "core/io/datagrams.h"
+#include "core/io/net/udp.h"
+#include "core/io/pcap/pcap_writer.h"
 #include "generator/live/live_run.h"
-#include "generator/live/sensor_stream.h"
 #include "generator/run/frame_maker.h"
+#include "railcast/camera.h"
 #include "railcast/frame.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/stream.h"
+#include "railcast/lidar.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
+
+/// Renders the images of a scenario's camera and sends them to its receivers.
+class CameraStream {
+ public:
+  /// @param scenario Has a camera with receivers, and one sensor, whose stamps the images have.
+  /// @param run Distinguishes this start from others.
+  /// @throws InputError if a receiver cannot be sent to.
+  CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run);
+
+  [[nodiscard]] const std::string& name() const { return camera_.spec().name; }
+  /// The sensor's frame that has the stamp of an image.
+  [[nodiscard]] std::uint32_t FrameOf(std::uint32_t image) const { return image * num_frames_; }
+
+  /// Appends the datagrams of an image.
+  /// @param simulator The sensor's, in the state of that frame.
+  void Make(Simulator& simulator, std::uint32_t image, Datagrams& datagrams);
+  /// Restarts with image 0.
+  void Restart(std::uint32_t run) { run_ = run; }
+
+  /// May be called from another thread than the other functions.
+  void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
+    sender_.Send(datagrams, items);
+  }
+  [[nodiscard]] const UdpSender::Counts& delivered() const { return sender_.counts(); }
+
+ private:
+  Camera camera_;
+  std::uint32_t num_frames_;
+  std::uint32_t run_;
+  CameraImage image_;
+  UdpSender sender_;
+};
+
+/// The receivers of the scenario's images; empty if it has no camera or the camera names none.
+/// @throws InputError "/camera/udp: ..." if one cannot be understood.
+[[nodiscard]] std::vector<Endpoint> ImageReceivers(const ScenarioSpec& scenario);
+
+/// How a sensor's frames are sent.
+struct SensorStreamSpec {
+  std::string name;
+  std::uint16_t sensor{};  ///< Its number on the vehicle.
+  Protocol protocol = Protocol::kRailcast;
+  std::vector<Endpoint> to;
+  bool has_offload = true;  ///< As UdpSender takes it.
+  std::optional<std::filesystem::path> pcap;
+  FieldSelection fields;  ///< For protocol railcast only, as is the next member.
+  bool has_all_slots{};
+};
+
+/// Encodes one sensor's frames and hands them to its receivers and to a capture file. If the system
+/// refuses to write the capture, as on a full disk, the capture ends, but receivers continue to get
+/// all frames.
+class SensorStream {
+ public:
+  /// @param scenario The scenario with this sensor as its only one.
+  /// @param pattern Scan pattern of the frames; must outlive the stream.
+  /// @param run Distinguishes this start of the sensor from others in protocol railcast.
+  /// @throws InputError if the sensor does not fit the protocol, a receiver cannot be sent to or
+  ///   the file cannot be created.
+  SensorStream(SensorStreamSpec spec,
+               const ScenarioSpec& scenario,
+               const ScanPattern& pattern,
+               std::uint32_t run);
+
+  [[nodiscard]] const SensorStreamSpec& spec() const { return spec_; }
+
+  void Encode(const Frame& frame, Datagrams& datagrams) { encoder_->Encode(frame, datagrams); }
+  /// Restarts with frame 0.
+  void Restart(std::uint32_t run);
+
+  /// May be called from another thread than the other functions.
+  void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
+
+  /// Completes the capture file.
+  void Finish();
+  /// Returns why the capture ended early and how much of it there is, or nothing if it did not end
+  /// early. Thread-safe.
+  [[nodiscard]] std::optional<std::string> capture_fault() const;
+  /// Returns the numbers of datagrams delivered to receivers.
+  [[nodiscard]] UdpSender::Counts delivered() const;
+
+ private:
+  [[nodiscard]] std::unique_ptr<FrameEncoder> MakeEncoder(std::uint32_t run) const;
+  /// Calls `work(capture)`; if that throws, the capture ends.
+  template <typename Work>
+  void UseCapture(const Work& work);
+
+  SensorStreamSpec spec_;
+  LidarSpec lidar_;
+  OutputSpec output_;
+  const ScanPattern& pattern_;
+  std::unique_ptr<FrameEncoder> encoder_;
+  std::unique_ptr<UdpSender> sender_;    ///< Null if there are no receivers.
+  std::unique_ptr<PcapWriter> capture_;  ///< Null if there is no capture.
+  std::uint64_t num_captured_{};         ///< Datagrams captured.
+  mutable std::mutex mutex_;             ///< Guards capture_fault_.
+  std::optional<std::string> capture_fault_;
+};
 
 /// All sensors of one vehicle and the destinations of their frames; they share one world and one
 /// clock. If the scenario has a camera with receivers, its images accompany the frames of the first

@@ -17,7 +17,7 @@
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
-#include "generator/live/command_loop.h"
+#include "generator/live/command_channel.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
 #include "generator/live/stream_options.h"

@@ -12,7 +12,6 @@
 
 #include "core/io/recording/recorded_motion.h"
 #include "generator/python/bindings.h"
-#include "generator/python/interpreter.h"
 #include "railcast/enum_names.h"
 #include "railcast/error.h"
 #include "railcast/io/recording.h"

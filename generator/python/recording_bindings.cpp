@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "generator/python/bindings.h"
-#include "generator/python/interpreter.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

@@ -9,7 +9,6 @@
 
 #include "generator/python/bindings.h"
 #include "generator/python/held_simulation.h"
-#include "generator/python/interpreter.h"
 #include "generator/python/rail_lines.h"
 
 namespace railcast {

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/scenario/command_log.h"
-#include "generator/record/object_record.h"
 #include "generator/record/object_survey.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "generator/record/frame_record.h"
-#include "generator/record/object_record.h"
+#include "generator/record/object_survey.h"
 #include "generator/run/run_folder.h"
 #include "generator/run/run_plan.h"
 #include "railcast/camera.h"

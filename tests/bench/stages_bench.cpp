@@ -18,7 +18,6 @@
 #include "core/program/command_line.h"
 #include "core/program/run_program.h"
 #include "generator/record/frame_record.h"
-#include "generator/record/object_record.h"
 #include "generator/record/object_survey.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"

@@ -1,15 +1,58 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "viewer/composition/choices.h"
+#include "railcast/transform.h"
+#include "viewer/color/palette.h"
 #include "viewer/composition/composition.h"
+#include "viewer/frames/camera_picture.h"
+#include "viewer/frames/shown_frame.h"
 #include "viewer/overlays/overlays.h"
 
 namespace railcast {
+
+/// Which overlays are drawn over the points.
+struct OverlayChoices {
+  bool mesh = false;
+  bool boxes = false;
+  bool track = false;
+  bool gauge = false;
+  bool frustum = false;
+  bool axes = false;
+  bool rings = false;
+};
+
+/// How two recordings are shown together.
+enum class Layout : std::uint8_t {
+  kBeside,   ///< Side by side, sharing one camera.
+  kDistance  ///< In one view, coloured by the distance to the nearest point of the other.
+};
+
+/// Limits the time to draw and the memory that accumulated frames take.
+inline constexpr std::size_t kMaxAccumulated = 128;
+
+/// How the user wants to see frames.
+struct Choices {
+  std::string color_by{};                       ///< Empty: the default field of the first frame.
+  std::optional<ColorMap> map{};                ///< Empty: coolwarm for differences, else viridis.
+  std::optional<std::array<double, 2>> ends{};  ///< Ends of the scale; empty: fitted to the frame.
+  /// Ends of the scale for Layout::kDistance.
+  std::optional<std::array<double, 2>> distance_ends_m{};
+  std::size_t num_accumulated = 1;  ///< Frames shown at once, in world coordinates.
+  /// The camera's image; empty: colours where there are images.
+  std::optional<PictureKind> picture{};
+  bool empty_beams = false;  ///< The fan of firings without a return.
+  OverlayChoices overlays{};
+  std::set<std::uint32_t> labels{};  ///< Points of other labels are faint; empty: none are.
+  Layout layout = Layout::kBeside;
+};
 
 using ShownFrames = std::vector<std::shared_ptr<const ShownFrame>>;
 
@@ -50,5 +93,23 @@ class Composer {
 /// @throws InputError if the frame lacks the field, if ends are given for a field without a scale,
 ///   or if labels are selected and the frame has none.
 void FitChoices(const ShownFrame& shown, Choices& choices);
+
+/// Returns the transform from the second frame's sensor axes to the first's, each at its stamp, by
+/// way of the world. Empty if a frame has no pose: both then stay in their own axes, taken as the
+/// same, and only the different offsets subtracted from their positions are corrected.
+[[nodiscard]] std::optional<Transform> FirstFromSecond(const ShownFrame& first,
+                                                       const ShownFrame& second);
+
+/// Returns for every point the distance in metres to the nearest point of the other frame, with the
+/// frames registered by FirstFromSecond(). NaN if the other frame has no points. Runs in parallel;
+/// the result does not depend on the number of threads.
+[[nodiscard]] std::vector<float> DistancesToNearest_m(const ShownFrame& of,
+                                                      const ShownFrame& other);
+
+/// Shows two frames in the first one's axes, each point coloured by its distance to the nearest
+/// point of the other frame. The frames are registered in world coordinates if both have poses.
+[[nodiscard]] Composition ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
+                                           const std::shared_ptr<const ShownFrame>& b,
+                                           const Choices& choices);
 
 }  // namespace railcast

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "viewer/composition/choices.h"
 #include "viewer/composition/compose.h"
 #include "viewer/composition/composition.h"
 #include "viewer/frames/frames.h"

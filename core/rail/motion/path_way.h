@@ -3,11 +3,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/rail/base/world_faults.h"
 #include "core/rail/motion/path_course.h"
 #include "core/rail/motion/track_path.h"
+#include "railcast/alignment.h"
 #include "railcast/objects.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
 
@@ -81,5 +85,27 @@ class PathWay {
   std::optional<double> trigger_s_m_;
   double start_s_{};  ///< Absolute; infinite if the object never sets off.
 };
+
+/// What paths are made on.
+struct PathGround {
+  const Alignment& alignment;
+  double half_width_m{};     ///< Of the ground on either side of the alignment.
+  const TrackPath& vehicle;  ///< The sensor's vehicle.
+  std::int64_t begin_ns{};   ///< When the paths' own time is 0.
+};
+
+/// The object that a path is for.
+struct PathSubject {
+  double length_m{};           ///< Over some of which it turns at corners.
+  const std::string& pointer;  ///< With which faults begin.
+};
+
+/// Makes the way of an object whose motion has a path, or nothing if there is a fault.
+/// @param place The object on its track, standing.
+[[nodiscard]] std::optional<PathWay> DraftPathWay(const PathGround& ground,
+                                                  const ObjectSpec& object,
+                                                  const TrackPath& place,
+                                                  const PathSubject& subject,
+                                                  WorldFaults& faults);
 
 }  // namespace railcast

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/rail/base/rail_surfaces.h"
+#include "core/rail/objects/person_body.h"
 #include "core/rail/objects/person_luggage.h"
-#include "core/rail/objects/person_pose.h"
 #include "core/rail/objects/person_shape.h"
 
 namespace railcast {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/rail/objects/person_body.h"
-#include "core/rail/objects/person_pose.h"
 
 namespace railcast {
 

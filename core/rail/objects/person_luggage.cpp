@@ -7,7 +7,7 @@
 #include "core/mesh/mesh_import.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
-#include "core/rail/objects/person_pose.h"
+#include "core/rail/objects/person_body.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -17,7 +17,7 @@ struct PersonDress {
   bool has_helmet = false;
 };
 
-/// The solid of every bone, each in the bone's frame (person_pose.h). Trunk, head and limbs are
+/// The solid of every bone, each in the bone's frame (person_body.h). Trunk, head and limbs are
 /// lofts through superellipses whose half axes are working values near the medians of DIN 33402-2
 /// (head 155 x 195 mm, hips 355 mm, shoulders over the arms 470 mm for a man of 1.75 m), scaled by
 /// the body's girths; limbs end in domes about their joints.

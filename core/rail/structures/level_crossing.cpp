@@ -10,7 +10,6 @@
 #include "core/rail/line/rail_section.h"
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/lineside_models.h"
-#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structures.h"

@@ -6,7 +6,7 @@
 
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/base/world_faults.h"
-#include "core/rail/motion/path_draft.h"
+#include "core/rail/motion/path_way.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/network/network.h"
 #include "core/rail/objects/object_models.h"

@@ -27,7 +27,6 @@
 #include "core/rail/motion/track_path.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/objects/table_models.h"
-#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_models.h"

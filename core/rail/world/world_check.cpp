@@ -8,7 +8,6 @@
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/objects/table_models.h"
-#include "core/rail/structures/moving_booms.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/object_way.h"

@@ -6,7 +6,6 @@
 #include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "generator/import/map/map_text.h"
 
 namespace railcast {
 namespace {

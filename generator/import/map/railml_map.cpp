@@ -20,7 +20,6 @@
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "generator/import/map/gdal_errors.h"
-#include "generator/import/map/map_text.h"
 
 namespace railcast {
 namespace {

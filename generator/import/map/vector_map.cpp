@@ -16,7 +16,6 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "generator/import/map/gdal_errors.h"
-#include "generator/import/map/map_text.h"
 
 namespace railcast {
 namespace {

@@ -18,7 +18,6 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "generator/import/map/map_text.h"
 
 namespace railcast {
 namespace {

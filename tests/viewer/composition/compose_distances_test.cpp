@@ -1,4 +1,4 @@
-#include "viewer/composition/compose_distances.h"
+#include "viewer/composition/compose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/rail/structures/moving_booms.h"
+#include "core/rail/structures/structures.h"
 
 #include <gtest/gtest.h>
 
