@@ -12,7 +12,6 @@
 #include "analysis/compare/pairing.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_cursor.h"

@@ -7,7 +7,6 @@
 #include "analysis/preset/preset_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "analysis/detectability/approach.h"
-#include "analysis/detectability/braking.h"
 #include "analysis/detectability/object_detection.h"
 #include "analysis/detectability/rung_used.h"
 #include "analysis/report/report.h"

@@ -36,6 +36,12 @@ struct Estimate {
   return {estimate.value * factor, estimate.low * factor, estimate.high * factor, estimate.num};
 }
 
+/// A share in percent; NaN of nothing.
+[[nodiscard]] inline double Percent(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
+  return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// The share of `num` independent trials that succeeded, with Wilson's score interval (Wilson 1927,
 /// JASA 22), which stays in [0, 1] and holds at 0 and `num` successes.
 [[nodiscard]] Estimate Proportion(std::uint64_t num_successes, std::uint64_t num);
@@ -43,5 +49,16 @@ struct Estimate {
 /// The rate of a Poisson count: `count` per `exposure`, with the exact interval (Garwood 1936,
 /// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);
+
+/// Number of standard errors that a two-sided 95 % interval of a normal quantity reaches to each
+/// side.
+[[nodiscard]] double NormalQuantile();
+/// As above, for a quantity whose error was estimated with so many degrees of freedom.
+[[nodiscard]] double StudentQuantile(double degrees);
+
+/// Standard deviation of normal samples, estimated with so many degrees of freedom, with its
+/// chi-squared interval.
+/// @param num Number of samples that the estimate states.
+[[nodiscard]] Estimate ScaleEstimate(double scale, double degrees, std::uint64_t num);
 
 }  // namespace railcast

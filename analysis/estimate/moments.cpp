@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 
 namespace railcast {
 void Moments::Add(double sample) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 
 namespace railcast {
 namespace {

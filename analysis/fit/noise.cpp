@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
 

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 #include "analysis/estimate/robust.h"
 
 namespace railcast {

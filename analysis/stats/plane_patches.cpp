@@ -16,7 +16,6 @@
 
 #include "analysis/estimate/moments.h"
 #include "analysis/estimate/robust.h"
-#include "analysis/stats/surface_point.h"
 #include "railcast/transform.h"
 
 namespace railcast {
