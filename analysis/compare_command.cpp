@@ -9,7 +9,6 @@
 #include "analysis/compare/ablation.h"
 #include "analysis/compare/compare_report.h"
 #include "analysis/compare/comparison.h"
-#include "analysis/compare/pairing.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"

@@ -4,7 +4,6 @@
 
 #include "analysis/commands.h"
 #include "analysis/preset/preset_comparison.h"
-#include "analysis/preset/preset_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/program/version.h"

@@ -10,8 +10,6 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_overview.h"
-#include "analysis/stats/dataset_section.h"
-#include "analysis/stats/sheet.h"
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/compare/comparison.h"
-#include "analysis/estimate/log_histogram.h"
+#include "analysis/estimate/streams.h"
 #include "railcast/effects.h"
 #include "railcast/frame.h"
 #include "railcast/scenario.h"

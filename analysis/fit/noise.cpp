@@ -7,8 +7,7 @@
 #include <set>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/estimate/moments.h"
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/streams.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/estimate/robust.h"
 
 namespace railcast {
 namespace {

@@ -1,5 +1,5 @@
-#include "analysis/stats/dataset_section.h"
 #include "analysis/estimate/estimate.h"
+#include "analysis/stats/dataset_overview.h"
 
 #include <algorithm>
 #include <string_view>
