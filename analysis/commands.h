@@ -1,8 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <string>
+#include <tbb/global_control.h>
 
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/run_program.h"
@@ -28,5 +37,26 @@ void AddPreset(CLI::App& app, ProgramCommand& command);
 void AddVerify(CLI::App& app, ProgramCommand& command);
 /// Counts, and on request records, a live stream in the railcast protocol until a signal ends it.
 void AddReceive(CLI::App& app, ProgramCommand& command);
+
+// What several commands do with their options.
+
+/// Limits the number of threads to that of --threads during the lifetime of the result; 0 = all
+/// cores.
+[[nodiscard]] inline tbb::global_control LimitThreads(int num_threads) {
+  const std::size_t most = num_threads > 0 ? static_cast<std::size_t>(num_threads)
+                                           : std::size_t{std::thread::hardware_concurrency()};
+  return {tbb::global_control::max_allowed_parallelism, most};
+}
+
+/// Checks that no source is given twice, since its samples would be counted twice and the intervals
+/// would be too narrow.
+/// @throws InputError if two paths lead to the same source.
+inline void CheckDistinct(const std::vector<std::filesystem::path>& sources) {
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& source : sources) {
+    if (seen.insert(std::filesystem::weakly_canonical(source)).second) continue;
+    throw InputError(ShownPath(source) + ": must be named once");
+  }
+}
 
 }  // namespace railcast

@@ -7,7 +7,6 @@
 
 #include "analysis/commands.h"
 #include "analysis/detectability/detect_report.h"
-#include "analysis/detectability/object_pictures.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"

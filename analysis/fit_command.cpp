@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "analysis/commands.h"
-#include "analysis/distinct_sources.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/fit_report.h"
-#include "analysis/fit/fitted_scenario.h"
 #include "analysis/fit/recorded_trials.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"

@@ -4,10 +4,8 @@
 
 #include "analysis/commands.h"
 #include "analysis/preset/preset_comparison.h"
-#include "analysis/preset/preset_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/thread_limit.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"

@@ -3,27 +3,82 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/commands.h"
-#include "analysis/distinct_sources.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/stats/dataset_section.h"
-#include "analysis/stats/measured_source.h"
-#include "analysis/stats/sheet.h"
+#include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
-#include "analysis/thread_limit.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/recording/sequence_check.h"
 #include "core/io/run/scenario_identity.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/verify/dataset_verification.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
 namespace {
+
+/// A source that `stats` was given, and what it consists of.
+struct MeasuredSource {
+  std::filesystem::path source;
+  std::vector<std::filesystem::path> recordings;  ///< In their order; the source itself if one.
+  /// What reports call a source whose recordings they do not list, such as "shard 1/3 of a data
+  /// set"; else empty.
+  std::string kind{};
+  std::optional<DatasetOverview> overview{};  ///< Of a data set that is no shard.
+};
+
+// Looks what a path leads to: the sequences of a data set, of several sensors or of KITTI's
+// layout, or a single recording.
+// @throws InputError with one line if it is an unfinished or damaged data set.
+MeasuredSource LookAtSource(const std::filesystem::path& source) {
+  MeasuredSource whole{.source = source, .recordings = SensorFoldersIn(source)};
+  if (!whole.recordings.empty()) return whole;
+  if (IsDataset(source)) {
+    const DatasetContent content = ReadDatasetContent(source);
+    whole.recordings = FinishedSequences(source, content);
+    whole.kind = "data set";
+    if (content.shard.is_whole()) {
+      whole.overview = ReadDatasetOverview(source);
+    } else {
+      whole.kind = "shard " + ShardText(content.shard) + " of a data set";
+    }
+    return whole;
+  }
+  // A run of our own is checked against its hashes as a whole.
+  if (!IsThere(source / kRunFile)) whole.recordings = KittiSequencesIn(source);
+  if (whole.recordings.empty()) {
+    whole.recordings = {source};
+  } else {
+    const std::size_t num = whole.recordings.size();
+    whole.kind = "KITTI data set of " + NumberText(num) + (num == 1 ? " sequence" : " sequences");
+  }
+  return whole;
+}
+
+// The description of a whole source, for reports that do not list its recordings one by one.
+// @param first The description of the first recording of the source.
+RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& first) {
+  RecordingInfo info;
+  info.source = whole.source;
+  info.kind = whole.kind;
+  info.labels = first.labels;
+  info.materials = first.materials;
+  info.has_kitti_labels = first.has_kitti_labels;
+  info.origin = first.origin;
+  if (info.origin) {
+    info.origin->data_hash = whole.overview ? whole.overview->data_hash : "";
+    info.origin->scenario_hash.clear();
+  }
+  return info;
+}
 
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;

@@ -1,12 +1,62 @@
 #include "analysis/compare/ablation.h"
 
+#include <bit>
+#include <cmath>
 #include <map>
 #include <optional>
+
+#include "analysis/stats/bins.h"
+#include "core/base/error.h"
 #include "core/detect/detector/effect_table.h"
 #include "railcast/effects.h"
 
 namespace railcast {
 namespace {
+
+// Compares bits, so that NaN equals NaN.
+bool IsSame(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+// Without an effect that computes it, the intensity is unknown (NaN), which is not a change.
+bool IsSameIntensity(float a, float b) {
+  return std::isnan(a) || std::isnan(b) || IsSame(a, b);
+}
+
+bool IsAtSamePlace(const Frame& a, const Frame& b, std::size_t slot) {
+  return IsSame(a.x[slot], b.x[slot]) && IsSame(a.y[slot], b.y[slot]) &&
+         IsSame(a.z[slot], b.z[slot]);
+}
+
+bool IsSameReturn(const Frame& a, const Frame& b, std::size_t slot) {
+  return IsAtSamePlace(a, b, slot) && IsSameIntensity(a.intensity[slot], b.intensity[slot]) &&
+         IsSame(a.range_m[slot], b.range_m[slot]) && a.outcome[slot] == b.outcome[slot];
+}
+
+double Moved_m(const Frame& a, const Frame& b, std::size_t slot) {
+  const auto distance_m = [&](const std::vector<float>& from, const std::vector<float>& to) {
+    return static_cast<double>(to[slot]) - static_cast<double>(from[slot]);
+  };
+  return std::hypot(distance_m(a.x, b.x), distance_m(a.y, b.y), distance_m(a.z, b.z));
+}
+
+void AddReturn(const Frame& without, const Frame& with, std::size_t slot, BeamChanges& changes) {
+  const bool is_without = HasPoint(without.outcome[slot]);
+  const bool is_with = HasPoint(with.outcome[slot]);
+  if (is_without && !is_with) ++changes.num_removed;
+  if (!is_without && is_with) ++changes.num_added;
+  if (!is_without || !is_with) return;
+  ++changes.num_both;
+  if (!IsAtSamePlace(without, with, slot)) {
+    ++changes.num_moved;
+    changes.moved_m.Add(Moved_m(without, with, slot));
+  }
+  if (!IsSameIntensity(without.intensity[slot], with.intensity[slot])) {
+    ++changes.num_intensity_changed;
+    changes.intensity_change.Add(std::abs(static_cast<double>(with.intensity[slot]) -
+                                          static_cast<double>(without.intensity[slot])));
+  }
+}
 
 EffectSet Switched(EffectSet effects, const Effect& effect) {
   effects.*effect.is_on = !(effects.*effect.is_on);
@@ -24,6 +74,34 @@ RecordedFrame Scanned(Simulator& simulator, const SimulatorSpec& spec, std::uint
 }
 
 }  // namespace
+
+BeamChanges::BeamChanges() : range_bins(RangeBins().size()) {}
+
+void BeamChanges::Add(const Frame& without, const Frame& with) {
+  Check(without.num_slots() == with.num_slots() && without.returns == with.returns,
+        "frames with and without an effect are of one pattern");
+  for (std::size_t first = 0; first < with.num_slots(); first += with.returns) {
+    bool is_identical = true;
+    for (std::size_t slot = first; slot < first + with.returns; ++slot) {
+      is_identical = is_identical && IsSameReturn(without, with, slot);
+      AddReturn(without, with, slot, *this);
+    }
+    const bool is_same_outcome = without.outcome[first] == with.outcome[first];
+    ++num_beams;
+    num_identical += is_identical ? 1 : 0;
+    num_outcome_changed += is_same_outcome ? 0 : 1;
+    ++transitions[static_cast<std::size_t>(without.outcome[first])]
+                 [static_cast<std::size_t>(with.outcome[first])];
+    const float true_range_m = std::isfinite(without.true_range_m[first])
+                                   ? without.true_range_m[first]
+                                   : with.true_range_m[first];
+    if (const auto bin = RangeBins().Find(static_cast<double>(true_range_m))) {
+      ++range_bins[*bin].num_beams;
+      range_bins[*bin].num_changed += is_identical ? 0 : 1;
+      range_bins[*bin].num_outcome_changed += is_same_outcome ? 0 : 1;
+    }
+  }
+}
 
 std::vector<std::string> StudiedEffects(const EffectSet& effects) {
   std::vector<std::string> names;

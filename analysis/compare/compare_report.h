@@ -6,7 +6,6 @@
 
 #include "analysis/compare/ablation.h"
 #include "analysis/compare/comparison.h"
-#include "analysis/compare/pairing.h"
 #include "analysis/report/report.h"
 #include "railcast/io/recording.h"
 

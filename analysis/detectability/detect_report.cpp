@@ -5,9 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/detectability/points_by_distance.h"
-#include "analysis/detectability/verdict.h"
-#include "core/base/attempt.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -234,21 +231,6 @@ Section PointsSection(const std::vector<DetectRun>& runs,
 }
 
 }  // namespace
-
-DetectRun DetectInRun(std::filesystem::path source,
-                      std::uint64_t seed,
-                      RunCourses courses,
-                      const DetectSpec& spec) {
-  DetectRun run{
-      .source = std::move(source), .seed = seed, .courses = std::move(courses), .detections = {}};
-  for (const auto& [name, course] : run.courses.objects) {
-    const ObjectCourse& of_object = course;  // A lambda cannot capture a structured binding.
-    run.detections[name] =
-        AtPlace(ShownPath(run.source) + ": object " + ShownText(name) + ": ",
-                [&] { return DetectObject(of_object, spec.rule, spec.braking, spec.speed_mps); });
-  }
-  return run;
-}
 
 Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         const DetectSpec& spec,

@@ -1,41 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "analysis/detectability/approach.h"
-#include "analysis/detectability/braking.h"
 #include "analysis/detectability/object_detection.h"
 #include "analysis/detectability/rung_used.h"
 #include "analysis/report/report.h"
 
 namespace railcast {
-
-/// The settings that apply to every run.
-struct DetectSpec {
-  DetectionRule rule;
-  BrakingSpec braking;
-  /// Absent: the vehicle's own speed when the object is detected.
-  std::optional<double> speed_mps;
-};
-
-/// One run of a scenario, with its own seed.
-struct DetectRun {
-  std::filesystem::path source;
-  std::uint64_t seed{};
-  RunCourses courses;
-  std::map<std::string, ObjectDetection> detections;  ///< By the object's name.
-};
-
-/// @throws InputError "source: object NAME: ..." if the train cannot stop.
-[[nodiscard]] DetectRun DetectInRun(std::filesystem::path source,
-                                    std::uint64_t seed,
-                                    RunCourses courses,
-                                    const DetectSpec& spec);
 
 /// Reports which objects are detected in time to stop: a verdict for each object over all runs,
 /// each run's detection, and number of points against distance beside the distance needed.
@@ -48,5 +21,30 @@ struct DetectRun {
                                       const std::string& command,
                                       std::vector<std::pair<std::string, std::string>> facts,
                                       const RungUsed& rung);
+
+/// Bins of 10 m: the braking distances from 15 to 40 km/h lie 10 to 150 m apart, so the 50 m bins
+/// usual in detection papers could not separate them; at these speeds and 10 Hz a bin still holds
+/// 10 to 24 frames.
+inline constexpr double kDistanceBin_m = 10.0;
+
+/// Number of points on each object by distance, over the frames of all runs up to the closest
+/// point. Defined in points_by_distance.cpp, as are the key and the chart below.
+[[nodiscard]] Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule);
+
+/// Key such as "points_wagon_1", unique for each name of an object, since it becomes a file name.
+[[nodiscard]] std::string KeyOfObject(const std::string& prefix, const std::string& name);
+
+/// The points of one object, with the rule and the distances needed and reached.
+[[nodiscard]] Chart PointsChart(const std::vector<DetectRun>& runs,
+                                const Verdict& verdict,
+                                const DetectionRule& rule);
+
+/// A section with a picture for each object in the way, 12 at most: the scene when the object was
+/// detected, with the camera's image if there is one, and what was seen of the object then and in
+/// the last frame with too few points. It shows the first run that detected the object or, if none
+/// did, the first that approached it. Defined in object_pictures.cpp.
+/// @returns a section without pictures if nothing was approached that is in the way.
+/// @throws InputError if a frame cannot be read.
+[[nodiscard]] Section MakePictureSection(const std::vector<DetectRun>& runs);
 
 }  // namespace railcast

@@ -1,13 +1,35 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "analysis/detectability/approach.h"
-#include "analysis/detectability/braking.h"
+#include "analysis/estimate/streams.h"
 
 namespace railcast {
+
+/// How a train brakes for an obstacle on its track.
+struct BrakingSpec {
+  double reaction_s = 2.0;         ///< Time from the detection to full braking.
+  double deceleration_mps2 = 0.5;  ///< Deceleration on level track.
+  double margin_m = 15.0;          ///< Distance to be left before the object.
+};
+
+/// Distance and time that a train needs to stop.
+struct BrakedStop {
+  double distance_m{};  ///< Without the margin.
+  double time_s{};
+};
+
+/// s = v t_r + v^2 / (2 (a + g i)), t = t_r + v / (a + g i); i is the gradient, rise per way,
+/// negative downhill (constant deceleration; g = 9.80665 m/s2).
+/// @throws InputError "cannot stop: rule (got value)" if a + g i <= 0.
+[[nodiscard]] BrakedStop StopOf(const BrakingSpec& braking, double speed_mps, double gradient);
 
 /// When an object counts as detected.
 struct DetectionRule {
@@ -64,5 +86,66 @@ inline constexpr double kMinApproach_m = 1.0;
                                            const DetectionRule& rule,
                                            const BrakingSpec& braking,
                                            std::optional<double> speed_mps);
+
+/// The settings that apply to every run.
+struct DetectSpec {
+  DetectionRule rule;
+  BrakingSpec braking;
+  /// Absent: the vehicle's own speed when the object is detected.
+  std::optional<double> speed_mps;
+};
+
+/// One run of a scenario, with its own seed.
+struct DetectRun {
+  std::filesystem::path source;
+  std::uint64_t seed{};
+  RunCourses courses;
+  std::map<std::string, ObjectDetection> detections;  ///< By the object's name.
+};
+
+/// @throws InputError "source: object NAME: ..." if the train cannot stop.
+[[nodiscard]] DetectRun DetectInRun(std::filesystem::path source,
+                                    std::uint64_t seed,
+                                    RunCourses courses,
+                                    const DetectSpec& spec);
+
+/// The result for one object over all runs.
+struct Verdict {
+  std::string name;
+  std::string type;
+  std::string label;
+  bool is_in_way{};  ///< In any run; otherwise there is nothing to judge.
+  /// Least lateral distance from the own track's axis over all runs.
+  double from_axis_m{};
+  std::uint64_t num_approached{};  ///< Number of runs that approached it.
+  std::uint64_t num_detected{};
+  std::uint64_t num_in_time{};
+  /// Runs that began so near that the object was detected at once, yet too late: had they begun
+  /// farther away, the detection might have been in time.
+  std::uint64_t num_undecided{};
+  Moments distance_m;  ///< Distance of detection in the runs that did not detect it at once.
+  Moments spare_m;     ///< Distance to spare in the same runs.
+  /// Least distance of detection in the same runs; NaN if there is none.
+  double least_distance_m{};
+  double least_spare_m{};  ///< Over the runs that are decided; NaN if there is none.
+  double most_needed_m{};  ///< NaN if the object was never approached.
+
+  /// Whether any run that approached the object began far enough away to judge it.
+  [[nodiscard]] bool is_judged() const { return is_in_way && num_approached > num_undecided; }
+  /// Whether all runs that approached the object began too near.
+  [[nodiscard]] bool is_begun_too_near() const {
+    return is_in_way && num_approached > 0 && num_approached == num_undecided;
+  }
+  /// Whether every run that could be judged detected the object in time.
+  [[nodiscard]] bool is_always_in_time() const {
+    return is_judged() && num_in_time + num_undecided == num_approached;
+  }
+
+  /// "in time in all 12 runs", "too late in 1 of 12 runs, not detected in 2", "never approached".
+  [[nodiscard]] std::string InWords() const;
+};
+
+/// Returns one verdict per object, in order of their names.
+[[nodiscard]] std::vector<Verdict> MakeVerdicts(const std::vector<DetectRun>& runs);
 
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "analysis/detectability/object_pictures.h"
+#include "analysis/detectability/detect_report.h"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/detectability/points_by_distance.h"
-#include "analysis/detectability/verdict.h"
-#include "analysis/pictures/cloud_picture.h"
-#include "analysis/pictures/picture_grid.h"
+#include "analysis/pictures/grid_pictures.h"
 #include "core/base/text.h"
 #include "core/io/recording/recorded_motion.h"
 #include "core/io/run/camera_files.h"

@@ -1,9 +1,9 @@
-#include "analysis/detectability/points_by_distance.h"
+#include "analysis/detectability/detect_report.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "core/base/text.h"
 
 namespace railcast {

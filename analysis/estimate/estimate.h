@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace railcast {
 
@@ -36,6 +37,12 @@ struct Estimate {
   return {estimate.value * factor, estimate.low * factor, estimate.high * factor, estimate.num};
 }
 
+/// A share in percent; NaN of nothing.
+[[nodiscard]] inline double Percent(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
+  return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
 /// The share of `num` independent trials that succeeded, with Wilson's score interval (Wilson 1927,
 /// JASA 22), which stays in [0, 1] and holds at 0 and `num` successes.
 [[nodiscard]] Estimate Proportion(std::uint64_t num_successes, std::uint64_t num);
@@ -43,5 +50,46 @@ struct Estimate {
 /// The rate of a Poisson count: `count` per `exposure`, with the exact interval (Garwood 1936,
 /// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);
+
+/// Number of standard errors that a two-sided 95 % interval of a normal quantity reaches to each
+/// side.
+[[nodiscard]] double NormalQuantile();
+/// As above, for a quantity whose error was estimated with so many degrees of freedom.
+[[nodiscard]] double StudentQuantile(double degrees);
+
+/// Standard deviation of normal samples, estimated with so many degrees of freedom, with its
+/// chi-squared interval.
+/// @param num Number of samples that the estimate states.
+[[nodiscard]] Estimate ScaleEstimate(double scale, double degrees, std::uint64_t num);
+
+/// Factor from the median absolute deviation to the standard deviation of normal samples.
+inline constexpr double kMadToSigma = 1.4826;
+
+/// The interval of a robust scale of `num` normal samples: chi-squared, at an efficiency of 37 %
+/// (Rousseeuw and Croux 1993, JASA 88). Not enough below kMinSamples.
+[[nodiscard]] Estimate RobustScaleEstimate(double scale, std::uint64_t num);
+
+/// Ranks of order statistics, counted from 1.
+struct RankInterval {
+  std::uint64_t low{};
+  std::uint64_t high{};
+};
+
+/// The ranks between which the true quantile lies with 95 % confidence, for any distribution: the
+/// number of the `num` samples below it is binomial (normal approximation).
+[[nodiscard]] RankInterval QuantileRanks(std::uint64_t num, double share);
+
+/// The median, with the distribution-free interval between order statistics (David and Nagaraja
+/// 2003, Order Statistics, 7.1). NaN is ignored; the samples are reordered.
+[[nodiscard]] Estimate Median(std::vector<double>& samples);
+
+/// The value of RobustScale() alone, for any number of samples; NaN without samples.
+/// @pre No sample is NaN. The contents of `samples` are overwritten.
+[[nodiscard]] double PlainRobustScale(std::vector<double>& samples);
+
+/// A robust standard deviation: 1.4826 x the median absolute deviation, which tolerates outliers in
+/// up to half of the samples. The interval is that of normal samples, at 37 % of the efficiency of
+/// the plain standard deviation (Rousseeuw and Croux 1993, JASA 88).
+[[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
 
 }  // namespace railcast

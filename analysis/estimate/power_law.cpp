@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 
 namespace railcast {
 

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/tools/roots.hpp>
-
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/estimate.h"
 #include "core/base/units.h"
 #include "railcast/effects.h"
 

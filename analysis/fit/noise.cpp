@@ -6,9 +6,8 @@
 #include <map>
 #include <set>
 
-#include "analysis/estimate/intervals.h"
-#include "analysis/estimate/moments.h"
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/estimate.h"
+#include "analysis/estimate/streams.h"
 
 namespace railcast {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/pareto.h"
+#include "analysis/stats/names.h"
 #include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
 
@@ -19,8 +20,7 @@ Json ObjectOf(const Matched& matched) {
 Json PerLabel(const std::map<std::uint32_t, Matched>& counts, const LabelTable& labels) {
   Json object = Json::object();
   for (const auto& [id, matched] : counts) {
-    const Label* const label = labels.Find(id);
-    object[label == nullptr ? std::to_string(id) : label->name] = ObjectOf(matched);
+    object[LabelName(id, labels)] = ObjectOf(matched);
   }
   return object;
 }
@@ -78,8 +78,7 @@ Json EstimateObject(const Estimate& estimate) {
 Json DetailOf(const RowResult& result, const LabelTable& labels) {
   Json list = Json::array();
   for (const DetailDifference& difference : result.detail_differences) {
-    const Label* const label = labels.Find(difference.label);
-    list.push_back({{"class", label == nullptr ? std::to_string(difference.label) : label->name},
+    list.push_back({{"class", LabelName(difference.label, labels)},
                     {"from_m", kDetailBin_m * difference.bin},
                     {"to_m", kDetailBin_m * (difference.bin + 1)},
                     {"first_echoes", EstimateObject(difference.first)},

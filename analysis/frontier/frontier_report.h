@@ -37,7 +37,8 @@ struct FrontierCircumstances {
 /// frontier_parts.cpp.
 [[nodiscard]] Section PartsSection(const std::vector<RowResult>& results);
 
-/// What scene detail `auto` changes, by class and range. Defined in frontier_detail.cpp.
+/// What scene detail `auto` changes, by class and range. Defined in
+/// frontier_parts.cpp.
 [[nodiscard]] Table DetailTable(const LabelTable& labels, const std::vector<RowResult>& results);
 /// The same as a section; absent if no row has it.
 [[nodiscard]] std::optional<Section> DetailSection(const FrontierPlan& plan,

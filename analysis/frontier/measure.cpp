@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/frontier/row_simulators.h"
 #include "core/base/error.h"
 #include "core/fidelity/beam_steps.h"
 #include "core/fidelity/frame_comparison.h"

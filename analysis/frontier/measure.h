@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/frontier/detail_difference.h"
-#include "analysis/frontier/detection_distance.h"
+#include "analysis/frontier/differences.h"
 #include "analysis/frontier/kept_frontier.h"
 #include "analysis/frontier/rows.h"
 #include "core/fidelity/frame_comparison.h"

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "railcast/effects.h"
 #include "railcast/fidelity.h"
+#include "railcast/scenario.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
@@ -53,5 +57,26 @@ void UseChoice(const FidelityChoice& choice, std::vector<FrontierRow>& rows);
 /// data-sheet figure as the physical one: 10 % reflectance is just detected at
 /// range_at_10_percent_m.
 [[nodiscard]] SimulatorSpec SpecOfRow(const FrontierRow& row, const SimulatorSpec& scenario);
+
+/// The simulators that make the frames of rows: one in full detail for most of them, and one more
+/// for each choice of scene detail `auto`, which depends on whether the beams have a width.
+class RowSimulators {
+ public:
+  /// @param scenario In full detail.
+  /// @param full_detail Its simulator; must outlive this object.
+  RowSimulators(const ScenarioSpec& scenario,
+                Simulator& full_detail,
+                const std::vector<FrontierRow>& rows);
+
+  [[nodiscard]] Simulator& Of(const FrontierRow& row);
+  /// Sets the number of threads of all of them.
+  void UseThreads(int num_threads);
+  /// Builds the windows of a frame, so that no row's time contains that.
+  void BuildWindows(std::uint32_t frame);
+
+ private:
+  Simulator& full_detail_;
+  std::map<bool, std::unique_ptr<Simulator>> auto_detail_;  ///< By whether beams have a width.
+};
 
 }  // namespace railcast

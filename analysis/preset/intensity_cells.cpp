@@ -8,8 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "analysis/estimate/intervals.h"
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/estimate.h"
 
 namespace railcast {
 namespace {

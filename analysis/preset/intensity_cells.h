@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/preset/seen_planes.h"
 
 namespace railcast {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
-#include "analysis/estimate/log_histogram.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/preset/intensity_cells.h"
 #include "analysis/preset/replay.h"
 #include "analysis/preset/seen_planes.h"
+#include "analysis/report/report.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/noise.h"
 #include "analysis/stats/temporal_noise.h"
@@ -75,5 +77,12 @@ struct PresetComparison {
 [[nodiscard]] PresetComparison ComparePreset(Recording& recording,
                                              const ScenarioSpec& scenario,
                                              Sectors sectors = Sectors::kAll);
+
+/// Defined in preset_report.cpp.
+/// @param command Command line, for a reader to repeat.
+[[nodiscard]] Report MakePresetReport(const PresetComparison& comparison,
+                                      const RecordingInfo& recording,
+                                      const ScenarioSpec& scenario,
+                                      const std::string& command);
 
 }  // namespace railcast

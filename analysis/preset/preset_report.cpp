@@ -1,4 +1,4 @@
-#include "analysis/preset/preset_report.h"
+#include "analysis/preset/preset_comparison.h"
 
 #include <array>
 #include <string>

@@ -22,7 +22,7 @@ double PlaceOn(double value, const AxisRange& range, bool is_log) {
 }
 
 /// A place on the drawing, as shares of its axes.
-struct Place {
+struct ChartPlace {
   double x{}, y{};
 };
 
@@ -32,7 +32,7 @@ struct LabelBox {
   [[nodiscard]] bool Overlaps(const LabelBox& other) const {
     return left < other.right && other.left < right && low < other.high && other.low < high;
   }
-  [[nodiscard]] bool Holds(const Place& place) const {
+  [[nodiscard]] bool Holds(const ChartPlace& place) const {
     return left < place.x && place.x < right && low < place.y && place.y < high;
   }
 };
@@ -43,7 +43,7 @@ struct LabelPlace {
   double up_lines{};
 };
 
-LabelBox BoxOf(const Place& point, std::size_t num_letters, const LabelPlace& place) {
+LabelBox BoxOf(const ChartPlace& point, std::size_t num_letters, const LabelPlace& place) {
   const double near = point.x + place.side * kAside_letters * kLetterWidth;
   const double far = near + place.side * kLetterWidth * static_cast<double>(num_letters);
   const double middle = point.y + place.up_lines * kLineHeight;
@@ -58,14 +58,14 @@ class LabelPlacer {
     for (const ChartSeries& series : drawing.chart.series) AddLines(series);
   }
 
-  [[nodiscard]] std::optional<Place> PlaceOf(const ChartPoint& point) const {
+  [[nodiscard]] std::optional<ChartPlace> PlaceOf(const ChartPoint& point) const {
     const Chart& chart = drawing_.chart;
     if (!HasPlace(point.x, chart.x.is_log) || !HasPlace(point.y, chart.y.is_log)) return {};
-    return Place{PlaceOn(point.x, drawing_.x, chart.x.is_log),
-                 PlaceOn(point.y, drawing_.y, chart.y.is_log)};
+    return ChartPlace{PlaceOn(point.x, drawing_.x, chart.x.is_log),
+                      PlaceOn(point.y, drawing_.y, chart.y.is_log)};
   }
 
-  [[nodiscard]] LabelPlace Put(const Place& point, std::size_t num_letters) {
+  [[nodiscard]] LabelPlace Put(const ChartPlace& point, std::size_t num_letters) {
     double least = std::numeric_limits<double>::infinity();
     LabelPlace best;
     for (const double up_lines : kPlaces_lines) {
@@ -85,7 +85,7 @@ class LabelPlacer {
   void AddLines(const ChartSeries& series) {
     constexpr int kParts = 40;
     const bool is_line = series.style == SeriesStyle::kLinePoints;
-    std::optional<Place> last;
+    std::optional<ChartPlace> last;
     for (const ChartPoint& point : series.points) {
       const auto place = PlaceOf(point);
       if (place && last && is_line) {
@@ -106,12 +106,12 @@ class LabelPlacer {
     double cost = 0.0;
     for (const LabelBox& other : placed_) cost += box.Overlaps(other) ? 100.0 : 0.0;
     if (box.low < 0.0 || box.left < 0.0 || box.right > 1.0) cost += 50.0;
-    for (const Place& place : drawn_) cost += box.Holds(place) ? 0.5 : 0.0;
+    for (const ChartPlace& place : drawn_) cost += box.Holds(place) ? 0.5 : 0.0;
     return cost;
   }
 
   const Drawing& drawing_;
-  std::vector<Place> drawn_;  ///< Points, and places along the lines between them.
+  std::vector<ChartPlace> drawn_;  ///< Points, and places along the lines between them.
   std::vector<LabelBox> placed_;
 };
 

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/report/report.h"
+#include "core/io/run/dataset_files.h"
 
 namespace railcast {
 
@@ -31,6 +33,17 @@ class Bins {
 [[nodiscard]] const Bins& FineRangeBins();
 /// Bins of incidence in degrees, 10 wide.
 [[nodiscard]] const Bins& IncidenceBins();
+
+/// An axis of the bins of distance, with names that are short enough to stand below it: "10-25".
+[[nodiscard]] inline ChartAxis DistanceAxis(const std::string& title) {
+  ChartAxis axis{title, "m"};
+  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
+    const std::string from = i == 0 ? "0" : NumberText(kBinDistances_m.at(i - 1));
+    axis.categories.push_back(
+        i < kBinDistances_m.size() ? from + "-" + NumberText(kBinDistances_m.at(i)) : "> " + from);
+  }
+  return axis;
+}
 
 /// Adds each element of `others` to its counterpart; `sums` grows to the larger size.
 template <typename Sum>

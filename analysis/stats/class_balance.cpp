@@ -1,4 +1,5 @@
 #include "analysis/stats/class_balance.h"
+#include "analysis/estimate/estimate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +8,7 @@
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
-#include "analysis/stats/distance_axis.h"
-#include "analysis/stats/percent.h"
+#include "analysis/stats/bins.h"
 
 namespace railcast {
 namespace {

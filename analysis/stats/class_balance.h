@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
 #include "core/io/run/dataset_files.h"

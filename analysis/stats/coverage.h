@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/io/recording.h"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/report/report.h"
 #include "core/io/run/dataset_files.h"
 
 namespace railcast {
@@ -61,5 +62,12 @@ struct DatasetOverview {
 /// @throws InputError with one line if a file cannot be read, has changed since it was written, or
 ///   is not what railcast-generate writes.
 [[nodiscard]] DatasetOverview ReadDatasetOverview(const std::filesystem::path& directory);
+
+/// The section of a data set: balance of its classes, objects by type, distance and occlusion,
+/// weathers, parts, bases and sensors. Defined in dataset_section.cpp.
+/// @param suffix Follows the keys of section, charts and tables; "" for the first data set of a
+///   report, "_2" for the second.
+[[nodiscard]] Section MakeDatasetSection(const DatasetOverview& overview,
+                                         const std::string& suffix);
 
 }  // namespace railcast

@@ -1,4 +1,5 @@
-#include "analysis/stats/dataset_section.h"
+#include "analysis/estimate/estimate.h"
+#include "analysis/stats/dataset_overview.h"
 
 #include <algorithm>
 #include <string_view>
@@ -7,8 +8,7 @@
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
-#include "analysis/stats/distance_axis.h"
-#include "analysis/stats/percent.h"
+#include "analysis/stats/bins.h"
 #include "core/base/text.h"
 
 namespace railcast {

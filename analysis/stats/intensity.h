@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/estimate/log_histogram.h"
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/names.h"
 #include "analysis/stats/plane_patches.h"

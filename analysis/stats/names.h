@@ -18,15 +18,18 @@ namespace railcast {
   return words;
 }
 
+/// Name of a label, or its number where it has none.
+[[nodiscard]] inline std::string LabelName(std::uint32_t id, const LabelTable& labels) {
+  const Label* const label = labels.Find(id);
+  return label == nullptr ? std::to_string(id) : label->name;
+}
+
 /// Names of a recording's labels and materials, or their numbers where it has no names.
 class Names {
  public:
   explicit Names(const RecordingInfo& info) : labels_(info.labels), materials_(info.materials) {}
 
-  [[nodiscard]] std::string OfLabel(std::uint32_t id) const {
-    const Label* const label = labels_.Find(id);
-    return label == nullptr ? std::to_string(id) : label->name;
-  }
+  [[nodiscard]] std::string OfLabel(std::uint32_t id) const { return LabelName(id, labels_); }
   [[nodiscard]] std::string OfMaterial(std::uint16_t id) const {
     return id < materials_.size() ? materials_[id] : std::to_string(id);
   }

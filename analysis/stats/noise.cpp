@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "analysis/estimate/intervals.h"
+#include "analysis/estimate/estimate.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/surface_point.h"
+#include "analysis/stats/plane_patches.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "analysis/estimate/log_histogram.h"
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/plane_patches.h"
 #include "railcast/io/recording.h"

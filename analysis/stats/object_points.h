@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "railcast/io/recording.h"
 

@@ -14,9 +14,8 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/estimate/moments.h"
-#include "analysis/estimate/robust.h"
-#include "analysis/stats/surface_point.h"
+#include "analysis/estimate/estimate.h"
+#include "analysis/estimate/streams.h"
 #include "railcast/transform.h"
 
 namespace railcast {

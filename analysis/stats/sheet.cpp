@@ -1,12 +1,11 @@
-#include "analysis/stats/sheet.h"
+#include "analysis/stats/statistics.h"
 
 #include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
 
-#include "analysis/pictures/cloud_picture.h"
-#include "analysis/pictures/picture_grid.h"
+#include "analysis/pictures/grid_pictures.h"
 #include "core/base/text.h"
 #include "core/io/run/camera_files.h"
 #include "railcast/io/recording.h"

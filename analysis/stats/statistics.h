@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -56,5 +57,10 @@ using StatisticsProgress = std::function<void(std::size_t num_frames)>;
 [[nodiscard]] Report MakeStatisticsReport(const Statistics& statistics,
                                           const std::vector<RecordingInfo>& sources,
                                           const std::string& command);
+
+/// Makes a sheet of pictures of recordings: a row for each sensor, by its name, and for each
+/// camera, of frames spread evenly over all its recordings. Defined in sheet.cpp.
+/// @throws InputError if a recording cannot be read.
+[[nodiscard]] Picture MakeSheet(const std::vector<std::filesystem::path>& recordings);
 
 }  // namespace railcast

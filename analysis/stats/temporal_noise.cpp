@@ -8,7 +8,7 @@
 
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/surface_point.h"
+#include "analysis/stats/plane_patches.h"
 
 namespace railcast {
 namespace {

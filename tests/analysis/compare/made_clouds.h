@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "analysis/compare/cloud.h"
+#include "analysis/compare/cloud_figures.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/detectability/verdict.h"
+#include "analysis/detectability/object_detection.h"
 #include "tests/core/io/message_of.h"
 
 namespace railcast {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/detectability/own_track.h"
+#include "analysis/detectability/approach.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

@@ -7,10 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "analysis/estimate/log_histogram.h"
-#include "analysis/estimate/moments.h"
 #include "analysis/estimate/power_law.h"
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/streams.h"
 
 namespace railcast {
 namespace {

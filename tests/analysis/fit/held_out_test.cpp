@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/estimate/robust.h"
+#include "analysis/estimate/estimate.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/noise.h"
 #include "analysis/fit/recorded_trials.h"

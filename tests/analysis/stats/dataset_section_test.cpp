@@ -1,4 +1,4 @@
-#include "analysis/stats/dataset_section.h"
+#include "analysis/stats/dataset_overview.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "analysis/estimate/estimate.h"
 
@@ -28,6 +29,31 @@ class Moments {
   std::uint64_t num_{};
   double mean_{};
   double squares_{};  ///< Sum of squared distances from the mean.
+};
+
+/// Counts numbers in bins 1 % wide, so that medians of any number of samples need a constant
+/// memory; they are exact to half a bin. Magnitudes below 1e-7 count as 0; those beyond 1e9 in the
+/// last bin.
+class LogHistogram {
+ public:
+  /// NaN is ignored.
+  void Add(double sample);
+  void Add(const LogHistogram& other);
+
+  [[nodiscard]] std::uint64_t num() const { return num_; }
+  /// With the interval between order statistics (see Median() in estimate.h).
+  /// @param share Between 0 and 1.
+  [[nodiscard]] Estimate Quantile(double share) const;
+  [[nodiscard]] Estimate Median() const { return Quantile(0.5); }
+  /// See RobustScale() in estimate.h.
+  [[nodiscard]] Estimate RobustScale() const;
+
+ private:
+  [[nodiscard]] double OfRank(std::uint64_t rank) const;
+
+  std::uint64_t num_{};
+  std::uint64_t num_zeros_{};
+  std::vector<std::uint32_t> positive_, negative_;  ///< By magnitude; empty until the first sample.
 };
 
 }  // namespace railcast

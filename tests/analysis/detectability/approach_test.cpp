@@ -1,4 +1,4 @@
-#include "analysis/detectability/own_track.h"
+#include "analysis/detectability/approach.h"
 
 #include <gtest/gtest.h>
 

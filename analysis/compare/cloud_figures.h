@@ -1,15 +1,85 @@
 #pragma once
 
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "analysis/compare/cloud.h"
-#include "analysis/estimate/moments.h"
+#include "analysis/estimate/streams.h"
 #include "core/io/cloud/nearest_points.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
+
+/// The points of a frame, of all its returns, in the sensor frame; points that are not finite are
+/// left out.
+struct ComparedCloud {
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points{new pcl::PointCloud<pcl::PointXYZ>()};
+  std::vector<float> range_m;        ///< Distance from the sensor's origin.
+  std::vector<float> intensity;      ///< NaN where the intensity is not finite; empty if unknown.
+  std::vector<std::uint16_t> rings;  ///< Empty if unknown.
+
+  [[nodiscard]] std::size_t size() const { return points->size(); }
+};
+
+[[nodiscard]] inline ComparedCloud CloudOf(const RecordedFrame& recorded) {
+  const Frame& frame = recorded.frame;
+  ComparedCloud cloud;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const float x = frame.x[slot], y = frame.y[slot], z = frame.z[slot];
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
+    cloud.points->push_back({x, y, z});
+    cloud.range_m.push_back(std::hypot(x, y, z));
+    if (recorded.Has("intensity")) cloud.intensity.push_back(frame.intensity[slot]);
+    if (recorded.Has("ring")) cloud.rings.push_back(frame.ring[slot]);
+  }
+  return cloud;
+}
+
+/// Counts by bin; only bins with a count are stored.
+class Histogram {
+ public:
+  Histogram() = default;
+  /// Each element adds one count to its bin.
+  explicit Histogram(std::vector<std::int64_t> bins);
+
+  void Add(const Histogram& other);
+  [[nodiscard]] std::uint64_t num() const { return num_; }
+  /// Ascending by bin.
+  [[nodiscard]] const std::vector<std::pair<std::int64_t, std::uint64_t>>& counts() const {
+    return counts_;
+  }
+
+ private:
+  std::vector<std::pair<std::int64_t, std::uint64_t>> counts_;
+  std::uint64_t num_{};
+};
+
+/// Jensen-Shannon divergence of two histograms as distributions, in bits: 0 for equal ones, 1 for
+/// disjoint ones (Lin 1991, IEEE Trans. Inf. Theory 37; base 2). NaN if either is empty.
+[[nodiscard]] double JensenShannonDivergence(const Histogram& a, const Histogram& b);
+
+/// The quantities that are compared as histograms.
+struct CloudHistograms {
+  Histogram range;  ///< Bins of 1 m.
+  /// Bins of an eighth octave (9 % wide); everything up to 0.001 is in one bin.
+  Histogram intensity;
+  Histogram ring;  ///< One bin per ring.
+  /// Bird's-eye occupancy: a cell of 1 m x 1 m counts once per frame if it holds any point.
+  Histogram occupancy;
+
+  void Add(const CloudHistograms& other);
+};
+
+[[nodiscard]] CloudHistograms HistogramsOf(const ComparedCloud& cloud);
+
+/// The middle of a bin of CloudHistograms::intensity.
+[[nodiscard]] double IntensityOfBin(std::int64_t bin);
 
 /// Parameter of the density-aware Chamfer distance, in 1/m: a point 0.1 m from the nearest one
 /// counts 63 % as missing and one 1 m away fully, so that sensor noise hardly counts.
