@@ -1,7 +1,6 @@
 #include <memory>
 
 #include "core/program/program.h"
-#include "core/program/run_program.h"
 #include "railcast/error.h"
 #include "viewer/gui/gui.h"
 #include "viewer/options.h"

@@ -8,7 +8,6 @@
 #include <thread>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/program/progress_line.h"

@@ -7,7 +7,7 @@
 
 #include "analysis/detectability/points_by_distance.h"
 #include "analysis/detectability/verdict.h"
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -1,6 +1,6 @@
 #include "generator/live/camera_stream.h"
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/scenario/sensors.h"
 

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/frame.h"
