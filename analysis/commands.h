@@ -14,7 +14,6 @@
 #include "core/base/text.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
-#include "core/program/run_program.h"
 
 namespace railcast {
 

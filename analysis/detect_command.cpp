@@ -11,7 +11,6 @@
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/base/units.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"

@@ -14,10 +14,10 @@
 
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/io/write_file.h"
+#include "core/program/program.h"
 #include "core/program/progress_line.h"
-#include "core/program/run_program.h"
 #include "railcast/io/udp_grabber.h"
 
 namespace railcast {

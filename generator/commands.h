@@ -2,7 +2,6 @@
 
 #include "core/program/command_line.h"
 #include "core/program/program.h"
-#include "core/program/run_program.h"
 
 namespace railcast {
 

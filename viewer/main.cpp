@@ -6,12 +6,10 @@
 #include <thread>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
-#include "core/program/run_program.h"
 #include "railcast/error.h"
 #include "railcast/scenario.h"
 #include "viewer/draw/display.h"

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/detectability/object_detection.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace railcast {

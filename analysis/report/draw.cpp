@@ -12,7 +12,7 @@
 #include "analysis/report/output.h"
 #include "core/base/error.h"
 #include "core/io/write_file.h"
-#include "core/program/shell_word.h"
+#include "core/program/command_line.h"
 
 namespace railcast {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace railcast {
-
 namespace {
 
 constexpr std::size_t kMaxLength = 60;

@@ -9,10 +9,8 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/camera/daylight.h"
+#include "core/camera/colors.h"
 #include "core/camera/lens.h"
-#include "core/camera/material_colors.h"
-#include "core/camera/put_ray.h"
 #include "core/camera/wires_in_pixels.h"
 #include "core/simulate/frame_scene.h"
 #include "railcast/ray_caster.h"

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <span>
 
-#include "core/camera/put_ray.h"
-
 namespace railcast {
 namespace {
 

@@ -1,13 +1,36 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
-#include "core/camera/daylight.h"
+#include "core/camera/colors.h"
 #include "core/detect/beam/thin_conductors.h"
+#include "railcast/ray_caster.h"
 #include "railcast/simulator.h"
 
 namespace railcast {
+
+/// Puts a ray that has met nothing yet into a tile, at the frame's stamp.
+inline void PutRay(const Eigen::Vector3f& origin,
+                   const Eigen::Vector3f& direction,
+                   float range_m,
+                   std::size_t i,
+                   RayTile& rays) {
+  rays.origin_x[i] = origin.x();
+  rays.origin_y[i] = origin.y();
+  rays.origin_z[i] = origin.z();
+  rays.direction_x[i] = direction.x();
+  rays.direction_y[i] = direction.y();
+  rays.direction_z[i] = direction.z();
+  rays.shutter[i] = 0.0F;
+  rays.range_m[i] = range_m;
+  rays.surface[i] = 0;
+  rays.normal_x[i] = 0.0F;
+  rays.normal_y[i] = 0.0F;
+  rays.normal_z[i] = 0.0F;
+}
 
 /// The wires in a block of pixels, in closed form (core/detect/beam/wire_in_beam.h). Most are
 /// thinner than a pixel, so that the rays through the centres of pixels meet a wire here and there

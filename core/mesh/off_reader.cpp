@@ -5,7 +5,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/mesh/line_faults.h"
 
 namespace railcast {

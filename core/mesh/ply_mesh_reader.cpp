@@ -11,7 +11,6 @@
 #include "core/base/error.h"
 #include "core/base/number_type.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {

@@ -1,6 +1,7 @@
 #pragma once
 
 // Helpers that the command lines of all programs share.
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -9,12 +10,29 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "core/base/text.h"
 #include "core/scenario/json_rules.h"
 
 namespace railcast {
+
+/// Returns a word of a shell's command line, quoted where necessary.
+[[nodiscard]] inline std::string ShellWord(std::string_view text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./,:=+@%-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string_view::npos) {
+    return std::string(text);
+  }
+  std::string word = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      word += "'\\''";
+    } else {
+      word += c;
+    }
+  }
+  word += "'";
+  return word;
+}
 
 // Rules for the values of command-line options, in the form of CLI11's validators: functions of the
 // option's text that return the broken rule, or an empty string if none is broken. All programs

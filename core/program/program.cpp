@@ -1,14 +1,89 @@
 #include "core/program/program.h"
 
-#include <iostream>
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/write_file.h"
 #include "core/program/command_line.h"
-#include "core/program/run_program.h"
-#include "core/program/shell_word.h"
 #include "core/program/version.h"
 
 namespace railcast {
 namespace {
+
+// Opens /dev/null in place of each closed standard stream; open() takes the lowest free number. A
+// closed stdout is opened read-only, so that writing to it still fails.
+void TakeClosedStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR);
+  }
+}
+
+// Ignores SIGXFSZ, so that a write beyond `ulimit -f` fails with an error that names the file.
+void RefuseLargeFiles() {
+  (void)::signal(SIGXFSZ, SIG_IGN);
+}
+
+std::terminate_handler default_terminate = nullptr;
+
+[[noreturn]] void EndWith(std::string_view line) {
+  static_cast<void>(::write(STDERR_FILENO, line.data(), line.size()));
+  ::_exit(kExitFailure);
+}
+
+constexpr std::string_view kOutOfThreads =
+    "no further thread can be started; fewer threads or more memory are needed\n";
+
+// Compared by text because TBB has no exception type for this.
+bool IsOutOfThreads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create has failed");
+}
+
+// Reports that memory or threads have run out where no exception may be thrown, for example while
+// TBB starts its threads. It must not allocate memory.
+[[noreturn]] void Terminate() {
+  try {
+    if (std::current_exception() != nullptr) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    EndWith("out of memory\n");
+  } catch (const std::exception& error) {
+    if (IsOutOfThreads(error)) EndWith(kOutOfThreads);
+  } catch (...) {
+    // Any other exception is a bug; the default handler below reports it.
+  }
+  default_terminate();
+  std::abort();
+}
+
+int RunMain(const std::string& program,
+            const std::function<int()>& main,
+            std::ostream& complaints) {
+  try {
+    return main();
+  } catch (const InputError& error) {
+    complaints << ShownLines(error.what()) << "\n";
+  } catch (const std::bad_alloc&) {
+    complaints << program << ": out of memory\n";
+  } catch (const std::exception& error) {
+    if (IsOutOfThreads(error)) {
+      complaints << kOutOfThreads;
+    } else {
+      complaints << program << ": " << ShownLines(error.what()) << "\n";
+    }
+  }
+  return kExitFailure;
+}
 
 // Returns the line as a shell would read it, with the program's path reduced to its name.
 std::string CommandLine(const std::string& program, int argc, char** argv) {
@@ -36,6 +111,25 @@ int ParseAndRun(const ProgramSpec& spec, int argc, char** argv) {
 }
 
 }  // namespace
+
+int RunProgram(const std::string& program,
+               const std::function<int()>& main,
+               std::ostream& complaints) {
+  TakeClosedStreams();
+  RefuseLargeFiles();
+  default_terminate = std::set_terminate(Terminate);
+  const int status = RunMain(program, main, complaints);
+  errno = 0;
+  std::cout.flush();
+  std::fflush(stdout);
+  if (std::cout.good() && std::ferror(stdout) == 0) return status;
+  // If an earlier write failed and nothing is buffered any more, flushing leaves errno at 0 and the
+  // reason is no longer known.
+  complaints << (errno != 0 ? FileError("stdout", errno).what()
+                            : "stdout: not all of it could be written")
+             << "\n";
+  return status != kExitSuccess ? status : kExitFailure;
+}
 
 int ProgramMain(const ProgramSpec& spec, int argc, char** argv) {
   return RunProgram(

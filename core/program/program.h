@@ -1,10 +1,48 @@
 #pragma once
 
+#include <signal.h>
+
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace railcast {
+
+/// Returns the signals that ask a program to end cleanly: SIGINT, SIGTERM and SIGHUP. SIGHUP is
+/// left out where it is ignored, as under nohup.
+[[nodiscard]] inline std::vector<int> StopSignals() {
+  std::vector<int> signals = {SIGINT, SIGTERM};
+  struct sigaction hangup {};
+  ::sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
+  return signals;
+}
+
+/// Exit statuses of all programs.
+inline constexpr int kExitSuccess = 0;
+inline constexpr int kExitFailure = 1;        ///< Bad input or a failed run.
+inline constexpr int kExitUsage = 2;          ///< The command line is invalid.
+inline constexpr int kExitInterrupted = 130;  ///< The status of shells after Ctrl-C.
+
+/// Runs a program's `main` and handles the ways in which it may end.
+///
+/// An exception becomes the last line on `complaints`: the text of an InputError as it is, that of
+/// any other exception after the program's name. If memory runs out where nothing can be thrown,
+/// the program ends with such a line, too, instead of aborting. All output to stdout must have been
+/// written: a full disk or a closed stdout makes the run fail.
+///
+/// Before that, the numbers of closed standard streams are taken, so that no file or socket of the
+/// program gets one and receives the text that was meant for the stream. A write to a file that
+/// grows beyond `ulimit -f` becomes an error of that write instead of ending the program.
+/// @param program Its name, for example "railcast-view".
+/// @param complaints Gets one line, "stdout: no space left on device", if output to stdout was
+///   lost.
+/// @return What `main` returns; kExitFailure if it throws, or if that is 0 and output was lost.
+[[nodiscard]] int RunProgram(const std::string& program,
+                             const std::function<int()>& main,
+                             std::ostream& complaints);
 
 /// The work that a command line asks for. It gets the command line itself, for use in reports, and
 /// returns the exit status.
@@ -22,7 +60,7 @@ struct ProgramSpec {
 };
 
 /// The body of every program's `main`: parses the command line, explains what is wrong with it, or
-/// runs the command and reports how it ended (run_program.h).
+/// runs the command and reports how it ended.
 /// @return The exit status.
 ///
 ///     int main(int argc, char** argv) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/base/unknown_places.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

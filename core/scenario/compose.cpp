@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/units.h"
 #include "core/detect/detector/effect_table.h"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/base/unknown_places.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/object_types.h"
 #include "railcast/scenario.h"

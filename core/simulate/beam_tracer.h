@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/detect/base/beam_optics.h"
 #include "core/detect/base/echo_tiles.h"
-#include "core/detect/base/hits.h"
 #include "core/detect/beam/footprint.h"
 #include "core/detect/beam/mirror_paths.h"
 #include "core/detect/clutter/cover.h"

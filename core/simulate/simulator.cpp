@@ -17,8 +17,9 @@
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/base/wind_velocity.h"
-#include "core/detect/clutter/halo.h"
+#include "core/detect/clutter/bright_echo.h"
 #include "core/detect/detector/effect_table.h"
+#include "core/detect/effects/spray.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/detail_choice.h"
 #include "core/simulate/firing_tiles.h"
@@ -26,7 +27,6 @@
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
-#include "core/simulate/spray_clouds.h"
 #include "core/simulate/view_counter.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/scene/shapes.h"
-#include "core/simulate/tree_sway.h"
+#include "core/simulate/wind.h"
 
 namespace railcast {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/detect/beam/wire_set.h"
-#include "core/simulate/tree_sway.h"
 #include "core/simulate/wind.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/scene.h"

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -23,7 +24,12 @@ namespace railcast {
 /// @param device Null: asks why no device could be made.
 /// @param doing Words after "while", as for WithinMemory().
 /// @throws InputError if memory ran out.
-void ThrowIfEmbreeFailed(RTCDevice device, const std::string& doing);
+inline void ThrowIfEmbreeFailed(RTCDevice device, const std::string& doing) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return;
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory(doing);
+  throw std::runtime_error("Embree's error " + std::to_string(error) + " while " + doing);
+}
 
 /// Runs `build`, which uses Embree, with a single thread: the order of primitives in the leaves
 /// decides what a ray on an edge hits, and that order must not depend on how the work was shared.

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "generator/dataset/describe_recipe.h"
 #include "generator/dataset/json_place.h"

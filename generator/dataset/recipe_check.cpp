@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/json_source.h"

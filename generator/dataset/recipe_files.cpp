@@ -5,7 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/scenario_identity.h"

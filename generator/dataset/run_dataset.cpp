@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"

@@ -7,7 +7,6 @@
 #include <span>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/sensors.h"

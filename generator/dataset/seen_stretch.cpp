@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/sensors.h"
 

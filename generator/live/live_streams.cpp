@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/stream/stream_encoder.h"

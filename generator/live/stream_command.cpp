@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/run/scenario_identity.h"

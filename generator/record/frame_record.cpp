@@ -6,7 +6,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/io/content_hash.h"
 #include "core/io/strict_json.h"
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/track_limits.h"

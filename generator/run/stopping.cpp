@@ -10,8 +10,8 @@
 #include <string_view>
 #include <thread>
 
+#include "core/program/program.h"
 #include "core/program/progress_line.h"
-#include "core/program/run_program.h"
 
 namespace railcast {
 namespace {

@@ -1,7 +1,6 @@
 #include <iostream>
 #include <string>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/simulate/story_text.h"

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "railcast/c_api.h"
 #include "railcast/error.h"
 #include "railcast/frame.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/fidelity/echoes_by_range.h"
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/mean_surface.h"
 #include "tests/bench/scene_cost.h"

@@ -27,7 +27,7 @@
 #include "core/mesh/mesh_import.h"
 #include "core/mesh/simplify.h"
 #include "core/program/command_line.h"
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "core/trace/trace_scene.h"
 #include "tests/bench/dense_mesh.h"
 #include "tests/bench/scene_cost.h"

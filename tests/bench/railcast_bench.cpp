@@ -31,7 +31,7 @@
 #include "core/io/run/camera_files.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "railcast/effects.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/program/command_line.h"
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/scene_cost.h"
 

@@ -10,7 +10,7 @@
 #include <ctime>
 #include <thread>
 
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "generator/check/scene_audit.h"
 #include "railcast/outcome.h"
 

@@ -16,7 +16,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "generator/record/frame_record.h"
 #include "generator/record/object_survey.h"
 #include "railcast/io/cloud_files.h"

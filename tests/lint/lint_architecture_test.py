@@ -147,10 +147,10 @@ class PublicHeaders(unittest.TestCase):
 
     def test_they_include_no_private_header(self):
         self.assertEqual(faults_of({
-            "core/include/railcast/error.h": '#include "core/base/attempt.h"\n',
-            "core/base/attempt.h": "",
+            "core/include/railcast/error.h": '#include "core/base/text.h"\n',
+            "core/base/text.h": "",
         }), ["core/include/railcast/error.h:1: a public header includes no private one "
-             "(core/base/attempt.h)"])
+             "(core/base/text.h)"])
 
     def test_each_stands_where_the_folder_stands_that_implements_it(self):
         self.assertEqual(faults_of({

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/io/cloud/nearest_points.h"
 #include "core/io/recording/recording_kinds.h"

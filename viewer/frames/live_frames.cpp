@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/image/jpeg.h"

@@ -2,8 +2,10 @@
 
 #include <vector>
 
+#include "core/detect/base/detect_tile.h"
 #include "railcast/effects.h"
 #include "railcast/material.h"
+#include "railcast/ray_caster.h"
 
 namespace railcast {
 
@@ -54,5 +56,16 @@ struct LaneOptics {
 [[nodiscard]] std::vector<LaneOptics> OpticsTable(const std::vector<Material>& materials,
                                                   int wavelength_nm,
                                                   double wetness);
+
+/// The surfaces that the rays' surface indices refer to.
+struct SurfaceTable {
+  const std::vector<Surface>& surfaces;
+  const std::vector<LaneOptics>& optics;  ///< By material; empty if no physical effect is on.
+};
+
+/// Copies the hits of the rays into the detector's tile: surface, range, reflectivity, optics and a
+/// preliminary outcome (no_surface, ego or returned), as one echo of the whole beam. Lane i of
+/// `tile` is lane i of `rays`.
+void ResolveHits(const RayTile& rays, const SurfaceTable& table, DetectTile& tile);
 
 }  // namespace railcast

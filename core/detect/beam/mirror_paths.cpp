@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/detect/base/beam_optics.h"
-#include "core/detect/base/hits.h"
 #include "core/detect/clutter/added_echo.h"
 #include "railcast/lidar.h"
 #include "railcast/outcome.h"

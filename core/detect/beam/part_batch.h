@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/detect/base/beam_optics.h"
 #include "core/detect/base/detect_tile.h"
-#include "core/detect/base/hits.h"
 #include "core/detect/beam/echo_finder.h"
 #include "core/detect/beam/mirrors.h"
 #include "core/detect/detector/detector.h"

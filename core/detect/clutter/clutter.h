@@ -6,7 +6,6 @@
 
 #include "core/detect/base/echo_tiles.h"
 #include "core/detect/base/weather_optics.h"
-#include "core/detect/clutter/fog_patches.h"
 #include "core/detect/clutter/fog_profile.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"

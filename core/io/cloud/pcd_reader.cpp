@@ -13,7 +13,6 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 

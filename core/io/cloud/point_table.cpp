@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"

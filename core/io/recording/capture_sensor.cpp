@@ -9,7 +9,7 @@
 #include "core/io/hesai/hesai_model.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/velodyne/velodyne_packet.h"
-#include "core/scan/channel_rows.h"
+#include "core/scan/spinning_pattern.h"
 #include "core/scenario/json_rules.h"
 
 namespace railcast {

@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/text_cursor.h"
 #include "core/io/cloud/kitti_names.h"
 #include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"

@@ -1,6 +1,6 @@
 #include "core/io/run/dataset_files.h"
 
-#include "core/base/text_cursor.h"
+#include "core/base/text.h"
 
 namespace railcast {
 

@@ -11,7 +11,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/velodyne/velodyne_packet.h"
-#include "core/scan/channel_rows.h"
+#include "core/scan/spinning_pattern.h"
 
 namespace railcast {
 namespace {

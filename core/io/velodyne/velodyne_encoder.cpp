@@ -15,7 +15,7 @@
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
-#include "core/scan/channel_rows.h"
+#include "core/scan/spinning_pattern.h"
 
 namespace railcast {
 namespace {

@@ -7,8 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/verify/verification.h"

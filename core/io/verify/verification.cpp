@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/cloud/point_table.h"
 #include "core/io/content_hash.h"

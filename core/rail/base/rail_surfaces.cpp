@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 
 namespace railcast {
 namespace {

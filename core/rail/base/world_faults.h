@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/unknown_places.h"
 
 namespace railcast {
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <string>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/rail/motion/speed_profile.h"

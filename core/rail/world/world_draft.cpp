@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/base/attempt.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/clearance/system_height.h"
 #include "core/rail/landform/landform.h"

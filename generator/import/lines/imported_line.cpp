@@ -6,7 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/rail/line/plan_spline.h"
 #include "generator/import/fit/line_fit.h"

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 

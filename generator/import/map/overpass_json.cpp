@@ -7,7 +7,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 

@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <string>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"

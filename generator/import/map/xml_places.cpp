@@ -14,7 +14,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/base/attempt.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"

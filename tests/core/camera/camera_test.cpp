@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/camera/material_colors.h"
+#include "core/camera/colors.h"
 #include "core/scene/shapes.h"
 #include "tests/core/camera/seen.h"
 #include "tests/core/io/message_of.h"

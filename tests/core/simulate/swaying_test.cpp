@@ -14,7 +14,7 @@
 #include "core/detect/base/wind_velocity.h"
 #include "core/scene/shapes.h"
 #include "core/simulate/frame_scene.h"
-#include "core/simulate/tree_sway.h"
+#include "core/simulate/wind.h"
 #include "railcast/scenario.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"

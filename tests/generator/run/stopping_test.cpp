@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 #include "tests/core/io/default_signals.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"

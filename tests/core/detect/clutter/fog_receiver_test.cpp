@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/detect/base/beam_optics.h"
-#include "core/detect/clutter/fog_patches.h"
 #include "core/detect/clutter/fog_profile.h"
 #include "tests/core/detect/facing_beams.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/detect/clutter/fog_patches.h"
+#include "core/detect/clutter/fog_profile.h"
 #include "core/detect/kernels/detection.h"
 #include "core/detect/kernels/fog_echo.h"
 #include "core/detect/kernels/measurement.h"

@@ -11,7 +11,7 @@
 #include "core/base/random.h"
 #include "core/base/units.h"
 #include "core/io/velodyne/velodyne_encoder.h"
-#include "core/scan/channel_rows.h"
+#include "core/scan/spinning_pattern.h"
 #include "railcast/lidar.h"
 
 namespace railcast {

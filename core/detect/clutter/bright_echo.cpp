@@ -1,4 +1,4 @@
-#include "core/detect/clutter/halo.h"
+#include "core/detect/clutter/bright_echo.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,12 @@
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/clutter/added_echo.h"
-#include "core/detect/clutter/bright_echo.h"
 
 namespace railcast {
 namespace {
 
 // An echo weaker than a third of the threshold is detected in at most one case of 1000.
-constexpr float kLeastHaloRatio = 0.3F;
+constexpr float kLeastStrayRatio = 0.3F;
 
 // The square of the angle between two directions, by their chord: too small by angle^2 / 12, which
 // is 1 in 10,000 for 2 degrees.
@@ -25,6 +24,42 @@ float Angle2_rad2(const DetectTile& tile, std::size_t lane, const HaloSource& so
 }
 
 }  // namespace
+
+Ghost::Ghost(const DetectorSpec& spec)
+    : label_(spec.clutter_labels.ghost),
+      power_min_(static_cast<float>(LeastPower(spec.receiver))),
+      range_min_m_(static_cast<float>(spec.range_min_m)) {
+  if (!spec.effects.ghost) return;
+  const double radius_m = 0.5e-3 * spec.cover.aperture_mm;
+  gain_ = static_cast<float>(spec.receiver.ghost_reflectance * radius_m * radius_m *
+                             LeastPower(spec.receiver));
+}
+
+void Ghost::AddEchoes(EchoTiles& echoes) const {
+  if (!is_on()) return;
+  std::array<float, kTileSize> ratio{};
+  std::array<float, kTileSize> range_m{};
+  const auto look_at = [&](const DetectTile& tile, std::size_t lane, std::size_t beam) {
+    if (!IsRetroreflected(tile, lane, range_min_m_) || tile.power_ratio[lane] <= ratio[beam]) {
+      return;
+    }
+    ratio[beam] = tile.power_ratio[lane];
+    range_m[beam] = tile.true_range_m[lane] + tile.peak_shift_m[lane];
+  };
+  const std::size_t num_beams = echoes.first.num_rays;
+  for (std::size_t beam = 0; beam < num_beams; ++beam) look_at(echoes.first, beam, beam);
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    const auto [tile, lane] = echoes.more(i);
+    look_at(tile, lane, echoes.beam_of(i));
+  }
+  for (std::size_t beam = 0; beam < num_beams; ++beam) {
+    const float ghost = gain_ * ratio[beam] * ratio[beam];
+    if (ghost < kLeastStrayRatio) continue;
+    const float far_m = 2.0F * range_m[beam];
+    AddEcho(beam, {label_, EchoTiles::kGhost, far_m, ghost, ghost * power_min_ * far_m * far_m},
+            echoes);
+  }
+}
 
 Halo::Halo(const DetectorSpec& spec)
     : label_(spec.clutter_labels.halo),
@@ -56,7 +91,7 @@ bool Halo::Reaches(const DetectTile& first, const std::vector<HaloSource>& sourc
     most[axis] = *high;
   }
   return std::any_of(sources.begin(), sources.end(), [&](const HaloSource& source) {
-    const float reach2 = std::sqrt(share_at_1_rad_ * source.power_ratio / kLeastHaloRatio);
+    const float reach2 = std::sqrt(share_at_1_rad_ * source.power_ratio / kLeastStrayRatio);
     const std::array<float, 3> place{source.x, source.y, source.z};
     float distance2 = 0.0F;  // From the source to the box around the tile's directions.
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -91,7 +126,7 @@ void Halo::AddEchoes(EchoTiles& echoes, const std::vector<HaloSource>& sources) 
     const bool is_own = std::any_of(own_m[beam].begin(), own_m[beam].end(), [&](float own) {
       return std::fabs(own - range_m) < same_echo_m_;
     });
-    if (ratio < kLeastHaloRatio || is_own) continue;
+    if (ratio < kLeastStrayRatio || is_own) continue;
     AddEcho(beam,
             {label_, EchoTiles::kHalo, range_m, ratio, ratio * power_min_ * range_m * range_m},
             echoes);

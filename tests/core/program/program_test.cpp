@@ -1,4 +1,4 @@
-#include "core/program/run_program.h"
+#include "core/program/program.h"
 
 #include <gtest/gtest.h>
 

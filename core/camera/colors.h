@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "railcast/effects.h"
+#include "railcast/material.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -56,5 +58,9 @@ class Daylight {
 
 /// Returns the bytes of a colour by the transfer function of sRGB (IEC 61966-2-1).
 [[nodiscard]] std::array<std::uint8_t, 3> SrgbBytes(const Radiance& radiance);
+
+/// Returns the reflectance of each material in red, green and blue light, by index. Materials that
+/// the table of docs/camera.md does not name are grey, as bright as at 905 nm.
+[[nodiscard]] std::vector<Vector3> MaterialColors(const MaterialLibrary& materials);
 
 }  // namespace railcast

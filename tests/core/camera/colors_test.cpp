@@ -1,4 +1,4 @@
-#include "core/camera/daylight.h"
+#include "core/camera/colors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulate/spray_clouds.h"
+#include "core/detect/effects/spray.h"
 
 #include <gtest/gtest.h>
 
