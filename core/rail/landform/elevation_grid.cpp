@@ -30,9 +30,9 @@ bool IsSpace(char letter) {
 }
 
 /// The words of a text, with the lines they stand in.
-class Words {
+class GridWords {
  public:
-  Words(std::string_view text, std::string shown) : text_(text), shown_(std::move(shown)) {}
+  GridWords(std::string_view text, std::string shown) : text_(text), shown_(std::move(shown)) {}
 
   /// The next word; empty at the end.
   std::string_view Next() {
@@ -81,7 +81,7 @@ constexpr std::array kHeaderKeys = {"ncols",     "nrows",       "xllcorner", "xl
                                     "yllcorner", "yllcenter",   "cellsize",  "dx",
                                     "dy",        "nodata_value"};
 
-Header ReadHeader(Words& words) {
+Header ReadHeader(GridWords& words) {
   Header header;
   for (std::string_view word = words.Next(); !word.empty(); word = words.Next()) {
     if (std::isalpha(static_cast<unsigned char>(word.front())) == 0 && !header.empty()) break;
@@ -140,7 +140,7 @@ ElevationGrid::ElevationGrid(const std::filesystem::path& file)
           ShownPath(file.filename())) {}
 
 ElevationGrid::ElevationGrid(std::string_view text, const std::string& shown) {
-  Words words(text, shown);
+  GridWords words(text, shown);
   const Header header = ReadHeader(words);
   if (header.empty()) FailReading(shown, "must be an ESRI ASCII grid", "an empty file");
   const auto entry = [&](const char* key, const char* other) -> const HeaderValue& {
