@@ -6,7 +6,7 @@
 Each situation is simulated by `railcast-analyze compare --ablate` with four sensors in place of its own, whose window
 and receiver they keep, on rung `footprint`; effects of other rungs on the first rung that has them. Of the sensors
 every third to 32nd column fires, which changes no share. What has been measured is kept in FILE
-(out/effects_table.json) and not measured again; NAME measures these situations anew.
+(out/effects_table.json) and not measured again; NAME measures these situations anew. The costs need valgrind.
 """
 
 import argparse
@@ -164,13 +164,14 @@ def measure_costs(build, results, keep):
             scenario["lidars"] = [lidar for lidar in scenario["lidars"] if lidar["name"] == sensor]
             scenario["fidelity"] = RUNGS.get(effect, "footprint")
             key = (name, sensor, scenario["fidelity"])
-            frame = sample_frame(build, scenario)
             if key not in with_it:
-                with_it[key] = instructions(build, scenario, frame)
+                frame = sample_frame(build, scenario)
+                with_it[key] = frame, instructions(build, scenario, frame)
+            frame, counted = with_it[key]
             without = instructions(build, scenario | {"effects": {effect: False}}, frame)
-        costs[effect] = {"at": [name, sensor], "instructions": with_it[key] - without, "of": with_it[key]}
+        costs[effect] = {"at": [name, sensor], "instructions": counted - without, "of": counted}
         keep()
-        print(f"{effect}: {with_it[key] - without:.0f} of {with_it[key]:.0f} instructions a firing", flush=True)
+        print(f"{effect}: {counted - without:.0f} of {counted:.0f} instructions a firing", flush=True)
 
 
 def measure_keys(build):
