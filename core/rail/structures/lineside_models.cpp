@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-constexpr std::array<double, 2> kBothSides = {-1.0, 1.0};
+constexpr std::array<double, 2> kBothSigns = {-1.0, 1.0};
 constexpr double kRailHeadDistance_m = 1.5;  // Between the middles of the two heads.
 
 Mesh MakeSquareBar(const Vector3& begin_m, const Vector3& end_m, double radius_m) {
@@ -33,7 +33,7 @@ void AddBufferBeam(const LinesideSurfaces& surfaces, Model& model) {
   constexpr double kHeadThickness_m = 0.06;
   constexpr double kShaftRadius_m = 0.09;
   constexpr int kSides = 12;
-  for (const double side : kBothSides) {
+  for (const double side : kBothSigns) {
     const Vector3 face_m(0.0, 0.5 * side * kStopBufferDistance_m, kStopBufferHeight_m);
     const Vector3 back_m = face_m + Vector3(kHeadThickness_m, 0.0, 0.0);
     const std::array<Vector3, 2> head_m = {face_m, back_m};
@@ -109,7 +109,7 @@ Model MakeBufferStop(const LinesideSurfaces& surfaces, double shift_m) {
   AddBufferBeam(surfaces, model);
   constexpr double kBar_m = 0.09;
   Mesh& frame = MeshOf(surfaces.buffer_frame, model);
-  for (const double side : kBothSides) {
+  for (const double side : kBothSigns) {
     const double y_m = side * (0.5 * kRailHeadDistance_m + shift_m);
     const Vector3 head_m(kBeamBack_m + kBar_m, y_m, kStopBufferHeight_m);
     const Vector3 heel_m(kBufferStopLength_m - kBar_m, y_m, kBar_m);
@@ -172,7 +172,7 @@ Model MakeBench(const LinesideSurfaces& surfaces) {
                        Vector3(kHalfLength_m, kHalfDepth_m, kSeat_m)}));
   wood.Append(MakeBox({Vector3(-kHalfLength_m, kHalfDepth_m - kPlank_m, kSeat_m + 0.10),
                        Vector3(kHalfLength_m, kHalfDepth_m, kHeight_m)}));
-  for (const double end : kBothSides) {
+  for (const double end : kBothSigns) {
     const double x_m = end * 0.7;
     MeshOf(surfaces.furniture_steel, model)
         .Append(MakeBox({Vector3(x_m - 0.03, -0.20, -0.10),
@@ -194,8 +194,8 @@ Model MakeShelter(const Vector3& size_m, const LinesideSurfaces& surfaces) {
   Mesh& steel = MeshOf(surfaces.furniture_steel, model);
   steel.Append(
       MakeBox({Vector3(-half_m.x(), -half_m.y(), eaves_m), half_m + Vector3(0, 0, half_m.z())}));
-  for (const double end : kBothSides) {
-    for (const double side : kBothSides) {
+  for (const double end : kBothSigns) {
+    for (const double side : kBothSigns) {
       steel.Append(
           MakeBlockAbout({end * post_x_m, side * post_y_m, 0.5 * (eaves_m + kFurnitureFoot_m)},
                          {kPost_m, kPost_m, eaves_m - kFurnitureFoot_m}));
@@ -206,7 +206,7 @@ Model MakeShelter(const Vector3& size_m, const LinesideSurfaces& surfaces) {
   const double pane_middle_m = kPaneBottom_m + 0.5 * pane_height_m;
   glass.Append(MakeBlockAbout({0.0, post_y_m, pane_middle_m},
                               {2.0 * post_x_m - kPost_m, kPane_m, pane_height_m}));
-  for (const double end : kBothSides) {
+  for (const double end : kBothSigns) {
     glass.Append(MakeBlockAbout({end * post_x_m, 0.0, pane_middle_m},
                                 {kPane_m, 2.0 * post_y_m - kPost_m, pane_height_m}));
   }
