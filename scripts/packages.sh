@@ -19,6 +19,7 @@ build_packages=(
   libgtest-dev
   libjpeg62-turbo-dev
   libkainjow-mustache-dev
+  liblz4-dev
   libopenmesh-dev
   libpcap-dev
   libpcl-dev
@@ -31,6 +32,7 @@ build_packages=(
   libx11-dev
   libxxhash-dev
   libyaml-cpp-dev
+  libzstd-dev
   ninja-build
   nlohmann-json3-dev
   pkg-config

@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud run velodyne hesai pcap net stream recording verify".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net ros mcap bag dds stream recording verify".split(),
     "generator": ". record run check sequence live trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
@@ -55,7 +55,9 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
-    "SQLite": (r"sqlite3\.h$", ("generator/dataset",)),
+    "SQLite": (r"sqlite3\.h$", ("core/io/bag", "generator/dataset")),
+    "zstd": (r"zstd\.h$", ("core/io/mcap",)),
+    "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),
     "Expat": (r"expat\.h$", ("generator/import",)),
 }
 # The libraries that a public header may require of the programs that include it.

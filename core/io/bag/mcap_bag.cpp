@@ -1,0 +1,105 @@
+#include "core/io/bag/mcap_bag.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/bag/bag_metadata.h"
+#include "core/io/mcap/mcap_reader.h"
+#include "core/io/mcap/record_codec.h"
+
+namespace railcast::bag {
+namespace {
+
+std::string MetadataOf(const mcap::McapChannel& channel, const std::string& key) {
+  const auto found = channel.metadata.find(key);
+  return found == channel.metadata.end() ? std::string() : found->second;
+}
+
+class McapBagReader : public BagReader {
+ public:
+  McapBagReader(const std::filesystem::path& file, const std::string& name)
+      : name_(name), reader_(file, name) {
+    for (const auto& [id, channel] : reader_.index().channels) AddTopic(id, TopicOf(channel));
+  }
+
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
+
+  [[nodiscard]] std::optional<std::int64_t> FindStart_ns() override {
+    const mcap::McapStatistics& statistics = reader_.index().statistics;
+    if (statistics.message_count == 0) return std::nullopt;
+    return CheckedTime_ns(statistics.message_start_time);
+  }
+
+  void Select(const std::vector<std::size_t>& wanted) override {
+    std::set<std::uint16_t> channels;
+    for (const auto& [id, topic] : topic_by_channel_) {
+      if (std::ranges::find(wanted, topic) != wanted.end()) channels.insert(id);
+    }
+    reader_.Select(std::move(channels));
+  }
+
+  [[nodiscard]] std::optional<BagMessage> Next() override {
+    const auto message = reader_.Next();
+    if (!message) return std::nullopt;
+    return BagMessage{topic_by_channel_.at(message->channel_id), CheckedTime_ns(message->log_time),
+                      message->data};
+  }
+
+  [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {
+    std::vector<BagAttachment> attachments;
+    for (const mcap::McapAttachmentIndex& entry : reader_.index().attachments) {
+      const mcap::Bytes content = reader_.ReadAttachment(entry);
+      const auto record = mcap::ReadRecord<mcap::McapAttachment>(content);
+      const mcap::ByteSpan bytes = record.data.bytes;
+      attachments.push_back({record.name, record.media_type, {bytes.begin(), bytes.end()}});
+    }
+    return attachments;
+  }
+
+ private:
+  [[nodiscard]] std::int64_t CheckedTime_ns(std::uint64_t time_ns) const {
+    if (time_ns <= std::uint64_t{std::numeric_limits<std::int64_t>::max()}) {
+      return static_cast<std::int64_t>(time_ns);
+    }
+    throw InputError(name_ + ": log_time: must be < 2^63" + Got(time_ns));
+  }
+
+  [[nodiscard]] BagTopic TopicOf(const mcap::McapChannel& channel) const {
+    BagTopic topic{.name = channel.topic,
+                   .type = {},
+                   .definition = {},
+                   .hash = MetadataOf(channel, "topic_type_hash"),
+                   .is_latched = IsLatchedQos(MetadataOf(channel, "offered_qos_profiles")),
+                   .encoding = channel.message_encoding};
+    const auto schema = reader_.index().schemas.find(channel.schema_id);
+    if (schema == reader_.index().schemas.end()) return topic;
+    topic.type = schema->second.name;
+    if (schema->second.encoding == "ros2msg") topic.definition = schema->second.data;
+    return topic;
+  }
+
+  // Several channels of one topic, as of several publishers, are one topic here.
+  void AddTopic(std::uint16_t channel, BagTopic topic) {
+    const auto known = std::ranges::find(topics_, topic);
+    topic_by_channel_.emplace(channel, static_cast<std::size_t>(known - topics_.begin()));
+    if (known == topics_.end()) topics_.push_back(std::move(topic));
+  }
+
+  std::string name_;
+  mcap::McapReader reader_;
+  std::vector<BagTopic> topics_;
+  std::map<std::uint16_t, std::size_t> topic_by_channel_;
+};
+
+}  // namespace
+
+std::unique_ptr<BagReader> OpenMcapBag(const std::filesystem::path& file, const std::string& name) {
+  return std::make_unique<McapBagReader>(file, name);
+}
+
+}  // namespace railcast::bag

@@ -1,0 +1,227 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/bag/bag.h"
+#include "core/io/bag/bag_metadata.h"
+#include "core/io/mcap/byte_file.h"
+#include "core/io/mcap/mcap_index.h"
+#include "core/io/mcap/mcap_writer.h"
+#include "core/io/write_file.h"
+
+namespace railcast::bag {
+namespace {
+
+constexpr const char* kLibrary = "railcast";
+constexpr const char* kQosKey = "offered_qos_profiles";
+constexpr const char* kHashKey = "topic_type_hash";
+
+std::filesystem::path UnfinishedMcap(const std::filesystem::path& target) {
+  return target.string() + std::string(kUnfinishedSuffix);
+}
+
+/// A file to which bytes are appended until it gets its name.
+class GrowingFile {
+ public:
+  /// @param size What is kept of the unfinished file.
+  GrowingFile(std::filesystem::path file, std::uint64_t size)
+      : file_(std::move(file)), target_(FileToReplace(file_)) {
+    constexpr int kAccess = 0644;
+    descriptor_ =
+        ::open(UnfinishedMcap(target_).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kAccess);
+    if (descriptor_ < 0) throw FileError(file_, errno);
+    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
+      const int reason = errno;
+      ::close(descriptor_);
+      throw FileError(file_, reason);
+    }
+  }
+  ~GrowingFile() { ::close(descriptor_); }
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  void Append(mcap::ByteSpan bytes) const {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno != EINTR) throw FileError(file_, errno);
+      if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  void Finish() const {
+    if (::fsync(descriptor_) != 0 ||
+        ::rename(UnfinishedMcap(target_).c_str(), target_.c_str()) != 0) {
+      throw FileError(file_, errno);
+    }
+  }
+
+  /// The name that it gets.
+  [[nodiscard]] std::string final_name() const { return file_.filename().string(); }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path target_;
+  int descriptor_{};
+};
+
+class McapBagWriter : public BagWriter {
+ public:
+  McapBagWriter(const std::filesystem::path& file, McapCompression compression)
+      : file_(file, 0), writer_(Sink(), {"ros2", kLibrary}, compression, {}) {
+    // As recorders of ROS 2 do, so that also an interrupted bag says in which form its QoS are.
+    WriteMetadata();
+  }
+  McapBagWriter(const std::filesystem::path& file,
+                mcap::ScannedFile kept,
+                McapCompression compression)
+      : file_(file, kept.size),
+        num_commits_(kept.index.chunks.size()),
+        writer_(Sink(), std::move(kept.index), compression, kept.size, kept.crc) {
+    for (const auto& [id, schema] : writer_.index().schemas) schema_ids_.emplace(schema.name, id);
+    for (const auto& [id, channel] : writer_.index().channels) topics_.push_back(TopicOf(channel));
+  }
+
+  std::size_t Add(const BagTopic& topic) override {
+    const auto known = std::ranges::find(topics_, topic.name, &BagTopic::name);
+    if (known != topics_.end()) return static_cast<std::size_t>(known - topics_.begin());
+    const auto [schema, is_new] =
+        schema_ids_.emplace(topic.type, static_cast<std::uint16_t>(schema_ids_.size() + 1));
+    if (is_new)
+      writer_.Write(mcap::McapSchema{schema->second, topic.type, "ros2msg", topic.definition});
+    topics_.push_back(topic);
+    writer_.Write(
+        mcap::McapChannel{.id = static_cast<std::uint16_t>(topics_.size()),
+                          .schema_id = schema->second,
+                          .topic = topic.name,
+                          .message_encoding = topic.encoding,
+                          .metadata = {{kQosKey, QosText(topic.is_latched, MetadataVersion::kIron)},
+                                       {kHashKey, topic.hash}}});
+    return topics_.size() - 1;
+  }
+
+  void Write(const BagMessage& message) override {
+    Check(message.topic < topics_.size(), "the topic of a message was added to its bag");
+    Check(message.time_ns >= 0, "times of messages are not negative");
+    const auto time = static_cast<std::uint64_t>(message.time_ns);
+    writer_.Write(mcap::McapMessage{.channel_id = static_cast<std::uint16_t>(message.topic + 1),
+                                    .sequence = 0,
+                                    .log_time = time,
+                                    .publish_time = time,
+                                    .data = message.data});
+    has_messages_ = true;
+  }
+
+  void Attach(const std::string& name,
+              const std::string& media_type,
+              std::span<const std::byte> bytes) override {
+    const std::uint64_t time = writer_.index().statistics.message_end_time;
+    writer_.Write(mcap::McapAttachment{.log_time = time,
+                                       .create_time = 0,
+                                       .name = name,
+                                       .media_type = media_type,
+                                       .data = {bytes},
+                                       .crc = 0});
+  }
+
+  void Commit() override {
+    if (!std::exchange(has_messages_, false)) return;
+    writer_.EndChunk();
+    ++num_commits_;
+  }
+
+  void Close() override {
+    Commit();
+    writer_.EndChunk();
+    WriteMetadata();
+    writer_.Finish();
+    file_.Finish();
+  }
+
+  [[nodiscard]] std::size_t num_commits() const override { return num_commits_; }
+
+ private:
+  [[nodiscard]] mcap::McapWriter::Sink Sink() const {
+    return [this](mcap::ByteSpan bytes) { file_.Append(bytes); };
+  }
+
+  [[nodiscard]] BagTopic TopicOf(const mcap::McapChannel& channel) const {
+    const mcap::McapSchema& schema = writer_.index().schemas.at(channel.schema_id);
+    return {.name = channel.topic,
+            .type = schema.name,
+            .definition = schema.data,
+            .hash = channel.metadata.at(kHashKey),
+            .is_latched = IsLatchedQos(channel.metadata.at(kQosKey)),
+            .encoding = channel.message_encoding};
+  }
+
+  void WriteMetadata() {
+    const mcap::McapStatistics& statistics = writer_.index().statistics;
+    BagMetadata metadata{.storage = "mcap", .file = file_.final_name(), .topics = {}};
+    if (statistics.message_count > 0) {
+      metadata.start_ns = static_cast<std::int64_t>(statistics.message_start_time);
+      metadata.duration_ns =
+          static_cast<std::int64_t>(statistics.message_end_time - statistics.message_start_time);
+    }
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      const auto count = statistics.channel_message_counts.find(static_cast<std::uint16_t>(i + 1));
+      const bool has_any = count != statistics.channel_message_counts.end();
+      metadata.topics.push_back({topics_[i], has_any ? count->second : 0});
+    }
+    writer_.Write(mcap::McapMetadata{
+        "rosbag2", {{"serialized_metadata", MetadataText(metadata, MetadataVersion::kIron)}}});
+  }
+
+  GrowingFile file_;
+  std::size_t num_commits_{};
+  mcap::McapWriter writer_;
+  std::vector<BagTopic> topics_;
+  std::map<std::string, std::uint16_t> schema_ids_;  ///< By type.
+  bool has_messages_ = false;  ///< Whether the commit that is being made has any.
+};
+
+/// Returns where the last of the first `max_commits` commits ends that is whole with its message
+/// indexes; 0 if none is.
+std::uint64_t EndOfCommits(const mcap::McapIndex& index, std::size_t max_commits) {
+  std::uint64_t end = 0;
+  for (const mcap::McapChunkIndex& chunk : index.chunks) {
+    const bool is_whole = std::ranges::all_of(chunk.message_index_offsets,
+                                              [](const auto& entry) { return entry.second > 0; });
+    if (!is_whole || max_commits-- == 0) break;
+    end = chunk.chunk_start_offset + chunk.chunk_length + chunk.message_index_length;
+  }
+  return end;
+}
+
+}  // namespace
+
+std::unique_ptr<BagWriter> CreateMcap(const std::filesystem::path& file,
+                                      McapCompression compression) {
+  return std::make_unique<McapBagWriter>(file, compression);
+}
+
+std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
+                                        McapCompression compression,
+                                        std::size_t max_commits) {
+  const std::filesystem::path unfinished = UnfinishedMcap(FileToReplace(file));
+  const mcap::ByteFile content(unfinished, ShownPath(unfinished));
+  if (content.size() < mcap::kMagic.size()) return CreateMcap(file, compression);
+  const mcap::ScannedFile found = mcap::ScanWhole(content, content.size());
+  const std::uint64_t end = EndOfCommits(found.index, max_commits);
+  if (end == 0) return CreateMcap(file, compression);
+  mcap::ScannedFile kept = mcap::ScanWhole(content, end);
+  if (kept.index.header.library != kLibrary) {
+    throw InputError(ShownPath(unfinished) + ": must be an MCAP file that railcast began (got " +
+                     Quoted(kept.index.header.library) + ")");
+  }
+  return std::make_unique<McapBagWriter>(file, std::move(kept), compression);
+}
+
+}  // namespace railcast::bag

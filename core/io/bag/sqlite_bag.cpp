@@ -1,0 +1,178 @@
+#include "core/io/bag/sqlite_bag.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/bag/bag_metadata.h"
+#include "core/io/bag/sqlite_database.h"
+#include "core/io/bag/temporary_copy.h"
+
+namespace railcast::bag {
+namespace {
+
+/// Throws unless the database has a table of this name: a view or a virtual table could run code.
+void NeedTable(SqliteDatabase& database, const std::string& name) {
+  SqliteStatement find(database, "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?");
+  if (find.With(std::string_view(name)).Step() && !find.Text(0).starts_with("CREATE VIRTUAL")) {
+    return;
+  }
+  throw InputError(database.name() + ": must have the table " + name + ", as rosbag2 makes it");
+}
+
+std::set<std::string> ColumnsOf(SqliteDatabase& database, const std::string& table) {
+  std::set<std::string> columns;
+  SqliteStatement list(database, "SELECT name FROM pragma_table_info(?)");
+  list.With(std::string_view(table));
+  while (list.Step()) columns.insert(list.Text(0));
+  return columns;
+}
+
+/// Returns the texts of the types that the database defines.
+std::map<std::string, std::string> ReadDefinitions(SqliteDatabase& database) {
+  std::map<std::string, std::string> definitions;
+  if (ColumnsOf(database, "message_definitions").empty()) return definitions;
+  NeedTable(database, "message_definitions");
+  SqliteStatement list(database,
+                       "SELECT topic_type, encoded_message_definition FROM message_definitions "
+                       "WHERE encoding = 'ros2msg'");
+  while (list.Step()) definitions.emplace(list.Text(0), list.Text(1));
+  return definitions;
+}
+
+class SqliteBagReader : public BagReader {
+ public:
+  explicit SqliteBagReader(std::unique_ptr<SqliteDatabase> database)
+      : database_(std::move(database)) {
+    NeedTable(*database_, "topics");
+    NeedTable(*database_, "messages");
+    ReadTopics();
+    Query("");
+  }
+
+  [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
+
+  [[nodiscard]] std::optional<std::int64_t> FindStart_ns() override {
+    SqliteStatement first(*database_, "SELECT timestamp FROM messages ORDER BY timestamp LIMIT 1");
+    return first.Step() ? std::optional(first.Integer(0)) : std::nullopt;
+  }
+
+  void Select(const std::vector<std::size_t>& wanted) override {
+    std::string ids;
+    for (const auto& [id, topic] : topic_by_id_) {
+      const bool is_wanted = std::ranges::find(wanted, topic) != wanted.end();
+      if (is_wanted) ids += (ids.empty() ? "" : ",") + NumberText(id);
+    }
+    Query(" WHERE topic_id IN (" + ids + ")");
+  }
+
+  [[nodiscard]] std::optional<BagMessage> Next() override {
+    if (is_at_end_ || !list_->Step()) {
+      is_at_end_ = true;
+      return std::nullopt;
+    }
+    const std::int64_t id = list_->Integer(0);
+    const std::string place = database_->name() + ": message " + NumberText(id) + ": ";
+    const auto topic = topic_by_id_.find(list_->Integer(1));
+    if (topic == topic_by_id_.end()) {
+      throw InputError(place + "topic_id: must be that of a topic" + Got(list_->Integer(1)));
+    }
+    // Looked up one by one, so that sorting by time need not hold the data.
+    if (!data_->With(id).Step() || !data_->IsBlob(0)) {
+      throw InputError(place + "data: must be a blob");
+    }
+    return BagMessage{topic->second, list_->Integer(2), data_->Blob(0)};
+  }
+
+  [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override { return {}; }
+
+ private:
+  void ReadTopics() {
+    const auto definitions = ReadDefinitions(*database_);
+    const auto columns = ColumnsOf(*database_, "topics");
+    const auto or_empty = [&](const std::string& column) {
+      return columns.contains(column) ? column : "''";
+    };
+    SqliteStatement list(*database_, "SELECT id, name, type, " + or_empty("serialization_format") +
+                                         ", " + or_empty("offered_qos_profiles") + ", " +
+                                         or_empty("type_description_hash") +
+                                         " FROM topics ORDER BY id");
+    while (list.Step()) {
+      BagTopic topic{.name = list.Text(1),
+                     .type = list.Text(2),
+                     .definition = {},
+                     .hash = list.Text(5),
+                     .is_latched = IsLatchedQos(list.Text(4))};
+      if (const std::string encoding = list.Text(3); !encoding.empty()) topic.encoding = encoding;
+      const auto definition = definitions.find(topic.type);
+      if (definition != definitions.end()) topic.definition = definition->second;
+      topic_by_id_.emplace(list.Integer(0), topics_.size());
+      topics_.push_back(std::move(topic));
+    }
+  }
+
+  void Query(const std::string& condition) {
+    list_.emplace(*database_, "SELECT id, topic_id, timestamp FROM messages" + condition +
+                                  " ORDER BY timestamp, id");
+    data_.emplace(*database_, "SELECT data FROM messages WHERE id = ?");
+    is_at_end_ = false;
+  }
+
+  std::unique_ptr<SqliteDatabase> database_;
+  std::vector<BagTopic> topics_;
+  std::map<std::int64_t, std::size_t> topic_by_id_;
+  std::optional<SqliteStatement> list_;
+  std::optional<SqliteStatement> data_;
+  bool is_at_end_ = false;
+};
+
+/// Returns the files beside a database in which an interrupted recorder left changes.
+std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> changes;
+  for (const char* suffix : {"-wal", "-journal"}) {
+    const std::filesystem::path beside = file.string() + suffix;
+    std::error_code error;
+    if (std::filesystem::file_size(beside, error) > 0 && !error) changes.push_back(beside);
+  }
+  return changes;
+}
+
+/// Opens a copy of the files, in which SQLite finishes what the recorder had begun.
+std::unique_ptr<SqliteDatabase> OpenCopy(const std::filesystem::path& file,
+                                         const std::string& name,
+                                         const std::vector<std::filesystem::path>& changes) {
+  const TemporaryCopy copy;
+  copy.Add(file);
+  for (const std::filesystem::path& beside : changes) copy.Add(beside);
+  const std::filesystem::path copied = copy.folder() / file.filename();
+  SqliteDatabase(copied, SqliteAccess::kChange, name).Run("PRAGMA journal_mode = DELETE");
+  return std::make_unique<SqliteDatabase>(copied, SqliteAccess::kRead, name);
+}
+
+}  // namespace
+
+bool IsSqlite(const std::filesystem::path& file) {
+  constexpr std::string_view kBegin("SQLite format 3\0", 16);
+  std::array<char, kBegin.size()> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == kBegin;
+}
+
+std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
+                                         const std::string& name) {
+  CheckIsReadable(file);
+  const auto changes = ChangesBeside(file);
+  auto database = changes.empty()
+                      ? std::make_unique<SqliteDatabase>(file, SqliteAccess::kRead, name)
+                      : OpenCopy(file, name, changes);
+  return std::make_unique<SqliteBagReader>(std::move(database));
+}
+
+}  // namespace railcast::bag

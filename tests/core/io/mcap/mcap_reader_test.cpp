@@ -1,0 +1,162 @@
+#include "core/io/mcap/mcap_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/input_file.h"
+#include "core/io/mcap/mcap_writer.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/damage.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast::mcap {
+namespace {
+
+struct TimedText {
+  std::uint64_t time{};
+  std::string text;
+
+  bool operator==(const TimedText&) const = default;
+};
+
+/// Returns a file with these chunks of messages on one channel.
+std::string MadeFile(const std::vector<std::vector<TimedText>>& chunks,
+                     McapCompression compression,
+                     const McapFeatures& features = {}) {
+  std::string bytes;
+  const auto sink = [&](ByteSpan more) {
+    bytes.append(reinterpret_cast<const char*>(more.data()), more.size());
+  };
+  McapWriter writer(sink, {"", "test"}, compression, features);
+  writer.Write(McapSchema{1, "text", "", ""});
+  writer.Write(McapChannel{1, 1, "/a", "text", {}});
+  for (const auto& chunk : chunks) {
+    for (const TimedText& message : chunk) {
+      writer.Write(McapMessage{.channel_id = 1,
+                               .log_time = message.time,
+                               .publish_time = message.time,
+                               .data = std::as_bytes(std::span(message.text))});
+    }
+    writer.EndChunk();
+  }
+  writer.Finish();
+  return bytes;
+}
+
+class McapFile : public testing::Test {
+ protected:
+  std::vector<TimedText> Read(const std::string& bytes, std::size_t held_bytes = 1U << 28U) {
+    std::ofstream(file_, std::ios::binary) << bytes;
+    McapReader reader(file_, "file", held_bytes);
+    std::vector<TimedText> messages;
+    while (const auto message = reader.Next()) {
+      messages.push_back(
+          {message->log_time,
+           {reinterpret_cast<const char*>(message->data.data()), message->data.size()}});
+    }
+    return messages;
+  }
+
+  TemporaryDirectory folder_;
+  const std::filesystem::path file_ = folder_.path() / "file.mcap";
+};
+
+const std::vector<std::vector<TimedText>> kOverlapping = {
+    {{5, "a"}, {20, "b"}, {6, "c"}}, {{7, "d"}, {30, "e"}}, {{1, "f"}, {7, "g"}}, {{40, "h"}}};
+const std::vector<TimedText> kInOrder = {{1, "f"}, {5, "a"},  {6, "c"},  {7, "d"},
+                                         {7, "g"}, {20, "b"}, {30, "e"}, {40, "h"}};
+
+TEST_F(McapFile, GivesMessagesInOrderOfTimeAcrossOverlappingChunks) {
+  for (const auto compression :
+       {McapCompression::kNone, McapCompression::kLz4, McapCompression::kZstd}) {
+    EXPECT_EQ(Read(MadeFile(kOverlapping, compression)), kInOrder);
+  }
+}
+
+TEST_F(McapFile, GivesTheSameWithoutSummaryAndWithoutChunks) {
+  EXPECT_EQ(Read(MadeFile(kOverlapping, McapCompression::kZstd, {.has_statistics = false})),
+            kInOrder);
+  EXPECT_EQ(Read(MadeFile(kOverlapping, McapCompression::kNone, {.has_chunks = false})), kInOrder);
+  EXPECT_EQ(Read(MadeFile(kOverlapping, McapCompression::kLz4, {.has_message_indexes = false})),
+            kInOrder);
+}
+
+// More than the reader holds: chunks are read again.
+TEST_F(McapFile, ReadsChunksAgainThatItCouldNotHold) {
+  constexpr std::size_t kHeld_bytes = 4096;
+  const std::string zeros(kHeld_bytes / 2, '\0');
+  const auto messages = Read(
+      MadeFile(
+          {{{1, zeros}, {10, "last"}}, {{2, zeros}, {9, "third"}}, {{3, zeros}}, {{4, "small"}}},
+          McapCompression::kZstd),
+      kHeld_bytes);
+  ASSERT_EQ(messages.size(), 6U);
+  EXPECT_TRUE(messages[2] == (TimedText{3, zeros}));
+  EXPECT_EQ(messages[3], (TimedText{4, "small"}));
+  EXPECT_EQ(messages[4], (TimedText{9, "third"}));
+  EXPECT_EQ(messages[5], (TimedText{10, "last"}));
+}
+
+TEST_F(McapFile, IsReadUpToTheLastWholeChunkWhereverItWasCutOff) {
+  const std::vector<std::vector<TimedText>> chunks = {{{1, "a"}}, {{2, "b"}}, {{3, "c"}}};
+  const std::string whole = MadeFile(chunks, McapCompression::kLz4);
+  std::size_t most = 0;
+  for (std::size_t size = kMagic.size(); size < whole.size(); ++size) {
+    const auto messages = Read(whole.substr(0, size));
+    EXPECT_GE(messages.size(), most) << size;
+    most = messages.size();
+    for (std::size_t i = 0; i < most; ++i) EXPECT_EQ(messages[i], chunks[i].front());
+  }
+  EXPECT_EQ(most, 3U);
+}
+
+TEST_F(McapFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
+  for (const bool has_summary : {true, false}) {
+    const std::string whole =
+        MadeFile(kOverlapping, McapCompression::kNone, {.has_statistics = has_summary});
+    std::size_t num_refused = 0;
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const std::string message = MessageOf([&] { (void)Read(Flipped(whole, i)); });
+      EXPECT_TRUE(message == "no error" || message.starts_with("file: ")) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      if (message != "no error") ++num_refused;
+    }
+    EXPECT_GT(num_refused, whole.size() / 4);
+  }
+}
+
+TEST_F(McapFile, SaysWhichChunkIsDamaged) {
+  const std::string whole = MadeFile({{{1, "abcdef"}}}, McapCompression::kNone);
+  const std::size_t text = whole.find("abcdef");
+  EXPECT_EQ(MessageOf([&] { (void)Read(Flipped(whole, text)); }).substr(0, 60),
+            "file: record at 29: uncompressed_crc: must be that of the re");
+}
+
+TEST_F(McapFile, RefusesWhatIsNone) {
+  EXPECT_EQ(MessageOf([&] { (void)Read("no MCAP file at all"); }),
+            "file: must begin as an MCAP file");
+  EXPECT_EQ(MessageOf([&] { (void)Read(""); }), "file: must begin as an MCAP file");
+}
+
+TEST(McapCompression, RefusesWhatBecomesLargerThanStated) {
+  const Bytes zeros(std::size_t{1} << 20U);
+  for (const auto compression : {McapCompression::kLz4, McapCompression::kZstd}) {
+    const Bytes bomb = Compressed(zeros, compression);
+    EXPECT_EQ(Uncompressed(bomb, compression, zeros.size()), zeros);
+    EXPECT_EQ(MessageOf([&] { (void)Uncompressed(bomb, compression, 1000); }),
+              "must become at most 1000 bytes (got more)");
+    const ByteSpan cut(bomb.data(), bomb.size() - 1);
+    EXPECT_NE(MessageOf([&] {
+                (void)Uncompressed(cut, compression, zeros.size());
+              }).find("it ends early"),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace railcast::mcap
