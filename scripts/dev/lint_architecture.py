@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud run velodyne hesai pcap net stream recording verify".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net ros stream recording verify".split(),
     "generator": ". record run check sequence live trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
@@ -51,6 +51,7 @@ LIBRARY_OWNERS = {
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
     "libpng": (r"png\.h$", ("core/io",)),
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
+    "OpenSSL": (r"openssl/", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
