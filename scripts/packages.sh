@@ -27,6 +27,7 @@ build_packages=(
   libproj-dev
   librandom123-dev
   libsqlite3-dev
+  libssl-dev  # SHA-256 of the types of messages.
   libtbb-dev
   libvtk9-dev
   libx11-dev

@@ -4,6 +4,7 @@
 # PCL's own package file would also require VTK; three of PCL's libraries suffice.
 find_package(TBB REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -113,13 +113,16 @@ Simulator& FrameMaker::At(std::size_t sensor, std::uint32_t frame_index) {
 FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
   Simulator& simulator = At(sensor, frame_index);
   const bool has_image = camera_ && sensor == 0 && frame_index % frames_per_image_ == 0;
-  return
-      [this, sensor, &simulator, begun = simulator.Begin(frame_index), has_image](MadeFrame& made) {
-        simulator.Scan(*begun, made.frame);
-        made.objects = Describe(sensor, *begun, made.frame);
-        made.has_image = has_image;
-        if (has_image) camera_->Render(simulator, *begun, made.image);
-      };
+  const ros::VehicleState vehicle =
+      ros::VehicleStateAt(simulator.world(), simulator.pattern().StampNs(frame_index));
+  return [this, sensor, &simulator, begun = simulator.Begin(frame_index), has_image,
+          vehicle](MadeFrame& made) {
+    simulator.Scan(*begun, made.frame);
+    made.vehicle = vehicle;
+    made.objects = Describe(sensor, *begun, made.frame);
+    made.has_image = has_image;
+    if (has_image) camera_->Render(simulator, *begun, made.image);
+  };
 }
 
 std::vector<ObjectInFrame> FrameMaker::Describe(std::size_t sensor,

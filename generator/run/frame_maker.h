@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/ros/frame_topics.h"
 #include "core/scenario/command_log.h"
 #include "generator/record/object_survey.h"
 #include "railcast/camera.h"
@@ -26,7 +27,8 @@ struct MadeFrame {
   Frame frame;
   std::vector<ObjectInFrame> objects;  ///< The records of the world's objects.
   CameraImage image;
-  bool has_image = false;  ///< Whether the camera has an image of this frame.
+  bool has_image = false;     ///< Whether the camera has an image of this frame.
+  ros::VehicleState vehicle;  ///< At the stamp.
 };
 
 /// Makes one frame. Called once, by any thread, while other frames may be made.

@@ -51,6 +51,7 @@ LIBRARY_OWNERS = {
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
     "libpng": (r"png\.h$", ("core/io",)),
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
+    "OpenSSL": (r"openssl/", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),

@@ -1,0 +1,66 @@
+#include "core/io/cloud/woven_cloud.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+template <typename Stored>
+constexpr std::uint8_t PclType() {
+  if (std::is_same_v<Stored, float>) return pcl::PCLPointField::FLOAT32;
+  constexpr std::array<std::uint8_t, 5> kUnsignedBySize = {
+      0, pcl::PCLPointField::UINT8, pcl::PCLPointField::UINT16, 0, pcl::PCLPointField::UINT32};
+  return kUnsignedBySize[sizeof(Stored)];
+}
+
+// Writes values `step` bytes apart. Its arguments are values, since the compiler must assume that
+// what is written through a char* changes anything that is referred to.
+template <typename Stored, typename T>
+void StoreColumn(const T* from, std::size_t count, std::size_t step, char* to) {
+  for (std::size_t i = 0; i < count; ++i, to += step) StoreAt<Stored>(to, from[i]);
+}
+
+}  // namespace
+
+pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const FieldSelection& selection) {
+  pcl::PCLPointCloud2 cloud;
+  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+    if (!selection.Has(name)) return;
+    using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+    pcl::PCLPointField field;
+    field.name = name;
+    field.offset = cloud.point_step;
+    field.datatype = PclType<Stored>();
+    field.count = 1;
+    cloud.fields.push_back(field);
+    cloud.point_step += static_cast<std::uint32_t>(sizeof(Stored));
+  });
+  cloud.width = frame.width();
+  cloud.height = frame.rows;
+  cloud.row_step = cloud.width * cloud.point_step;
+  return cloud;
+}
+
+void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to) {
+  // The block size keeps the rows of a block in the first-level cache while the fields are written
+  // into them one after another.
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t first = 0; first < frame.num_slots(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, frame.num_slots() - first);
+    char* place = to + first * step;
+    ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
+      if (!selection.Has(name)) return;
+      using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
+      StoreColumn<Stored>(values.data() + first, count, step, place);
+      place += sizeof(Stored);
+    });
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,49 @@
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/io/ros/cdr.h"
+#include "core/io/ros/discovery_messages.h"
+#include "core/io/ros/geometry_messages.h"
+#include "core/io/ros/scene_messages.h"
+#include "core/io/ros/sensor_messages.h"
+
+namespace railcast::ros {
+namespace {
+
+// What is accepted becomes the same bytes however often it is read and written. NaN differ from
+// themselves, so that bytes are compared.
+template <typename Message>
+void ReadAndWrite(std::span<const std::byte> bytes) {
+  try {
+    const std::vector<std::byte> once = ToCdr(FromCdr<Message>(bytes));
+    Check(once == ToCdr(FromCdr<Message>(once)), "a message is read as it was written");
+  } catch (const InputError& error) {
+    const std::string_view fault = error.what();
+    Check(fault.starts_with(Message::kName), "a fault names the type");
+    Check(fault.find('\n') == std::string_view::npos, "a fault is one line");
+  }
+}
+
+void Decode(char kind, std::span<const std::byte> bytes) {
+  if (kind == 'p') ReadAndWrite<PointCloud2>(bytes);
+  if (kind == 't') ReadAndWrite<TfMessage>(bytes);
+  if (kind == 'o') ReadAndWrite<Odometry>(bytes);
+  if (kind == 'c') ReadAndWrite<CameraInfo>(bytes);
+  if (kind == 'b') ReadAndWrite<TwistStamped>(bytes);
+  if (kind == 's') ReadAndWrite<SceneUpdate>(bytes);
+  if (kind == 'd') ReadAndWrite<ParticipantEntitiesInfo<>>(bytes);
+}
+
+}  // namespace
+}  // namespace railcast::ros
+
+/// Entry point for libFuzzer: a letter for the type of message and its CDR.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  railcast::ros::Decode(static_cast<char>(data[0]), std::as_bytes(std::span(data + 1, size - 1)));
+  return 0;
+}
