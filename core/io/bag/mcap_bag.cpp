@@ -15,7 +15,7 @@
 namespace railcast::bag {
 namespace {
 
-std::string MetadataOf(const mcap::McapChannel& channel, const std::string& key) {
+std::string ChannelValue(const mcap::McapChannel& channel, const std::string& key) {
   const auto found = channel.metadata.find(key);
   return found == channel.metadata.end() ? std::string() : found->second;
 }
@@ -73,8 +73,8 @@ class McapBagReader : public BagReader {
     BagTopic topic{.name = channel.topic,
                    .type = {},
                    .definition = {},
-                   .hash = MetadataOf(channel, "topic_type_hash"),
-                   .is_latched = IsLatchedQos(MetadataOf(channel, "offered_qos_profiles")),
+                   .hash = ChannelValue(channel, "topic_type_hash"),
+                   .is_latched = IsLatchedQos(ChannelValue(channel, "offered_qos_profiles")),
                    .encoding = channel.message_encoding};
     const auto schema = reader_.index().schemas.find(channel.schema_id);
     if (schema == reader_.index().schemas.end()) return topic;

@@ -15,6 +15,7 @@
 #include "core/io/mcap/byte_file.h"
 #include "core/io/mcap/mcap_index.h"
 #include "core/io/mcap/mcap_writer.h"
+#include "core/io/mcap/record_scan.h"
 #include "core/io/write_file.h"
 
 namespace railcast::bag {
@@ -54,6 +55,10 @@ class GrowingFile {
       if (written < 0 && errno != EINTR) throw FileError(file_, errno);
       if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
+  }
+
+  void Sync() const {
+    if (::fdatasync(descriptor_) != 0) throw FileError(file_, errno);
   }
 
   void Finish() const {
@@ -134,6 +139,7 @@ class McapBagWriter : public BagWriter {
   void Commit() override {
     if (!std::exchange(has_messages_, false)) return;
     writer_.EndChunk();
+    file_.Sync();
     ++num_commits_;
   }
 
@@ -213,14 +219,15 @@ std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
   const std::filesystem::path unfinished = UnfinishedMcap(FileToReplace(file));
   const mcap::ByteFile content(unfinished, ShownPath(unfinished));
   if (content.size() < mcap::kMagic.size()) return CreateMcap(file, compression);
-  const mcap::ScannedFile found = mcap::ScanWhole(content, content.size());
+  const mcap::ScannedFile found = mcap::ScanUndamaged(content);
+  const std::string& library = found.index.header.library;
+  if (!mcap::BeginsAsMcap(content) || (!library.empty() && library != kLibrary)) {
+    throw InputError(ShownPath(unfinished) + ": must be an MCAP file that railcast began" +
+                     (library.empty() ? "" : " (got " + Quoted(library) + ")"));
+  }
   const std::uint64_t end = EndOfCommits(found.index, max_commits);
   if (end == 0) return CreateMcap(file, compression);
   mcap::ScannedFile kept = mcap::ScanWhole(content, end);
-  if (kept.index.header.library != kLibrary) {
-    throw InputError(ShownPath(unfinished) + ": must be an MCAP file that railcast began (got " +
-                     Quoted(kept.index.header.library) + ")");
-  }
   return std::make_unique<McapBagWriter>(file, std::move(kept), compression);
 }
 

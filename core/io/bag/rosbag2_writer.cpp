@@ -1,9 +1,5 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <map>
 #include <string>
 #include <system_error>
@@ -115,7 +111,6 @@ class Rosbag2Writer : public BagWriter {
     Commit();
     InsertMetadata();
     database_.Run("COMMIT");
-    SyncDatabase();
     WriteFileWhole(directory_ / kMetadataFile,
                    MetadataFileText(ReadMetadata(), MetadataVersion::kJazzy));
   }
@@ -130,10 +125,9 @@ class Rosbag2Writer : public BagWriter {
         insert_(BeginWriting(database_, access),
                 "INSERT INTO messages (timestamp, topic_id, data) VALUES (?, ?, ?)") {}
 
-  /// Begins a transaction, in a new database after making its tables. The file is synced when it is
-  /// complete; until then a program may be killed at any time, but not the machine.
+  /// Begins a transaction, in a new database after making its tables.
   static SqliteDatabase& BeginWriting(SqliteDatabase& database, SqliteAccess access) {
-    database.Run("PRAGMA synchronous = OFF");
+    database.Run("PRAGMA synchronous = NORMAL");
     database.Run("BEGIN");
     if (access == SqliteAccess::kCreate) {
       for (const char* sql : kBagTables) database.Run(sql);
@@ -183,14 +177,6 @@ class Rosbag2Writer : public BagWriter {
         .With(static_cast<std::int64_t>(kVersion),
               std::string_view(MetadataText(ReadMetadata(), kVersion)))
         .Step();
-  }
-
-  void SyncDatabase() const {
-    const int descriptor = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool is_synced = descriptor >= 0 && ::fsync(descriptor) == 0;
-    const int reason = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    if (!is_synced) throw FileError(file_, reason);
   }
 
   std::filesystem::path directory_;

@@ -32,6 +32,12 @@ void CheckCrc(const char* name, std::uint32_t stated, ByteSpan bytes) {
                    Got(stated));
 }
 
+void CheckCrcIsThat(const McapDataEnd& end, std::uint32_t crc) {
+  if (end.data_section_crc == 0 || end.data_section_crc == crc) return;
+  throw InputError("data_section_crc: must be that of the bytes before it, " + NumberText(crc) +
+                   Got(end.data_section_crc));
+}
+
 std::optional<RecordPlace> FooterOf(const ByteFile& file) {
   constexpr std::size_t kEnd_bytes = kRecordHead_bytes + kFooter_bytes + kMagic.size();
   if (file.size() < kMagic.size() + kEnd_bytes) return std::nullopt;
@@ -187,6 +193,26 @@ void NoteRecord(const RecordPlace& place, ByteSpan content, McapIndex& index) {
   }
 }
 
+void ScanUpTo(const ByteFile& file, std::uint64_t end, ScannedFile& scanned) {
+  RecordScan scan(file);
+  scanned.crc = Crc32(file.Read(0, kMagic.size()));
+  scanned.size = kMagic.size();
+  while (const auto place = scan.Next()) {
+    // What follows the end of the data repeats what stands before it.
+    const bool is_end = place->opcode == McapOpcode::kDataEnd;
+    if (place->end() > end) return;
+    AtPlace(PlaceOf(file, place->offset), [&] {
+      const Bytes content = ContentOf(file, *place);
+      if (is_end) return CheckCrcIsThat(ReadRecord<McapDataEnd>(content), scanned.crc);
+      NoteRecord(*place, content, scanned.index);
+      scanned.crc = Crc32(file.Read(place->offset, kRecordHead_bytes), scanned.crc);
+      scanned.crc = Crc32(content, scanned.crc);
+    });
+    if (is_end) return;
+    scanned.size = place->end();
+  }
+}
+
 }  // namespace
 
 void McapIndex::Note(const McapSchema& schema) {
@@ -261,31 +287,17 @@ McapChunkIndex& AddChunk(const McapChunk& chunk,
 
 ScannedFile ScanWhole(const ByteFile& file, std::uint64_t end) {
   ScannedFile scanned;
-  RecordScan scan(file);
-  std::uint32_t crc = Crc32(file.Read(0, kMagic.size()));
-  scanned.size = kMagic.size();
-  while (const auto place = scan.Next()) {
-    if (place->end() > end) break;
-    const bool is_end = place->opcode == McapOpcode::kDataEnd;
-    AtPlace(PlaceOf(file, place->offset), [&] {
-      const Bytes content = ContentOf(file, *place);
-      if (is_end) {
-        const auto stated = ReadRecord<McapDataEnd>(content).data_section_crc;
-        if (stated != 0 && stated != crc) {
-          throw InputError("data_section_crc: must be that of the bytes before it, " +
-                           NumberText(crc) + Got(stated));
-        }
-        return;
-      }
-      crc = Crc32(file.Read(place->offset, kRecordHead_bytes), crc);
-      crc = Crc32(content, crc);
-      NoteRecord(*place, content, scanned.index);
-    });
-    // What follows repeats what stands before it.
-    if (is_end) break;
-    scanned.size = place->end();
+  ScanUpTo(file, end, scanned);
+  return scanned;
+}
+
+ScannedFile ScanUndamaged(const ByteFile& file) {
+  ScannedFile scanned;
+  try {
+    ScanUpTo(file, file.size(), scanned);
+  } catch (const InputError&) {
+    // What stands before is whole.
   }
-  scanned.crc = crc;
   return scanned;
 }
 

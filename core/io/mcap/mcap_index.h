@@ -78,4 +78,7 @@ struct ScannedFile {
 /// @param end Records that end behind this place are left out, and what follows them.
 [[nodiscard]] ScannedFile ScanWhole(const ByteFile& file, std::uint64_t end);
 
+/// As ScanWhole(), up to the first record that is damaged, as a power cut may leave it.
+[[nodiscard]] ScannedFile ScanUndamaged(const ByteFile& file);
+
 }  // namespace railcast::mcap

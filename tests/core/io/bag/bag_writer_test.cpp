@@ -121,6 +121,18 @@ TEST_F(BagWriting, GoesOnWithAnInterruptedMcapFileToTheSameBytes) {
   EXPECT_TRUE(ReadFileWhole(In("whole.mcap")) == whole);
 }
 
+TEST_F(BagWriting, DropsWhatAPowerCutDamaged) {
+  const std::string whole = WholeMcap();
+  std::string cut = whole.substr(0, whole.size() / 2);
+  std::fill(cut.end() - 60, cut.end(), '\0');
+  std::ofstream(In("whole.mcap.part"), std::ios::binary) << cut << std::string(5000, '\0');
+  const auto bag = ContinueMcap(In("whole.mcap"), McapCompression::kZstd, kAllCommits);
+  EXPECT_GT(bag->num_commits(), 0U);
+  WriteFrames(*bag, kNumFrames);
+  bag->Close();
+  EXPECT_TRUE(ReadFileWhole(In("whole.mcap")) == whole);
+}
+
 TEST_F(BagWriting, DropsCommitsThatTheRunDoesNotCount) {
   const std::string whole = WholeMcap();
   std::ofstream(In("whole.mcap.part"), std::ios::binary) << whole;
