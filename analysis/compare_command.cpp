@@ -26,6 +26,7 @@ namespace {
 
 struct CompareOptions {
   std::vector<std::filesystem::path> sources;  // Recordings A and B.
+  std::string topic;
   std::optional<Pairing> pairing;
   std::string distances = "0.05,0.1,0.2,0.5";
   int num_threads = 0;
@@ -56,8 +57,9 @@ std::vector<double> ParseDistances(std::string_view text) {
 
 int RunPairs(const CompareOptions& options, const std::string& command_line) {
   Comparison comparison(ParseDistances(options.distances));
-  const auto a = OpenRecording(options.sources[0]);
-  const auto b = OpenRecording(options.sources[1]);
+  const auto sources = WithTopic(options.sources, options.topic);
+  const auto a = OpenRecording(sources[0]);
+  const auto b = OpenRecording(sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
   const ProgressLine progress;
   const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0 if not known.
@@ -168,7 +170,8 @@ void AddCompare(CLI::App& app, ProgramCommand& command) {
   compare->add_option(
       "RECORDINGS", options->sources,
       "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
-      ".ply file, a directory of such files, or a .pcap capture");
+      ".ply file, a directory of such files, a .pcap capture or a bag of ROS 2");
+  AddTopic(*compare, options->topic);
   compare
       ->add_option_function<std::string>(
           "--pair",
@@ -192,6 +195,9 @@ void AddCompare(CLI::App& app, ProgramCommand& command) {
     const bool is_ablation = !options->scenario.empty();
     if (options->sources.size() != (is_ablation ? 0 : 2)) {
       throw CLI::ValidationError("compare", "takes two recordings, or --ablate SCENARIO");
+    }
+    if (is_ablation && !options->topic.empty()) {
+      throw CLI::ValidationError("--topic", "applies to two recordings only");
     }
     if (is_ablation && options->pairing) {
       throw CLI::ValidationError("--pair", "applies to two recordings only");

@@ -23,6 +23,7 @@ namespace {
 
 struct FitOptions {
   std::vector<std::filesystem::path> sources;
+  std::string topic;
   std::string rung;  // Empty: the rung of the scenario.
   std::string intensity = "auto";
   std::optional<double> range_at_10_percent_m;
@@ -73,24 +74,25 @@ FitSettings SettingsOf(const FitOptions& options, const RecordingInfo& info) {
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  CheckDistinct(options.sources);
+  const auto sources = WithTopic(options.sources, options.topic);
+  CheckDistinct(sources);
   std::vector<RecordingInfo> infos;
-  for (const std::filesystem::path& source : options.sources) {
+  for (const std::filesystem::path& source : sources) {
     infos.push_back(OpenRecording(source)->info());
   }
   const RecordingInfo& info = infos.front();
   const FitSettings settings = SettingsOf(options, info);
   const ProgressLine progress;
-  RecordedTrials trials = ReadTrials(options.sources, [&](std::uint64_t num_frames) {
+  RecordedTrials trials = ReadTrials(sources, [&](std::uint64_t num_frames) {
     if (!info.num_frames) return;
-    const auto num = static_cast<double>(*info.num_frames * options.sources.size());
+    const auto num = static_cast<double>(*info.num_frames * sources.size());
     progress.Show("frames", static_cast<double>(num_frames) / num);
   });
   progress.End();
   const FitResult result = FitModel(trials, settings);
 
   FitReportInput input{{}, info.kind, command_line, info.scenario};
-  for (const std::filesystem::path& source : options.sources) {
+  for (const std::filesystem::path& source : sources) {
     input.sources.push_back(source.string());
   }
   Report report = MakeFitReport(input, trials, settings, result);
@@ -134,9 +136,10 @@ void AddFit(CLI::App& app, ProgramCommand& command) {
   CLI::App* fit =
       app.add_subcommand("fit", "Estimate noise and losses of the sensor models from recordings");
   fit->add_option("SOURCE", options->sources,
-                  "Sequence directory, .pcd or .ply file, directory of such files, or .pcap "
-                  "capture; several are taken together")
+                  "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture "
+                  "or bag of ROS 2; several are taken together")
       ->required();
+  AddTopic(*fit, options->topic);
   AddKnowledgeOptions(*fit, *options);
   fit->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))

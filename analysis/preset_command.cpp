@@ -15,6 +15,7 @@ namespace {
 
 struct PresetOptions {
   std::filesystem::path source;
+  std::string topic;
   std::filesystem::path scenario;
   std::string sectors = "all";
   int num_threads = 0;
@@ -29,7 +30,7 @@ Sectors SectorsOf(const std::string& name) {
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
-  const auto recording = OpenRecording(options.source);
+  const auto recording = OpenRecording(WithTopic({options.source}, options.topic).front());
   const RecordingInfo info = recording->info();
   const PresetComparison comparison =
       ComparePreset(*recording, scenario, SectorsOf(options.sectors));
@@ -50,6 +51,7 @@ void AddPreset(CLI::App& app, ProgramCommand& command) {
       ->add_option("SOURCE", options->source,
                    "Capture or other recording of a sensor that stands, as grids")
       ->required();
+  AddTopic(*preset, options->topic);
   preset
       ->add_option("--scenario", options->scenario,
                    "Scenario whose sensor, rung, weather and materials are compared")

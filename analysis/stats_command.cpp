@@ -82,6 +82,7 @@ RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& firs
 
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
+  std::string topic;
   int num_threads = 0;
   ReportOutput output;
 };
@@ -190,7 +191,8 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const std::vector<MeasuredSource> sources = LookAtSources(options.sources);
+  const std::vector<MeasuredSource> sources =
+      LookAtSources(WithTopic(options.sources, options.topic));
   const SourcesAtFirstSight seen = LookAtRecordings(sources);
   Statistics all = MeasureAll(sources, seen.num_frames);
   if (!seen.has_one_scan) all.ForgetRings();
@@ -216,10 +218,12 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
   stats
       ->add_option(
           "SOURCE", options->sources,
-          "Sequence directory, .pcd or .ply file, directory of such files, or .pcap capture of " +
+          "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture of " +
               ReadableSensorsText() +
-              ", or a folder of KITTI's layout or a data set; several are summed up")
+              ", bag of ROS 2 (.mcap, .db3 or rosbag2's directory), or a folder of KITTI's layout "
+              "or a data set; several are summed up")
       ->required();
+  AddTopic(*stats, options->topic);
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
 #include "railcast/error.h"
@@ -92,7 +93,7 @@ class Viewer {
  public:
   explicit Viewer(const ViewOptions& options) : options_(options), stage_(options.size_px) {
     if (options.is_live()) OpenLive();
-    for (const auto& source : {options.source, options.compare}) {
+    for (const auto& source : WithTopic({options.source, options.compare}, options.topic)) {
       if (source.empty() || options.is_live()) continue;
       recorded_.push_back(std::make_unique<RecordedFrames>(source));
       UseScenario(*recorded_.back());

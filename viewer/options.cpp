@@ -108,12 +108,13 @@ std::vector<std::string> BackgroundNames() {
 }
 
 void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  app.add_option(
-         "source", options.source,
-         "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
-         "such files, a .pcap or .pcapng capture, a live stream, udp://HOST:PORT, or a scenario, "
-         "SCENARIO.json, whose plan --screenshot draws")
+  app.add_option("source", options.source,
+                 "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
+                 "such files, a .pcap or .pcapng capture, a bag of ROS 2, a live stream, "
+                 "udp://HOST:PORT, or "
+                 "a scenario, SCENARIO.json, whose plan --screenshot draws")
       ->required();
+  AddTopic(app, options.topic);
   app.add_option("--frame", options.frame, "Number of the frame to begin with; default: the first")
       ->transform(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
   app.add_option("--compare", options.compare,

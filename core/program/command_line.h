@@ -88,6 +88,21 @@ inline void AddSummaryFile(CLI::App& command, std::optional<std::filesystem::pat
       ->check(NonEmpty());
 }
 
+/// Adds the option --topic, for WithTopic().
+inline void AddTopic(CLI::App& command, std::string& topic) {
+  command
+      .add_option("--topic", topic,
+                  "Topic to read of sources that are bags of ROS 2; needed only where a bag has "
+                  "several with points")
+      ->check(NonEmpty());
+}
+
+/// Returns the sources with those that are bags replaced by this topic of theirs.
+/// @param topic Empty: the sources as they are.
+/// @throws InputError if a topic is given and no source is a bag.
+[[nodiscard]] std::vector<std::filesystem::path> WithTopic(
+    std::vector<std::filesystem::path> sources, const std::string& topic);
+
 /// Returns the program and those of its commands that the command line names.
 [[nodiscard]] inline std::vector<const CLI::App*> AppsInUse(const CLI::App* app) {
   std::vector<const CLI::App*> apps = {app};

@@ -156,8 +156,9 @@ Raises InputError for a file that cannot be read or is damaged.)")
         return std::make_unique<IndexedRecording>(path);
       },
       py::arg("path"),
-      R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders
-or a .pcap or .pcapng capture (docs/recordings.md).
+      R"(Opens a sequence directory, a .pcd or .ply file, a directory of such files, KITTI's folders,
+a .pcap or .pcapng capture or a bag of ROS 2, "BAG:/topic" where it has several topics
+(docs/recordings.md).
 
 Raises InputError if it is none of these.)");
 }

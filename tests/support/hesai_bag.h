@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
+#include "core/io/datagrams.h"
+#include "core/io/pcap/pcap_writer.h"
+#include "core/io/recording/recording_kinds.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/support/run_command.h"
 
 namespace railcast {
 
@@ -15,24 +17,32 @@ namespace railcast {
   return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_hesai") / name;
 }
 
-/// Why captures/NAME.db3 cannot be read here; empty if it can.
-[[nodiscard]] inline std::string WhyNoHesaiBag(const std::string& name) {
-  const std::filesystem::path bag = HesaiFile("captures/" + name + ".db3");
-  if (!exists(bag)) return bag.string() + " is not there";
-  if (RunCommand("/usr/bin/python3 -c 'import sqlite3'").status != 0) {
-    return "/usr/bin/python3 with its module sqlite3 is not there";
-  }
-  return {};
+/// The recording captures/NAME.db3, of ROS 2.
+[[nodiscard]] inline std::filesystem::path HesaiBag(const std::string& name) {
+  return HesaiFile("captures/" + name + ".db3");
 }
 
-/// Turns captures/NAME.db3 into a capture in this folder.
+/// Why captures/NAME.db3 cannot be read here; empty if it can.
+[[nodiscard]] inline std::string WhyNoHesaiBag(const std::string& name) {
+  return exists(HesaiBag(name)) ? "" : HesaiBag(name).string() + " is not there";
+}
+
+/// Makes a capture of the packets in captures/NAME.db3, for tests of single packets.
 [[nodiscard]] inline std::filesystem::path CaptureOfHesaiBag(const std::string& name,
                                                              const TemporaryDirectory& folder) {
   std::filesystem::path capture = folder.path() / (name + ".pcap");
-  const Ended run =
-      RunCommand("/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/rosbag_to_pcap.py " +
-                 HesaiFile("captures/" + name + ".db3").string() + " " + capture.string());
-  if (run.status != 0) throw std::runtime_error(run.said);
+  constexpr std::uint16_t kDataPort = 2368;
+  constexpr std::uint16_t kPositionPort = 8308;
+  PcapWriter writer(capture, kDataPort, kPositionPort);
+  const auto packets = OpenBagPackets(HesaiBag(name));
+  while (const auto packet = packets->Next()) {
+    Datagrams one;
+    one.bytes.assign(packet->payload.begin(), packet->payload.end());
+    one.items.push_back({});
+    one.items.back().size = static_cast<std::uint16_t>(packet->payload.size());
+    writer.Write(one, one.items);
+  }
+  writer.Finish();
   return capture;
 }
 

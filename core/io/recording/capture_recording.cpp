@@ -14,15 +14,28 @@
 namespace railcast {
 namespace {
 
+class PcapSource : public DatagramSource {
+ public:
+  PcapSource(std::FILE* stream, const std::string& name) : reader_(stream, name) {}
+
+  [[nodiscard]] std::optional<CapturedDatagram> Next() override { return reader_.Next(); }
+  [[nodiscard]] std::size_t num_torn() const override { return reader_.num_torn(); }
+
+ private:
+  PcapReader reader_;
+};
+
 class CaptureRecording : public Recording {
  public:
-  CaptureRecording(std::FILE* stream, const std::string& name, CaptureSensor sensor)
-      : reader_(stream, name),
+  CaptureRecording(std::unique_ptr<DatagramSource> datagrams,
+                   const std::filesystem::path& source,
+                   CaptureSensor sensor)
+      : datagrams_(std::move(datagrams)),
         name_(sensor.name),
         packet_size_(sensor.packet_size),
         shape_(std::make_shared<const TurnShape>(std::move(sensor.shape))),
         decoder_(std::move(sensor.decoder)) {
-    info_.source = name;
+    info_.source = source;
     info_.kind = "capture of " + std::string(sensor.name);
   }
 
@@ -45,7 +58,7 @@ class CaptureRecording : public Recording {
  private:
   void TakeDatagram() {
     std::vector<SensorTurn> turns;
-    const auto datagram = reader_.Next();
+    const auto datagram = datagrams_->Next();
     std::visit(
         [&](auto& decoder) {
           if (datagram) TakePackets(*datagram, decoder, turns);
@@ -81,7 +94,7 @@ class CaptureRecording : public Recording {
   }
 
   RecordingInfo info_;
-  PcapReader reader_;
+  std::unique_ptr<DatagramSource> datagrams_;
   std::string_view name_;
   std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
@@ -91,22 +104,27 @@ class CaptureRecording : public Recording {
   bool is_at_end_ = false;
 };
 
-CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
-  PcapReader reader(stream, name);
+CaptureSensor FindSensor(DatagramSource& datagrams, const std::string& name) {
   SensorFinder finder;
-  while (const auto datagram = reader.Next()) {
+  while (const auto datagram = datagrams.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
   }
   throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
-                   finder.Findings(reader.num_torn()) + ")");
+                   finder.Findings(datagrams.num_torn()) + ")");
 }
 
 }  // namespace
 
+std::unique_ptr<Recording> OpenDatagrams(
+    const std::function<std::unique_ptr<DatagramSource>()>& open,
+    const std::filesystem::path& source) {
+  CaptureSensor sensor = FindSensor(*open(), ShownPath(source));
+  return std::make_unique<CaptureRecording>(open(), source, std::move(sensor));
+}
+
 std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
                                        const std::string& name) {
-  CaptureSensor sensor = FindSensor(open(), name);
-  return std::make_unique<CaptureRecording>(open(), name, std::move(sensor));
+  return OpenDatagrams([&] { return std::make_unique<PcapSource>(open(), name); }, name);
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {

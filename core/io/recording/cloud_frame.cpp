@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -27,9 +28,19 @@ bool IsFloating(NumberType type) {
   return type == NumberType::kFloat || type == NumberType::kDouble;
 }
 
-/// Returns the times in nanoseconds since the first point, if their unit is certain.
-std::optional<std::vector<double>> LoadTimes_ns(const PointTable& table,
-                                                const PointColumn& column) {
+bool IsScanTime(double span_s) {
+  return span_s >= kMinScan_s && span_s <= kMaxScan_s;
+}
+
+/// The times of a cloud's points.
+struct PointTimes {
+  const PointColumn* column{};
+  double first_ns{};
+  std::vector<double> since_first_ns;
+};
+
+/// Returns the times of a column, if their unit is certain.
+std::optional<PointTimes> LoadTimes(const PointTable& table, const PointColumn& column) {
   std::vector<double> times(table.num_points());
   double first = std::numeric_limits<double>::infinity();
   double last = -first;
@@ -38,31 +49,39 @@ std::optional<std::vector<double>> LoadTimes_ns(const PointTable& table,
     first = std::min(first, times[i]);
     last = std::max(last, times[i]);
   });
-  const double ns_per_unit = IsFloating(column.type) ? kNsPerS : 1.0;
-  const double span_s = (last - first) * ns_per_unit / kNsPerS;
-  if (!(span_s >= kMinScan_s && span_s <= kMaxScan_s)) return std::nullopt;
+  const bool is_in_s = IsFloating(column.type) && IsScanTime(last - first);
+  const double ns_per_unit = is_in_s ? kNsPerS : 1.0;
+  if (!IsScanTime((last - first) * ns_per_unit / kNsPerS)) return std::nullopt;
   for (double& time : times) {
     if (std::isnan(time)) return std::nullopt;
     time = (time - first) * ns_per_unit;
   }
-  return times;
+  return PointTimes{&column, first * ns_per_unit, std::move(times)};
+}
+
+std::optional<PointTimes> FindTimes(const PointTable& table) {
+  for (const std::string_view name : kTimeNames) {
+    const PointColumn* const column = table.Find(name);
+    if (column == nullptr) continue;
+    if (auto times = LoadTimes(table, *column)) return times;
+  }
+  return std::nullopt;
 }
 
 // Takes the time from a foreign column, for files that have no time_ns.
 void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
-  for (const std::string_view name : kTimeNames) {
-    const PointColumn* const column = table.Find(name);
-    const auto times_ns = column != nullptr ? LoadTimes_ns(table, *column) : std::nullopt;
-    if (!times_ns) continue;
-    for (std::size_t i = 0; i < times_ns->size(); ++i) {
-      const auto slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
-      if (slot == kNoSlot) continue;
-      recorded.frame.time_ns[slot] = static_cast<std::uint32_t>(std::llround((*times_ns)[i]));
-    }
-    recorded.fields.emplace("time_ns");
-    std::erase_if(recorded.foreign, [&](const ForeignField& field) { return field.name == name; });
-    return;
+  const auto times = FindTimes(table);
+  if (!times) return;
+  for (std::size_t i = 0; i < times->since_first_ns.size(); ++i) {
+    const auto slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
+    if (slot == kNoSlot) continue;
+    recorded.frame.time_ns[slot] =
+        static_cast<std::uint32_t>(std::llround(times->since_first_ns[i]));
   }
+  recorded.fields.emplace("time_ns");
+  std::erase_if(recorded.foreign, [&](const ForeignField& field) {
+    return field.name == times->column->plain_name();
+  });
 }
 
 /// Returns the number of slots per firing in an organised file that railcast wrote.
@@ -109,6 +128,12 @@ void FillScanTimes(const ScanPattern& pattern, Frame& frame) {
 }
 
 }  // namespace
+
+std::optional<double> FirstTimeIn_ns(const PointTable& table) {
+  if (FindFieldOf(table, "time_ns") != nullptr) return std::nullopt;
+  const auto times = FindTimes(table);
+  return times ? std::optional(times->first_ns) : std::nullopt;
+}
 
 RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name) {
   RecordedFrame recorded;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/io/cloud/point_table.h"
@@ -16,13 +17,17 @@ namespace railcast {
 /// be made; if not, the frame has one row of points and is not a grid.
 ///
 /// A time field of another name (t, time, timestamp, time_stamp) is used only if its unit is
-/// certain: floating-point values that span 0.02 to 1 s, as scans do, or integers that span as many
+/// certain: floating-point values that span 0.02 to 1 s, as scans do, or values that span as many
 /// nanoseconds.
 ///
 /// @param name Names the frame in messages.
 /// @throws InputError with one line if x, y or z is missing, a value does not fit its field, or two
 ///   points claim the same slot.
 [[nodiscard]] RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name);
+
+/// Returns the earliest time of a point, as stored, of a cloud from whose column of times
+/// MakeCloudFrame() takes the times since then; nothing if it takes none.
+[[nodiscard]] std::optional<double> FirstTimeIn_ns(const PointTable& table);
 
 /// Makes a frame of a file that railcast wrote and whose scan pattern is known: every firing has
 /// its slots, and ring, column and time_ns are known even where the file holds only returned

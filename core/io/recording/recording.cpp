@@ -1,9 +1,12 @@
 #include "railcast/io/recording.h"
 
 #include <cerrno>
+#include <string>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/bag/bag.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -46,22 +49,48 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
     files.insert(files.end(), more.begin(), more.end());
   }
   if (!files.empty()) return OpenClouds(directory, "KITTI sequence", std::move(files));
+  if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true) + " files (got neither)");
 }
 
+/// Opens the topic of a bag that `source` names behind the bag's path; returns nothing if it does
+/// not.
+std::unique_ptr<Recording> OpenTopicIn(const std::filesystem::path& source) {
+  const std::string& text = source.native();
+  for (std::size_t mark = text.find(kTopicMark); mark != std::string::npos;
+       mark = text.find(kTopicMark, mark + 1)) {
+    const std::filesystem::path bag = text.substr(0, mark);
+    if (bag::IsBag(bag)) return OpenBagRecording(source, bag, text.substr(mark + 1));
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+std::filesystem::path TopicOfBag(const std::filesystem::path& bag, const std::string& topic) {
+  const std::string mark(kTopicMark, 0, kTopicMark.size() - (topic.starts_with('/') ? 1 : 0));
+  return bag.native() + mark + topic;
+}
+
+bool IsBagOfTopics(const std::filesystem::path& source) {
+  return bag::IsBag(source);
+}
 
 std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
-  if (!exists(status)) throw FileError(source, error ? error.value() : ENOENT);
+  if (!exists(status)) {
+    if (auto recording = OpenTopicIn(source)) return recording;
+    throw FileError(source, error ? error.value() : ENOENT);
+  }
   if (is_directory(status)) return OpenDirectory(source);
   const std::filesystem::path extension = source.extension();
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
+  if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
   throw InputError(ShownPath(source) + ": must be a directory or a " +
-                   ReadableExtensions(true, {".pcap", ".pcapng"}) + " file");
+                   ReadableExtensions(true, {".pcap", ".pcapng", ".mcap", ".db3"}) + " file");
 }
 
 }  // namespace railcast

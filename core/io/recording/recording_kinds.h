@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/io/pcap/pcap_reader.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -28,6 +30,40 @@ namespace railcast {
 /// @param name Names the capture in error messages.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
                                                      const std::string& name);
+
+/// Datagrams of one or several sensors in the order of their times.
+class DatagramSource {
+ public:
+  virtual ~DatagramSource() = default;
+
+  /// Returns the next datagram, or nothing at the end.
+  /// @throws InputError with one line where the source is damaged.
+  [[nodiscard]] virtual std::optional<CapturedDatagram> Next() = 0;
+  /// Number of datagrams so far of which a part is missing.
+  [[nodiscard]] virtual std::size_t num_torn() const { return 0; }
+};
+
+/// As OpenCapture(), for datagrams of any source, which is opened twice, too.
+[[nodiscard]] std::unique_ptr<Recording> OpenDatagrams(
+    const std::function<std::unique_ptr<DatagramSource>()>& open,
+    const std::filesystem::path& source);
+
+/// Stands between the path of a bag and the name of one of its topics.
+inline constexpr std::string_view kTopicMark = ":/";
+
+/// Opens a topic of a bag: clouds (sensor_msgs/msg/PointCloud2) with the poses that its transforms
+/// say, or the packets of a sensor whose captures can be opened, as ROS drivers record them.
+/// @param source As messages and RecordingInfo name it: the bag, with the topic if that was given.
+/// @param topic Empty: the only one that can be opened.
+/// @throws InputError with one line that lists the topics if there is no such topic, or if several
+///   are there and none is given.
+[[nodiscard]] std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
+                                                          const std::filesystem::path& bag,
+                                                          const std::string& topic);
+
+/// Opens the packets of a sensor in the only topic of a bag that can be opened.
+/// @throws InputError as OpenBagRecording(), or if that topic holds clouds.
+[[nodiscard]] std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag);
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);

@@ -115,8 +115,7 @@ TEST_P(DarkLosses, OfThePresetAreTheBestOfOneHalfAndPredictTheOther) {
   } else if (!exists(path)) {
     GTEST_SKIP() << path << " is not there";
   }
-  const TemporaryDirectory folder;
-  const auto recording = OpenRecording(capture.empty() ? CaptureOfHesaiBag(sensor, folder) : path);
+  const auto recording = OpenRecording(capture.empty() ? HesaiBag(sensor) : path);
   const auto [even, odd] = CountHalves(*recording);
   const PlausibilitySpec preset = PresetScenario(sensor).lidar.plausibility;
   const LossLaw law{preset.dropout_probability, preset.dark_dropout_probability,

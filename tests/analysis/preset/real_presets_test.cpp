@@ -46,9 +46,8 @@ std::string WhyNoCapture(const Gate& gate) {
 }
 
 PresetComparison Compare(const Gate& gate, const ScenarioSpec& scenario) {
-  const TemporaryDirectory folder;
-  const auto recording = OpenRecording(gate.capture.empty() ? CaptureOfHesaiBag(gate.sensor, folder)
-                                                            : CaptureOf(gate));
+  const auto recording =
+      OpenRecording(gate.capture.empty() ? HesaiBag(gate.sensor) : CaptureOf(gate));
   return ComparePreset(*recording, scenario, gate.sectors);
 }
 

@@ -72,9 +72,9 @@ TEST_F(BadInput, GarbageIsNamed) {
                 "must have 16 bytes for each point (got " + std::to_string(garbage.size()) + ")");
   ExpectFaultOf("garbage.pcap", garbage, "unknown file format");
   ExpectFaultOf("notes.txt", garbage,
-                "must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
+                "must be a directory or a .pcd, .ply, .bin, .pcap, .pcapng, .mcap or .db3 file");
   ExpectFaultOf("cloud.PCD", garbage,
-                "must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
+                "must be a directory or a .pcd, .ply, .bin, .pcap, .pcapng, .mcap or .db3 file");
 }
 
 TEST_F(BadInput, TruncatedFilesAreNamed) {

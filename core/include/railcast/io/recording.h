@@ -131,8 +131,16 @@ class Recording {
 };
 
 /// Opens a sequence directory, a .pcd or .ply file, a directory of such files (in order of their
-/// names), or a .pcap or .pcapng capture of one of the sensors that docs/packets.md lists.
+/// names), a .pcap or .pcapng capture of one of the sensors that docs/packets.md lists, or a bag of
+/// ROS 2 (.mcap, .db3 or a rosbag2 directory), also one of several topics as TopicOfBag() names it.
 /// @throws InputError with one line if `source` is none of these.
 [[nodiscard]] std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source);
+
+/// Whether the source is a bag of ROS 2, which may have several topics.
+[[nodiscard]] bool IsBagOfTopics(const std::filesystem::path& source);
+
+/// Returns what OpenRecording() takes for one topic of a bag: "run.mcap:/lidar/points".
+[[nodiscard]] std::filesystem::path TopicOfBag(const std::filesystem::path& bag,
+                                               const std::string& topic);
 
 }  // namespace railcast

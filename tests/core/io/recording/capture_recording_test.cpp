@@ -150,8 +150,7 @@ TEST(CaptureRecording, OfARealPandar64HasFourTurnsInDualMode) {
 // The recording begins at 1.1 deg.
 TEST(CaptureRecording, OfARealXt32HasFourTurnsInDualMode) {
   if (const std::string why = WhyNoHesaiBag("xt32"); !why.empty()) GTEST_SKIP() << why;
-  const TemporaryDirectory folder;
-  const auto recording = OpenRecording(CaptureOfHesaiBag("xt32", folder));
+  const auto recording = OpenRecording(HesaiBag("xt32"));
   EXPECT_EQ(recording->info().kind, "capture of XT32");
   const auto frames = ReadAll(*recording);
   ASSERT_EQ(frames.size(), 5U);
@@ -169,8 +168,7 @@ TEST(CaptureRecording, OfARealXt32HasFourTurnsInDualMode) {
 // The recording begins at 10.8 deg.
 TEST(CaptureRecording, OfARealQt128HasTwoTurnsInDualMode) {
   if (const std::string why = WhyNoHesaiBag("qt128"); !why.empty()) GTEST_SKIP() << why;
-  const TemporaryDirectory folder;
-  const auto recording = OpenRecording(CaptureOfHesaiBag("qt128", folder));
+  const auto recording = OpenRecording(HesaiBag("qt128"));
   EXPECT_EQ(recording->info().kind, "capture of QT128");
   const auto frames = ReadAll(*recording);
   ASSERT_EQ(frames.size(), 3U);

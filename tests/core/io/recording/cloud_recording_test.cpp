@@ -323,7 +323,7 @@ TEST(CloudRecording, NamesWhatIsWrongWithAFile) {
   EXPECT_EQ(MessageOfText("a.bin", std::string(17, 'a')),
             "must have 16 bytes for each point (got 17)");
   EXPECT_EQ(MessageOfText("a.txt", ""),
-            "must be a directory or a .pcd, .ply, .bin, .pcap or .pcapng file");
+            "must be a directory or a .pcd, .ply, .bin, .pcap, .pcapng, .mcap or .db3 file");
 }
 
 TEST(OpenRecording, NamesADirectoryOrFileThatIsNoRecording) {

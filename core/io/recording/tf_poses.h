@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/io/bag/bag.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// The poses of a frame of reference of ROS in the fixed one above it, from the transforms that a
+/// bag holds (messages of type tf2_msgs/msg/TFMessage).
+///
+/// Between two transforms of a pair of frames the position is interpolated linearly and the
+/// rotation at a constant rate, as in ScanMotion. Nothing is extrapolated.
+class TfPoses {
+ public:
+  /// Reads the transforms between `frame` and the topmost frame above it.
+  /// @param bag Is read twice; its selection of topics is changed.
+  /// @throws InputError "rule (got value)" if a rotation is none, frames go in circles, or there
+  ///   are more transforms than memory is meant for.
+  TfPoses(bag::BagReader& bag, const std::string& frame);
+
+  /// Returns the pose of the frame at a time; nothing where it is not known. It is never known if
+  /// the topmost frame is neither called so (REP 105: map, odom, earth; or world) nor moved
+  /// against.
+  [[nodiscard]] std::optional<Transform> At(std::int64_t time_ns) const;
+
+ private:
+  struct TimedPose {
+    std::int64_t time_ns{};
+    Vector3 position_m;
+    Eigen::Quaterniond rotation;
+  };
+  /// From a frame to the one above it.
+  struct TfLink {
+    std::string child;
+    std::string parent;
+    bool is_static{};
+    std::vector<TimedPose> poses;  ///< By time; if static, the last alone.
+  };
+
+  void ReadLinks(bag::BagReader& bag, const std::string& frame);
+  void ReadPoses(bag::BagReader& bag);
+  [[nodiscard]] static std::optional<Transform> PoseOf(const TfLink& link, std::int64_t time_ns);
+
+  std::vector<TfLink> links_;  ///< From the frame upwards.
+};
+
+}  // namespace railcast

@@ -1,0 +1,358 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/base/input_file.h"
+#include "core/io/bag/bag.h"
+#include "core/io/cloud/point_table.h"
+#include "core/io/pcap/pcap_reader.h"
+#include "core/io/recording/cloud_message.h"
+#include "core/io/recording/packet_messages.h"
+#include "core/io/ros/cdr.h"
+#include "core/io/ros/geometry_messages.h"
+#include "core/io/ros/sensor_messages.h"
+#include "railcast/io/recording.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+ros::Time TimeAt(std::int64_t time_ns) {
+  return {static_cast<std::int32_t>(time_ns / kSecond_ns),
+          static_cast<std::uint32_t>(time_ns % kSecond_ns)};
+}
+
+/// A cloud of float32 x, y, z and ring at offsets that are not aligned, in bytes of either order.
+ros::PointCloud2 CloudOf(const std::vector<std::array<float, 3>>& points,
+                         std::int64_t stamp_ns,
+                         bool is_bigendian = false) {
+  constexpr std::uint32_t kStep = 17;
+  ros::PointCloud2 cloud{
+      .header = {TimeAt(stamp_ns), "lidar"},
+      .height = 1,
+      .width = static_cast<std::uint32_t>(points.size()),
+      .fields = {{"x", 1, 7, 1}, {"y", 5, 7, 1}, {"z", 9, 7, 1}, {"ring", 15, 4, 1}},
+      .is_bigendian = is_bigendian,
+      .point_step = kStep,
+      .row_step = static_cast<std::uint32_t>(kStep * points.size()),
+      .data = std::vector<std::uint8_t>(kStep * points.size()),
+      .is_dense = false};
+  const auto put = [&](std::size_t place, auto value) {
+    std::array<std::uint8_t, sizeof value> bytes{};
+    std::memcpy(bytes.data(), &value, sizeof value);
+    if (is_bigendian) std::ranges::reverse(bytes);
+    std::ranges::copy(bytes, cloud.data.begin() + static_cast<std::ptrdiff_t>(place));
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) put(kStep * i + 1 + 4 * axis, points[i][axis]);
+    put(kStep * i + 15, static_cast<std::uint16_t>(i));
+  }
+  return cloud;
+}
+
+const std::vector<std::array<float, 3>> kPoints = {
+    {1.5F, 2.0F, 3.0F},
+    {0.0F, 0.0F, 0.0F},
+    {-4.0F, 5.0F, 0.25F},
+    {std::numeric_limits<float>::quiet_NaN(), 1.0F, 1.0F}};
+
+/// A bag that grows message by message.
+class MadeBag {
+ public:
+  MadeBag() : writer_(bag::CreateMcap(file())) {}
+
+  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "run.mcap"; }
+
+  template <typename Message>
+  void Add(const std::string& topic, std::int64_t time_ns, const Message& message) {
+    const std::size_t index = writer_->Add({.name = topic,
+                                            .type = std::string(Message::kName),
+                                            .definition = {},
+                                            .hash = {},
+                                            .is_latched = topic == "/tf_static"});
+    writer_->Write({index, time_ns, ros::ToCdr(message)});
+  }
+  void Link(const std::string& topic,
+            const std::string& parent,
+            const std::string& child,
+            std::int64_t time_ns,
+            const ros::RosTransform& transform) {
+    Add(topic, time_ns, ros::TfMessage{{{{TimeAt(time_ns), parent}, child, transform}}});
+  }
+  std::filesystem::path Closed() {
+    writer_->Close();
+    return file();
+  }
+
+ private:
+  TemporaryDirectory folder_;
+  std::unique_ptr<bag::BagWriter> writer_;
+};
+
+TEST(BagRecording, ReadsFieldsByNameAndOffsetOfEitherByteOrder) {
+  MadeBag bag;
+  bag.Add("/lidar/points", 0, CloudOf(kPoints, 7 * kSecond_ns));
+  bag.Add("/lidar/points", 1, CloudOf(kPoints, 8 * kSecond_ns, true));
+  const auto recording = OpenRecording(bag.Closed());
+  EXPECT_EQ(recording->info().kind, "bag of ROS 2");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Frame& frame = frames[i].frame;
+    EXPECT_EQ(frame.index, i);
+    EXPECT_EQ(frame.stamp_ns, static_cast<std::int64_t>(7 + i) * kSecond_ns);
+    EXPECT_FALSE(frames[i].has_pose);
+    // Points that are not finite, or all 0, are none.
+    EXPECT_EQ(std::ranges::count_if(frame.range_m, [](float m) { return std::isfinite(m); }), 2);
+    const auto first = std::ranges::find(frame.x, 1.5F) - frame.x.begin();
+    EXPECT_EQ(frame.y[static_cast<std::size_t>(first)], 2.0F);
+    EXPECT_EQ(frame.z[static_cast<std::size_t>(first)], 3.0F);
+    EXPECT_TRUE(frames[i].Has("ring"));
+  }
+}
+
+// Half way between two transforms, and through one that never changes.
+TEST(BagRecording, HasThePosesThatItsTransformsSay) {
+  MadeBag bag;
+  const double half = std::sqrt(0.5);
+  bag.Link("/tf_static", "base_link", "lidar", 0, {{0.0, 0.0, 2.0}, {}});
+  bag.Link("/tf", "map", "base_link", 10 * kSecond_ns, {{100.0, 0.0, 0.0}, {}});
+  bag.Add("/lidar/points", 10 * kSecond_ns, CloudOf(kPoints, 10 * kSecond_ns + kSecond_ns / 2));
+  bag.Link("/tf", "map", "base_link", 11 * kSecond_ns,
+           {{110.0, 4.0, 0.0}, {0.0, 0.0, half, half}});  // A quarter turn to the left.
+  bag.Add("/lidar/points", 12 * kSecond_ns, CloudOf(kPoints, 12 * kSecond_ns));
+  const auto frames = ReadAll(bag.Closed());
+  ASSERT_EQ(frames.size(), 2U);
+  ASSERT_TRUE(frames[0].has_pose);
+  const Transform& pose = frames[0].frame.world_from_sensor;
+  EXPECT_TRUE(pose.translation().isApprox(Vector3(105.0, 2.0, 2.0), 1e-12));
+  EXPECT_TRUE(pose.linear().col(0).isApprox(Vector3(half, half, 0.0), 1e-12));
+  // Nothing is known of the time after the last transform.
+  EXPECT_FALSE(frames[1].has_pose);
+}
+
+TEST(BagRecording, RefusesTransformsThatGoInCirclesOrAreNone) {
+  for (const auto& [parent, rotation, rule] :
+       std::vector<std::tuple<std::string, ros::Quaternion, std::string>>{
+           {"lidar", {}, "frames of reference must not go in circles (got \"lidar\")"},
+           {"map",
+            {0.0, 0.0, 0.0, 0.0},
+            "/tf: the transform to \"lidar\" must be a position and a unit quaternion"}}) {
+    MadeBag bag;
+    bag.Link("/tf", parent, "lidar", 0, {{}, rotation});
+    bag.Add("/lidar/points", 0, CloudOf(kPoints, 0));
+    const auto file = bag.Closed();
+    EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }), file.string() + ": " + rule);
+  }
+}
+
+TEST(BagRecording, AsksWhichOfSeveralTopics) {
+  MadeBag bag;
+  bag.Add("/left/points", 0, CloudOf(kPoints, 0));
+  bag.Add("/right/points", 0, CloudOf(kPoints, 5));
+  bag.Add("/clock", 0, ros::Clock{});
+  const auto file = bag.Closed();
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }),
+            file.string() + ": --topic: must be one of /left/points, /right/points (got none)");
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(TopicOfBag(file, "/clock")); }),
+            file.string() + ": --topic: must be one of /left/points, /right/points (got /clock)");
+  const auto right = OpenRecording(TopicOfBag(file, "/right/points"));
+  EXPECT_EQ(right->info().source, file.string() + ":/right/points");
+  const auto frames = ReadAll(*right);
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].frame.stamp_ns, 5);
+  EXPECT_EQ(frames[0].name, file.string() + ":/right/points: message 0");
+}
+
+TEST(BagRecording, RefusesABagWithoutPoints) {
+  MadeBag bag;
+  bag.Add("/clock", 0, ros::Clock{});
+  const auto file = bag.Closed();
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }),
+            file.string() +
+                ": must have a topic of type sensor_msgs/msg/PointCloud2 or of a "
+                "sensor's packets (got none)");
+}
+
+struct MadLayout {
+  void (*change)(ros::PointCloud2& cloud);
+  const char* message;
+};
+
+TEST(BagRecording, RefusesCloudsThatContradictThemselves) {
+  for (const auto& [change, message] : std::vector<MadLayout>{
+           {[](auto& cloud) { cloud.point_step = 0; }, "point_step: must be > 0 (got 0)"},
+           {[](auto& cloud) { cloud.width = 4'000'000'000U; },
+            "data: must have 68000000000 bytes (got 68)"},
+           {[](auto& cloud) { cloud.height = 2; }, "data: must have 136 bytes (got 68)"},
+           {[](auto& cloud) {
+              cloud.height = 4'000'000'000U;
+              cloud.row_step = 5;
+            },
+            "row_step: must be at least width x point_step, 68 (got 5)"},
+           {[](auto& cloud) { cloud.fields[1].offset = 4'294'967'290U; },
+            "fields: \"y\": must end within point_step, 17 (got 4294967294)"},
+           {[](auto& cloud) { cloud.fields[3].count = 4'000'000'000U; },
+            "fields: \"ring\": must end within point_step, 17 (got 8000000015)"},
+           {[](auto& cloud) { cloud.fields[3].datatype = 9; },
+            "fields: \"ring\": datatype: must be 1 to 8 (got 9)"},
+           {[](auto& cloud) {
+              cloud.is_bigendian = true;
+              cloud.fields[3].offset = 12;
+            },
+            "fields: must not share bytes of a big-endian cloud (got \"ring\")"}}) {
+    ros::PointCloud2 cloud = CloudOf(kPoints, 0);
+    change(cloud);
+    EXPECT_EQ(MessageOf([&] { (void)MakePointTable(cloud); }), message);
+  }
+}
+
+TEST(BagRecording, SaysWhichMessageIsCutShort) {
+  MadeBag bag;
+  bag.Add("/lidar/points", 0, CloudOf(kPoints, 0));
+  const auto file = bag.Closed();
+  const TemporaryDirectory folder;
+  const auto writer = bag::CreateMcap(folder.path() / "cut.mcap");
+  const auto reader = bag::OpenBag(file);
+  (void)writer->Add(reader->topics()[0]);
+  const auto message = reader->Next();
+  writer->Write({0, 0, message->data});
+  writer->Write({0, 1, message->data.first(message->data.size() - 9)});
+  writer->Close();
+  const auto recording = OpenRecording(folder.path() / "cut.mcap");
+  EXPECT_NO_THROW((*recording->Next())());
+  EXPECT_TRUE(MessageOf([&] { (void)(*recording->Next())(); })
+                  .starts_with((folder.path() / "cut.mcap").string() +
+                               ": message 1: sensor_msgs/msg/PointCloud2: "));
+}
+
+TEST(BagRecording, OfAnEmptyTopicHasNoFrames) {
+  MadeBag bag;
+  bag.Add("/lidar/points", 0, CloudOf({}, 0));
+  const auto frames = ReadAll(bag.Closed());
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].frame.num_slots(), 0U);
+}
+
+// Written by Foxglove's library from a decoded cloud: every fourth of its points, in the layout of
+// ROS's Velodyne driver with made-up other fields.
+TEST(BagRecording, HasThePointsThatAnotherLibraryWrote) {
+  const std::filesystem::path folder = RAILCAST_SHARED_DATA_DIR "/mcap/pointcloud2";
+  const std::filesystem::path cloud =
+      RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vls128_single_decoded.pcd";
+  if (!exists(folder) || !exists(cloud)) GTEST_SKIP() << folder << " is not there";
+  const PointTable table = ParsePcdTable(cloud.string(), ReadFileWhole(cloud));
+  for (const char* name : {"vls128_pointcloud2_none.mcap", "vls128_pointcloud2_zstd.mcap"}) {
+    const auto bag = bag::OpenBag(folder / name);
+    std::size_t num_clouds = 0;
+    while (const auto message = bag->Next()) {
+      const auto read = MakePointTable(ros::FromCdr<ros::PointCloud2>(message->data));
+      ASSERT_EQ(read.num_points(), 52'170U);
+      for (const char* axis : {"x", "y", "z"}) {
+        std::vector<float> expected;
+        VisitColumn(table, *table.Find(axis), [&](std::size_t i, auto value) {
+          if (i % 4 == 0) expected.push_back(static_cast<float>(value));
+        });
+        VisitColumn(read, *read.Find(axis), [&](std::size_t i, auto value) {
+          ASSERT_EQ(static_cast<float>(value), expected.at(i));
+        });
+      }
+      VisitColumn(read, *read.Find("ring"), [&](std::size_t i, auto value) {
+        ASSERT_EQ(static_cast<std::size_t>(value), 4 * i % 128);
+      });
+      ++num_clouds;
+    }
+    EXPECT_EQ(num_clouds, 3U);
+    const auto frames = ReadAll(folder / name);
+    ASSERT_EQ(frames.size(), 3U);
+    EXPECT_EQ(frames[2].frame.stamp_ns, 1'614'315'748'471'294'674);
+    EXPECT_TRUE(frames[2].Has("time_ns"));
+  }
+}
+
+// The first message of the file as bytes, encoded by another library.
+TEST(BagRecording, GivesTheBytesOfMessagesAsTheyWere) {
+  const std::filesystem::path folder = RAILCAST_SHARED_DATA_DIR "/mcap/pointcloud2";
+  if (!exists(folder)) GTEST_SKIP() << folder << " is not there";
+  const auto bag = bag::OpenBag(folder / "vls128_pointcloud2_zstd.mcap");
+  const auto message = bag->Next();
+  ASSERT_TRUE(message);
+  const std::string bytes = ReadFileWhole(folder / "first_message.cdr");
+  EXPECT_TRUE(std::ranges::equal(message->data, std::as_bytes(std::span(bytes))));
+}
+
+/// Packs the packets of a capture into messages of a driver of ROS.
+template <typename Scan, typename Packet>
+std::filesystem::path PackedAs(MadeBag& bag,
+                               const std::vector<std::vector<std::uint8_t>>& packets) {
+  Scan scan;
+  for (const auto& packet : packets) {
+    Packet& packed = scan.packets.emplace_back();
+    if constexpr (requires { packed.data.resize(1); }) packed.data.resize(packet.size());
+    std::ranges::copy(packet, packed.data.begin());
+    if constexpr (requires { packed.size; }) {
+      packed.size = static_cast<std::uint32_t>(packet.size());
+    }
+    if (scan.packets.size() == 50 || &packet == &packets.back()) {
+      bag.Add("/packets", 0, scan);
+      scan.packets.clear();
+    }
+  }
+  return bag.Closed();
+}
+
+std::vector<std::vector<std::uint8_t>> PacketsOfCapture(const std::filesystem::path& file) {
+  PcapReader reader(file);
+  std::vector<std::vector<std::uint8_t>> packets;
+  while (const auto datagram = reader.Next()) {
+    packets.emplace_back(datagram->payload.begin(), datagram->payload.end());
+  }
+  return packets;
+}
+
+// The same frames as the capture from which the packets were taken.
+TEST(BagRecording, OfPacketsIsReadAsACaptureOfThem) {
+  const std::filesystem::path capture =
+      RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vlp32c_single.pcap";
+  if (!exists(capture)) GTEST_SKIP() << capture << " is not there";
+  const auto packets = PacketsOfCapture(capture);
+  const auto expected = ReadAll(capture);
+  MadeBag velodyne;
+  MadeBag nebula;
+  for (const auto& file :
+       {PackedAs<ros::VelodyneScan, ros::VelodynePacketMessage>(velodyne, packets),
+        PackedAs<ros::NebulaPackets, ros::NebulaPacket>(nebula, packets)}) {
+    const auto recording = OpenRecording(file);
+    EXPECT_EQ(recording->info().kind, "capture of VLP-32C");
+    const auto frames = ReadAll(*recording);
+    ASSERT_EQ(frames.size(), expected.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      EXPECT_TRUE(std::ranges::equal(frames[i].frame.x, expected[i].frame.x, [](float a, float b) {
+        return a == b || (std::isnan(a) && std::isnan(b));
+      }));
+    }
+  }
+}
+
+TEST(BagRecording, RefusesPacketsLongerThanTheirMessage) {
+  MadeBag bag;
+  ros::PandarScan scan;
+  scan.packets.emplace_back().size = 1501;
+  bag.Add("/packets", 0, scan);
+  const auto file = bag.Closed();
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }),
+            file.string() + ": message 0: size: must be at most 1500 (got 1501)");
+}
+
+}  // namespace
+}  // namespace railcast
