@@ -42,6 +42,8 @@ enum class RandomUse : std::uint32_t {
   kTrackIrregularity = 125,
   kRandomWeather = 200,
   kDatasetDraw = 201,
+  kMotionNoise = 300,
+  kMotionDrift = 301,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

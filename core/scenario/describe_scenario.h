@@ -6,6 +6,7 @@
 #include "core/detect/detector/effect_table.h"
 #include "core/scenario/describe_lidar.h"
 #include "core/scenario/describe_models.h"
+#include "core/scenario/describe_motion_sensors.h"
 #include "core/scenario/describe_weather.h"
 #include "core/scenario/describe_world.h"
 #include "core/scenario/json_rules.h"
@@ -213,6 +214,11 @@ void Describe(Archive& a, ScenarioSpec& s) {
            "must have a rate_hz that is each sensor's scan rate_hz divided by a whole number");
   const std::string images_fault = s.camera ? ImagesFault(*s.camera, s.interfaces) : "";
   a.Ensure({"camera", "interfaces"}, images_fault.empty(), images_fault);
+  a.Optional("motion_sensors", s.motion_sensors,
+             "What measures the vehicle's own motion: IMUs, GNSS receivers and odometers.");
+  a.Ensure({"motion_sensors", "lidar", "lidars"},
+           !s.motion_sensors || HasFewSamplesInFrame(*s.motion_sensors, s),
+           "must have rates that give at most 100000 samples in a frame");
   a.Types("models", s.models, "Types of objects and vehicles beside those that railcast has.");
   a.Required("world", s.world, "The railway and what stands on it.");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");

@@ -46,4 +46,10 @@ inline constexpr std::uint16_t kVelodynePositionPort = 8308;
 /// @pre The scenario has a camera.
 [[nodiscard]] bool HasFramesForImages(const ScenarioSpec& spec);
 
+/// Whether each motion sensor has at most kMostSamplesInFrame samples in the time from one frame of
+/// any of the scenario's sensors to the next.
+[[nodiscard]] bool HasFewSamplesInFrame(const MotionSensorsSpec& motion_sensors,
+                                        const ScenarioSpec& spec);
+inline constexpr double kMostSamplesInFrame = 100'000.0;
+
 }  // namespace railcast

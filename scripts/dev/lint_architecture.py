@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera scenario fidelity c io program".split()
+CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity c io program".split()
 # The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
 # stands; without it there may be none.
 ROOM_ORDERS = {
@@ -32,7 +32,8 @@ PUBLIC_OWNERS = {
     "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
     "scene": "scene", "objects": "rail/base", "structures": "rail/base", "lineside": "rail/base",
     "track_side": "rail/base", "alignment": "rail/line", "world_spec": "rail/line", "rail_world": "rail/world",
-    "lidar": "scan", "ray_caster": "trace", "effects": "detect", "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
+    "rigid_motion": "rail/motion", "lidar": "scan", "ray_caster": "trace", "effects": "detect",
+    "motion_sensors": "motion", "simulator": "simulate", "camera": "camera", "scenario": "scenario", "fidelity": "fidelity", "c_api": "c",
 }
 # The programs share core, and nothing else.
 PROGRAMS = ("generator", "analysis", "viewer")

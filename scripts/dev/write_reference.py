@@ -34,6 +34,7 @@ EXPLAINED_IN = {
     "lidar": "scenario.md#sensors", "lidars[]": "scenario.md#several-sensors",
     "lidar.plausibility": "effects.md#threshold", "lidar.cover": "effects.md#cover",
     "weather": "scenario.md#weather", "interfaces": "live.md", "camera": "camera.md",
+    "motion_sensors": "motion.md",
     "world": "world.md", "world.alignment": "world.md#the-line", "world.catenary": "structures.md#contact-line",
     "world.terrain": "land.md#terrain", "world.vegetation": "land.md#ground-and-vegetation",
     "world.structures[]": "structures.md#structures", "world.objects[]": "scenario.md#objects",

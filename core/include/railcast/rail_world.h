@@ -10,6 +10,7 @@
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/objects.h"
+#include "railcast/rigid_motion.h"
 #include "railcast/scene.h"
 #include "railcast/world_spec.h"
 
@@ -18,6 +19,16 @@ namespace railcast {
 class TrackCourse;
 struct Network;
 struct Route;
+
+/// How the sensor's vehicle runs along its route at an instant, and how it got there.
+struct VehicleTravel {
+  double s_m{};                ///< Chainage of its origin.
+  double speed_mps{};          ///< By which the chainage changes; >= 0, also in reverse.
+  double acceleration_mps2{};  ///< In the direction of travel.
+  double speeding_up_m{};      ///< Change of chainage since time 0 while the speed rose; >= 0.
+  double slowing_down_m{};     ///< Change of chainage since time 0 while the speed fell; >= 0.
+  bool runs_back{};            ///< Whether the chainage falls.
+};
 
 /// The railway world of a scenario. The line is divided into chunks of kChunkLength_m each, from
 /// chainage 0.
@@ -80,6 +91,11 @@ class RailWorld final : public World {
   /// Whether WithVehicleSpeed() made this world or one that it was made from.
   [[nodiscard]] bool has_changed_vehicle_speed() const;
   [[nodiscard]] double VehicleSpeed_mps(std::int64_t time_ns) const;
+  [[nodiscard]] VehicleTravel VehicleTravelAt(std::int64_t time_ns) const;
+  /// The motion of the vehicle frame, with cant and ride. Speed and acceleration along the track
+  /// are those of the motion's stretch that the time is in, exact also where one begins; all else
+  /// is differentiated (core/rail/motion/differentiated.h).
+  [[nodiscard]] RigidMotion VehicleMotion(std::int64_t time_ns) const;
   /// Chainage of the vehicle's origin along its route; may lie beyond the ends of the route.
   [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;
   /// The track on which objects()[object] begins its route, the route, its course, and the

@@ -17,6 +17,7 @@
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
 #include "railcast/material.h"
+#include "railcast/motion_sensors.h"
 #include "railcast/rail_world.h"
 #include "railcast/simulator.h"
 #include "railcast/transform.h"
@@ -149,7 +150,8 @@ struct ScenarioSpec {
   std::vector<Material> materials;  ///< From the material library that the scenario names.
   std::vector<Label> labels;        ///< From the label table that the scenario names.
   std::vector<ModelSpec> models;    ///< Of the scenario's own table of models, if it has one.
-  ScenarioSources sources;          ///< Where all these values were written.
+  std::optional<MotionSensorsSpec> motion_sensors{};
+  ScenarioSources sources;  ///< Where all these values were written.
 
   bool operator==(const ScenarioSpec&) const = default;
 };
@@ -212,6 +214,11 @@ class RailWorld;
 /// Makes the scenario's camera; absent if it has none.
 /// @pre The scenario has one sensor (PickSensor()).
 [[nodiscard]] std::optional<Camera> MakeCamera(const ScenarioSpec& spec);
+
+/// Makes the scenario's motion sensors; absent if it has none.
+/// @param world The scenario's, as it is at time 0.
+[[nodiscard]] std::optional<MotionSensors> MakeMotionSensors(const ScenarioSpec& spec,
+                                                             const RailWorld& world);
 
 /// The effects of the scenario's rung with its switches applied, without a check for conflicts. For
 /// fidelity `auto` these are the effects to choose from. Switches of unknown effects are ignored.

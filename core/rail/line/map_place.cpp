@@ -80,4 +80,27 @@ Eigen::Vector2d WorldFromGeographic(const MapSpec& map, double longitude_deg, do
   return Polynomial_m(map.coefficients_m, place_m / MapSpec::kUnit_m);
 }
 
+Eigen::Vector2d GeographicFromWorld(const MapSpec& map, const Eigen::Vector2d& place_m) {
+  constexpr int kMostSteps = 20;
+  constexpr double kEnough_m = 1e-6;
+  // Of the differences by which the derivatives are taken. They need not be exact.
+  constexpr double kDifference_deg = 1e-4;
+  Eigen::Vector2d there_deg(map.longitude_deg, map.latitude_deg);
+  const auto world_at = [&](const Eigen::Vector2d& at_deg) {
+    return WorldFromGeographic(map, at_deg.x(), at_deg.y());
+  };
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::Vector2d here_m = world_at(there_deg);
+    const Eigen::Vector2d off_m = place_m - here_m;
+    if (off_m.norm() <= kEnough_m) return there_deg;
+    Eigen::Matrix2d m_per_deg;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d beside_deg = there_deg + kDifference_deg * Eigen::Vector2d::Unit(axis);
+      m_per_deg.col(axis) = (world_at(beside_deg) - here_m) / kDifference_deg;
+    }
+    there_deg += m_per_deg.inverse() * off_m;
+  }
+  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
 }  // namespace railcast

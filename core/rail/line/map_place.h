@@ -21,4 +21,9 @@ namespace railcast {
                                                   double longitude_deg,
                                                   double latitude_deg);
 
+/// Longitude and latitude in degrees of a place in the plan of the world: the inverse of
+/// WorldFromGeographic(), by Newton's method to 1 um on the ground. NaN where there is none near.
+[[nodiscard]] Eigen::Vector2d GeographicFromWorld(const MapSpec& map,
+                                                  const Eigen::Vector2d& place_m);
+
 }  // namespace railcast

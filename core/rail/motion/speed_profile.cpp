@@ -97,7 +97,7 @@ SpeedProfile::SpeedProfile(const MotionSpec& motion, double start_s_m)
   for (const SpeedPoint& point : motion.profile) {
     Corner& last = corners_.back();
     const double speed_sum_mps = last.speed_mps + point.speed_mps;
-    Corner next{0.0, 0.0, point.speed_mps, 0.0};
+    Corner next{.speed_mps = point.speed_mps};
     if (rule.in_time) {
       next.time_s = *point.time_s;
       next.travelled_m = last.travelled_m + 0.5 * speed_sum_mps * (next.time_s - last.time_s);
@@ -113,6 +113,7 @@ SpeedProfile::SpeedProfile(const MotionSpec& motion, double start_s_m)
       continue;
     }
     last.acceleration_mps2 = (next.speed_mps - last.speed_mps) / duration_s;
+    next.CountDistancesSince(last);
     corners_.push_back(next);
   }
 }
@@ -121,17 +122,31 @@ SpeedProfile SpeedProfile::WithSpeedFrom(double time_s,
                                          double speed_mps,
                                          double acceleration_mps2) const {
   const State now = At(time_s);
-  Corner change{time_s, direction_ * (now.s_m - start_s_m_), now.speed_mps, 0.0};
+  const Corner change{.time_s = time_s,
+                      .travelled_m = direction_ * (now.s_m - start_s_m_),
+                      .speed_mps = now.speed_mps,
+                      .speeding_up_m = now.speeding_up_m,
+                      .slowing_down_m = now.slowing_down_m};
   const double difference_mps = speed_mps - now.speed_mps;
   SpeedProfile changed = *this;
   changed.corners_ = {change};
   if (difference_mps == 0.0) return changed;
   const double duration_s = std::abs(difference_mps) / acceleration_mps2;
   changed.corners_.front().acceleration_mps2 = std::copysign(acceleration_mps2, difference_mps);
-  changed.corners_.push_back({time_s + duration_s,
-                              change.travelled_m + 0.5 * (now.speed_mps + speed_mps) * duration_s,
-                              speed_mps, 0.0});
+  Corner end{.time_s = time_s + duration_s,
+             .travelled_m = change.travelled_m + 0.5 * (now.speed_mps + speed_mps) * duration_s,
+             .speed_mps = speed_mps};
+  end.CountDistancesSince(changed.corners_.front());
+  changed.corners_.push_back(end);
   return changed;
+}
+
+void SpeedProfile::Corner::CountDistancesSince(const Corner& before) {
+  speeding_up_m = before.speeding_up_m;
+  slowing_down_m = before.slowing_down_m;
+  const double distance_m = travelled_m - before.travelled_m;
+  if (before.acceleration_mps2 > 0.0) speeding_up_m += distance_m;
+  if (before.acceleration_mps2 < 0.0) slowing_down_m += distance_m;
 }
 
 SpeedProfile::State SpeedProfile::At(double time_s) const {
@@ -140,11 +155,14 @@ SpeedProfile::State SpeedProfile::At(double time_s) const {
                        [](double time, const Corner& corner) { return time < corner.time_s; });
   const Corner& corner = *(after - 1);
   const double inside_s = time_s - corner.time_s;
-  const double travelled_m =
-      corner.travelled_m +
-      (corner.speed_mps + 0.5 * corner.acceleration_mps2 * inside_s) * inside_s;
-  return {start_s_m_ + direction_ * travelled_m,
-          corner.speed_mps + corner.acceleration_mps2 * inside_s};
+  Corner here = corner;
+  here.travelled_m += (corner.speed_mps + 0.5 * corner.acceleration_mps2 * inside_s) * inside_s;
+  here.CountDistancesSince(corner);
+  return {.s_m = start_s_m_ + direction_ * here.travelled_m,
+          .speed_mps = corner.speed_mps + corner.acceleration_mps2 * inside_s,
+          .acceleration_mps2 = corner.acceleration_mps2,
+          .speeding_up_m = here.speeding_up_m,
+          .slowing_down_m = here.slowing_down_m};
 }
 
 std::optional<double> SpeedProfile::TimeAt_s(double s_m) const {

@@ -16,6 +16,10 @@ class SpeedProfile {
   struct State {
     double s_m{};
     double speed_mps{};  ///< >= 0, also in reverse.
+    /// In the direction of travel. Where it changes, that which begins.
+    double acceleration_mps2{};
+    double speeding_up_m{};   ///< Travelled since time 0 while the speed rose.
+    double slowing_down_m{};  ///< Travelled since time 0 while the speed fell.
   };
 
   /// @param start_s_m Chainage at time 0.
@@ -34,7 +38,7 @@ class SpeedProfile {
                                            double speed_mps,
                                            double acceleration_mps2) const;
 
-  /// @pre time_s >= 0, and not before the time of the last change.
+  /// Before time 0 and before the last change, the motion that begins there is continued backwards.
   [[nodiscard]] State At(double time_s) const;
   /// When the chainage is reached for the first time; absent if it lies behind or is never reached.
   /// The time is not before that of the last change.
@@ -49,6 +53,11 @@ class SpeedProfile {
     double travelled_m{};
     double speed_mps{};
     double acceleration_mps2{};  ///< Constant up to the next corner.
+    double speeding_up_m{};      ///< Of travelled_m.
+    double slowing_down_m{};     ///< Of travelled_m.
+
+    /// Sets the last two: what was travelled since the corner before counts by its acceleration.
+    void CountDistancesSince(const Corner& before);
   };
 
   std::vector<Corner> corners_;  ///< The first is at time 0.

@@ -95,7 +95,11 @@ TrackPath TrackPath::WithSpeedFrom(std::int64_t from_ns,
 }
 
 double TrackPath::SpeedAt_mps(std::int64_t time_ns) const {
-  return profile_.At(SecondsFromNs(time_ns - begin_ns_)).speed_mps;
+  return StateAt(time_ns).speed_mps;
+}
+
+SpeedProfile::State TrackPath::StateAt(std::int64_t time_ns) const {
+  return profile_.At(SecondsFromNs(time_ns - begin_ns_));
 }
 
 TrackPath TrackPath::Behind(std::shared_ptr<const TrackLength> length,

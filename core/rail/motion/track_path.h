@@ -57,6 +57,8 @@ class TrackPath {
   [[nodiscard]] const TrackPose& pose() const { return pose_; }
   [[nodiscard]] bool moves() const { return profile_.moves(); }
   [[nodiscard]] double SpeedAt_mps(std::int64_t time_ns) const;
+  /// The profile's state: of something that is behind another one, that of the foremost.
+  [[nodiscard]] SpeedProfile::State StateAt(std::int64_t time_ns) const;
   [[nodiscard]] double ChainageAt(std::int64_t time_ns) const;
   /// When the object comes to the chainage; absent if it lies behind or is never reached.
   [[nodiscard]] std::optional<double> TimeAt_s(double s_m) const;

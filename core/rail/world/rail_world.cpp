@@ -22,6 +22,7 @@
 #include "core/rail/ground/terrain.h"
 #include "core/rail/ground/vegetation.h"
 #include "core/rail/landform/landform.h"
+#include "core/rail/motion/differentiated.h"
 #include "core/rail/motion/ride.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/network/network_draft.h"
@@ -123,12 +124,10 @@ struct RailWorld::Line {
     return booms;
   }
   /// The sensor's vehicle, of which everything but its bogies moves on their springs.
-  [[nodiscard]] Transform WorldFromVehicle(const TrackPath& path, std::int64_t time_ns) const {
-    const double s_m = path.ChainageAt(time_ns);
+  [[nodiscard]] Transform WorldFromVehicle(const TrackPath& path, double s_m, double v_mps) const {
     const Transform world_from_perfect = path.WorldFromObjectAt(alignment, s_m);
     if (!ride) return world_from_perfect;
-    return world_from_perfect *
-           ride->PerfectFromVehicle(ride->At(s_m, path.SpeedAt_mps(time_ns), path.reverse()));
+    return world_from_perfect * ride->PerfectFromVehicle(ride->At(s_m, v_mps, path.reverse()));
   }
   [[nodiscard]] LineMeasures Measures() const {
     return {alignment.length_m(), alignment.tightest_radius_m()};
@@ -373,8 +372,21 @@ double RailWorld::ObjectChainage_m(std::size_t object, std::int64_t time_ns) con
   return things_->PathOf(object).ChainageAt(time_ns);
 }
 
+VehicleTravel RailWorld::VehicleTravelAt(std::int64_t time_ns) const {
+  const SpeedProfile::State now = things_->vehicle.StateAt(time_ns);
+  return {now.s_m,           now.speed_mps,      now.acceleration_mps2,
+          now.speeding_up_m, now.slowing_down_m, things_->vehicle.reverse()};
+}
+
+RigidMotion RailWorld::VehicleMotion(std::int64_t time_ns) const {
+  return MotionOnTrack(things_->vehicle, time_ns, [&](double s_m, double v_mps) {
+    return line_->WorldFromVehicle(things_->vehicle, s_m, v_mps);
+  });
+}
+
 Transform RailWorld::WorldFromVehicle(std::int64_t time_ns) const {
-  return line_->WorldFromVehicle(things_->vehicle, time_ns);
+  const SpeedProfile::State now = things_->vehicle.StateAt(time_ns);
+  return line_->WorldFromVehicle(things_->vehicle, now.s_m, now.speed_mps);
 }
 
 int RailWorld::HomeChunk(std::int64_t time_ns) const {

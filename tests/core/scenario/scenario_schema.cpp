@@ -31,6 +31,8 @@ std::map<std::string, std::string> ScenarioSchemas() {
       {"weather.schema.json", SchemaOfFile<WeatherSpec>("railcast weather section")},
       {"interfaces.schema.json", SchemaOfFile<InterfacesSpec>("railcast interfaces section")},
       {"camera.schema.json", SchemaOfFile<CameraSpec>("railcast camera section")},
+      {"motion_sensors.schema.json",
+       SchemaOfFile<MotionSensorsSpec>("railcast motion_sensors section")},
       {"world.schema.json", SchemaOfFile<WorldSpec>("railcast world section")},
       {"alignment.schema.json", SchemaOfFile<AlignmentSpec>("railcast alignment section")},
       {"vehicle.schema.json", SchemaOfFile<VehicleSpec>("railcast vehicle section")},

@@ -24,6 +24,7 @@ SHIPPED = {
     "weather": ["weather/*.json", "published/Weather.json"],
     "interfaces": ["published/Interfaces.json"],
     "camera": ["published/Camera.json"],
+    "motion_sensors": ["motion_sensors/*.json"],
     "alignment": ["alignments/*.json", "osm_sankt_poelten/*.alignment.json"],
     "materials": ["materials/*.json"],
     "labels": ["labels.json"],
@@ -34,7 +35,7 @@ REFUSED = """unknown_key unknown_section unknown_key_in_list missing_keys missin
 missing_type unknown_type string_for_number null_for_number number_for_flag list_for_object
 wrong_length fraction_for_whole negative_range not_a_choice unknown_effect no_channels no_tracks
 wrong_version no_version rain_twice camera_of_another_kind
-camera_out_of_limits""".split()
+camera_out_of_limits motion_sensors_out_of_limits""".split()
 
 num_failures = 0
 

@@ -63,5 +63,31 @@ TEST(WorldFromGeographic, EndsAQuarterOfATurnAway) {
   EXPECT_TRUE(std::isnan(WorldFromGeographic(map, -99.0, 10.0).x()));
 }
 
+TEST(GeographicFromWorld, LeadsBackToTheSamePlace) {
+  for (const ProjPlace& there : kProjPlaces) {
+    MapSpec map{{500.0, -300.0}, there.middle_longitude_deg, there.middle_latitude_deg, {}};
+    for (const bool has_coefficients : {false, true}) {
+      // Another projection: turned, bent and off by kilometres.
+      if (has_coefficients) {
+        map.coefficients_m = {{4000.0, -2000.0}, {99'000.0, 8000.0}, {-8000.0, 99'000.0},
+                              {50.0, 20.0},      {10.0, -30.0},      {0.0, 40.0}};
+      }
+      const Eigen::Vector2d place_m =
+          WorldFromGeographic(map, there.longitude_deg, there.latitude_deg);
+      const Eigen::Vector2d found_deg = GeographicFromWorld(map, place_m);
+      const Eigen::Vector2d back_m = WorldFromGeographic(map, found_deg.x(), found_deg.y());
+      EXPECT_LT((back_m - place_m).norm(), 1e-6);
+      // 1 um of ground are 1e-11 degrees of latitude.
+      EXPECT_NEAR(found_deg.y(), there.latitude_deg, 2e-11);
+      EXPECT_NEAR(std::remainder(found_deg.x() - there.longitude_deg, 360.0), 0.0, 4e-11);
+    }
+  }
+}
+
+TEST(GeographicFromWorld, IsNowhereBeyondTheMap) {
+  const MapSpec map{{0.0, 0.0}, 15.63, 48.21, {}};
+  EXPECT_TRUE(std::isnan(GeographicFromWorld(map, {1e9, 0.0}).x()));
+}
+
 }  // namespace
 }  // namespace railcast

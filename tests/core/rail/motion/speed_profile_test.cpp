@@ -178,5 +178,26 @@ TEST(SpeedProfile, TellsWhenAChainageIsReached) {
   }
 }
 
+TEST(SpeedProfile, TellsTheAccelerationThatBeginsWhereItChanges) {
+  const SpeedProfile profile({{AtTime(0, 2), AtTime(10, 12), AtTime(20, 12), AtTime(24, 4)}}, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(0.0).acceleration_mps2, 1.0);
+  EXPECT_DOUBLE_EQ(profile.At(10.0).acceleration_mps2, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(20.0).acceleration_mps2, -2.0);
+  EXPECT_DOUBLE_EQ(profile.At(24.0).acceleration_mps2, 0.0);
+}
+
+TEST(SpeedProfile, CountsWhereTheSpeedRoseAndFellAlsoAcrossChanges) {
+  const SpeedProfile profile({{AtTime(0, 2), AtTime(10, 12), AtTime(20, 12), AtTime(24, 4)}}, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(5.0).speeding_up_m, 10.0 + 12.5);
+  EXPECT_DOUBLE_EQ(profile.At(15.0).speeding_up_m, 70.0);
+  EXPECT_DOUBLE_EQ(profile.At(15.0).slowing_down_m, 0.0);
+  EXPECT_DOUBLE_EQ(profile.At(30.0).slowing_down_m, 32.0);
+  const SpeedProfile changed =
+      profile.WithSpeedFrom(15.0, 10.0, 0.5).WithSpeedFrom(17.0, 14.0, 1.0);
+  // 2 s from 12 to 11 m/s, then 3 s from 11 to 14.
+  EXPECT_DOUBLE_EQ(changed.At(30.0).slowing_down_m, 23.0);
+  EXPECT_DOUBLE_EQ(changed.At(30.0).speeding_up_m, 70.0 + 37.5);
+}
+
 }  // namespace
 }  // namespace railcast
