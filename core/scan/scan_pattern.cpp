@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/scan/firing.h"
+#include "core/scan/spinning_pattern.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
@@ -162,6 +163,8 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
     pattern.column.push_back(firing.column);
   }
   pattern.packet_order = PacketOrder(grid);
+  const auto* const spinning = std::get_if<SpinningSpec>(&spec.pattern);
+  if (spinning != nullptr && spinning->beam_origin_m) AddBeamOrigins(*spinning, pattern);
   return pattern;
 }
 

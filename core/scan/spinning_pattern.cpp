@@ -48,7 +48,18 @@ void CheckChannels(const SpinningSpec& spec, ErrorList& errors) {
   }
 }
 
+void CheckBeamOrigin(const SpinningSpec& spec, ErrorList& errors) {
+  if (!spec.beam_origin_m) return;
+  for (std::size_t i = 0; i < spec.beam_origin_m->size(); ++i) {
+    const double place_m = (*spec.beam_origin_m)[i];
+    if (std::abs(place_m) <= 1.0) continue;
+    errors.Add(
+        FaultOf("/pattern/beam_origin_m/" + std::to_string(i), "must be >= -1 and <= 1", place_m));
+  }
+}
+
 void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
+  CheckBeamOrigin(spec, errors);
   if (!(std::abs(spec.start_azimuth_deg) <= kFullTurn_deg)) {
     errors.Add(FaultOf("/pattern/start_azimuth_deg", "must be >= -360 and <= 360",
                        spec.start_azimuth_deg));
@@ -81,6 +92,19 @@ std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& chann
     rows[by_elevation[rank]] = static_cast<std::uint16_t>(rank);
   }
   return rows;
+}
+
+void AddBeamOrigins(const SpinningSpec& spec, ScanPattern& pattern) {
+  const auto [out_m, up_m] = spec.beam_origin_m.value();
+  const double left_positive = spec.rotation == Rotation::kClockwise ? -1.0 : 1.0;
+  for (const std::uint32_t time_ns : pattern.time_ns) {
+    const double turns = pattern.rate_hz * SecondsFromNs(time_ns);
+    const double rotor_rad =
+        left_positive * RadFromDeg(spec.start_azimuth_deg + kFullTurn_deg * turns);
+    pattern.origin_x_m.push_back(static_cast<float>(out_m * std::cos(rotor_rad)));
+    pattern.origin_y_m.push_back(static_cast<float>(out_m * std::sin(rotor_rad)));
+    pattern.origin_z_m.push_back(static_cast<float>(up_m));
+  }
 }
 
 FiringGrid SpinningFirings(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {

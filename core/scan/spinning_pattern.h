@@ -11,4 +11,8 @@ namespace railcast {
 /// elevation keep their order.
 [[nodiscard]] std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels);
 
+/// Fills the origins of the beams, which turn with the rotor.
+/// @pre The pattern's firings are those of the spec, which has a beam_origin_m.
+void AddBeamOrigins(const SpinningSpec& spec, ScanPattern& pattern);
+
 }  // namespace railcast

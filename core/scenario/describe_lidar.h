@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scenario/json_rules.h"
+#include "core/scenario/ouster_metadata.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 
@@ -39,6 +40,9 @@ void Describe(Archive& a, SpinningSpec& s) {
   a.Optional("rotation", s.rotation, "Sense of rotation, seen from above.");
   a.Optional("start_azimuth_deg", s.start_azimuth_deg,
              "Azimuth of the rotor at a frame's first firing; 0 = forward.", Within(-360, 360));
+  a.Optional("beam_origin_m", s.beam_origin_m,
+             "Where the beams leave off the axis: outwards at the rotor's azimuth, up.",
+             Within(-1, 1));
 }
 
 template <class Archive>
@@ -194,7 +198,18 @@ inline constexpr bool kElementMayBeFile<LidarSpec> = true;
 template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Name of the sensor.", OneLine());
-  a.Required("scan", s.scan, "The firings of a frame.");
+  a.OneOfTwo("scan", "ouster_metadata");
+  a.Preset("ouster_metadata", s.ouster_metadata,
+           "Metadata of an Ouster sensor, instead of scan: its beams, columns, window, rate and "
+           "returns; range and divergence of its product line.",
+           FilePreset<LidarSpec>{"scan", s, &UseOusterMetadata});
+  if (s.ouster_metadata) {
+    std::optional<ScanSpec> none;
+    a.Optional("scan", none, "");
+    a.Ensure({"scan", "ouster_metadata"}, !none, "must be left out with ouster_metadata");
+  } else {
+    a.Required("scan", s.scan, "The firings of a frame; required without ouster_metadata.");
+  }
   a.Optional("phase_s", s.scan.phase_s,
              "When the sensor's first frame begins, for sensors that take turns.", Within(0, 100));
   DescribeRange(a, s);

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/input_file.h"
 #include "core/scenario/json_values.h"
 
 namespace railcast {
@@ -25,6 +26,11 @@ class JsonReader {
   void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {});
 
   void OneOfTwo(std::string_view key, std::string_view other);
+  template <class T>
+  void Preset(std::string_view key,
+              std::optional<std::string>& file,
+              const char* doc,
+              const FilePreset<T>& preset);
   void Alternative(std::string_view key,
                    double& value,
                    const Multiple& multiple,
@@ -181,6 +187,31 @@ template <class T, class Rule>
 void JsonReader::Optional(std::string_view key, T& value, const char* /*doc*/, const Rule& rule) {
   keys_.emplace_back(key);
   if (const Node* node = Find(key)) ReadValue(source_, *node, value, rule);
+}
+
+template <class T>
+void JsonReader::Preset(std::string_view key,
+                        std::optional<std::string>& file,
+                        const char* doc,
+                        const FilePreset<T>& preset) {
+  std::string name;
+  Optional(key, name, doc, ExistingFile{});
+  const Node* const node = Find(key);
+  if (node == nullptr) return;
+  file = name;
+  ErrorList faults;
+  if (!name.empty()) {
+    static_cast<void>(Attempt("", faults, [&] {
+      const std::string text = ReadFileWhole(name);
+      AtPlace(name + ": ", [&] { preset.use(text, preset.value); });
+      return true;
+    }));
+  }
+  for (const Fault& fault : faults.faults()) {
+    source_.errors().Add(source_.sources().Locate(fault, node->resolved_pointer));
+  }
+  if (!name.empty() && faults.empty()) return;
+  source_.unknown().Add(object_.resolved_pointer + PointerStep(preset.gives));
 }
 
 template <class T>

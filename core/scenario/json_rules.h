@@ -86,6 +86,16 @@ struct Multiple {
   double factor{};
 };
 
+/// What a file of another format gives to a struct: the value of a required key, which is then left
+/// out, and defaults of others.
+template <class T>
+struct FilePreset {
+  const char* gives{};  ///< The required key.
+  T& value;
+  /// Throws InputError with a fault for each place of the file.
+  void (*use)(const std::string& text, T& value){};
+};
+
 /// The "type" that distinguishes a struct from other alternatives. The description of each such
 /// struct specialises it.
 template <class T>

@@ -36,6 +36,13 @@ class JsonWriter {
     if (value) Optional(key, *value, doc);
   }
   template <class T>
+  void Preset(std::string_view key,
+              std::optional<std::string>& file,
+              const char* doc,
+              const FilePreset<T>&) {
+    Optional(key, file, doc);
+  }
+  template <class T>
   void RequiredLibrary(std::string_view key, std::vector<T>& values, const char* doc) {
     Required(key, values, doc);
   }

@@ -28,6 +28,12 @@ inline constexpr std::uint16_t kVelodyneDataPort = 2368;
 /// The port of each receiver to which sensors of Velodyne's protocols send position packets,
 /// whatever the port of their frames.
 inline constexpr std::uint16_t kVelodynePositionPort = 8308;
+/// The ports that Ouster's sensors send frames and their motion to.
+inline constexpr std::uint16_t kOusterLidarPort = 7502;
+inline constexpr std::uint16_t kOusterImuPort = 7503;
+
+/// The port of position packets; absent if sensors of this protocol send none.
+[[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);
 
 /// Whether each receiver is named once.
 [[nodiscard]] bool AreDifferent(const std::vector<std::string>& receivers);

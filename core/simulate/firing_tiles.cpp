@@ -26,6 +26,10 @@ FiringTiles::FiringTiles(const ScanPattern& pattern) : num_firings_(pattern.num_
     x_.push_back(pattern.direction_x[i]);
     y_.push_back(pattern.direction_y[i]);
     z_.push_back(pattern.direction_z[i]);
+    if (pattern.origin_x_m.empty()) continue;
+    origin_x_m_.push_back(pattern.origin_x_m[i]);
+    origin_y_m_.push_back(pattern.origin_y_m[i]);
+    origin_z_m_.push_back(pattern.origin_z_m[i]);
   }
   Check(firing_.size() % kPacketSize == 0, "packets are full");
 }
@@ -42,7 +46,31 @@ struct PacketFirings {
   const float* direction_y;
   const float* direction_z;
   const float* since_pose_ns;
+  const float* origin_x_m = nullptr;  ///< Null, as are the next two, if beams leave at the origin.
+  const float* origin_y_m = nullptr;
+  const float* origin_z_m = nullptr;
 };
+
+// Moves the rays of a packet from the sensor's origin to where their beams leave.
+void MoveRays(const PacketFirings& firings,
+              const PoseF& pose,
+              const PoseF& change,
+              RayTile& rays,
+              std::size_t first) {
+  for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
+    const float t = firings.since_pose_ns[lane];
+    const float x = firings.origin_x_m[lane];
+    const float y = firings.origin_y_m[lane];
+    const float z = firings.origin_z_m[lane];
+    const std::size_t ray = first + lane;
+    rays.origin_x[ray] += (pose.r[0] + t * change.r[0]) * x + (pose.r[1] + t * change.r[1]) * y +
+                          (pose.r[2] + t * change.r[2]) * z;
+    rays.origin_y[ray] += (pose.r[3] + t * change.r[3]) * x + (pose.r[4] + t * change.r[4]) * y +
+                          (pose.r[5] + t * change.r[5]) * z;
+    rays.origin_z[ray] += (pose.r[6] + t * change.r[6]) * x + (pose.r[7] + t * change.r[7]) * y +
+                          (pose.r[8] + t * change.r[8]) * z;
+  }
+}
 
 // Aims a packet whose firings are close in time: all lanes share one pose and its rate of change.
 void AimPacket(const PacketFirings& firings,
@@ -66,6 +94,7 @@ void AimPacket(const PacketFirings& firings,
     rays.origin_y[ray] = pose.t[1] + t * change.t[1];
     rays.origin_z[ray] = pose.t[2] + t * change.t[2];
   }
+  if (firings.origin_x_m != nullptr) MoveRays(firings, pose, change, rays, first);
 }
 
 }  // namespace
@@ -82,8 +111,13 @@ void FiringTiles::Aim(std::size_t tile,
     const auto [earliest, latest] = std::minmax_element(time_ns, time_ns + kPacketSize);
     PoseF change{};
     alignas(64) float since_pose_ns[kPacketSize];
-    const PacketFirings firings{&x_[begin + first], &y_[begin + first], &z_[begin + first],
-                                since_pose_ns};
+    PacketFirings firings{&x_[begin + first], &y_[begin + first], &z_[begin + first],
+                          since_pose_ns};
+    if (!origin_x_m_.empty()) {
+      firings.origin_x_m = &origin_x_m_[begin + first];
+      firings.origin_y_m = &origin_y_m_[begin + first];
+      firings.origin_z_m = &origin_z_m_[begin + first];
+    }
     if (*latest - *earliest <= poses.knot_spacing_ns()) {
       const PoseF pose = poses.At(*earliest, change);
       for (std::size_t lane = 0; lane < kPacketSize; ++lane) {
@@ -125,6 +159,21 @@ void FiringTiles::Describe(std::size_t tile, DetectTile& detect) const {
   std::copy_n(&y_[begin], detect.num_rays, detect.direction_y);
   std::copy_n(&z_[begin], detect.num_rays, detect.direction_z);
   std::copy_n(&channel_[begin], detect.num_rays, detect.channel);
+}
+
+void FiringTiles::MoveToOrigins(std::size_t tile, EchoTiles& echoes) const {
+  if (origin_x_m_.empty()) return;
+  const std::size_t begin = tile * kTileSize;
+  const auto move = [&](DetectTile& echo, std::size_t lane, std::size_t beam) {
+    echo.x[lane] += origin_x_m_[begin + beam];
+    echo.y[lane] += origin_y_m_[begin + beam];
+    echo.z[lane] += origin_z_m_[begin + beam];
+  };
+  for (std::size_t i = 0; i < echoes.first.num_rays; ++i) move(echoes.first, i, i);
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) {
+    const auto [echo, lane] = echoes.more(i);
+    move(echo, lane, echoes.beam_of(i));
+  }
 }
 
 void FiringTiles::StoreConstants(Frame& frame) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/detect/base/detect_tile.h"
+#include "core/detect/base/echo_tiles.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
@@ -27,6 +28,9 @@ class FiringTiles {
 
   /// Stores sensor-frame direction, firing index and channel of a tile's lanes in `detect`.
   void Describe(std::size_t tile, DetectTile& detect) const;
+  /// Moves a tile's points, which lie along their beams from the sensor's origin, by the places
+  /// where the beams leave. The points are in the sensor's axes.
+  void MoveToOrigins(std::size_t tile, EchoTiles& echoes) const;
   /// The slots of the lanes in a frame with one return per firing.
   [[nodiscard]] const std::uint32_t* slots(std::size_t tile) const {
     return &slot_[tile * kTileSize];
@@ -54,6 +58,7 @@ class FiringTiles {
   // In tracing order.
   std::vector<std::uint32_t> firing_, slot_, time_ns_, channel_;
   std::vector<float> x_, y_, z_;
+  std::vector<float> origin_x_m_, origin_y_m_, origin_z_m_;  // Empty as ScanPattern's.
   // In slot order.
   std::vector<std::uint32_t> slot_time_ns_, slot_column_;
   std::vector<std::uint16_t> slot_row_;

@@ -304,6 +304,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
 
   ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
+    tiles.MoveToOrigins(tile, mine.echoes);
     axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
     store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
   });

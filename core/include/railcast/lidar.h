@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,6 +62,9 @@ struct SpinningSpec {
   std::uint32_t columns{};            ///< Firing cycles per frame.
   Rotation rotation = Rotation::kClockwise;
   double start_azimuth_deg{};  ///< Azimuth of the rotor at the stamp; 0 = forward (+x).
+  /// Where the beams leave if they do not leave on the axis at the sensor's origin: outwards, at
+  /// the rotor's azimuth, and up. Ranges count from there.
+  std::optional<std::array<double, 2>> beam_origin_m{};
 
   bool operator==(const SpinningSpec&) const = default;
 };
@@ -110,8 +114,10 @@ struct ScanPattern {
   std::uint32_t columns{};
 
   std::vector<float> direction_x, direction_y, direction_z;  ///< Unit vectors in the sensor frame.
-  std::vector<std::uint32_t> time_ns;                        ///< Time since the stamp.
-  std::vector<std::uint16_t> row;                            ///< Ring; 0 is the lowest channel.
+  /// Where the beams leave, in the sensor frame; empty if all of them leave at its origin.
+  std::vector<float> origin_x_m, origin_y_m, origin_z_m;
+  std::vector<std::uint32_t> time_ns;  ///< Time since the stamp.
+  std::vector<std::uint16_t> row;      ///< Ring; 0 is the lowest channel.
   std::vector<std::uint32_t> column;
 
   /// Firing indices by packet: each run of kPacketSize firings is traced as one packet. The size is

@@ -89,6 +89,8 @@ struct LidarSpec {
   ReceiverSpec receiver{};
   CoverSpec cover{};
   MountErrorSpec mount_error{};
+  /// File of an Ouster sensor's metadata, if `scan` is made from it.
+  std::optional<std::string> ouster_metadata{};
 
   bool operator==(const LidarSpec&) const = default;
 };
@@ -104,8 +106,9 @@ struct ToleranceSpec {
   bool operator==(const ToleranceSpec&) const = default;
 };
 
-/// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a Velodyne.
-enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e };
+/// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a sensor of
+/// Velodyne's or Ouster's (docs/packets.md).
+enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e, kOuster };
 template <>
 inline constexpr auto kEnumNames<Protocol> =
     std::to_array<EnumName<Protocol>>({{Protocol::kRailcast, "railcast"},
@@ -113,7 +116,8 @@ inline constexpr auto kEnumNames<Protocol> =
                                        {Protocol::kVlp16Dual, "vlp16-dual"},
                                        {Protocol::kHdl32e, "hdl32e"},
                                        {Protocol::kVlp32c, "vlp32c"},
-                                       {Protocol::kHdl64e, "hdl64e"}});
+                                       {Protocol::kHdl64e, "hdl64e"},
+                                       {Protocol::kOuster, "ouster"}});
 
 /// Where the live frames of one of several sensors are sent, and how they are packed.
 struct SensorInterface {

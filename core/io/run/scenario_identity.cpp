@@ -52,6 +52,7 @@ class FileNaming {
   }
   void Rename(LidarSpec& lidar) {
     if (auto* table = std::get_if<FiringTableSpec>(&lidar.scan.pattern)) Rename(table->file);
+    if (lidar.ouster_metadata) Rename(*lidar.ouster_metadata);
   }
   void Rename(ScenarioSpec& scenario) {
     Rename(scenario.lidar);

@@ -37,7 +37,7 @@ class SchemaWriter {
   template <class T, class Rule = Anything>
   void Required(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
     Add(key, doc, SchemaOf(value, rule));
-    required_.push_back(std::string(key));
+    if (key != given_by_file_) required_.push_back(std::string(key));
   }
   template <class T, class Rule = Anything>
   void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
@@ -47,6 +47,14 @@ class SchemaWriter {
       schema["default"] = JsonWriter::Write(value);
     }
     Add(key, doc, std::move(schema));
+  }
+  template <class T>
+  void Preset(std::string_view key,
+              std::optional<std::string>& file,
+              const char* doc,
+              const FilePreset<T>& preset) {
+    Optional(key, file, doc, ExistingFile{});
+    given_by_file_ = preset.gives;
   }
   // No schema rule: the resolved scenario has both keys, one of them with its default.
   void OneOfTwo(std::string_view, std::string_view) {}
@@ -106,6 +114,7 @@ class SchemaWriter {
 
   Json properties_ = Json::object();
   std::vector<std::string> required_;
+  std::string given_by_file_;           // A required key that may be left out for a file.
   std::vector<std::string> exclusive_;  // Two keys that may not both be given.
 };
 

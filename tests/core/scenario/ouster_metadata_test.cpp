@@ -1,0 +1,194 @@
+#include "core/scenario/ouster_metadata.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/units.h"
+#include "tests/core/io/message_of.h"
+#include "tests/support/ouster_metadata_text.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kShared = RAILCAST_SHARED_DATA_DIR "/ouster_more/metadata/metadata";
+
+OusterMetadata ReadShared(const std::string& name) {
+  return ParseOusterMetadata(ReadFileWhole(kShared / name));
+}
+
+// Firmware 1.12 to 3.0.1, both layouts.
+TEST(OusterMetadata, OfEveryFirmwareIsReadAndMakesAScan) {
+  if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";
+  int num_files = 0;
+  for (const auto& entry : fs::directory_iterator(kShared)) {
+    if (!entry.is_regular_file()) continue;
+    SCOPED_TRACE(entry.path());
+    LidarSpec lidar;
+    ASSERT_NO_THROW(UseOusterMetadata(ReadFileWhole(entry.path()), lidar));
+    const ScanPattern pattern = BuildScanPattern(lidar.scan);
+    const OusterMetadata metadata = ParseOusterMetadata(ReadFileWhole(entry.path()));
+    EXPECT_EQ(pattern.rows, metadata.beams.size());
+    EXPECT_EQ(pattern.columns, metadata.num_window_columns());
+    EXPECT_EQ(pattern.origin_x_m.size(), pattern.num_firings());
+    ++num_files;
+  }
+  EXPECT_GE(num_files, 26);
+}
+
+// The same sensor, 991913000010, which firmware 1.12 did not ask for its beams' origin.
+TEST(OusterMetadata, OfOldFirmwareAreCompletedByWhatLaterFirmwareSaysOfTheSensor) {
+  if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";
+  const OusterMetadata old = ReadShared("1_12_os1-991913000010-64.json");
+  const OusterMetadata late = ReadShared("2_1_2_os1-991913000010-64.json");
+  EXPECT_EQ(old.serial_number, late.serial_number);
+  EXPECT_EQ(old.pixels_per_column, late.pixels_per_column);
+  EXPECT_EQ(old.columns_per_packet, late.columns_per_packet);
+  EXPECT_EQ(old.column_window, late.column_window);
+  EXPECT_EQ(old.beam_origin_m, late.beam_origin_m);
+  EXPECT_EQ(old.profile, OusterProfile::kLegacy);
+  ASSERT_EQ(old.beams.size(), late.beams.size());
+  EXPECT_EQ(old.beams[7].altitude_deg, late.beams[7].altitude_deg);
+  EXPECT_TRUE(old.sensor_from_lidar.isApprox(late.sensor_from_lidar));
+}
+
+TEST(OusterMetadata, OfTheTwoLayoutsSayTheSame) {
+  if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";
+  for (const std::string name : {"2_1_2_os1-991913000010-64", "2_2_os-992119000444-128",
+                                 "2_5_0_os-992146000760-128", "3_0_1_os-122246000293-128"}) {
+    SCOPED_TRACE(name);
+    const OusterMetadata sections = ReadShared(name + ".json");
+    const OusterMetadata flat = ReadShared(name + "_legacy.json");
+    EXPECT_EQ(sections.product_line, flat.product_line);
+    EXPECT_EQ(sections.serial_number, flat.serial_number);
+    EXPECT_EQ(sections.column_window, flat.column_window);
+    EXPECT_EQ(sections.profile, flat.profile);
+    EXPECT_EQ(sections.beam_origin_m, flat.beam_origin_m);
+    ASSERT_EQ(sections.beams.size(), flat.beams.size());
+    EXPECT_EQ(sections.beams.back().azimuth_deg, flat.beams.back().azimuth_deg);
+  }
+}
+
+// Of 64 pixels, 16 belong to beams.
+TEST(OusterMetadata, LeaveOutPixelsWithoutABeam) {
+  if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";
+  const OusterMetadata metadata = ReadShared("1_13_os1-991937000062-16A0_legacy.json");
+  EXPECT_EQ(metadata.pixels_per_column, 64U);
+  EXPECT_EQ(metadata.beams.size(), 16U);
+  EXPECT_GT(metadata.beams.front().pixel, 0U);
+}
+
+std::string FaultOfShared(const std::string& name) {
+  return MessageOf([&] { static_cast<void>(ReadShared("malformed/" + name)); });
+}
+
+TEST(OusterMetadata, ThatAreIncompleteAreRefused) {
+  if (!exists(kShared)) GTEST_SKIP() << kShared << " is not there";
+  EXPECT_EQ(FaultOfShared("complete_but_all_zeros_legacy.json"),
+            "/beam_altitude_angles: must not be 0 for all beams");
+  EXPECT_EQ(FaultOfShared("incomplete_data_format_legacy.json"),
+            "/data_format/columns_per_frame: missing");
+  EXPECT_EQ(FaultOfShared("incomplete_data_format_nonlegacy.json"),
+            "/lidar_data_format/pixels_per_column: missing");
+  EXPECT_EQ(FaultOfShared("incorrect_nbeam_angles_legacy_113.json"),
+            "/beam_azimuth_angles: must have 63 angles, one for each pixel of a column (got 64)");
+}
+
+/// The fault of made metadata in which a value is replaced.
+std::string FaultWith(const std::string& pointer, const nlohmann::ordered_json& value) {
+  nlohmann::ordered_json metadata = MadeOusterMetadata();
+  metadata[nlohmann::ordered_json::json_pointer(pointer)] = value;
+  return MessageOf([&] { static_cast<void>(ParseOusterMetadata(metadata.dump())); });
+}
+
+TEST(OusterMetadata, WithAWrongValueSayWhichRuleItBreaks) {
+  EXPECT_EQ(FaultWith("/sensor_info/status", 1), "no error") << "nothing depends on it";
+  EXPECT_EQ(FaultWith("/config_params/lidar_mode", "1000x10"),
+            "/config_params/lidar_mode: must be 512, 1024, 2048 or 4096, x, and 5, 10 or 20, such "
+            "as 1024x10 (got \"1000x10\")");
+  EXPECT_EQ(FaultWith("/lidar_data_format/columns_per_frame", 1024),
+            "/lidar_data_format/columns_per_frame: must be 512 as of lidar_mode (got 1024)");
+  EXPECT_EQ(FaultWith("/lidar_data_format/columns_per_packet", 15),
+            "/lidar_data_format/columns_per_packet: must divide 512, the columns of a turn (got "
+            "15)");
+  EXPECT_EQ(FaultWith("/lidar_data_format/column_window", {0, 512}),
+            "/lidar_data_format/column_window/1: must be a whole number from 0 to 511 (got 512)");
+  EXPECT_EQ(FaultWith("/lidar_data_format/udp_profile_lidar", "RNG20"),
+            "/lidar_data_format/udp_profile_lidar: must be LEGACY, RNG19_RFL8_SIG16_NIR16, "
+            "RNG19_RFL8_SIG16_NIR16_DUAL, RNG15_RFL8_NIR8, RNG15_RFL8_NIR8_DUAL or "
+            "FUSA_RNG15_RFL8_NIR8_DUAL (got \"RNG20\")");
+  EXPECT_EQ(FaultWith("/beam_intrinsics/beam_altitude_angles/2", "low"),
+            "/beam_intrinsics/beam_altitude_angles/2: must be a number from -90 to 90 (got "
+            "\"low\")");
+  EXPECT_EQ(FaultWith("/beam_intrinsics/beam_to_lidar_transform", {1, 2}),
+            "/beam_intrinsics/beam_to_lidar_transform: must have 16 numbers (got [1,2])");
+  EXPECT_EQ(FaultWith("/lidar_intrinsics/lidar_to_sensor_transform/0", 2),
+            "/lidar_intrinsics/lidar_to_sensor_transform: must turn and shift, and nothing else "
+            "(got [2,0,0,0,0,-1,0,0,0,0,1,36.18,0,0,0,1])");
+  EXPECT_EQ(FaultWith("/beam_altitude_angles", {1}),
+            "/beam_altitude_angles: must not stand beside /beam_intrinsics, which has it, too (got "
+            "[1])");
+  EXPECT_EQ(MessageOf([] { static_cast<void>(ParseOusterMetadata("[]")); }),
+            "must be an object, the metadata of an Ouster sensor");
+}
+
+// Ouster's manual: columns begin behind the sensor, at its connector, and go round clockwise.
+TEST(OusterScan, BeginsBehindTheSensorAndGoesRoundClockwise) {
+  LidarSpec lidar;
+  UseOusterMetadata(MadeOusterMetadataText(), lidar);
+  const auto& spinning = std::get<SpinningSpec>(lidar.scan.pattern);
+  EXPECT_EQ(spinning.rotation, Rotation::kClockwise);
+  EXPECT_NEAR(std::abs(spinning.start_azimuth_deg), 180.0, 1e-9);
+  EXPECT_EQ(spinning.columns, 512U);
+  EXPECT_NEAR(spinning.cycle_us, 1e5 / 512.0, 1e-9);
+  const ScanPattern pattern = BuildScanPattern(lidar.scan);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const double turned_rad = RadFromDeg(360.0 * pattern.column[i] / 512.0);
+    // Behind the sensor first, then to its left.
+    EXPECT_NEAR(static_cast<double>(pattern.origin_x_m[i]), -0.015806 * std::cos(turned_rad), 1e-8);
+    EXPECT_NEAR(static_cast<double>(pattern.origin_y_m[i]), 0.015806 * std::sin(turned_rad), 1e-8);
+    EXPECT_NEAR(static_cast<double>(pattern.origin_z_m[i]), 0.03618, 1e-8);
+  }
+}
+
+TEST(OusterScan, OfAWindowAcrossTheEndOfATurnGoesOnBehindIt) {
+  LidarSpec lidar;
+  UseOusterMetadata(MadeOusterMetadataText("LEGACY", 384, 127), lidar);
+  const auto& spinning = std::get<SpinningSpec>(lidar.scan.pattern);
+  EXPECT_EQ(spinning.columns, 256U);
+  // Three quarters of a turn from behind, clockwise: right of the sensor.
+  EXPECT_NEAR(spinning.start_azimuth_deg, 90.0, 1e-9);
+}
+
+TEST(OusterScan, BringsTheRangeAndBeamOfItsProductLine) {
+  LidarSpec lidar;
+  UseOusterMetadata(MadeOusterMetadataText("RNG19_RFL8_SIG16_NIR16_DUAL"), lidar);
+  EXPECT_EQ(lidar.name, "OS-1-4");
+  EXPECT_EQ(lidar.receiver.return_mode, ReturnMode::kDual);
+  EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 45.0);
+  // 0.18 deg at half maximum; between 1/e^2 points 2 / 1.1774 as wide.
+  EXPECT_NEAR(lidar.beam.divergence_mrad[0], 1e3 * RadFromDeg(0.18) * 2.0 / 1.17741, 1e-4);
+  nlohmann::ordered_json unknown = MadeOusterMetadata();
+  unknown["sensor_info"].erase("prod_line");
+  LidarSpec other;
+  other.name = "roof";
+  UseOusterMetadata(unknown.dump(), other);
+  EXPECT_EQ(other.name, "roof");
+  EXPECT_EQ(other.receiver.range_at_10_percent_m, ReceiverSpec{}.range_at_10_percent_m);
+}
+
+TEST(OusterScan, IsRefusedWhereTheLidarDoesNotStandUpright) {
+  nlohmann::ordered_json metadata = MadeOusterMetadata();
+  metadata["lidar_intrinsics"]["lidar_to_sensor_transform"] = {1, 0, 0, 0, 0, 0, -1, 0,
+                                                               0, 1, 0, 0, 0, 0, 0,  1};
+  LidarSpec lidar;
+  EXPECT_EQ(MessageOf([&] { UseOusterMetadata(metadata.dump(), lidar); }),
+            "lidar_to_sensor_transform: must turn about the z axis and shift along it for a scan");
+}
+
+}  // namespace
+}  // namespace railcast
