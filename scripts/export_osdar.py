@@ -11,6 +11,7 @@ with the number of the run as `sensor_index`; --merged asks for that layout with
     DIR/NAME_labels.json            cuboids, both rails of each track, segmentation by point indices
     DIR/LIDAR/000_12.300000000.pcd  x y z intensity timestamp [sensor_index]: points only
     DIR/gps_imu/ins.csv             pose and motion of the vehicle at each stamp
+    DIR/gps_imu/NAME.csv            the samples of each motion sensor of the first run
 
 Needs the Python module railcast (docs/python.md), numpy and yaml. The ontologies are those of
 raillabel-providerkit (--definitions).
@@ -83,6 +84,8 @@ def open_runs(paths):
             faults.append(f"{path}: must be a sequence of railcast (got {run.kind})")
         elif (path / "commands.jsonl").exists():
             faults.append(f"{path}: must be a run without commands, which change where the rails are seen from")
+        elif (path / "motion" / "ins.csv").exists():
+            faults.append(f"{path}: must have no motion sensor that is called as the INS that is written (got ins)")
         else:
             runs.append(run)
     if not faults:
@@ -152,6 +155,8 @@ def export(arguments):
         write_pcd(begun / lidar / name, view.points(), arguments.ascii)
         samples.append((frames[0].stamp_ns, osdar_scene.ins_sample(frames[0], mounts[0])))
     write_ins(begun / "gps_imu" / "ins.csv", samples)
+    for file in sorted((paths[0] / "motion").glob("*.csv")):
+        shutil.copyfile(file, begun / "gps_imu" / file.name)
     (begun / f"{out.name}_labels.json").write_text(scene.json_text(), "utf-8")
     begun.rename(out)
     print(f"{out}: {len(samples)} frames, {scene.num_objects} objects, {scene.num_annotations} annotations")

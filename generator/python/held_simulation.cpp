@@ -133,6 +133,20 @@ std::uint32_t HeldSimulation::FrameOf(std::int64_t frame, std::size_t sensor) co
       {{"frame", "must be >= 0 and <= " + std::to_string(last), std::to_string(frame)}});
 }
 
+template <typename Work>
+void HeldSimulation::DoInterruptibly(const Work& work) {
+  waiting_ = std::this_thread::get_id();
+  for (;;) {
+    was_interrupted_ = false;
+    try {
+      return work();
+    } catch (const Interrupted&) {
+      // A window that is built ahead may have been ended by the interruption of an earlier frame.
+      if (was_interrupted_) throw;
+    }
+  }
+}
+
 std::shared_ptr<RecordedFrame> HeldSimulation::Scan(std::int64_t frame,
                                                     const Sensor& sensor,
                                                     bool has_objects) {
@@ -140,17 +154,19 @@ std::shared_ptr<RecordedFrame> HeldSimulation::Scan(std::int64_t frame,
   const std::size_t index = IndexOf(sensor);
   const std::uint32_t number = FrameOf(frame, index);
   std::shared_ptr<RecordedFrame> made = pools_[index]->Take();
-  waiting_ = std::this_thread::get_id();
-  for (;;) {
-    was_interrupted_ = false;
-    try {
-      Make(number, index, has_objects, *made);
-      return made;
-    } catch (const Interrupted&) {
-      // A window that is built ahead may have been ended by the interruption of an earlier frame.
-      if (was_interrupted_) throw;
-    }
-  }
+  DoInterruptibly([&] { Make(number, index, has_objects, *made); });
+  return made;
+}
+
+MotionSamples HeldSimulation::Motion(std::int64_t frame) {
+  const std::unique_lock lock = LockHere();
+  const std::uint32_t number = FrameOf(frame, 0);
+  MotionSamples samples;
+  DoInterruptibly([&] {
+    const auto begun = maker_.At(0, number).Begin(number);
+    samples = maker_.SampleMotion(*begun);
+  });
+  return samples;
 }
 
 void HeldSimulation::Make(std::uint32_t frame,

@@ -97,6 +97,10 @@ class HeldSimulation {
                                              const Sensor& sensor,
                                              const RailReach& reach);
 
+  /// Returns the samples of the motion sensors in the time of a frame of the first sensor.
+  /// @throws InputError as Scan() does.
+  [[nodiscard]] MotionSamples Motion(std::int64_t frame);
+
   /// False in a process that was forked after the simulation was made, where its threads are
   /// missing: the above throw InputError there, and the destructor would wait for them forever.
   [[nodiscard]] bool IsOfThisProcess() const;
@@ -108,6 +112,9 @@ class HeldSimulation {
   [[nodiscard]] std::unique_lock<std::mutex> LockHere();
   [[nodiscard]] std::size_t IndexOf(const Sensor& sensor) const;
   [[nodiscard]] std::uint32_t FrameOf(std::int64_t frame, std::size_t sensor) const;
+  /// Does work that may build a window, which the host program may interrupt.
+  template <typename Work>
+  void DoInterruptibly(const Work& work);
   void WatchForInterruption();
   void ChooseEffects();
   void Make(std::uint32_t frame, std::size_t sensor, bool has_objects, RecordedFrame& made);

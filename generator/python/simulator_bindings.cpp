@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "generator/python/bindings.h"
@@ -101,6 +102,49 @@ void ApplyCommand(HeldSimulation& self,
   WithoutGil([&] { self.Apply(line, frame, sensor); });
 }
 
+/// The columns of samples as arrays, by their names with the units.
+template <typename Sample>
+py::dict ColumnsOf(const std::vector<Sample>& samples) {
+  py::dict columns;
+  ForEachColumn(Sample{}, [&]<typename Value>(const std::string& name, const std::string& unit,
+                                              const Value&) {
+    constexpr bool kIsVector = std::is_same_v<Value, Vector3>;
+    using Number = std::conditional_t<kIsVector, double, Value>;
+    std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(samples.size())};
+    if (kIsVector) shape.push_back(3);
+    py::array_t<Number> column(shape);
+    Number* to = column.mutable_data();
+    for (const Sample& sample : samples) {
+      ForEachColumn(sample, [&]<typename Other>(const std::string& other, const std::string&,
+                                                const Other& value) {
+        if (other != name) return;
+        if constexpr (std::is_same_v<Other, Value> && kIsVector) {
+          to = std::copy_n(value.data(), 3, to);
+        } else if constexpr (std::is_same_v<Other, Value>) {
+          *to++ = value;
+        }
+      });
+    }
+    columns[py::str(unit.empty() ? name : name + "_" + unit)] = column;
+  });
+  return columns;
+}
+
+py::dict MotionOf(HeldSimulation& self, std::int64_t frame) {
+  const MotionSamples samples = WithoutGil([&] { return self.Motion(frame); });
+  const MotionSensorsSpec spec = self.scenario().motion_sensors.value_or(MotionSensorsSpec{});
+  py::dict sensors;
+  const auto add = [&](const auto& of_kind, const auto& samples_of_kind) {
+    for (std::size_t i = 0; i < of_kind.size(); ++i) {
+      sensors[py::str(of_kind[i].name)] = ColumnsOf(samples_of_kind.at(i));
+    }
+  };
+  add(spec.imus, samples.imus);
+  add(spec.gnss, samples.gnss);
+  add(spec.odometers, samples.odometers);
+  return sensors;
+}
+
 using SimulatorClass = py::class_<HeldSimulation, SimulationPointer>;
 
 void AddWork(SimulatorClass& simulator) {
@@ -143,6 +187,10 @@ leaves its track in that frame.)")
           R"(The rails of all tracks about the vehicle at a frame's stamp; its own way is first.
 
 behind_m, ahead_m: how far from the vehicle's origin, along the chainage; >= 0.)")
+      .def("motion", &MotionOf, py::arg("frame"),
+           R"(The samples of the motion sensors in the time of a frame of the first sensor, from its
+stamp on and before the next one's: for each sensor, by its name, a dict of arrays by the
+names of the columns in its file, where a vector is one column of shape (n, 3).)")
       .def("apply", &ApplyCommand, py::arg("command"), py::arg("frame"), py::arg("sensor") = 0,
            R"(Applies a command of docs/commands.md, which holds for frames stamped at the stamp of
 that frame or later, of all sensors.

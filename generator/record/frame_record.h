@@ -89,6 +89,8 @@ struct FrameRecord {
   std::vector<RecordedScanPose> scan_poses;
   std::vector<WrittenFile> files;
   std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
+  /// The numbers of these in the files of the motion sensors, in their order.
+  std::vector<std::uint32_t> motion_lines{};
   FrameCounts counts;
 
   bool operator==(const FrameRecord&) const = default;

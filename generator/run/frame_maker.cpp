@@ -55,6 +55,7 @@ FrameMaker::FrameMaker(ScenarioSpec scenario, int num_threads, const std::string
   Check(world != nullptr, "the world of a scenario is a railway");
   own_ = {0, std::move(world), scenario_.weather};
   Reset();
+  motion_sensors_ = MakeMotionSensors(scenario_, *own_.world);
   if (!scenario_.camera) return;
   const ScenarioSpec first = PickSensor(scenario_, SensorNames(scenario_).front());
   camera_ = MakeCamera(first);
@@ -122,6 +123,7 @@ FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
     made.objects = Describe(sensor, *begun, made.frame);
     made.has_image = has_image;
     if (has_image) camera_->Render(simulator, *begun, made.image);
+    if (sensor == 0) made.motion = SampleMotion(*begun);
   };
 }
 
@@ -133,6 +135,11 @@ std::vector<ObjectInFrame> FrameMaker::Describe(std::size_t sensor,
       .local()
       .Of(simulator, labels_)
       .Describe(frame, simulator.ViewObjects(begun));
+}
+
+MotionSamples FrameMaker::SampleMotion(BegunFrame& begun) const {
+  if (!motion_sensors_) return {};
+  return motion_sensors_->Sample(*simulators_.front(), begun);
 }
 
 std::size_t FrameMaker::NumAtOnce() const {

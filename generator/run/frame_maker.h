@@ -29,6 +29,7 @@ struct MadeFrame {
   CameraImage image;
   bool has_image = false;     ///< Whether the camera has an image of this frame.
   ros::VehicleState vehicle;  ///< At the stamp.
+  MotionSamples motion;       ///< Those in the time of this frame; none but of the first sensor.
 };
 
 /// Makes one frame. Called once, by any thread, while other frames may be made.
@@ -63,8 +64,8 @@ class FrameMaker {
   /// @throws InputError if the vehicle or an object leaves its track in that frame.
   [[nodiscard]] Simulator& At(std::size_t sensor, std::uint32_t frame_index);
 
-  /// Begins a frame with the records of its objects and, of the first sensor, the camera's image.
-  /// Frames are begun in order, by one thread at a time.
+  /// Begins a frame with the records of its objects and, of the first sensor, the camera's image
+  /// and the motion sensors' samples. Frames are begun in order, by one thread at a time.
   /// @return What makes it.
   /// @throws InputError as At() does.
   [[nodiscard]] FrameJob Begin(std::size_t sensor, std::uint32_t frame_index);
@@ -74,6 +75,11 @@ class FrameMaker {
   [[nodiscard]] std::vector<ObjectInFrame> Describe(std::size_t sensor,
                                                     BegunFrame& begun,
                                                     const Frame& frame);
+
+  /// The samples of the scenario's motion sensors in the time of a begun frame; none if it has no
+  /// motion sensors. Thread-safe.
+  /// @param begun The frame as the first sensor's simulator began it.
+  [[nodiscard]] MotionSamples SampleMotion(BegunFrame& begun) const;
 
   /// How many frames are made at once where none depends on another: one for each thread, and one
   /// that waits for its turn to be written. Frames of a million firings, or with images of millions
@@ -115,6 +121,7 @@ class FrameMaker {
   State own_;
   std::optional<Camera> camera_;
   std::uint32_t frames_per_image_ = 1;
+  std::optional<MotionSensors> motion_sensors_;
   /// By sensor. Each survey remembers what it measured, so that each thread has its own.
   std::deque<tbb::enumerable_thread_specific<CurrentSurvey>> surveys_;
 };

@@ -214,10 +214,7 @@ class MissingFrames {
       MadeFrame& made = slot.made;
       std::exchange(slot.job, {})(made);
       const auto doing = [&made] { return Writing(made.frame); };
-      WithinMemory(doing, [&] {
-        slot.directory->Encode(made.frame, made.objects, made.has_image ? &made.image : nullptr,
-                               slot.encoded);
-      });
+      WithinMemory(doing, [&] { slot.directory->Encode(made, slot.encoded); });
     } catch (...) {
       slot.fault = std::current_exception();
     }

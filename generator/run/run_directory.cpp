@@ -16,6 +16,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/camera_files.h"
+#include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 
@@ -67,19 +68,26 @@ std::optional<std::uint32_t> FrameNumber(std::string_view name) {
   return number;
 }
 
-/// A file of a directory that gets one line per frame.
+/// A file of a directory that gets one line per frame; those of motion sensors, one per sample.
 struct LineFileName {
   std::string name;
-  std::string_view header;
+  std::string header;
 };
 
-// The line files of a format in the order in which they are written; frames.jsonl is the last.
-std::vector<LineFileName> LineFileNames(const FrameFormat& format) {
-  std::vector<LineFileName> names = {{std::string(kPosesFile), kPosesHeader},
+// The line files of a run in the order in which they are written; frames.jsonl is the last, and
+// those of motion sensors are before it.
+std::vector<LineFileName> LineFileNames(const SequenceSpec& spec) {
+  const FrameFormat& format = *spec.files.format;
+  std::vector<LineFileName> names = {{std::string(kPosesFile), std::string(kPosesHeader)},
                                      {std::string(kObjectsFile), ""}};
   if (format.dataset) {
     for (const std::string_view name : format.dataset->record_files) {
       names.push_back({std::string(name), ""});
+    }
+  }
+  if (spec.motion_sensors) {
+    for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) {
+      names.push_back({MotionFileName(file.sensor), file.header});
     }
   }
   names.push_back({std::string(kFramesFile), ""});
@@ -128,14 +136,18 @@ class LineWalk {
     if (has_header_) position_ = header.size();
   }
 
-  /// Returns the next line with its end; empty if there is none or it is incomplete.
-  [[nodiscard]] std::string_view Next() const {
+  /// Returns the next lines with their ends; empty if there are fewer or the last is incomplete.
+  [[nodiscard]] std::string_view Next(std::size_t num_lines = 1) const {
     if (!has_header_) return {};
-    const std::size_t end = text_.find('\n', position_);
-    if (end == std::string::npos) return {};
-    return std::string_view(text_).substr(position_, end + 1 - position_);
+    std::size_t end = position_;
+    for (std::size_t i = 0; i < num_lines; ++i) {
+      end = text_.find('\n', end);
+      if (end == std::string::npos) return {};
+      ++end;
+    }
+    return std::string_view(text_).substr(position_, end - position_);
   }
-  void Advance() { position_ += Next().size(); }
+  void Advance(std::size_t num_lines) { position_ += Next(num_lines).size(); }
   [[nodiscard]] std::uint64_t position() const { return position_; }
 
  private:
@@ -150,14 +162,26 @@ bool HasContent(const std::filesystem::path& directory, const WrittenFile& file)
          ContentHash(ReadFileWhole(path)) == file.hash;
 }
 
+// How many lines a frame has in the i-th of a run's line files.
+std::size_t NumLinesIn(std::size_t i, std::size_t num_files, const FrameRecord& record) {
+  const std::size_t first_of_motion = num_files - 1 - record.motion_lines.size();
+  const bool is_of_motion = i >= first_of_motion && i + 1 < num_files;
+  return is_of_motion ? record.motion_lines[i - first_of_motion] : 1;
+}
+
 // Returns the next frame's record if the frame is complete.
 std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
                                      std::uint32_t frame,
                                      const std::vector<LineWalk>& walks) {
   auto record = ParseFrameLine(walks.back().Next());
   if (!record || record->frame != frame) return std::nullopt;
+  const std::size_t num_motion =
+      spec.motion_sensors ? MotionFilesOf(*spec.motion_sensors).size() : 0;
+  if (record->motion_lines.size() != num_motion) return std::nullopt;
   std::string records;
-  for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
+  for (std::size_t i = 0; i + 1 < walks.size(); ++i) {
+    records += walks[i].Next(NumLinesIn(i, walks.size(), *record));
+  }
   if (ContentHash(records) != record->records_hash) return std::nullopt;
   for (const WrittenFile& file : record->files) {
     if (!HasContent(spec.directory, file)) return std::nullopt;
@@ -172,7 +196,7 @@ class OwnNames {
   OwnNames(const SequenceSpec& spec, const std::vector<FrameFile>& fixed) : spec_(spec) {
     names_ = {std::string(kRunFile), std::string(kManifestFile)};
     for (const FrameFile& file : fixed) names_.insert(file.name);
-    for (const LineFileName& file : LineFileNames(*spec.files.format)) names_.insert(file.name);
+    for (const LineFileName& file : LineFileNames(spec)) names_.insert(file.name);
   }
 
   [[nodiscard]] bool Have(std::string_view name) const {
@@ -245,7 +269,7 @@ void RunDirectory::Resume() {
   }
   const std::vector<std::uint64_t> line_sizes = CountFrames();
   if (is_complete_) return CheckUnchanged(line_sizes);
-  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  const std::vector<LineFileName> names = LineFileNames(spec_);
   for (std::size_t i = 0; i < names.size(); ++i) {
     line_files_.emplace_back(spec_.directory / names[i].name, line_sizes[i]);
     if (line_sizes[i] == 0) line_files_.back().Append(names[i].header);
@@ -254,7 +278,7 @@ void RunDirectory::Resume() {
 
 std::vector<std::uint64_t> RunDirectory::CountFrames() {
   std::vector<LineWalk> walks;
-  for (const LineFileName& file : LineFileNames(*spec_.files.format)) {
+  for (const LineFileName& file : LineFileNames(spec_)) {
     walks.emplace_back(spec_.directory / file.name, file.header);
   }
   for (; num_done_ < spec_.num_frames; ++num_done_) {
@@ -262,7 +286,9 @@ std::vector<std::uint64_t> RunDirectory::CountFrames() {
     if (!record) break;
     if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());
     counts_.Add(record->counts);
-    for (LineWalk& walk : walks) walk.Advance();
+    for (std::size_t i = 0; i < walks.size(); ++i) {
+      walks[i].Advance(NumLinesIn(i, walks.size(), *record));
+    }
   }
   std::vector<std::uint64_t> sizes;
   for (const LineWalk& walk : walks) sizes.push_back(walk.position());
@@ -277,7 +303,7 @@ void RunDirectory::CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) 
                      " was changed or removed; delete manifest.json to make it anew");
   };
   check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.FrameAt(num_done_)));
-  const std::vector<LineFileName> names = LineFileNames(*spec_.files.format);
+  const std::vector<LineFileName> names = LineFileNames(spec_);
   for (std::size_t i = 0; i < names.size(); ++i) {
     check(fs::file_size(directory / names[i].name) == line_sizes[i], names[i].name);
   }
@@ -310,6 +336,7 @@ void RunDirectory::WriteFixedFiles() {
   for (const FrameFileKind& file : spec_.files.format->files) {
     MakeFolders((directory / file.folder).parent_path());
   }
+  if (spec_.motion_sensors) MakeFolders(directory / kMotionFolder);
   if (!spec_.camera.empty()) {
     for (const std::string& name : CameraFileNames(spec_.camera, 0)) {
       MakeFolders((directory / name).parent_path());
@@ -337,18 +364,17 @@ std::vector<std::string> RunDirectory::RecordLines(const EncodedFrame& frame) {
       lines.push_back(std::move(line));
     }
   }
+  lines.insert(lines.end(), frame.motion_lines.begin(), frame.motion_lines.end());
   return lines;
 }
 
-void RunDirectory::Encode(const Frame& frame,
-                          const std::vector<ObjectInFrame>& objects,
-                          const CameraImage* image,
-                          EncodedFrame& encoded) const {
+void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
+  const Frame& frame = made.frame;
   const std::uint32_t number =
       spec_.files.format->dataset ? (frame.index - spec_.start_frame) / spec_.stride : frame.index;
-  EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(objects));
-  if (image != nullptr) {
-    for (FrameFile& file : EncodeCameraFiles(*image, spec_.camera, number)) {
+  EncodeFrameFiles(frame, spec_.files, number, encoded.files, MovingInstances(made.objects));
+  if (made.has_image) {
+    for (FrameFile& file : EncodeCameraFiles(made.image, spec_.camera, number)) {
       encoded.files.push_back(std::move(file));
     }
   }
@@ -357,12 +383,18 @@ void RunDirectory::Encode(const Frame& frame,
                     .scan_poses = ScanPosesOf(frame),
                     .files = {},
                     .records_hash = {},
+                    .motion_lines = {},
                     .counts = CountFrame(frame, spec_.files.labels)};
   for (const FrameFile& file : encoded.files) {
     encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
   }
   encoded.pose = PoseRecord(frame.stamp_ns, frame.world_from_sensor);
-  encoded.objects_line = ObjectsLine(frame, objects);
+  encoded.objects_line = ObjectsLine(frame, made.objects);
+  encoded.motion_lines = MotionLinesOf(made.motion);
+  for (const std::string& lines : encoded.motion_lines) {
+    encoded.record.motion_lines.push_back(
+        static_cast<std::uint32_t>(std::ranges::count(lines, '\n')));
+  }
 }
 
 void RunDirectory::Write(const EncodedFrame& frame) {
@@ -406,7 +438,7 @@ std::string RunDirectory::ManifestJson() const {
   OrderedJson files = OrderedJson::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
-  for (const LineFileName& file : LineFileNames(*spec_.files.format)) names.push_back(file.name);
+  for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
   for (const std::string& name : names) {
     const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
     files[name] = hash;

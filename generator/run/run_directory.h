@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "generator/record/frame_record.h"
-#include "generator/record/object_survey.h"
+#include "generator/run/frame_maker.h"
 #include "generator/run/run_folder.h"
 #include "generator/run/run_plan.h"
-#include "railcast/camera.h"
 #include "railcast/frame.h"
 
 namespace railcast {
@@ -29,6 +28,7 @@ struct EncodedFrame {
   FrameRecord record;  ///< Without records_hash.
   PoseRecord pose;
   std::string objects_line;
+  std::vector<std::string> motion_lines;  ///< Of each motion sensor.
 };
 
 /// A directory that holds a sequence of frames, complete or unfinished.
@@ -36,7 +36,8 @@ struct EncodedFrame {
 /// Layout: `frames/NNNNNN.*` (kitti: KITTI's own layout, numbered from 0 because line n of
 /// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
 /// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
-/// `materials.json`, `camera/NAME/...` (if there is a camera), `commands.jsonl` (if the run replays
+/// `materials.json`, `camera/NAME/...` (if there is a camera), `motion/NAME.csv` (for each motion
+/// sensor), `commands.jsonl` (if the run replays
 /// any), `run.json` (identifies the run) and, once complete, `manifest.json`.
 ///
 /// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
@@ -59,12 +60,8 @@ class RunDirectory {
   [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
   /// Encodes one of the run's frames. Several threads may do so at once, and while one writes.
-  /// @param image The camera's image of the frame; null = it has none.
   /// @param encoded Its memory is reused.
-  void Encode(const Frame& frame,
-              const std::vector<ObjectInFrame>& objects,
-              const CameraImage* image,
-              EncodedFrame& encoded) const;
+  void Encode(const MadeFrame& made, EncodedFrame& encoded) const;
 
   /// Writes the next of the run's frames.
   /// @throws InputError if the system refuses; the directory can be resumed nevertheless.

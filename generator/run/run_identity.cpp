@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/motion_files.h"
 #include "generator/run/run_directory.h"
 
 namespace railcast {
@@ -30,6 +31,11 @@ Json RunObject(const SequenceSpec& spec) {
               {"format", spec.files.format->name}};
   if (spec.commands_jsonl.empty()) run.erase("commands_xxh3");
   if (!spec.files.format->dataset) run["fields"] = spec.files.fields.Text();
+  if (spec.motion_sensors) {
+    Json names = Json::array();
+    for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) names.push_back(file.sensor);
+    run["motion_sensors"] = std::move(names);
+  }
   run["start_frame"] = spec.start_frame;
   run["num_frames"] = spec.num_frames;
   // Left out where it is 1, as in the directories of older programs.

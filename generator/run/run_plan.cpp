@@ -53,6 +53,7 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
     spec.calibration_json = CalibrationJson(*scenario.camera, VehicleFromCamera(scenario),
                                             VehicleFromSensor(scenario.lidar.mount));
   }
+  spec.motion_sensors = scenario.motion_sensors;
   spec.start_frame = choices.start_frame;
   spec.num_frames = choices.num_frames;
   spec.stride = choices.stride;
@@ -110,7 +111,10 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
   RunPlan plan{choices.directory, choices.is_merged, std::move(scenario), {}, {}, {}};
   for (const std::string& name : SensorNames(plan.scenario)) {
     ScenarioSpec reduced = PickSensor(plan.scenario, name);
-    if (!plan.sensors.empty()) reduced.camera.reset();
+    if (!plan.sensors.empty()) {
+      reduced.camera.reset();
+      reduced.motion_sensors.reset();
+    }
     SequenceSpec spec = SequenceSpecOf(reduced, choices, shown);
     if (!plan.scenario.lidars.empty()) spec.directory /= name;
     plan.sensors.push_back({name, std::move(reduced), std::move(spec)});

@@ -43,6 +43,8 @@ struct SequenceSpec {
   FrameFileSpec files;
   std::string camera;            ///< Name of the scenario's camera; empty = it has none.
   std::string calibration_json;  ///< CalibrationJson() of the camera.
+  /// Those whose samples belong to the frames; absent = none.
+  std::optional<MotionSensorsSpec> motion_sensors{};
   MaterialLibrary materials;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
@@ -75,7 +77,7 @@ struct RunPlan {
 
 /// Plans one sequence for each of a scenario's `lidars`, in their order, in a folder of the
 /// sensor's name below the directory; that of a single `lidar` is in the directory itself. The
-/// camera, if there is one, belongs to the first sensor's.
+/// camera and the motion sensors, if there are any, belong to the first sensor's.
 /// @param shown The scenario's name in messages.
 /// @throws InputError if the format cannot hold the scenario's points, the fields or the
 ///   instruction set do not fit, or a sensor's name cannot be that of a folder.

@@ -144,6 +144,21 @@ class Exported(unittest.TestCase):
         norm = sum(rows[name] ** 2 for name in ("qx", "qy", "qz", "qw"))
         np.testing.assert_allclose(norm, 1, atol=1e-6)
 
+    def test_samples_of_motion_sensors_are_beside_the_ins(self):
+        for name in ("imu", "ins"):
+            scenario = self.folder / f"{name}.json"
+            scenario.write_text(json.dumps({"version": 1, "file": str(SCENARIO),
+                                            "motion_sensors": {"imus": [{"name": name}]}}), "utf-8")
+            generate("sequence", scenario, "--out", self.folder / f"with_{name}", "--frames", 1)
+        ended = run_script("export_osdar.py", self.folder / "with_imu", "--out", self.folder / "moving")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual((self.folder / "moving" / "gps_imu" / "imu.csv").read_bytes(),
+                         (self.folder / "with_imu" / "motion" / "imu.csv").read_bytes())
+        ended = run_script("export_osdar.py", self.folder / "with_ins", "--out", self.folder / "refused")
+        self.assertEqual((ended.returncode, ended.stderr), (
+            1, f"{self.folder}/with_ins: must have no motion sensor that is called as the INS that is written "
+               "(got ins)\n"))
+
     def test_several_sensors_are_merged_in_the_vehicles_axes(self):
         scenario = self.folder / "two.json"
         scenario.write_text(json.dumps(TWO), "utf-8")

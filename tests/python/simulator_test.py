@@ -231,6 +231,23 @@ class Misuse(unittest.TestCase):
             with self.assertRaises(TypeError):
                 copy.copy(owner.__new__(owner))
 
+    def test_motion_sensors_have_arrays_of_their_samples(self):
+        simulator = railcast.Simulator(ROOT / "scenarios" / "tunnel_motion.json")
+        motion = simulator.motion(2)
+        self.assertEqual(list(motion), ["imu", "gnss", "odometer"])
+        self.assertEqual({name: len(columns["time_ns"]) for name, columns in motion.items()},
+                         {"imu": 20, "gnss": 1, "odometer": 5})
+        force = motion["imu"]["true_specific_force_mps2"]
+        self.assertEqual((force.shape, force.dtype), ((20, 3), np.float64))
+        np.testing.assert_allclose(force.mean(axis=0)[2], 9.8, atol=0.5)
+        self.assertEqual(motion["gnss"]["has_fix"].dtype, np.bool_)
+        self.assertEqual(motion["odometer"]["pulses"].dtype, np.int64)
+        np.testing.assert_allclose(motion["odometer"]["true_distance_m"],
+                                   16e-9 * motion["odometer"]["time_ns"], rtol=1e-3)
+        self.assertEqual(railcast.Simulator(ROOT / "scenarios" / "minimal.json").motion(0), {})
+        with self.assertRaisesRegex(railcast.InputError, "^frame: must be >= 0"):
+            simulator.motion(-1)
+
     def test_lengths_of_rails_are_numbers(self):
         simulator = railcast.Simulator(ROOT / "scenarios" / "minimal.json")
         for name, wrong, shown in (("ahead_m", math.nan, "nan"), ("behind_m", math.inf, "inf"), ("ahead_m", -1, "-1")):

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -109,6 +110,33 @@ void CheckNumLines(const std::filesystem::path& file, std::size_t num_frames, bo
                    " frames (got " + NumberText(got) + ")");
 }
 
+std::vector<LineReader> OpenMotionFiles(const SequenceSummary& summary) {
+  std::vector<LineReader> readers;
+  for (const std::string& sensor : summary.run.motion_sensors) {
+    readers.emplace_back(summary.directory / MotionFileName(sensor));
+    (void)readers.back().Need();
+  }
+  return readers;
+}
+
+std::vector<PlacedLine> ReadMotionLines(const PlacedLine& frame, std::vector<LineReader>& readers) {
+  if (readers.empty()) return {};
+  const FrameLine line = ReadFrameLine(frame.text, frame.place);
+  if (line.motion_lines.size() != readers.size()) {
+    throw InputError(frame.place + ": motion_lines: must be " + NumberText(readers.size()) +
+                     ", as many as run.json has motion sensors" + Got(line.motion_lines.size()));
+  }
+  std::vector<PlacedLine> motion(readers.size());
+  for (std::size_t i = 0; i < readers.size(); ++i) {
+    for (std::uint32_t k = 0; k < line.motion_lines[i]; ++k) {
+      const PlacedLine sample = readers[i].Need();
+      if (k == 0) motion[i].place = sample.place;
+      motion[i].text += sample.text + "\n";
+    }
+  }
+  return motion;
+}
+
 FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     : num_frames_(CountLines(summary.directory / kFramesFile)),
       next_frame_(summary.run.start_frame),
@@ -126,14 +154,16 @@ FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     records_.emplace_back(summary.directory / name);
     for (std::size_t i = 0; i < NumHeaders(name); ++i) (void)records_.back().Need();
   }
+  motion_ = OpenMotionFiles(summary);
 }
 
 std::optional<FrameLines> FrameLineReader::Next() {
   auto frame = frames_.Next();
   if (!frame) return std::nullopt;
-  FrameLines lines{next_frame_, std::move(*frame), {}};
+  FrameLines lines{next_frame_, std::move(*frame), {}, {}};
   next_frame_ += stride_;
   for (LineReader& records : records_) lines.records.push_back(records.Need());
+  lines.motion = ReadMotionLines(lines.frame, motion_);
   return lines;
 }
 
@@ -154,6 +184,12 @@ void CheckRecords(const FrameLine& line, const FrameLines& lines) {
     records += record.text + "\n";
     if (!files.empty()) files += ", ";
     files += std::filesystem::path(record.place).filename().string();
+  }
+  for (const PlacedLine& samples : lines.motion) {
+    records += samples.text;
+    if (!samples.text.empty()) {
+      files += ", " + std::filesystem::path(samples.place).filename().string();
+    }
   }
   const std::string hash = ContentHash(records);
   if (hash == line.records_hash) return;

@@ -70,7 +70,20 @@ struct FrameLines {
   std::uint32_t expected_frame{};
   PlacedLine frame;
   std::vector<PlacedLine> records;  ///< One from each file of RecordFiles().
+  /// The frame's lines in each motion sensor's file, with their ends, and the place of the first.
+  std::vector<PlacedLine> motion{};
 };
+
+/// Reads the lines of a frame in the files of the motion sensors.
+/// @param readers Of these files, at the frame's lines.
+/// @throws InputError with one line if the frame has lines in another number of files, or if a file
+///   has fewer lines.
+[[nodiscard]] std::vector<PlacedLine> ReadMotionLines(const PlacedLine& frame,
+                                                      std::vector<LineReader>& readers);
+
+/// Opens the files of the motion sensors behind their headers.
+/// @throws InputError if one cannot be read.
+[[nodiscard]] std::vector<LineReader> OpenMotionFiles(const SequenceSummary& summary);
 
 /// Reads the line files of a directory frame by frame.
 class FrameLineReader {
@@ -92,6 +105,7 @@ class FrameLineReader {
   std::uint32_t stride_{};
   LineReader frames_;
   std::vector<LineReader> records_;
+  std::vector<LineReader> motion_;
 };
 
 /// Parses the frame's line of frames.jsonl.

@@ -118,6 +118,7 @@ FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
     for (const StrictJson& file : json.at("files")) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }
+    if (json.contains("motion_lines")) json.at("motion_lines").get_to(result.motion_lines);
     return result;
   });
 }

@@ -25,6 +25,8 @@ struct FrameLine {
   std::vector<ScanPose> scan_poses;
   std::vector<KnownFile> files;
   std::string records_hash;  ///< Hash over the frame's lines in the other line files.
+  /// The numbers of these in the files of the motion sensors, in their order.
+  std::vector<std::uint32_t> motion_lines{};
 };
 
 /// @throws InputError "place: rule" if it is not a line of frames.jsonl.

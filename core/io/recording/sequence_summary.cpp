@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/motion_files.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
@@ -42,10 +43,17 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     run.stride = json.value("stride", 1U);
     if (run.stride == 0) throw InputError(place + ": stride: must be at least 1 (got 0)");
     run.has_commands = json.contains("commands_xxh3");
-    RefuseUnknownKeys(json,
-                      {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3",
-                       "commands_xxh3", "format", "fields", "start_frame", "num_frames", "stride"},
-                      place);
+    RefuseUnknownKeys(
+        json,
+        {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3", "commands_xxh3", "format",
+         "fields", "motion_sensors", "start_frame", "num_frames", "stride"},
+        place);
+    if (json.contains("motion_sensors")) json.at("motion_sensors").get_to(run.motion_sensors);
+    for (const std::string& sensor : run.motion_sensors) {
+      if (IsMotionFile(MotionFileName(sensor))) continue;
+      throw InputError(place + ": motion_sensors: must be names of files (got " +
+                       ShownText(sensor) + ")");
+    }
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");
     run.isa = json.at("isa");

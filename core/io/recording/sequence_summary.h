@@ -21,8 +21,9 @@ struct RunSummary {
   std::string format;
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
-  std::uint32_t stride = 1;  ///< From one frame's number to the next.
-  bool has_commands{};       ///< Whether the run replays any commands.
+  std::uint32_t stride = 1;                 ///< From one frame's number to the next.
+  bool has_commands{};                      ///< Whether the run replays any commands.
+  std::vector<std::string> motion_sensors;  ///< Each has a file of samples (MotionFileName()).
   /// The scenario, its inputs and the commands. Empty in directories of older programs, whose
   /// scenarios referred to files outside the directory.
   std::vector<KnownFile> files;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/io/run/motion_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "railcast/camera.h"
@@ -124,7 +125,7 @@ bool IsSequenceFile(std::string_view name) {
       if (Take(number, file.folder) && IsNumbered(number, file.extension)) return true;
     }
   }
-  if (IsCameraFile(name)) return true;
+  if (IsCameraFile(name) || IsMotionFile(name)) return true;
   return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
 }
 

@@ -36,6 +36,9 @@ inline constexpr std::string_view kInputsFolder = "inputs";
 inline constexpr std::string_view kCameraFolder = "camera";
 inline constexpr std::string_view kCalibrationName = "calibration.json";
 
+/// The folder of the motion sensors' samples: "motion/imu.csv".
+inline constexpr std::string_view kMotionFolder = "motion";
+
 // The files of the clouds of all sensors of a run together (docs/files.md), in a folder beside
 // those of the sensors.
 
@@ -57,8 +60,8 @@ inline constexpr std::string_view kSensorIndexField = "sensor_index";
 [[nodiscard]] std::string FrameDigits(std::uint32_t number);
 
 /// Whether a sequence directory of any format may hold a file of this name: one of the names above,
-/// that of a frame, of an image or of an input. While a file is being written, kUnfinishedSuffix
-/// follows its name.
+/// that of a frame, of an image, of a motion sensor or of an input. While a file is being written,
+/// kUnfinishedSuffix follows its name.
 /// @param name Relative to the directory, with slashes: "frames/000012.pcd".
 [[nodiscard]] bool IsSequenceFile(std::string_view name);
 

@@ -9,6 +9,7 @@
 #include "core/io/cloud/point_table.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/verify/cloud_counts.h"
@@ -30,6 +31,7 @@ std::vector<std::string> NeededFiles(const RunSummary& run) {
     names.emplace_back(name);
   }
   for (const KnownFile& file : run.files) names.push_back(file.name);
+  for (const std::string& sensor : run.motion_sensors) names.push_back(MotionFileName(sensor));
   return names;
 }
 
@@ -204,8 +206,10 @@ void Verifier::CheckFrames() {
     });
     has_all_records = has_all_records && is_there;
   }
+  std::vector<LineReader> motion;
+  if (!Try([&] { motion = OpenMotionFiles(summary_); })) has_all_records = false;
   const std::uint32_t stride = summary_.run.stride;
-  FrameLines lines{summary_.run.start_frame, {}, {}};
+  FrameLines lines{summary_.run.start_frame, {}, {}, {}};
   for (std::size_t i = 0; auto frame = frames.Next(); ++i, lines.expected_frame += stride) {
     on_progress_(static_cast<double>(i) / static_cast<double>(result_.num_frames));
     lines.frame = std::move(*frame);
@@ -224,6 +228,11 @@ void Verifier::CheckFrames() {
       auto record = reader.Next();
       for (std::uint32_t k = 0; k < num_missing && record; ++k) record = reader.Next();
       if (record) lines.records.push_back(std::move(*record));
+    }
+    // Behind a frame that is missing, it is not known where a frame's samples begin.
+    if (num_missing > 0) has_all_records = has_all_records && motion.empty();
+    if (has_all_records && line) {
+      has_all_records = Try([&] { lines.motion = ReadMotionLines(lines.frame, motion); });
     }
     if (line) CheckFrame(*line, lines, has_all_records);
   }

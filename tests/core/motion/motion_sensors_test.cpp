@@ -156,5 +156,30 @@ TEST(MotionSensors, TheReceiverLosesItsFixInATunnelAndFindsItAgain) {
   EXPECT_GT(num_outside, 2);
 }
 
+// A road bridge of 14 m, 3 m above the antenna: over the middle of the sky nothing is free below
+// it.
+TEST(MotionSensors, TheReceiverLosesItsFixUnderABridge) {
+  ScenarioSpec spec = StraightScenario();
+  OverbridgeSpec bridge;
+  bridge.name = "bridge";
+  bridge.track = "main";
+  bridge.begin_s_m = 200.0;
+  bridge.end_s_m = 214.0;
+  spec.world.structures = {bridge};
+  Drive({SpeedAt(0, 20)}, spec);
+  spec.motion_sensors = MotionSensorsSpec{};
+  spec.motion_sensors->gnss = {
+      {.rate_hz = 10.0, .antenna_m = {0.0, 0.0, 4.0}, .least_sky_share = 0.5}};
+  SampledFrames frames(spec);
+  const auto at_s_m = [&](double s_m) {
+    const auto frame = static_cast<std::uint32_t>(std::lround((s_m - 100.0) / 2.0));
+    return frames.Of(frame).gnss.at(0).at(0);
+  };
+  EXPECT_GT(at_s_m(120.0).sky_share, 0.95);
+  EXPECT_FALSE(at_s_m(206.0).has_fix);
+  EXPECT_GT(at_s_m(206.0).sky_share, 0.02);
+  EXPECT_TRUE(at_s_m(250.0).has_fix);
+}
+
 }  // namespace
 }  // namespace railcast
