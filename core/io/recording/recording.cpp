@@ -53,6 +53,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
 }  // namespace
 
 std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
+  if (auto capture = OpenCaptureWithMetadata(source)) return capture;
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) throw FileError(source, error ? error.value() : ENOENT);

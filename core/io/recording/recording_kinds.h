@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/recording/capture_metadata.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -23,11 +24,19 @@ namespace railcast {
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
 
+/// Opens a capture with the metadata that `source` names behind it, "drive.pcap:os.json", instead
+/// of those beside it. Returns null if `source` does not name a capture so.
+/// @throws InputError as above, and if the metadata cannot be read.
+[[nodiscard]] std::unique_ptr<Recording> OpenCaptureWithMetadata(
+    const std::filesystem::path& source);
+
 /// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
 /// once to read.
 /// @param name Names the capture in error messages.
+/// @param beside What stands beside it about its sensor; only an Ouster sensor needs it.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
-                                                     const std::string& name);
+                                                     const std::string& name,
+                                                     const CaptureMetadata& beside = {});
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
