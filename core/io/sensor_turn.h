@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace railcast {
@@ -26,11 +27,18 @@ struct TurnPoint {
 /// Hz).
 inline constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
 
+/// What a sensor measures of each point besides its place and intensity.
+struct TurnField {
+  std::string name;           ///< As in RecordedFrame::foreign.
+  std::vector<float> values;  ///< One for each point of the turn.
+};
+
 /// The points of one turn of the rotor in order of time.
 struct SensorTurn {
   /// Time of the first firing cycle; each decoder defines its epoch.
   std::int64_t stamp_ns{};
   std::vector<TurnPoint> points;
+  std::vector<TurnField> fields{};
   /// When each firing cycle in the packets began, since the stamp. A laser of such a cycle without
   /// a point had distance 0. Cycles of missing packets are missing here, too.
   std::vector<std::int64_t> column_time_ns;

@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud run velodyne hesai pcap net ros mcap bag dds stream recording verify".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag dds stream recording verify".split(),
     "generator": ". record run check sequence live trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
@@ -50,6 +50,7 @@ LIBRARY_OWNERS = {
     "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", *PROGRAMS)),
     "libpcap": (r"pcap/", ("core/io",)),
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
+    "Boost.Asio": (r"boost/(?:asio|beast)/", ("core/io/net",)),
     "libpng": (r"png\.h$", ("core/io",)),
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
     "OpenSSL": (r"openssl/", ("core/io",)),

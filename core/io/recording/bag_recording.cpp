@@ -15,6 +15,7 @@
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/tf_poses.h"
 #include "core/io/ros/cdr.h"
+#include "core/scenario/ouster_metadata.h"
 
 namespace railcast {
 namespace {
@@ -111,6 +112,24 @@ std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
     throw InputError(place + "--topic: must be one of " + names + " (got none)");
   }
   return candidates.front();
+}
+
+/// Reads the metadata of an Ouster sensor, which its driver records as `metadata` beside the topic
+/// of the packets.
+CaptureMetadata OusterMetadataBeside(const std::string& packets, bag::BagReader& bag) {
+  const std::string wanted = packets.substr(0, packets.rfind('/') + 1) + "metadata";
+  const auto& topics = bag.topics();
+  const auto found = std::ranges::find_if(topics, [&](const bag::BagTopic& topic) {
+    return topic.name == wanted && topic.type == ros::StringMessage::kName;
+  });
+  if (found == topics.end()) return {};
+  bag.Select({static_cast<std::size_t>(found - topics.begin())});
+  const auto message = bag.Next();
+  if (!message) return {};
+  return AtPlace(wanted + ": ", [&]() -> CaptureMetadata {
+    const auto text = ros::FromCdr<ros::StringMessage>(message->data).data;
+    return {.file = wanted, .metadata = ParseOusterMetadata(text)};
+  });
 }
 
 class PacketSource : public DatagramSource {
@@ -258,8 +277,12 @@ std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
   if (PacketTypeOf(reader->topics()[picked]) == nullptr) {
     return std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
   }
+  const std::string& name = reader->topics()[picked].name;
+  const CaptureMetadata beside =
+      AtPlace(ShownPath(source) + ": ", [&] { return OusterMetadataBeside(name, *reader); });
   return OpenDatagrams(
-      [&] { return std::make_unique<PacketSource>(bag, picked, ShownPath(source)); }, source);
+      [&] { return std::make_unique<PacketSource>(bag, picked, ShownPath(source)); }, source,
+      beside);
 }
 
 }  // namespace railcast

@@ -31,12 +31,12 @@ class CaptureRecording : public Recording {
                    const std::filesystem::path& source,
                    CaptureSensor sensor)
       : datagrams_(std::move(datagrams)),
-        name_(sensor.name),
+        name_(std::move(sensor.name)),
         packet_size_(sensor.packet_size),
         shape_(std::make_shared<const TurnShape>(std::move(sensor.shape))),
         decoder_(std::move(sensor.decoder)) {
     info_.source = source;
-    info_.kind = "capture of " + std::string(sensor.name);
+    info_.kind = "capture of " + name_;
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -85,7 +85,7 @@ class CaptureRecording : public Recording {
       if (refusal && is_first) return;
       if (size < packet_size_) {
         throw InputError(ShownPath(info_.source) + ": packet " + NumberText(datagram.packet) +
-                         ": must hold whole packets of " + std::string(name_) + ", of " +
+                         ": must hold whole packets of " + name_ + ", of " +
                          NumberText(packet_size_) + " bytes each (got " +
                          NumberText(datagram.payload.size()) + " bytes)");
       }
@@ -95,19 +95,33 @@ class CaptureRecording : public Recording {
 
   RecordingInfo info_;
   std::unique_ptr<DatagramSource> datagrams_;
-  std::string_view name_;
+  std::string name_;
   std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
-  std::variant<VelodyneDecoder, HesaiDecoder> decoder_;
+  std::variant<VelodyneDecoder, HesaiDecoder, OusterDecoder> decoder_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
   bool is_at_end_ = false;
 };
 
-CaptureSensor FindSensor(DatagramSource& datagrams, const std::string& name) {
-  SensorFinder finder;
+std::FILE* OpenStream(const std::filesystem::path& file) {
+  CheckIsReadable(file);
+  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
+  if (stream == nullptr) throw FileError(file, errno);
+  return stream;
+}
+
+CaptureSensor FindSensor(DatagramSource& datagrams,
+                         const std::string& name,
+                         const CaptureMetadata& beside) {
+  SensorFinder finder(beside.metadata);
   while (const auto datagram = datagrams.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
+  }
+  if (finder.has_seen_ouster() && !beside.fault.empty()) throw InputError(beside.fault);
+  if (!finder.ouster_refusal().empty()) {
+    throw InputError(name + ": packets are not of the sensor of " + ShownPath(beside.file) + ": " +
+                     finder.ouster_refusal());
   }
   throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
                    finder.Findings(datagrams.num_torn()) + ")");
@@ -117,25 +131,36 @@ CaptureSensor FindSensor(DatagramSource& datagrams, const std::string& name) {
 
 std::unique_ptr<Recording> OpenDatagrams(
     const std::function<std::unique_ptr<DatagramSource>()>& open,
-    const std::filesystem::path& source) {
-  CaptureSensor sensor = FindSensor(*open(), ShownPath(source));
+    const std::filesystem::path& source,
+    const CaptureMetadata& beside) {
+  CaptureSensor sensor = FindSensor(*open(), ShownPath(source), beside);
   return std::make_unique<CaptureRecording>(open(), source, std::move(sensor));
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
-                                       const std::string& name) {
-  return OpenDatagrams([&] { return std::make_unique<PcapSource>(open(), name); }, name);
+                                       const std::string& name,
+                                       const CaptureMetadata& beside) {
+  return OpenDatagrams([&] { return std::make_unique<PcapSource>(open(), name); }, name, beside);
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
-  return OpenCapture(
-      [&file] {
-        CheckIsReadable(file);
-        std::FILE* const stream = std::fopen(file.c_str(), "rbe");
-        if (stream == nullptr) throw FileError(file, errno);
-        return stream;
-      },
-      ShownPath(file));
+  return OpenCapture([&file] { return OpenStream(file); }, ShownPath(file),
+                     FindOusterMetadata(file));
+}
+
+std::unique_ptr<Recording> OpenCaptureWithMetadata(const std::filesystem::path& source) {
+  const std::string& text = source.native();
+  for (std::size_t mark = text.find(':'); mark != std::string::npos;
+       mark = text.find(':', mark + 1)) {
+    const std::filesystem::path file = text.substr(0, mark);
+    const bool is_capture = file.extension() == ".pcap" || file.extension() == ".pcapng";
+    std::error_code error;
+    if (!is_capture || !std::filesystem::exists(file, error)) continue;
+    const std::filesystem::path metadata = text.substr(mark + 1);
+    return OpenCapture([&file] { return OpenStream(file); }, ShownPath(source),
+                       {.file = metadata, .metadata = ReadOusterMetadata(metadata)});
+  }
+  return nullptr;
 }
 
 }  // namespace railcast

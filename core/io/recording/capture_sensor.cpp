@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/io/hesai/hesai_model.h"
@@ -51,6 +52,20 @@ void FillPoints(const SensorTurn& turn, const TurnShape& shape, Frame& frame) {
   }
 }
 
+std::vector<ForeignField> FieldsOf(const SensorTurn& turn, const Frame& frame) {
+  std::vector<ForeignField> fields;
+  for (const TurnField& field : turn.fields) {
+    std::vector<float> values(frame.num_slots(), kNoPoint);
+    for (std::size_t i = 0; i < turn.points.size(); ++i) {
+      const TurnPoint& point = turn.points[i];
+      const std::size_t firing = std::size_t{point.ring} * frame.columns + point.column;
+      values[firing * frame.returns + point.return_index] = field.values[i];
+    }
+    fields.push_back({field.name, std::move(values)});
+  }
+  return fields;
+}
+
 bool AreTimesKnown(const SensorTurn& turn, const TurnShape& shape) {
   const auto [first, last] = std::ranges::minmax(turn.column_time_ns);
   const std::int64_t longest_ns = *std::ranges::max_element(shape.row_time_ns);
@@ -72,21 +87,48 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
   return payload.first(std::min(payload.size(), size));
 }
 
+CaptureSensor OusterSensor(const OusterMetadata& metadata) {
+  std::vector<ChannelSpec> channels;
+  for (const OusterBeam& beam : metadata.beams) {
+    channels.push_back({beam.altitude_deg, beam.azimuth_deg, 0.0});
+  }
+  return {.name = metadata.product_line.empty() ? "an Ouster sensor" : metadata.product_line,
+          .packet_size = OusterPacketSize(metadata),
+          .shape = ShapeOfTurns(channels, IntensityBytes::kVelodyne),
+          .decoder = OusterDecoder(metadata)};
+}
+
+/// Whether a datagram has the size of a lidar packet of one of Ouster's sensors with 16 columns,
+/// and begins like one.
+bool LooksLikeOuster(std::span<const char> payload) {
+  constexpr std::size_t kColumns = 16;
+  for (const std::size_t num_pixels : {16U, 32U, 64U, 128U}) {
+    if (payload.size() == kColumns * (20 + 12 * num_pixels)) return true;
+    for (const std::size_t pixel_size : {4U, 8U, 12U, 16U}) {
+      if (payload.size() != 64 + kColumns * (12 + pixel_size * num_pixels)) continue;
+      return payload[0] == 1;
+    }
+  }
+  return false;
+}
+
 /// A sensor of each kind that can be decoded, without any packet so far.
-std::vector<CaptureSensor> ReadableSensors() {
+std::vector<CaptureSensor> ReadableSensors(
+    const std::optional<OusterMetadata>& metadata = std::nullopt) {
   std::vector<CaptureSensor> sensors;
   for (const VelodyneModel* model : ModelsWithoutCalibration()) {
-    sensors.push_back({.name = model->name,
+    sensors.push_back({.name = std::string(model->name),
                        .packet_size = kVelodynePacketSize,
                        .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
                        .decoder = VelodyneDecoder(*model)});
   }
   for (const HesaiModel* model : HesaiModels()) {
-    sensors.push_back({.name = model->name,
+    sensors.push_back({.name = std::string(model->name),
                        .packet_size = model->layout.packet_size,
                        .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
                        .decoder = HesaiDecoder(*model)});
   }
+  if (metadata) sensors.push_back(OusterSensor(*metadata));
   return sensors;
 }
 
@@ -110,6 +152,10 @@ std::string NameOfStranger(std::span<const char> payload) {
   constexpr std::size_t kLeastHesaiHeader = 8;
   if (payload.size() >= kLeastHesaiHeader && LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
     return "packets of " + NumberText(payload.size()) + " bytes of a Hesai sensor";
+  }
+  if (LooksLikeOuster(payload)) {
+    return "packets of " + NumberText(payload.size()) +
+           " bytes of an Ouster sensor, whose metadata must stand beside the capture";
   }
   constexpr std::string_view kOurs = "RCST";
   if (payload.size() >= kOurs.size() && std::equal(kOurs.begin(), kOurs.end(), payload.begin())) {
@@ -160,6 +206,7 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   frame.stamp_ns = turn.stamp_ns;
   FillSlots(turn, shape, frame);
   FillPoints(turn, shape, frame);
+  recorded.foreign = FieldsOf(turn, frame);
   if (AreTimesKnown(turn, shape)) {
     recorded.fields.emplace("time_ns");
     frame.duration_ns = *std::ranges::max_element(frame.time_ns);
@@ -175,7 +222,8 @@ std::string ReadableSensorsText() {
   return Alternatives(names);
 }
 
-SensorFinder::SensorFinder() : probes_(ReadableSensors()) {}
+SensorFinder::SensorFinder(std::optional<OusterMetadata> metadata)
+    : metadata_(std::move(metadata)), probes_(ReadableSensors(metadata_)) {}
 
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
@@ -183,9 +231,17 @@ std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
     const std::span<const char> packet = FirstPacket(payload, probes_[i].packet_size);
     std::vector<SensorTurn> turns;
     const auto decode = [&](auto& decoder) { return decoder.Decode(packet, turns); };
+    const auto refusal = std::visit(decode, probes_[i].decoder);
     // The probe has used the packet, which the caller will decode.
-    if (!std::visit(decode, probes_[i].decoder)) return ReadableSensors()[i];
+    if (!refusal) return ReadableSensors(metadata_)[i];
+    const bool is_ouster = std::holds_alternative<OusterDecoder>(probes_[i].decoder);
+    if (!is_ouster || !LooksLikeOuster(payload) || !ouster_refusal_.empty()) continue;
+    const bool has_size = payload.size() % probes_[i].packet_size == 0;
+    ouster_refusal_ =
+        has_size ? *refusal
+                 : "must be " + NumberText(probes_[i].packet_size) + " bytes" + Got(payload.size());
   }
+  has_seen_ouster_ = has_seen_ouster_ || LooksLikeOuster(payload);
   if (stranger_.empty()) stranger_ = NameOfStranger(payload);
   return std::nullopt;
 }

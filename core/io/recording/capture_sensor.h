@@ -5,11 +5,11 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "core/io/hesai/hesai_decoder.h"
+#include "core/io/ouster/ouster_decoder.h"
 #include "core/io/sensor_turn.h"
 #include "core/io/velodyne/velodyne_decoder.h"
 #include "railcast/io/recording.h"
@@ -42,16 +42,17 @@ struct TurnShape {
 
 /// A sensor whose packets can be decoded.
 struct CaptureSensor {
-  std::string_view name;
+  std::string name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
-  std::variant<VelodyneDecoder, HesaiDecoder> decoder;
+  std::variant<VelodyneDecoder, HesaiDecoder, OusterDecoder> decoder;
 };
 
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
-  SensorFinder();
+  /// @param metadata Of an Ouster sensor, whose packets cannot be decoded without.
+  explicit SensorFinder(std::optional<OusterMetadata> metadata = std::nullopt);
 
   /// Returns the sensor once a datagram is, or begins with, one of its packets.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
@@ -59,12 +60,20 @@ class SensorFinder {
   /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
   /// @param num_torn Number of datagrams of which IP fragments are missing.
   [[nodiscard]] std::string Findings(std::size_t num_torn) const;
+  /// Why the first datagram that looks like an Ouster sensor's is none of the metadata's: "must be
+  /// 8448 bytes (got 24832)". Empty if there was no such datagram or if there are no metadata.
+  [[nodiscard]] const std::string& ouster_refusal() const { return ouster_refusal_; }
+  /// Whether a datagram looked like an Ouster sensor's.
+  [[nodiscard]] bool has_seen_ouster() const { return has_seen_ouster_; }
 
  private:
+  std::optional<OusterMetadata> metadata_;
   /// Of a datagram that they refuse they use nothing, so that each can look at all of them.
   std::vector<CaptureSensor> probes_;
   std::size_t num_datagrams_{};
   std::size_t first_size_{};
+  bool has_seen_ouster_ = false;
+  std::string ouster_refusal_;
   std::string stranger_;  ///< The first sensor that was recognised but cannot be decoded.
 };
 

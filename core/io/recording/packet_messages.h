@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -87,6 +88,13 @@ struct OusterPacketMessage {
   std::vector<std::uint8_t> buf;
 
   static void VisitFields(auto& self, auto&& visit) { visit("buf", self.buf); }
+};
+
+struct StringMessage {
+  static constexpr std::string_view kName = "std_msgs/msg/String";
+  std::string data;
+
+  static void VisitFields(auto& self, auto&& visit) { visit("data", self.data); }
 };
 
 }  // namespace railcast::ros

@@ -78,6 +78,7 @@ bool IsBagOfTopics(const std::filesystem::path& source) {
 }
 
 std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
+  if (auto capture = OpenCaptureWithMetadata(source)) return capture;
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) {

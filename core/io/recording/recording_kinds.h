@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/io/pcap/pcap_reader.h"
+#include "core/io/recording/capture_metadata.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -25,11 +26,19 @@ namespace railcast {
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
 
+/// Opens a capture with the metadata that `source` names behind it, "drive.pcap:os.json", instead
+/// of those beside it. Returns null if `source` does not name a capture so.
+/// @throws InputError as above, and if the metadata cannot be read.
+[[nodiscard]] std::unique_ptr<Recording> OpenCaptureWithMetadata(
+    const std::filesystem::path& source);
+
 /// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
 /// once to read.
 /// @param name Names the capture in error messages.
+/// @param beside What stands beside it about its sensor; only an Ouster sensor needs it.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
-                                                     const std::string& name);
+                                                     const std::string& name,
+                                                     const CaptureMetadata& beside = {});
 
 /// Datagrams of one or several sensors in the order of their times.
 class DatagramSource {
@@ -46,7 +55,8 @@ class DatagramSource {
 /// As OpenCapture(), for datagrams of any source, which is opened twice, too.
 [[nodiscard]] std::unique_ptr<Recording> OpenDatagrams(
     const std::function<std::unique_ptr<DatagramSource>()>& open,
-    const std::filesystem::path& source);
+    const std::filesystem::path& source,
+    const CaptureMetadata& beside = {});
 
 /// Stands between the path of a bag and the name of one of its topics.
 inline constexpr std::string_view kTopicMark = ":/";

@@ -195,9 +195,9 @@ VendorLayout LayoutOf(PointLayout layout, const Frame& frame, std::uint32_t clou
 }
 
 // The vendors' numbers of the channels in a frame's rows, of which 0 is the lowest.
-std::vector<std::uint16_t> ChannelsOf(PointLayout layout,
-                                      std::uint32_t rows,
-                                      const std::vector<std::uint16_t>& channel_of_row) {
+std::vector<std::uint16_t> ChannelsInRows(PointLayout layout,
+                                          std::uint32_t rows,
+                                          const std::vector<std::uint16_t>& channel_of_row) {
   if (layout == PointLayout::kHesai && channel_of_row.size() == rows) return channel_of_row;
   std::vector<std::uint16_t> channels(rows);
   for (std::uint32_t row = 0; row < rows; ++row) {
@@ -276,7 +276,7 @@ PointCloud2 MakeCloud(const Frame& frame,
     PutOwnPoints(frame, spec.fields, message);
   } else {
     PutVendorPoints(frame, LayoutOf(spec.layout, frame, cloud),
-                    ChannelsOf(spec.layout, frame.rows, channel_of_row), message);
+                    ChannelsInRows(spec.layout, frame.rows, channel_of_row), message);
   }
   message.row_step = message.width * message.point_step;
   return message;

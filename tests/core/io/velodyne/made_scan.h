@@ -64,6 +64,11 @@ class MadeScan {
         frame.x[slot] = range_m * pattern_.direction_x[i];
         frame.y[slot] = range_m * pattern_.direction_y[i];
         frame.z[slot] = range_m * pattern_.direction_z[i];
+        if (!pattern_.origin_x_m.empty()) {
+          frame.x[slot] += pattern_.origin_x_m[i];
+          frame.y[slot] += pattern_.origin_y_m[i];
+          frame.z[slot] += pattern_.origin_z_m[i];
+        }
         frame.intensity[slot] = UnitFloat(words[2]) * (words[3] % 8 == 0 ? 2000.0F : 1.0F);
         frame.time_ns[slot] = pattern_.time_ns[i];
         frame.ring[slot] = pattern_.row[i];

@@ -1,0 +1,138 @@
+#include "core/io/net/http_server.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace railcast {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using boost::system::error_code;
+using Tcp = asio::ip::tcp;
+
+/// One connection; lives as long as something is awaited on it.
+class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
+ public:
+  /// @param ended Called when the connection is closed.
+  HttpConnection(Tcp::socket socket, const HttpServer::Answer& answer, std::function<void()> ended)
+      : stream_(std::move(socket)), answer_(answer), ended_(std::move(ended)) {}
+  ~HttpConnection() { ended_(); }
+  HttpConnection(const HttpConnection&) = delete;
+  HttpConnection& operator=(const HttpConnection&) = delete;
+
+  void Read() {
+    parser_.emplace();
+    parser_->header_limit(HttpServer::kMaxHeaderBytes);
+    parser_->body_limit(HttpServer::kMaxBodyBytes);
+    stream_.expires_after(std::chrono::seconds(HttpServer::kPatience_s));
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](const error_code& error, std::size_t) {
+                       if (!error) self->Write();
+                     });
+  }
+
+ private:
+  void Write() {
+    const http::request<http::string_body>& request = parser_->get();
+    HttpAnswer answer = answer_({.method = std::string(request.method_string()),
+                                 .target = std::string(request.target()),
+                                 .body = request.body()});
+    response_ = {static_cast<http::status>(answer.status), request.version()};
+    response_.set(http::field::content_type, "application/json");
+    response_.keep_alive(request.keep_alive());
+    response_.body() = std::move(answer.body);
+    response_.prepare_payload();
+    if (request.method() == http::verb::head) response_.body().clear();
+    stream_.expires_after(std::chrono::seconds(HttpServer::kPatience_s));
+    http::async_write(stream_, response_,
+                      [self = shared_from_this()](const error_code& error, std::size_t) {
+                        if (error) return;
+                        if (self->response_.keep_alive()) return self->Read();
+                        error_code ignored;
+                        self->stream_.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+                      });
+  }
+
+  beast::tcp_stream stream_;
+  const HttpServer::Answer& answer_;
+  std::function<void()> ended_;
+  beast::flat_buffer buffer_{HttpServer::kMaxHeaderBytes + HttpServer::kMaxBodyBytes};
+  std::optional<http::request_parser<http::string_body>> parser_;
+  http::response<http::string_body> response_;
+};
+
+Endpoint EndpointOfAcceptor(const Tcp::acceptor& acceptor) {
+  const Tcp::endpoint at = acceptor.local_endpoint();
+  return {at.address().to_v4().to_uint(), at.port()};
+}
+
+}  // namespace
+
+struct HttpServer::Parts {
+  Answer answer;
+  Endpoint at;
+  // Of the server's thread, and of connections that end when the context does.
+  std::size_t num_connections = 0;
+  bool is_accepting = false;
+  bool is_ending = false;
+  asio::io_context context{1};
+  Tcp::acceptor acceptor{context};
+  std::thread thread;
+
+  void Accept() {
+    if (is_accepting || num_connections >= kMaxConnections) return;
+    is_accepting = true;
+    acceptor.async_accept([this](const error_code& error, Tcp::socket socket) {
+      is_accepting = false;
+      if (error == asio::error::operation_aborted) return;
+      if (!error) {
+        ++num_connections;
+        std::make_shared<HttpConnection>(std::move(socket), answer, [this] {
+          --num_connections;
+          if (!is_ending) Accept();
+        })->Read();
+      }
+      Accept();
+    });
+  }
+};
+
+HttpServer::HttpServer(const Endpoint& at, Answer answer) : parts_(std::make_unique<Parts>()) {
+  parts_->answer = std::move(answer);
+  try {
+    const Tcp::endpoint endpoint(asio::ip::address_v4(at.address), at.port);
+    parts_->acceptor.open(endpoint.protocol());
+    parts_->acceptor.set_option(Tcp::acceptor::reuse_address(true));
+    parts_->acceptor.bind(endpoint);
+    parts_->acceptor.listen();
+  } catch (const boost::system::system_error& error) {
+    throw InputError(EndpointText(at) + ": " + error.code().message());
+  }
+  parts_->at = EndpointOfAcceptor(parts_->acceptor);
+  parts_->Accept();
+  parts_->thread = std::thread([parts = parts_.get()] { parts->context.run(); });
+}
+
+HttpServer::~HttpServer() {
+  parts_->context.stop();
+  parts_->thread.join();
+  parts_->is_ending = true;
+}
+
+const Endpoint& HttpServer::at() const {
+  return parts_->at;
+}
+
+}  // namespace railcast

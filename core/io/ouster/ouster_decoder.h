@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/ouster/ouster_packet.h"
+#include "core/io/sensor_turn.h"
+#include "core/scenario/ouster_metadata.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// Turns the lidar packets of an Ouster sensor into points in the sensor's axes.
+///
+/// A turn is what has one frame number, in the order of its columns; columns that were not measured
+/// or did not arrive are left out. Ranges count from where the beams leave. A packet that comes
+/// after its frame has ended is left out. The stamp of a turn is the time of its first column by
+/// the sensor's clock. Each point has the fields `signal` and `near_ir`, in photons, as far as the
+/// profile has them.
+class OusterDecoder {
+ public:
+  explicit OusterDecoder(const OusterMetadata& metadata);
+
+  /// Takes the payload of a lidar packet and appends the turns that it completes.
+  /// @returns Why the payload was refused, as "rule (got value)", if it was; nothing of a refused
+  ///   payload is used.
+  [[nodiscard]] std::optional<std::string> Decode(std::span<const char> payload,
+                                                  std::vector<SensorTurn>& turns);
+
+  /// Returns the turn that no packet has completed yet, and starts a new one.
+  [[nodiscard]] SensorTurn TakeUnfinished();
+
+  [[nodiscard]] const OusterLayout& layout() const { return layout_; }
+
+ private:
+  struct Beam {
+    std::uint16_t pixel{};
+    std::uint16_t ring{};
+    double sine{};  ///< Of the altitude.
+    double cosine{};
+    double azimuth_rad{};  ///< Clockwise.
+  };
+  /// A column of the unfinished turn: its place among the points.
+  struct Column {
+    std::uint16_t measurement_id{};
+    std::int64_t time_ns{};
+    std::size_t first_point{};
+    std::size_t num_points{};
+  };
+
+  [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
+  [[nodiscard]] std::optional<std::string> RefuseColumns(std::span<const char> payload) const;
+  void AddColumn(std::span<const char> payload, std::size_t place);
+  void AddPoint(const OusterReturn& measured, const Beam& beam, double rotor_rad, TurnPoint point);
+
+  OusterMetadata metadata_;
+  OusterLayout layout_;
+  std::vector<Beam> beams_;
+  std::optional<std::uint32_t> frame_id_;
+  std::vector<Column> columns_;
+  std::vector<bool> is_seen_;  ///< By measurement.
+  std::vector<TurnPoint> points_;
+  std::vector<float> signals_, near_irs_;  ///< By point.
+};
+
+}  // namespace railcast

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/io/datagrams.h"
+#include "core/io/ouster/ouster_packet.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// Makes an encoder that turns a sensor's frames into the packets of the Ouster sensor whose
+/// metadata the scenario names, with a packet of motion (DatagramPort::kPosition) every 10 ms.
+///
+/// A packet holds columns of one turn; those outside of the window are marked as not measured. The
+/// number of a frame is that of its turn. Times are simulation time since 1970. Ranges beyond what
+/// the profile can state are no return. Signals are the received power in multiples of the
+/// detection threshold, where a real sensor counts photons, and the light of the background is 0.
+/// Motion is that between the poses of the frame, which are at most 20 ms apart, without errors.
+/// @throws InputError "--protocol ouster: /lidar/...: rule (got value)" if the sensor is not made
+/// of
+///   metadata, or if it has another number of returns than their profile; or as
+///   ParseOusterMetadata() does, with the name of the file.
+[[nodiscard]] std::unique_ptr<FrameEncoder> MakeOusterEncoder(const LidarSpec& lidar);
+
+/// The metadata of the stream, with all sections that drivers expect.
+/// @param text The sensor's own metadata; what they leave to later firmware is filled in.
+/// @param receiver Where the lidar packets go, host:port; packets of motion go to the same host.
+/// @pre ParseOusterMetadata(text) succeeds.
+[[nodiscard]] Json MetadataOfStream(const std::string& text, const std::string& receiver);
+
+}  // namespace railcast

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/scenario/ouster_metadata.h"
+
+namespace railcast {
+
+/// What stands beside a capture about the sensor whose packets it may hold.
+struct CaptureMetadata {
+  std::filesystem::path file{};              ///< Empty if there is none.
+  std::optional<OusterMetadata> metadata{};  ///< Absent if the file is none of an Ouster sensor's.
+  std::string fault{};                       ///< Why not: "file: /lidar_mode: missing".
+};
+
+/// Reads the metadata of an Ouster sensor.
+/// @throws InputError with a line for every fault: "file: /lidar_mode: missing".
+[[nodiscard]] OusterMetadata ReadOusterMetadata(const std::filesystem::path& file);
+
+/// Looks for an Ouster sensor's metadata under the names that its captures have: for
+/// `drive_lb_n3.pcap` these are `drive_lb_n3_0.json` (of Ouster's own programs and of railcast),
+/// `drive_lb_n3.json`, `drive_lb.json` and `drive.json`. The first that can be read is taken; if
+/// none can, the fault is that of the first that is there.
+[[nodiscard]] CaptureMetadata FindOusterMetadata(const std::filesystem::path& capture);
+
+}  // namespace railcast

@@ -1,0 +1,85 @@
+#include "core/io/net/http_server.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/core/io/message_of.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+constexpr Endpoint kFreeLoopbackPort{0x7F000001, 0};
+
+HttpAnswer Echo(const HttpRequest& request) {
+  return {request.target == "/none" ? 404U : 200U,
+          request.method + " " + request.target + " " + request.body};
+}
+
+/// Runs a Python program that knows `port`; what it prints.
+std::string Python(const HttpServer& server, const std::string& program) {
+  const std::string text =
+      "import http.client, socket, threading; port = " + std::to_string(server.at().port) + "\n" +
+      program;
+  return RunCommand("python3 - <<'EOF'\n" + text + "\nEOF\ntrue").said;
+}
+
+// http.client is Python's own.
+TEST(HttpServer, AnswersAClientThatKeepsItsConnection) {
+  const HttpServer server(kFreeLoopbackPort, Echo);
+  EXPECT_EQ(Python(server, R"(
+client = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+for method, target, body in (("GET", "/a?b=c", None), ("POST", "/config", "{}"), ("GET", "/none", None)):
+    client.request(method, target, body)
+    answer = client.getresponse()
+    print(answer.status, answer.getheader("Content-Type"), answer.read().decode()))"),
+            "200 application/json GET /a?b=c \n"
+            "200 application/json POST /config {}\n"
+            "404 application/json GET /none \n");
+}
+
+TEST(HttpServer, ServesManyClientsAtOnceAndAfterEachOther) {
+  const HttpServer server(kFreeLoopbackPort, Echo);
+  EXPECT_EQ(Python(server, R"(
+good = []
+def ask(i):
+    client = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+    client.request("GET", f"/{i}")
+    good.append(client.getresponse().read().decode() == f"GET /{i} ")
+    client.close()
+threads = [threading.Thread(target=ask, args=(i,)) for i in range(40)]
+for thread in threads: thread.start()
+for thread in threads: thread.join()
+print(len(good), all(good)))"),
+            "40 True\n");
+}
+
+// Requests that are no HTTP, too long, or never end, do not keep others from being served.
+TEST(HttpServer, ClosesConnectionsThatAskTooMuch) {
+  const HttpServer server(kFreeLoopbackPort, Echo);
+  EXPECT_EQ(Python(server, R"(
+def send(data):
+    with socket.create_connection(("127.0.0.1", port), timeout=20) as sock:
+        try:
+            sock.sendall(data)
+            return sock.recv(100)[:12]
+        except OSError:
+            return b""
+print(send(b"hello\r\n\r\n"))
+print(send(b"GET / HTTP/1.1\r\nX: " + b"x" * 100000 + b"\r\n\r\n"))
+print(send(b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n"))
+open_ones = [socket.create_connection(("127.0.0.1", port), timeout=20) for _ in range(8)]
+print(send(b"GET /still HTTP/1.1\r\n\r\n")))"),
+            "b''\nb''\nb''\nb'HTTP/1.1 200'\n");
+}
+
+TEST(HttpServer, SaysThatAPortIsTaken) {
+  const HttpServer server(kFreeLoopbackPort, Echo);
+  EXPECT_EQ(MessageOf([&] { const HttpServer other(server.at(), Echo); }),
+            EndpointText(server.at()) + ": Address already in use");
+}
+
+}  // namespace
+}  // namespace railcast
