@@ -125,6 +125,9 @@ void PrintReport(const ScenarioSpec& scenario,
                                        frames.last));
   if (scenario.fidelity == Fidelity::kAuto) std::cout << ShownLines(choices);
   if (scenario.camera) std::cout << ShownLines(CameraText(*scenario.camera));
+  if (scenario.motion_sensors) {
+    std::cout << ShownLines(MotionSensorsText(*scenario.motion_sensors));
+  }
 }
 
 int RunCheck(const CheckOptions& options) {

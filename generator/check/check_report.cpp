@@ -105,6 +105,21 @@ std::string CameraText(const CameraSpec& camera) {
                                                   : "an image with each frame"));
 }
 
+std::string MotionSensorsText(const MotionSensorsSpec& motion_sensors) {
+  std::string text;
+  const auto add = [&](const char* kind, const auto& sensors) {
+    for (const auto& sensor : sensors) {
+      text +=
+          ReportLine(text.empty() ? "motion" : "",
+                     sensor.name + ": " + kind + ", " + NumberText(sensor.rate_hz) + " samples/s");
+    }
+  };
+  add("IMU", motion_sensors.imus);
+  add("GNSS receiver", motion_sensors.gnss);
+  add("odometer", motion_sensors.odometers);
+  return text;
+}
+
 std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbose) {
   const double radius_m = alignment.tightest_radius_m();
   const std::vector<SmoothedJump>& jumps = alignment.smoothed_jumps();

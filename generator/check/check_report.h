@@ -16,6 +16,7 @@
 #include "railcast/frame.h"
 #include "railcast/lidar.h"
 #include "railcast/material.h"
+#include "railcast/motion_sensors.h"
 #include "railcast/objects.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
@@ -41,6 +42,8 @@ namespace railcast {
 [[nodiscard]] std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern);
 
 [[nodiscard]] std::string CameraText(const CameraSpec& camera);
+
+[[nodiscard]] std::string MotionSensorsText(const MotionSensorsSpec& motion_sensors);
 
 /// @param is_verbose Lists every smoothed jump.
 [[nodiscard]] std::string LineText(const Alignment& alignment, double gauge_mm, bool is_verbose);

@@ -38,6 +38,18 @@ TEST(CheckReport, SaysWhatACameraIs) {
             "camera    front: 640 x 480 pixels, 62.5 degrees wide, 2.5 images/s\n");
 }
 
+TEST(CheckReport, ListsMotionSensors) {
+  MotionSensorsSpec spec;
+  EXPECT_EQ(MotionSensorsText(spec), "");
+  spec.imus.emplace_back().rate_hz = 200.0;
+  spec.gnss.emplace_back().name = "rear";
+  spec.odometers.emplace_back();
+  EXPECT_EQ(MotionSensorsText(spec),
+            "motion    imu: IMU, 200 samples/s\n"
+            "          rear: GNSS receiver, 1 samples/s\n"
+            "          odometer: odometer, 50 samples/s\n");
+}
+
 TEST(CheckReport, CallsALineStraight) {
   AlignmentSpec spec;
   spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
