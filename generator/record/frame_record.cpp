@@ -43,6 +43,7 @@ FrameRecord Parse(const StrictJson& line) {
                             file.at("xxh3").get<std::string>()});
   }
   record.records_hash = line.at("records_xxh3").get<std::string>();
+  if (line.contains("clouds_xxh3")) record.clouds_hash = line.at("clouds_xxh3").get<std::string>();
   record.counts.points = line.at("points").get<std::uint64_t>();
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
     record.counts.outcomes[i] =
@@ -172,6 +173,7 @@ std::string FrameRecordLine(const FrameRecord& record) {
                {"scan_poses", std::move(poses)},
                {"files", files},
                {"records_xxh3", record.records_hash}};
+  if (!record.clouds_hash.empty()) line["clouds_xxh3"] = record.clouds_hash;
   PutCounts(record.counts, line);
   return WithLineHash(line.dump()) + "\n";
 }

@@ -88,7 +88,8 @@ struct FrameRecord {
   std::int64_t stamp_ns{};
   std::vector<RecordedScanPose> scan_poses;
   std::vector<WrittenFile> files;
-  std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
+  std::string records_hash;   ///< Hash of the frame's lines in the directory's other files.
+  std::string clouds_hash{};  ///< Of its clouds in the run's bag; empty if there is none.
   FrameCounts counts;
 
   bool operator==(const FrameRecord&) const = default;

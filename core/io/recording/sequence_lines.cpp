@@ -118,6 +118,7 @@ FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
     for (const StrictJson& file : json.at("files")) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }
+    result.clouds_hash = json.value("clouds_xxh3", "");
     return result;
   });
 }

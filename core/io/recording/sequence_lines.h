@@ -24,7 +24,8 @@ struct FrameLine {
   /// one in sequences of older programs.
   std::vector<ScanPose> scan_poses;
   std::vector<KnownFile> files;
-  std::string records_hash;  ///< Hash over the frame's lines in the other line files.
+  std::string records_hash;   ///< Hash over the frame's lines in the other line files.
+  std::string clouds_hash{};  ///< Hash over its clouds in the run's bag; empty if there is none.
 };
 
 /// @throws InputError "place: rule" if it is not a line of frames.jsonl.

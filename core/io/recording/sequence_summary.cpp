@@ -10,6 +10,7 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
@@ -28,6 +29,17 @@ void RefuseUnknownKeys(const StrictOrderedJson& json,
   }
 }
 
+// A run's bag is in the directory of its only sensor or in that around its sensors'.
+void ReadBag(const StrictOrderedJson& json, const std::string& place, RunSummary& run) {
+  run.bag = json.at("path");
+  run.cloud_topics = json.at("topics");
+  const FrameFormat* const format = FindFrameFormat(run.format);
+  const std::string name(format == nullptr ? "" : format->bag);
+  if (!name.empty() && (run.bag == name || run.bag == "../" + name)) return;
+  throw InputError(place + ": bag: path: must be that of a bag of format " + ShownText(run.format) +
+                   " (got " + ShownText(run.bag) + ")");
+}
+
 }  // namespace
 
 RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
@@ -42,10 +54,12 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     run.stride = json.value("stride", 1U);
     if (run.stride == 0) throw InputError(place + ": stride: must be at least 1 (got 0)");
     run.has_commands = json.contains("commands_xxh3");
-    RefuseUnknownKeys(json,
-                      {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3",
-                       "commands_xxh3", "format", "fields", "start_frame", "num_frames", "stride"},
-                      place);
+    RefuseUnknownKeys(
+        json,
+        {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3", "commands_xxh3", "format",
+         "fields", "bag", "start_frame", "num_frames", "stride"},
+        place);
+    if (json.contains("bag")) ReadBag(json.at("bag"), place, run);
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");
     run.isa = json.at("isa");
