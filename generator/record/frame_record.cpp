@@ -44,6 +44,7 @@ FrameRecord Parse(const StrictJson& line) {
   }
   record.records_hash = line.at("records_xxh3").get<std::string>();
   if (line.contains("motion_lines")) line.at("motion_lines").get_to(record.motion_lines);
+  if (line.contains("clouds_xxh3")) record.clouds_hash = line.at("clouds_xxh3").get<std::string>();
   record.counts.points = line.at("points").get<std::uint64_t>();
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
     record.counts.outcomes[i] =
@@ -174,6 +175,7 @@ std::string FrameRecordLine(const FrameRecord& record) {
                {"files", files},
                {"records_xxh3", record.records_hash}};
   if (!record.motion_lines.empty()) line["motion_lines"] = record.motion_lines;
+  if (!record.clouds_hash.empty()) line["clouds_xxh3"] = record.clouds_hash;
   PutCounts(record.counts, line);
   return WithLineHash(line.dump()) + "\n";
 }

@@ -91,6 +91,7 @@ struct FrameRecord {
   std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
   /// The numbers of these in the files of the motion sensors, in their order.
   std::vector<std::uint32_t> motion_lines{};
+  std::string clouds_hash{};  ///< Of its clouds in the run's bag; empty if there is none.
   FrameCounts counts;
 
   bool operator==(const FrameRecord&) const = default;

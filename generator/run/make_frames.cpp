@@ -7,15 +7,21 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "generator/run/run_bag.h"
 #include "generator/run/run_directory.h"
+#include "generator/run/run_topics.h"
 #include "generator/run/stopping.h"
 
 namespace railcast {
@@ -27,11 +33,46 @@ struct SensorSequence {
   BeginFrame begin_frame;
   /// The time at which a frame of the sensor begins.
   std::function<std::int64_t(std::uint32_t index)> stamp_ns;
+
+  /// That of the sequence's i-th frame; nothing after the last.
+  [[nodiscard]] std::optional<std::int64_t> StampOfFrame_ns(std::uint32_t i) const {
+    if (i >= spec.num_frames) return std::nullopt;
+    return stamp_ns ? stamp_ns(spec.FrameAt(i)) : 0;
+  }
 };
+
+/// Which of `num` sequences begins its next frame first; `num` if none has a frame left.
+/// @param next_stamp_ns The stamp of a sequence's next frame; nothing if it has none left.
+template <typename Stamp>
+std::size_t EarliestOf(std::size_t num, const Stamp& next_stamp_ns) {
+  std::size_t earliest = num;
+  std::int64_t earliest_ns = 0;
+  for (std::size_t i = 0; i < num; ++i) {
+    const std::optional<std::int64_t> stamp_ns = next_stamp_ns(i);
+    if (!stamp_ns || (earliest < num && *stamp_ns >= earliest_ns)) continue;
+    earliest = i;
+    earliest_ns = *stamp_ns;
+  }
+  return earliest;
+}
+
+/// How many frames each sequence has among the first ones of all of them.
+std::vector<std::uint32_t> FramesAmongFirst(const std::vector<SensorSequence>& sensors,
+                                            std::uint64_t num_frames) {
+  std::vector<std::uint32_t> next(sensors.size());
+  const auto stamp_ns = [&](std::size_t i) { return sensors[i].StampOfFrame_ns(next[i]); };
+  for (std::uint64_t i = 0; i < num_frames; ++i) {
+    const std::size_t earliest = EarliestOf(sensors.size(), stamp_ns);
+    if (earliest == sensors.size()) break;
+    ++next[earliest];
+  }
+  return next;
+}
 
 /// The memory of a frame from its beginning until it is written.
 struct FrameSlot {
   RunDirectory* directory = nullptr;
+  std::size_t sensor{};
   FrameJob job;
   std::exception_ptr fault;  ///< Why there is no frame.
   MadeFrame made;
@@ -47,7 +88,8 @@ std::string Writing(const Frame& frame) {
 class WritingQueue {
  public:
   /// @param most Number of frames that may wait or be written at a time.
-  explicit WritingQueue(std::size_t most) : most_(most) {
+  /// @param bag Of all frames; null = none.
+  WritingQueue(std::size_t most, RunBag* bag) : most_(most), bag_(bag) {
     thread_ = StartThread("writing frames", [this] { Run(); });
   }
   ~WritingQueue() {
@@ -91,8 +133,7 @@ class WritingQueue {
       lock.unlock();
       std::exception_ptr fault;
       try {
-        WithinMemory([&] { return Writing(slot.made.frame); },
-                     [&] { slot.directory->Write(slot.encoded); });
+        WithinMemory([&] { return Writing(slot.made.frame); }, [&] { Write(slot); });
       } catch (...) {
         fault = std::current_exception();
       }
@@ -105,7 +146,14 @@ class WritingQueue {
     }
   }
 
+  // A frame counts as done once the directory has it; hence the bag must have it before.
+  void Write(const FrameSlot& slot) const {
+    if (bag_ != nullptr) bag_->Write(slot.encoded);
+    slot.directory->Write(slot.encoded);
+  }
+
   std::size_t most_;
+  RunBag* bag_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<const FrameSlot*> waiting_;  ///< The first is being written.
@@ -117,14 +165,17 @@ class WritingQueue {
 
 /// A sequence, its directory, and how far it has been begun.
 struct SequenceUnderWay {
-  explicit SequenceUnderWay(const SensorSequence& sequence)
+  SequenceUnderWay(const SensorSequence& sequence, std::uint32_t most_done)
       : of(sequence),
-        directory(std::make_unique<RunDirectory>(sequence.spec)),
+        directory(std::make_unique<RunDirectory>(sequence.spec, most_done)),
         num_resumed(directory->num_done()),
         was_complete(directory->is_complete()),
         next(num_resumed) {}
 
-  [[nodiscard]] bool is_begun() const { return next >= of.spec.num_frames; }
+  /// The stamp of the frame that is begun next; nothing if all are begun.
+  [[nodiscard]] std::optional<std::int64_t> next_stamp_ns() const {
+    return of.StampOfFrame_ns(next);
+  }
 
   const SensorSequence& of;
   std::unique_ptr<RunDirectory> directory;
@@ -136,14 +187,16 @@ struct SequenceUnderWay {
 class MissingFrames {
  public:
   MissingFrames(std::vector<SequenceUnderWay>& sequences,
+                RunBag* bag,
                 const SequenceHooks& hooks,
                 const FramesAtOnce& at_once)
       : sequences_(sequences),
+        bag_(bag),
         hooks_(hooks),
         num_at_once_(at_once.num),
         // The pipeline holds as many frames as are made at once, and as many are being written.
         slots_(2 * at_once.num),
-        writing_(at_once.num) {
+        writing_(at_once.num, bag) {
     for (const SequenceUnderWay& sequence : sequences) {
       num_resumed_ += sequence.num_resumed;
       num_frames_ += sequence.of.spec.num_frames;
@@ -181,6 +234,7 @@ class MissingFrames {
     if (is_over_ || sequence == nullptr || hooks_.is_stopped()) return nullptr;
     FrameSlot& slot = slots_[num_begun_++ % slots_.size()];
     slot.directory = sequence->directory.get();
+    slot.sensor = static_cast<std::size_t>(sequence - sequences_.data());
     slot.fault = nullptr;
     try {
       slot.job = sequence->of.begin_frame(sequence->of.spec.FrameAt(sequence->next));
@@ -195,17 +249,9 @@ class MissingFrames {
 
   // The sequence whose next frame begins first; null if none has a frame left.
   SequenceUnderWay* Earliest() const {
-    SequenceUnderWay* earliest = nullptr;
-    std::int64_t earliest_ns = 0;
-    for (SequenceUnderWay& sequence : sequences_) {
-      if (sequence.is_begun()) continue;
-      const SensorSequence& of = sequence.of;
-      const std::int64_t stamp_ns = of.stamp_ns ? of.stamp_ns(of.spec.FrameAt(sequence.next)) : 0;
-      if (earliest != nullptr && stamp_ns >= earliest_ns) continue;
-      earliest = &sequence;
-      earliest_ns = stamp_ns;
-    }
-    return earliest;
+    const std::size_t earliest = EarliestOf(
+        sequences_.size(), [this](std::size_t i) { return sequences_[i].next_stamp_ns(); });
+    return earliest < sequences_.size() ? &sequences_[earliest] : nullptr;
   }
 
   void Finish(FrameSlot& slot) const {
@@ -214,7 +260,10 @@ class MissingFrames {
       MadeFrame& made = slot.made;
       std::exchange(slot.job, {})(made);
       const auto doing = [&made] { return Writing(made.frame); };
-      WithinMemory(doing, [&] { slot.directory->Encode(made, slot.encoded); });
+      WithinMemory(doing, [&] {
+        slot.directory->Encode(made, slot.encoded);
+        if (bag_ != nullptr) bag_->Encode(slot.sensor, made, slot.encoded);
+      });
     } catch (...) {
       slot.fault = std::current_exception();
     }
@@ -235,6 +284,7 @@ class MissingFrames {
   }
 
   std::vector<SequenceUnderWay>& sequences_;
+  RunBag* bag_;
   const SequenceHooks& hooks_;
   std::size_t num_at_once_;
   std::uint32_t num_frames_ = 0;   ///< Of all sequences.
@@ -255,18 +305,52 @@ void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {
   frames.AwaitWriting();
 }
 
-/// Makes the missing frames of several sequences, in the order in which they begin.
-/// @return The results in the order of the sequences.
-std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
-                                         const SequenceHooks& hooks,
-                                         const FramesAtOnce& at_once) {
+/// Opens the sequences with the frames that their bag holds; without one, with those that are
+/// there.
+std::vector<SequenceUnderWay> OpenSequences(const std::vector<SensorSequence>& sensors,
+                                            const RunBag* bag) {
+  std::vector<std::uint32_t> most_done(sensors.size(), std::numeric_limits<std::uint32_t>::max());
+  if (bag != nullptr) most_done = FramesAmongFirst(sensors, bag->num_frames());
   std::vector<SequenceUnderWay> sequences;
   sequences.reserve(sensors.size());
-  for (const SensorSequence& sensor : sensors) sequences.emplace_back(sensor);
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    sequences.emplace_back(sensors[i], most_done[i]);
+  }
+  return sequences;
+}
+
+/// Opens the sequences, and their bag after the frames that both it and they hold.
+/// @throws InputError if the bag is complete, but a sequence is not.
+std::vector<SequenceUnderWay> OpenWithBag(const std::vector<SensorSequence>& sensors, RunBag& bag) {
+  while (true) {
+    std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, &bag);
+    std::uint64_t num_done = 0;
+    for (const SequenceUnderWay& sequence : sequences) num_done += sequence.num_resumed;
+    if (bag.is_complete() && num_done == bag.num_frames()) return sequences;
+    const std::vector<std::uint32_t> in_order = FramesAmongFirst(sensors, num_done);
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      if (!bag.is_complete() && sequences[i].num_resumed == in_order[i]) continue;
+      throw InputError(ShownPath(sensors[i].spec.directory) +
+                       ": holds other frames than the run's bag; delete both to make them anew");
+    }
+    // Where the bag lacks the end of a frame, that frame is made anew.
+    if (bag.Open(num_done) == num_done) return sequences;
+  }
+}
+
+/// Makes the missing frames of several sequences, in the order in which they begin.
+/// @return The results in the order of the sequences.
+/// @param bag Of all frames; null = none.
+std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
+                                         RunBag* bag,
+                                         const SequenceHooks& hooks,
+                                         const FramesAtOnce& at_once) {
+  std::vector<SequenceUnderWay> sequences =
+      bag == nullptr ? OpenSequences(sensors, nullptr) : OpenWithBag(sensors, *bag);
   const auto begin = std::chrono::steady_clock::now();
   if (!std::all_of(sequences.begin(), sequences.end(),
                    [](const SequenceUnderWay& each) { return each.was_complete; })) {
-    MissingFrames frames(sequences, hooks, at_once);
+    MissingFrames frames(sequences, bag, hooks, at_once);
     MakeMissingFrames(at_once, frames);
   }
   std::vector<SequenceResult> results;
@@ -286,6 +370,17 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   for (SequenceResult& result : results) result.elapsed_s = elapsed.count();
   return results;
+}
+
+/// The bag of a run; nothing if its format is none.
+std::optional<RunBag> BagOf(const FrameMaker& maker, const RunPlan& plan) {
+  const SequenceSpec& first = plan.sensors.front().spec;
+  if (first.bag.empty()) return std::nullopt;
+  const std::int64_t begin_ns = maker.pattern(0).StampNs(first.start_frame);
+  return std::make_optional<RunBag>(plan,
+                                    TopicsSpecOf(plan.scenario, *maker.StateAt(begin_ns).world,
+                                                 first.clouds, ros::ImageEncoding::kPng),
+                                    begin_ns);
 }
 
 /// A thread other than the one that waits for a window may be the first to see that the run is
@@ -343,14 +438,19 @@ std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
   const FramesAtOnce at_once = {maker.NumAtOnce(), [&](const std::function<void()>& work) {
                                   maker.simulator(0).Execute(work);
                                 }};
-  return RunSequences(sequences, hooks, at_once);
+  std::optional<RunBag> bag = BagOf(maker, plan);
+  std::vector<SequenceResult> results =
+      RunSequences(sequences, bag ? &*bag : nullptr, hooks, at_once);
+  const bool is_complete = std::ranges::all_of(results, &SequenceResult::is_complete);
+  if (bag && is_complete && !bag->is_complete()) bag->Finish(plan);
+  return results;
 }
 
 SequenceResult RunSequence(const SequenceSpec& spec,
                            const BeginFrame& begin_frame,
                            const SequenceHooks& hooks,
                            const FramesAtOnce& at_once) {
-  return RunSequences({{spec, begin_frame, {}}}, hooks, at_once).front();
+  return RunSequences({{spec, begin_frame, {}}}, nullptr, hooks, at_once).front();
 }
 
 }  // namespace railcast

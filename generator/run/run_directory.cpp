@@ -200,7 +200,7 @@ class OwnNames {
   }
 
   [[nodiscard]] bool Have(std::string_view name) const {
-    if (names_.contains(name)) return true;
+    if (names_.contains(name) || (!spec_.bag.empty() && IsOfBag(name))) return true;
     const std::optional<std::uint32_t> number = FrameNumber(name);
     const bool is_counted = spec_.files.format->dataset.has_value();
     const std::uint32_t first = is_counted ? 0 : spec_.start_frame;
@@ -223,7 +223,8 @@ class OwnNames {
 
 }  // namespace
 
-RunDirectory::RunDirectory(SequenceSpec spec) : spec_(std::move(spec)) {
+RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
+    : spec_(std::move(spec)), most_done_(std::min(most_done, spec_.num_frames)) {
   lock_.emplace(spec_.directory);
   Open();
 }
@@ -257,8 +258,9 @@ void RunDirectory::RefuseStrangers(bool is_run) const {
 void RunDirectory::RemoveUnfinished() const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
-    // A mesh may have a name that ends so, too.
-    if (FinishedName(name) && !own.Have(name)) fs::remove(spec_.directory / name);
+    const std::optional<std::string_view> finished = FinishedName(name);
+    // A mesh may have a name that ends so, too. An unfinished bag is gone on with.
+    if (finished && !own.Have(name) && !IsOfBag(*finished)) fs::remove(spec_.directory / name);
   }
 }
 
@@ -281,7 +283,7 @@ std::vector<std::uint64_t> RunDirectory::CountFrames() {
   for (const LineFileName& file : LineFileNames(spec_)) {
     walks.emplace_back(spec_.directory / file.name, file.header);
   }
-  for (; num_done_ < spec_.num_frames; ++num_done_) {
+  for (; num_done_ < most_done_; ++num_done_) {
     const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
     if (!record) break;
     if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/io/ros/frame_topics.h"
 #include "generator/record/frame_record.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_folder.h"
@@ -25,7 +27,8 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is
 /// A frame as it is written to a sequence directory.
 struct EncodedFrame {
   std::vector<FrameFile> files;
-  FrameRecord record;  ///< Without records_hash.
+  std::vector<ros::TopicMessage> messages;  ///< For the run's bag, if there is one.
+  FrameRecord record;                       ///< Without records_hash.
   PoseRecord pose;
   std::string objects_line;
   std::vector<std::string> motion_lines;  ///< Of each motion sensor.
@@ -48,7 +51,9 @@ class RunDirectory {
   /// Creates the directory, or opens it and finds out how far its run has got.
   /// @throws InputError if it belongs to another run, holds other files, is complete but was
   ///   changed since, is being written by another process, or the system refuses.
-  explicit RunDirectory(SequenceSpec spec);
+  /// @param most_done Frames after these are made anew, even if they are there.
+  explicit RunDirectory(SequenceSpec spec,
+                        std::uint32_t most_done = std::numeric_limits<std::uint32_t>::max());
   ~RunDirectory() = default;
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
@@ -91,6 +96,7 @@ class RunDirectory {
   [[nodiscard]] std::vector<std::string> RecordLines(const EncodedFrame& frame);
 
   SequenceSpec spec_;
+  std::uint32_t most_done_;
   std::optional<FolderLock> lock_;
   bool is_complete_ = false;
   std::uint32_t num_done_ = 0;

@@ -30,7 +30,12 @@ Json RunObject(const SequenceSpec& spec) {
               {"commands_xxh3", ContentHash(spec.commands_jsonl)},
               {"format", spec.files.format->name}};
   if (spec.commands_jsonl.empty()) run.erase("commands_xxh3");
-  if (!spec.files.format->dataset) run["fields"] = spec.files.fields.Text();
+  if (!spec.bag.empty()) {
+    run["fields"] = ros::TextOf(spec.clouds);
+    run["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
+  } else if (!spec.files.format->dataset) {
+    run["fields"] = spec.files.fields.Text();
+  }
   if (spec.motion_sensors) {
     Json names = Json::array();
     for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) names.push_back(file.sensor);

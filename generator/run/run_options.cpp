@@ -1,5 +1,9 @@
 #include "generator/run/run_options.h"
 
+#include <string>
+#include <vector>
+
+#include "core/io/ros/point_layout.h"
 #include "core/program/command_line.h"
 #include "core/trace/trace_program.h"
 #include "railcast/error.h"
@@ -15,11 +19,20 @@ void AddIsa(CLI::App& command, std::string& isa) {
       ->check(CLI::IsMember(IsaNames()));
 }
 
-void AddRunChoices(CLI::App& command, RunChoices& choices) {
+void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_bags) {
+  std::vector<std::string> formats;
+  for (const FrameFormat& format : FrameFormats()) {
+    if (has_bags || format.bag.empty()) formats.emplace_back(format.name);
+  }
   command.add_option("--format", choices.format, "File format of the frames")
-      ->check(CLI::IsMember(FrameFormatNames()))
+      ->check(CLI::IsMember(formats))
       ->capture_default_str();
-  command.add_option("--fields", choices.fields, "Fields to write, separated by commas, or all")
+  command
+      .add_option("--fields", choices.fields,
+                  std::string("Fields to write, separated by commas, or all") +
+                      (has_bags ? "; for mcap and rosbag2 also a layout of points: railcast, "
+                                  "velodyne, ouster, hesai or livox"
+                                : ""))
       ->capture_default_str();
   command.add_flag("--merged", choices.is_merged,
                    "Also write the clouds of all sensors together, in the vehicle's axes, with "
@@ -31,6 +44,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices) {
 }
 
 void CheckFields(const std::string& fields) {
+  if (ValueNamed<ros::PointLayout>(fields)) return;
   try {
     static_cast<void>(FieldSelection(fields));
   } catch (const InputError& error) {

@@ -5,10 +5,13 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/ros/frame_topics.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"
+#include "core/simulate/returns.h"
 #include "core/trace/trace_program.h"
 #include "generator/empty_folder.h"
 
@@ -18,6 +21,30 @@ namespace {
 bool IsNameOfAFolder(const std::string& name) {
   return name.size() <= 200 && name != "." && name != ".." && name != kSensorsFile &&
          name.find('/') == std::string::npos;
+}
+
+// Chooses what is stored of each point.
+void ChooseFields(const std::string& fields, SequenceSpec& spec) {
+  const FrameFormat& format = *spec.files.format;
+  if (!format.bag.empty()) {
+    spec.clouds = ros::ParseCloudSpec(fields);
+  } else if (ValueNamed<ros::PointLayout>(fields)) {
+    throw InputError("--fields " + fields + ": must be with --format mcap or rosbag2 (got " +
+                     std::string(format.name) + ")");
+  } else {
+    spec.files.fields = FieldSelection(fields);
+  }
+}
+
+// Says where the clouds of a sensor are in the run's bag.
+void NameBag(const SensorPlan& sensor, const std::filesystem::path& run, SequenceSpec& spec) {
+  const std::string_view bag = spec.files.format->bag;
+  if (bag.empty()) return;
+  spec.bag = (run / bag).lexically_relative(spec.directory).generic_string();
+  const std::uint32_t num_returns = NumReturns(sensor.scenario.lidar.receiver.return_mode);
+  for (std::uint32_t i = 0; i < ros::NumClouds(spec.clouds.layout, num_returns); ++i) {
+    spec.cloud_topics.push_back(ros::PointsTopic(sensor.name, i));
+  }
 }
 
 // The sequence of a scenario with one sensor.
@@ -32,7 +59,7 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
   spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = &ParseFrameFormat(choices.format);
-  spec.files.fields = FieldSelection(choices.fields);
+  ChooseFields(choices.fields, spec);
   const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
   const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
                                scenario.output.handedness == Handedness::kRight;
@@ -95,6 +122,13 @@ void ChooseFrames(const SequenceSpec& first,
   static_cast<void>(LastFrameOf(sensor.spec, pattern));
 }
 
+// Whether the name is that of the run's bag, complete or not.
+bool IsOwnBag(const RunPlan& plan, std::string_view name) {
+  const std::string_view bag = plan.sensors.front().spec.files.format->bag;
+  if (bag.empty()) return false;
+  return name == bag || name == std::string(bag) + std::string(kUnfinishedSuffix);
+}
+
 }  // namespace
 
 void CheckNamesOfFolders(const ScenarioSpec& scenario) {
@@ -117,14 +151,16 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
     }
     SequenceSpec spec = SequenceSpecOf(reduced, choices, shown);
     if (!plan.scenario.lidars.empty()) spec.directory /= name;
-    plan.sensors.push_back({name, std::move(reduced), std::move(spec)});
+    SensorPlan& sensor =
+        plan.sensors.emplace_back(SensorPlan{name, std::move(reduced), std::move(spec)});
+    NameBag(sensor, plan.directory, sensor.spec);
   }
   return plan;
 }
 
 void RefuseOtherFiles(const RunPlan& plan) {
   const auto is_known = [&](const std::string& name) {
-    return name == kSensorsFile || name == kMergedFolder ||
+    return name == kSensorsFile || name == kMergedFolder || IsOwnBag(plan, name) ||
            std::ranges::any_of(plan.sensors,
                                [&](const SensorPlan& sensor) { return sensor.name == name; });
   };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/ros/point_layout.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/scenario/command_log.h"
 #include "generator/run/frame_maker.h"
@@ -41,6 +42,11 @@ struct SequenceSpec {
   /// The choice of fidelity auto; empty if the scenario does not use it.
   std::string fidelity_choice_json;
   FrameFileSpec files;
+  ros::CloudSpec clouds;  ///< Of the messages, if the format is a bag.
+  /// The run's bag, relative to the directory, and the topics of the sensor's clouds in it; empty
+  /// unless the format is one.
+  std::string bag;
+  std::vector<std::string> cloud_topics;
   std::string camera;            ///< Name of the scenario's camera; empty = it has none.
   std::string calibration_json;  ///< CalibrationJson() of the camera.
   /// Those whose samples belong to the frames; absent = none.

@@ -119,6 +119,7 @@ FrameLine ReadFrameLine(const std::string& line, const std::string& place) {
       result.files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
     }
     if (json.contains("motion_lines")) json.at("motion_lines").get_to(result.motion_lines);
+    result.clouds_hash = json.value("clouds_xxh3", "");
     return result;
   });
 }

@@ -27,6 +27,7 @@ struct FrameLine {
   std::string records_hash;  ///< Hash over the frame's lines in the other line files.
   /// The numbers of these in the files of the motion sensors, in their order.
   std::vector<std::uint32_t> motion_lines{};
+  std::string clouds_hash{};  ///< Hash over its clouds in the run's bag; empty if there is none.
 };
 
 /// @throws InputError "place: rule" if it is not a line of frames.jsonl.

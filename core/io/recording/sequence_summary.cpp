@@ -11,6 +11,7 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
@@ -27,6 +28,17 @@ void RefuseUnknownKeys(const StrictOrderedJson& json,
     if (std::ranges::find(known, key) != known.end()) continue;
     throw InputError(place + ": is damaged: unknown key " + ShownText(key));
   }
+}
+
+// A run's bag is in the directory of its only sensor or in that around its sensors'.
+void ReadBag(const StrictOrderedJson& json, const std::string& place, RunSummary& run) {
+  run.bag = json.at("path");
+  run.cloud_topics = json.at("topics");
+  const FrameFormat* const format = FindFrameFormat(run.format);
+  const std::string name(format == nullptr ? "" : format->bag);
+  if (!name.empty() && (run.bag == name || run.bag == "../" + name)) return;
+  throw InputError(place + ": bag: path: must be that of a bag of format " + ShownText(run.format) +
+                   " (got " + ShownText(run.bag) + ")");
 }
 
 }  // namespace
@@ -46,7 +58,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     RefuseUnknownKeys(
         json,
         {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3", "commands_xxh3", "format",
-         "fields", "motion_sensors", "start_frame", "num_frames", "stride"},
+         "fields", "bag", "motion_sensors", "start_frame", "num_frames", "stride"},
         place);
     if (json.contains("motion_sensors")) json.at("motion_sensors").get_to(run.motion_sensors);
     for (const std::string& sensor : run.motion_sensors) {
@@ -54,6 +66,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
       throw InputError(place + ": motion_sensors: must be names of files (got " +
                        ShownText(sensor) + ")");
     }
+    if (json.contains("bag")) ReadBag(json.at("bag"), place, run);
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");
     run.isa = json.at("isa");

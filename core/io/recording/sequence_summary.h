@@ -24,6 +24,9 @@ struct RunSummary {
   std::uint32_t stride = 1;                 ///< From one frame's number to the next.
   bool has_commands{};                      ///< Whether the run replays any commands.
   std::vector<std::string> motion_sensors;  ///< Each has a file of samples (MotionFileName()).
+  /// The bag that holds the clouds, relative to the directory, and their topics; empty = none.
+  std::string bag{};
+  std::vector<std::string> cloud_topics{};
   /// The scenario, its inputs and the commands. Empty in directories of older programs, whose
   /// scenarios referred to files outside the directory.
   std::vector<KnownFile> files;

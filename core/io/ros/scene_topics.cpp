@@ -16,7 +16,7 @@ Color ColorOf(const LabelTable& labels, const std::string& name, double alpha) {
   return {label->rgb[0] / kWhite, label->rgb[1] / kWhite, label->rgb[2] / kWhite, alpha};
 }
 
-std::vector<KeyValuePair> MetadataOf(const SceneBox& box) {
+std::vector<KeyValuePair> BoxMetadata(const SceneBox& box) {
   std::vector<KeyValuePair> pairs = {
       {"label", box.label},
       {"instance", NumberText(box.instance)},
@@ -49,7 +49,7 @@ SceneEntity EntityOf(const SceneBox& box,
   SceneEntity entity;
   entity.frame_id = kMap;
   entity.id = box.name;
-  entity.metadata = MetadataOf(box);
+  entity.metadata = BoxMetadata(box);
   entity.cubes = {
       {PoseOf(map_from_box), VectorOf(box.size_m), ColorOf(labels, box.label, kBoxAlpha)}};
   entity.texts = {TextAbove(box, map_from_box, ColorOf(labels, box.label, 1.0))};

@@ -110,6 +110,13 @@ bool IsCameraFile(std::string_view name) {
   return Take(name, kCameraFolder) && Take(name, "/") && IsOfCamera(name);
 }
 
+bool IsOfBag(std::string_view name) {
+  return std::ranges::any_of(FrameFormats(), [&](const FrameFormat& format) {
+    std::string_view rest = name;
+    return !format.bag.empty() && Take(rest, format.bag) && (rest.empty() || rest.starts_with('/'));
+  });
+}
+
 std::string FrameDigits(std::uint32_t number) {
   constexpr std::size_t kMinDigits = 6;
   std::string digits = std::to_string(number);
@@ -125,7 +132,7 @@ bool IsSequenceFile(std::string_view name) {
       if (Take(number, file.folder) && IsNumbered(number, file.extension)) return true;
     }
   }
-  if (IsCameraFile(name) || IsMotionFile(name)) return true;
+  if (IsCameraFile(name) || IsMotionFile(name) || IsOfBag(name)) return true;
   return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
 }
 

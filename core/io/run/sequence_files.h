@@ -55,6 +55,9 @@ inline constexpr std::string_view kSensorIndexField = "sensor_index";
 /// Whether the file belongs to a camera.
 [[nodiscard]] bool IsCameraFile(std::string_view name);
 
+/// Whether the file is a bag of a run, or in the directory of one.
+[[nodiscard]] bool IsOfBag(std::string_view name);
+
 /// The number of a frame, or of a data set's scenario, in the names of its files: at least six
 /// digits.
 [[nodiscard]] std::string FrameDigits(std::uint32_t number);

@@ -12,6 +12,7 @@
 #include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "core/io/verify/bag_clouds.h"
 #include "core/io/verify/cloud_counts.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
@@ -50,6 +51,7 @@ class Verifier : private Findings {
     CheckKnownFiles();
     ReadLabels();
     are_frames_known_ = Try([&] { CheckFrames(); });
+    if (!summary_.run.bag.empty()) Try([&] { CheckBag(); });
     Try([&] { FindOthers(); });
     return Take();
   }
@@ -74,6 +76,7 @@ class Verifier : private Findings {
                     const FrameLines& lines,
                     const FrameFormat& format);
   void CheckFrames();
+  void CheckBag();
   bool HasAllLines(std::string_view name);
   void CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records);
   void CheckNames(const FrameLine& line, const std::string& place);
@@ -86,6 +89,7 @@ class Verifier : private Findings {
   CountTotals totals_;
   NameSet known_;
   bool are_frames_known_ = false;
+  std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag.
 };
 
 void Verifier::ReadTheManifest() {
@@ -247,6 +251,9 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
     const PlacedLine& objects = lines.records.at(1);
     Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
   }
+  if (!summary_.run.bag.empty()) {
+    clouds_.push_back({line.stamp_ns, line.clouds_hash, lines.frame.place});
+  }
   const std::string hash_fault = LineHashFault(lines.frame.text);
   if (!hash_fault.empty()) faults_.Add({lines.frame.place, hash_fault, ""});
   const FrameFormat* const format = FindFrameFormat(summary_.run.format);
@@ -262,6 +269,14 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
     ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place,
                                  [&](const StrictJson& json) { totals_.Add(json); });
   });
+}
+
+void Verifier::CheckBag() {
+  fs::path bag = (summary_.directory / summary_.run.bag).lexically_normal();
+  if (!fs::exists(bag)) bag += kUnfinishedSuffix;
+  CompareWithBag(bag, summary_.run.cloud_topics, clouds_, faults_);
+  ++result_.num_files;
+  if (fs::is_regular_file(bag)) result_.num_bytes += fs::file_size(bag);
 }
 
 // Files are named by the number of their frame; those of a dataset count from 0.
@@ -294,7 +309,7 @@ void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
 
 void Verifier::FindOthers() {
   ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
-    if (known_.contains(name)) return;
+    if (known_.contains(name) || (!summary_.run.bag.empty() && IsOfBag(name))) return;
     if (summary_.manifest && are_frames_known_) {
       return Fault(name, "is named neither in manifest.json nor in frames.jsonl");
     }

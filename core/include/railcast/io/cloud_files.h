@@ -125,6 +125,9 @@ struct FrameFormat {
                       const std::optional<std::string>& second) = nullptr;
   bool has_all_slots = false;  ///< Whether the file also stores slots without a point.
   std::optional<DatasetLayout> dataset{};
+  /// Name of the bag of ROS 2 messages that holds the frames of all sensors of a run, in the run's
+  /// directory: a file with the extension .mcap or the directory of a rosbag2. Empty = none.
+  std::string_view bag{};
 };
 
 /// The table of all formats.

@@ -1,0 +1,83 @@
+#include "core/io/verify/bag_clouds.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "core/base/text.h"
+#include "core/io/bag/bag.h"
+#include "core/io/content_hash.h"
+
+namespace railcast {
+namespace {
+
+/// Messages of one time.
+struct CloudsAtTime {
+  std::int64_t time_ns{};
+  std::string bytes;
+};
+
+/// Reads the clouds of one time after another.
+class CloudsReader {
+ public:
+  CloudsReader(const std::filesystem::path& bag, const std::vector<std::string>& topics)
+      : reader_(bag::OpenBag(bag)) {
+    std::vector<std::size_t> wanted;
+    for (const std::string& topic : topics) {
+      const auto found = std::ranges::find(reader_->topics(), topic, &bag::BagTopic::name);
+      if (found == reader_->topics().end()) {
+        throw InputError(ShownPath(bag) + ": must have the topic " + ShownText(topic));
+      }
+      wanted.push_back(static_cast<std::size_t>(found - reader_->topics().begin()));
+    }
+    reader_->Select(wanted);
+    message_ = reader_->Next();
+  }
+
+  std::optional<CloudsAtTime> Next() {
+    if (!message_) return std::nullopt;
+    CloudsAtTime clouds{message_->time_ns, {}};
+    for (; message_ && message_->time_ns == clouds.time_ns; message_ = reader_->Next()) {
+      clouds.bytes.append(reinterpret_cast<const char*>(message_->data.data()),
+                          message_->data.size());
+    }
+    return clouds;
+  }
+
+ private:
+  std::unique_ptr<bag::BagReader> reader_;
+  std::optional<bag::BagMessage> message_;
+};
+
+}  // namespace
+
+void CompareWithBag(const std::filesystem::path& bag,
+                    const std::vector<std::string>& topics,
+                    const std::vector<CloudsOfFrame>& frames,
+                    ErrorList& faults) {
+  CloudsReader reader(bag, topics);
+  std::optional<CloudsAtTime> clouds = reader.Next();
+  for (const CloudsOfFrame& frame : frames) {
+    for (; clouds && clouds->time_ns < frame.stamp_ns; clouds = reader.Next()) {
+      faults.Add(
+          {ShownPath(bag), "has a cloud of no frame at " + SecondsText(clouds->time_ns), ""});
+    }
+    if (!clouds || clouds->time_ns != frame.stamp_ns) {
+      faults.Add({frame.place, "must have its clouds in " + ShownPath(bag), "none"});
+      continue;
+    }
+    const std::string hash = ContentHash(clouds->bytes);
+    if (hash != frame.hash) {
+      faults.Add({ShownPath(bag),
+                  "must have clouds of the hash " + ShownText(frame.hash) + " at " +
+                      SecondsText(frame.stamp_ns) + ", as " + frame.place + " says",
+                  hash});
+    }
+    clouds = reader.Next();
+  }
+  if (clouds) {
+    faults.Add({ShownPath(bag), "has a cloud of no frame at " + SecondsText(clouds->time_ns), ""});
+  }
+}
+
+}  // namespace railcast
