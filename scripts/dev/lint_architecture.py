@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud run velodyne hesai pcap net ros stream recording verify".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net ros dds stream recording verify".split(),
     "generator": ". record run check sequence live trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
@@ -56,6 +56,7 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
+    "Cyclone DDS": (r"dds/", ("core/io/dds",)),
     "SQLite": (r"sqlite3\.h$", ("generator/dataset",)),
     "Expat": (r"expat\.h$", ("generator/import",)),
 }
