@@ -5,6 +5,7 @@
 # build the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
 build_packages=(
   cmake
+  cyclonedds-dev
   g++
   git  # The version string contains the commit.
   libassimp-dev
@@ -14,6 +15,8 @@ build_packages=(
   libeigen3-dev
   libembree-dev
   libexpat1-dev
+  libfastcdr-dev
+  libfastrtps-dev
   libgdal-dev
   libgmock-dev
   libgtest-dev

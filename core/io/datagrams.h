@@ -20,10 +20,11 @@ enum class DatagramPort : std::uint8_t {
 struct Datagrams {
   struct Item {
     std::size_t offset{};
-    std::uint16_t size{};
+    std::uint32_t size{};
     DatagramPort port{};
     /// Simulation time of the last firing in the datagram; a real sensor could not send it earlier.
     std::int64_t due_ns{};
+    std::uint16_t topic{};  ///< Of a message for ROS 2, which takes the place of a datagram.
   };
   std::vector<char> bytes;
   std::vector<Item> items;

@@ -86,6 +86,9 @@ void Describe(Archive& a, CameraSpec& s) {
 // To add a field: add it, with its default, to the struct; add one line to its description;
 // regenerate the schemas (see tests/core/scenario/scenario_schema_test.cpp).
 
+inline constexpr const char* kNoUdpForRos2 =
+    "must be left out with protocol ros2, whose readers find its topics by themselves";
+
 template <class Archive>
 void Describe(Archive& a, SensorInterface& s) {
   a.Required("sensor", s.sensor, "Name of the sensor.", NonEmptyString());
@@ -94,6 +97,19 @@ void Describe(Archive& a, SensorInterface& s) {
              "host:port of each receiver; empty = loopback at the protocol's own port.",
              HostAndPort());
   a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
+  a.Ensure({"udp", "protocol"}, s.protocol != Protocol::kRos2 || s.udp.empty(), kNoUdpForRos2);
+}
+
+template <class Archive>
+void Describe(Archive& a, Ros2Spec& s) {
+  constexpr double kMaxDomain = 232;  // Ports of higher ones would be above 65535.
+  a.Optional("domain", s.domain, "Absent = as ROS_DOMAIN_ID says, or 0.", Within(0, kMaxDomain));
+  a.Optional("interface", s.interface,
+             "Name or IPv4 address of the network interface to use; empty = loopback.", OneLine());
+  a.Optional("receive_buffers", s.receive_buffers,
+             "large: every reader has room for whole frames, 1 MiB or more.");
+  a.Optional("deceleration_mps2", s.deceleration_mps2,
+             "Of the vehicle at commands of ROS 2, which name none.", Within(0.001, 10));
 }
 
 template <class Archive>
@@ -104,8 +120,10 @@ void Describe(Archive& a, InterfacesSpec& s) {
              HostAndPort());
   a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   a.Optional("protocol", s.protocol, "How live frames are packed.");
+  a.Ensure({"udp", "protocol"}, s.protocol != Protocol::kRos2 || s.udp.empty(), kNoUdpForRos2);
   a.Optional("sensors", s.sensors,
-             "With lidars, instead of the other keys: one entry for each sensor.");
+             "With lidars, instead of udp and protocol: one entry for each sensor.");
+  a.Optional("ros2", s.ros2, "How frames of protocol ros2 reach ROS 2.");
 }
 
 template <class Archive>

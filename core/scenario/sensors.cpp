@@ -84,7 +84,7 @@ std::optional<std::uint16_t> PositionPort(Protocol protocol) {
 }
 
 std::vector<std::string> ReceiversOf(const SensorInterface& interface) {
-  if (!interface.udp.empty()) return interface.udp;
+  if (!interface.udp.empty() || interface.protocol == Protocol::kRos2) return interface.udp;
   return {"127.0.0.1:" + std::to_string(DefaultPort(interface.protocol))};
 }
 

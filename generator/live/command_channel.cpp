@@ -200,11 +200,11 @@ void CommandChannel::Remember(Answer answer) {
 }
 
 CommandLoop::CommandLoop(FrameMaker& maker,
-                         CommandChannel& channel,
+                         std::vector<CommandSource*> sources,
                          bool lockstep,
                          const std::optional<std::filesystem::path>& log_file,
                          const std::string& scenario_xxh3)
-    : maker_(maker), channel_(channel), lockstep_(lockstep) {
+    : maker_(maker), sources_(std::move(sources)), lockstep_(lockstep) {
   if (!log_file) return;
   if (std::filesystem::exists(*log_file)) {
     throw InputError("--commands-log: must not exist yet (got " + ShownPath(*log_file) + ")");
@@ -213,32 +213,41 @@ CommandLoop::CommandLoop(FrameMaker& maker,
   log_->Append(CommandLogHeader(scenario_xxh3));
 }
 
+std::optional<CommandLoop::Waiting> CommandLoop::NextOf(int timeout_ms) {
+  for (CommandSource* source : sources_) {
+    auto request = source->Next(source == sources_.front() ? timeout_ms : 0);
+    if (request) return Waiting{source, std::move(*request)};
+  }
+  return std::nullopt;
+}
+
 NextFrames CommandLoop::BeginFrames(std::int64_t stamp_ns,
                                     const std::function<bool()>& is_stopped) {
   for (int i = 0; lockstep_ || i < kMaxPerFrame; ++i) {
     if (is_stopped()) return NextFrames::kStop;
-    const auto request = channel_.Next(lockstep_ ? kPatience_ms : 0);
-    if (!request && !lockstep_) break;
-    if (!request) continue;
-    if (lockstep_ && std::holds_alternative<Step>(request->command)) {
-      step_ = request;
+    auto waiting = NextOf(lockstep_ ? kPatience_ms : 0);
+    if (!waiting && !lockstep_) break;
+    if (!waiting) continue;
+    if (lockstep_ && std::holds_alternative<Step>(waiting->request.command)) {
+      step_ = std::move(waiting);
       break;
     }
-    if (Handle(*request, stamp_ns)) return NextFrames::kReset;
+    if (Handle(*waiting, stamp_ns)) return NextFrames::kReset;
   }
   return NextFrames::kMake;
 }
 
 void CommandLoop::End(const std::string& reason) {
-  std::optional<CommandRequest> waiting = std::move(step_);
+  std::optional<Waiting> waiting = std::move(step_);
   step_.reset();
-  if (!waiting) waiting = channel_.Next(0);
-  for (; waiting; waiting = channel_.Next(0)) channel_.Refuse(*waiting, {reason});
+  if (!waiting) waiting = NextOf(0);
+  for (; waiting; waiting = NextOf(0)) waiting->source->Refuse(waiting->request, {reason});
 }
 
-bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
+bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
+  const auto& [source, request] = waiting;
   if (std::holds_alternative<Step>(request.command)) {
-    channel_.Refuse(request, {"command: step needs --lockstep; this run does not wait for steps"});
+    source->Refuse(request, {"command: step needs --lockstep; this run does not wait for steps"});
     return false;
   }
   const bool is_reset = std::holds_alternative<Reset>(request.command);
@@ -246,18 +255,18 @@ bool CommandLoop::Handle(const CommandRequest& request, std::int64_t stamp_ns) {
   try {
     maker_.Apply(request.command, time_ns);
   } catch (const InputError& error) {
-    channel_.Refuse(request, {error.what()});
+    source->Refuse(request, {error.what()});
     return false;
   }
   if (log_) log_->Append(CommandLogLine({time_ns, request.command}));
-  channel_.Acknowledge(request, time_ns);
+  source->Acknowledge(request, time_ns);
   return is_reset;
 }
 
 void CommandLoop::EndFrames(std::int64_t stamp_ns) {
   maker_.ForgetBefore(stamp_ns);
   if (!step_) return;
-  channel_.Acknowledge(*step_, stamp_ns);
+  step_->source->Acknowledge(step_->request, stamp_ns);
   step_.reset();
 }
 

@@ -14,18 +14,12 @@
 
 #include "core/io/net/udp.h"
 #include "core/scenario/command.h"
+#include "generator/live/command_source.h"
 #include "generator/live/live_run.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_folder.h"
 
 namespace railcast {
-
-/// A command that a peer asks for.
-struct CommandRequest {
-  Endpoint from;
-  CommandTag tag;
-  Command command;
-};
 
 /// Receives commands on a UDP port, one JSON object per line, and answers each with a line.
 ///
@@ -37,7 +31,7 @@ struct CommandRequest {
 ///
 /// Answers that come back are never read as commands. Otherwise two ports that answer each other,
 /// or one that answers itself, would never stop once a sender address was forged.
-class CommandChannel {
+class CommandChannel final : public CommandSource {
  public:
   static constexpr std::size_t kMaxAnswers = 256;
   /// Further requests are refused while this many are waiting.
@@ -51,19 +45,15 @@ class CommandChannel {
   /// @param models As for ReadCommand().
   /// @throws InputError if the channel cannot listen at `at`.
   CommandChannel(const Endpoint& at, const Endpoint& peer, std::vector<ModelSpec> models = {});
-  ~CommandChannel();
+  ~CommandChannel() override;
   CommandChannel(const CommandChannel&) = delete;
   CommandChannel& operator=(const CommandChannel&) = delete;
 
   [[nodiscard]] const Endpoint& at() const { return receiver_.at(); }
 
-  /// Returns the next request, waiting up to `timeout_ms` for it; 0 does not wait.
-  [[nodiscard]] std::optional<CommandRequest> Next(int timeout_ms);
-
-  /// Answers that a command took effect, and at which simulation time.
-  void Acknowledge(const CommandRequest& request, std::int64_t time_ns);
-  /// Answers why a command was refused.
-  void Refuse(const CommandRequest& request, const std::vector<std::string>& faults);
+  [[nodiscard]] std::optional<CommandRequest> Next(int timeout_ms) override;
+  void Acknowledge(const CommandRequest& request, std::int64_t time_ns) override;
+  void Refuse(const CommandRequest& request, const std::vector<std::string>& faults) override;
 
   /// Number of datagrams from addresses other than the peer's.
   [[nodiscard]] std::uint64_t num_strangers() const;
@@ -101,17 +91,18 @@ class CommandChannel {
   std::thread thread_;
 };
 
-/// Applies the commands of a channel to a run and logs them.
+/// Applies the commands of all sources to a run and logs them.
 class CommandLoop {
  public:
   static constexpr int kMaxPerFrame = 16;
 
+  /// @param sources Asked in this order; of the first one, a run in lockstep waits for commands.
   /// @param lockstep Whether frames wait for the command `step`.
   /// @param log_file File for the log that `sequence --commands` replays, if any.
   /// @param scenario_xxh3 Hash of the scenario that the log is for.
   /// @throws InputError if the log already exists or cannot be written.
   CommandLoop(FrameMaker& maker,
-              CommandChannel& channel,
+              std::vector<CommandSource*> sources,
               bool lockstep,
               const std::optional<std::filesystem::path>& log_file,
               const std::string& scenario_xxh3);
@@ -126,14 +117,19 @@ class CommandLoop {
   void End(const std::string& reason);
 
  private:
+  struct Waiting {
+    CommandSource* source;
+    CommandRequest request;
+  };
+  [[nodiscard]] std::optional<Waiting> NextOf(int timeout_ms);
   /// @return Whether the command was a reset.
-  [[nodiscard]] bool Handle(const CommandRequest& request, std::int64_t stamp_ns);
+  [[nodiscard]] bool Handle(const Waiting& waiting, std::int64_t stamp_ns);
 
   FrameMaker& maker_;
-  CommandChannel& channel_;
+  std::vector<CommandSource*> sources_;
   bool lockstep_;
   std::optional<LineFile> log_;
-  std::optional<CommandRequest> step_;  ///< The step under way.
+  std::optional<Waiting> step_;  ///< The step under way.
 };
 
 }  // namespace railcast

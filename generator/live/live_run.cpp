@@ -22,7 +22,8 @@ class LiveRun {
           LiveClock& clock)
       : spec_(spec), sensors_(sensors), hooks_(hooks), clock_(clock), queue_(clock, SendersOf()) {
     for (const LiveSensor& sensor : sensors) {
-      records_.push_back({.name = sensor.name, .period_ns = sensor.period_ns});
+      records_.push_back(
+          {.name = sensor.name, .period_ns = sensor.period_ns, .sends = sensor.sends});
     }
     Restart();
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/datagrams.h"
@@ -27,6 +28,7 @@ struct LiveSensor {
   std::function<void(std::uint32_t frame, Datagrams& datagrams)> make;
   /// Called from another thread than `make`, possibly while `make` is working on the next frame.
   DatagramQueue::Send send;
+  std::string_view sends = "datagrams";  ///< What it sends, as the summary calls it.
 };
 
 enum class Pacing {
@@ -47,6 +49,7 @@ struct LiveRecord {
   std::uint64_t dropped_frames{};  ///< Left out because they would have been late.
   DurationHistogram compute{};     ///< Time for scanning and encoding, by frame.
   SentRecord sent{};
+  std::string_view sends = "datagrams";  ///< LiveSensor::sends.
 };
 
 /// The progress of a run after the frames of one stamp.

@@ -1,5 +1,7 @@
 #include "generator/live/live_streams.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/base/error.h"
@@ -21,6 +23,10 @@ std::vector<Endpoint> ImageReceivers(const ScenarioSpec& scenario) {
     receivers.push_back(AtPlace("/camera/udp: ", [&] { return ParseEndpoint(to, 0); }));
   }
   return receivers;
+}
+
+bool HasReaders(const SensorStreamSpec& stream) {
+  return stream.protocol == Protocol::kRos2 || !stream.to.empty();
 }
 
 CameraStream::CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run)
@@ -119,19 +125,21 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
     maker_.CheckStaysOnTracks(i, 0, LastFrameBefore(maker_.pattern(i), *ends_ns));
   }
   for (std::size_t i = 0; i < streams.size(); ++i) {
+    if (streams[i].protocol == Protocol::kRos2) continue;
     const ScenarioSpec alone = PickSensor(scenario, streams[i].name);
     streams_.push_back(std::make_unique<SensorStream>(streams[i], alone, maker_.pattern(i), run));
   }
   const SensorStreamSpec& first = streams.front();
-  if (first.to.empty() || ImageReceivers(scenario).empty()) return;
+  if (!HasReaders(first) || ImageReceivers(scenario).empty()) return;
   camera_ =
       std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.has_offload, run);
 }
 
 void LiveStreams::ChooseFidelity() {
   if (maker_.scenario().fidelity != Fidelity::kAuto) return;
+  const std::vector<std::string> names = SensorNames(maker_.scenario());
   for (std::size_t i = 0; i < maker_.num_sensors(); ++i) {
-    const ScenarioSpec alone = PickSensor(maker_.scenario(), streams_[i]->spec().name);
+    const ScenarioSpec alone = PickSensor(maker_.scenario(), names[i]);
     static_cast<void>(UseChosenFidelity(maker_.simulator(i), alone));
   }
 }
@@ -154,28 +162,35 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
   watch(false);
 }
 
-void LiveStreams::MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams) {
+void LiveStreams::Publish(RosOutput* ros) {
+  ros_ = ros;
+  if (ros_ != nullptr) ros_->Begin();
+}
+
+void LiveStreams::MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams) {
+  const std::size_t sensor = stream.spec().sensor;
   Simulator& simulator = maker_.At(sensor, frame);
   simulator.Scan(frame, frames_[sensor]);
   // On the threads that scan.
-  simulator.Execute([&] { streams_[sensor]->Encode(frames_[sensor], datagrams); });
+  simulator.Execute([&] { stream.Encode(frames_[sensor], datagrams); });
 }
 
 std::vector<LiveSensor> LiveStreams::Sensors() {
   std::vector<LiveSensor> sensors;
-  for (std::size_t i = 0; i < streams_.size(); ++i) {
-    const ScanPattern& pattern = maker_.pattern(i);
-    SensorStream& stream = *streams_[i];
+  for (const auto& each : streams_) {
+    SensorStream& stream = *each;
+    const ScanPattern& pattern = maker_.pattern(stream.spec().sensor);
     sensors.push_back(
         {.name = stream.spec().name,
          .period_ns = pattern.PeriodNs(),
          .stamp_ns = [&pattern](std::uint32_t frame) { return pattern.StampNs(frame); },
-         .make = [this, i](std::uint32_t frame,
-                           Datagrams& datagrams) { MakeFrame(i, frame, datagrams); },
+         .make = [this, &stream](std::uint32_t frame,
+                                 Datagrams& datagrams) { MakeFrame(stream, frame, datagrams); },
          .send = [&stream](
                      const Datagrams& datagrams,
                      std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
   }
+  if (ros_ != nullptr) std::ranges::move(ros_->Sensors(), std::back_inserter(sensors));
   if (!camera_) return sensors;
   const ScanPattern& pattern = maker_.pattern(0);
   CameraStream& camera = *camera_;
@@ -202,6 +217,7 @@ void LiveStreams::Restart() {
 
 void LiveStreams::Finish() {
   for (const auto& stream : streams_) stream->Finish();
+  if (ros_ != nullptr) ros_->Finish();
 }
 
 std::vector<std::string> LiveStreams::CaptureFaults() const {
@@ -215,6 +231,7 @@ std::vector<std::string> LiveStreams::CaptureFaults() const {
 std::vector<UdpSender::Counts> LiveStreams::Delivered() const {
   std::vector<UdpSender::Counts> delivered;
   for (const auto& stream : streams_) delivered.push_back(stream->delivered());
+  if (ros_ != nullptr) std::ranges::move(ros_->Delivered(), std::back_inserter(delivered));
   if (camera_) delivered.push_back(camera_->delivered());
   return delivered;
 }

@@ -14,6 +14,7 @@
 #include "core/io/net/udp.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "generator/live/live_run.h"
+#include "generator/live/ros_output.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
@@ -73,6 +74,9 @@ struct SensorStreamSpec {
   bool has_all_slots{};
 };
 
+/// Whether the frames of a sensor have any.
+[[nodiscard]] bool HasReaders(const SensorStreamSpec& stream);
+
 /// Encodes one sensor's frames and hands them to its receivers and to a capture file. If the system
 /// refuses to write the capture, as on a full disk, the capture ends, but receivers continue to get
 /// all frames.
@@ -124,8 +128,9 @@ class SensorStream {
 };
 
 /// All sensors of one vehicle and the destinations of their frames; they share one world and one
-/// clock. If the scenario has a camera with receivers, its images accompany the frames of the first
-/// sensor, unless nothing is sent.
+/// clock. Frames of protocol ros2 go to a RosOutput, all others over UDP. If the scenario has a
+/// camera with receivers, its images accompany the frames of the first sensor, unless nothing is
+/// sent.
 class LiveStreams {
  public:
   /// @param streams One for each of the scenario's sensors, in its order.
@@ -143,13 +148,18 @@ class LiveStreams {
 
   [[nodiscard]] FrameMaker& maker() { return maker_; }
 
+  /// Begins to publish the frames of the sensors of protocol ros2.
+  /// @param ros Made with maker(), must outlive this object; null where no sensor is of ros2.
+  void Publish(RosOutput* ros);
+
   /// Does slow work beforehand, so that it makes no frame late: builds the scene of frame 0 and, if
   /// the scenario asks for it, makes fidelity auto's choice. From now on the building of scenes is
   /// watched as by WatchBuilding(). Returns early if stopped.
   /// @pre No frame has been made.
   void WarmUp(const std::function<bool()>& is_stopped);
 
-  /// Returns the sensors for RunLive(), the camera after them; valid as long as this object.
+  /// Returns the sensors for RunLive(): those of UDP, those of ROS 2, the camera. Valid as long as
+  /// this object.
   [[nodiscard]] std::vector<LiveSensor> Sensors();
 
   /// Restarts all sensors with frame 0.
@@ -166,12 +176,13 @@ class LiveStreams {
 
  private:
   void ChooseFidelity();
-  void MakeFrame(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);
+  void MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams);
 
   FrameMaker maker_;
-  std::vector<std::unique_ptr<SensorStream>> streams_;
+  std::vector<std::unique_ptr<SensorStream>> streams_;  ///< Those of UDP.
+  RosOutput* ros_ = nullptr;
   std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
-  std::vector<Frame> frames_;
+  std::vector<Frame> frames_;             ///< By sensor.
   std::uint32_t run_;
 };
 

@@ -75,8 +75,9 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
     const LiveRecord& record = records[i];
     text << record.name << ": " << record.frames << (record.frames == 1 ? " frame" : " frames")
          << ", " << record.late_frames << " late" << DroppedText(record.dropped_frames) << "; "
-         << record.sent.datagrams << " datagrams, " << record.sent.bytes << " bytes; to receivers "
-         << delivered[i].sent << " sent, " << delivered[i].refused << " refused\n";
+         << record.sent.datagrams << " " << record.sends << ", " << record.sent.bytes
+         << " bytes; to receivers " << delivered[i].sent << " sent, " << delivered[i].refused
+         << " refused\n";
     if (!has_times) continue;
     text << "  " << std::left << std::setw(kHeadWidth) << "" << std::right;
     for (const std::string_view head : {"p50", "p95", "p99", "max"}) {
@@ -102,7 +103,7 @@ std::string LiveSummaryJson(const LiveResult& result,
                        {"frames", record.frames},
                        {"late_frames", record.late_frames},
                        {"dropped_frames", record.dropped_frames},
-                       {"datagrams", record.sent.datagrams},
+                       {std::string(record.sends), record.sent.datagrams},
                        {"bytes", record.sent.bytes},
                        {"sent_to_receivers", delivered[i].sent},
                        {"refused", delivered[i].refused},

@@ -19,7 +19,10 @@
 #include "generator/live/command_channel.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
+#include "generator/live/ros_output.h"
+#include "generator/live/ros_plan.h"
 #include "generator/live/stream_options.h"
+#include "generator/live/twist_commands.h"
 #include "generator/run/run_options.h"
 #include "generator/run/stopping.h"
 #include "railcast/scenario.h"
@@ -106,20 +109,21 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
     const InterfacesSpec interfaces = PickSensor(scenario, name).interfaces;
     const Protocol protocol =
         options.protocol ? ValueNamed<Protocol>(*options.protocol).value() : interfaces.protocol;
-    streams.push_back(
-        {.name = name,
-         .sensor = static_cast<std::uint16_t>(streams.size()),
-         .protocol = protocol,
-         .to = IsOffline(options) ? std::vector<Endpoint>{}
-                                  : EndpointsOf(options, interfaces, protocol),
-         .has_offload = !options.sends_singly,
-         .pcap = options.pcap,
-         .fields = options.fields ? FieldSelection(*options.fields) : StreamSpec{}.fields,
-         .has_all_slots = options.has_all_slots});
+    streams.push_back({.name = name,
+                       .sensor = static_cast<std::uint16_t>(streams.size()),
+                       .protocol = protocol,
+                       .to = IsOffline(options) ? std::vector<Endpoint>{}
+                                                : EndpointsOf(options, interfaces, protocol),
+                       .has_offload = !options.sends_singly,
+                       .pcap = options.pcap,
+                       .fields = options.fields && protocol != Protocol::kRos2
+                                     ? FieldSelection(*options.fields)
+                                     : StreamSpec{}.fields,
+                       .has_all_slots = options.has_all_slots});
   }
   CheckPortsDiffer(streams, scenario);
   const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
-    return stream.protocol == Protocol::kRailcast;
+    return stream.protocol == Protocol::kRailcast || stream.protocol == Protocol::kRos2;
   });
   if (!has_fields && (options.fields || options.has_all_slots)) {
     throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
@@ -153,17 +157,21 @@ std::uint32_t RunNumber(const StreamOptions& options) {
       std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
 }
 
-std::string Describe(const std::vector<SensorStreamSpec>& streams, const ScenarioSpec& scenario) {
+std::string Describe(const std::vector<SensorStreamSpec>& streams,
+                     const std::optional<RosOutputSpec>& ros,
+                     const ScenarioSpec& scenario) {
   std::string text;
   for (const SensorStreamSpec& stream : streams) {
+    const bool is_for_ros = stream.protocol == Protocol::kRos2;
     text += stream.name + ": " + std::string(NameOf(stream.protocol));
     for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
-    if (stream.to.empty()) text += " to no receiver";
+    if (is_for_ros) text += " in " + PlaceText(ros->participant);
+    if (!is_for_ros && stream.to.empty()) text += " to no receiver";
     if (stream.pcap) text += ", into " + ShownPath(*stream.pcap);
     text += "\n";
   }
   const std::vector<Endpoint> receivers = ImageReceivers(scenario);
-  if (receivers.empty() || streams.front().to.empty()) return text;
+  if (receivers.empty() || !HasReaders(streams.front())) return text;
   text += scenario.camera->name + ": images";
   for (const Endpoint& to : receivers) text += " to " + EndpointText(to);
   text += "\n";
@@ -180,7 +188,7 @@ std::int64_t ShortestPeriodNs(const ScenarioSpec& scenario) {
 LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario) {
   LiveRunSpec spec;
   // Without commands, what a frame will show is known before.
-  const bool is_known = !options.commands_port && !options.lockstep && !IsOffline(options);
+  const bool is_known = !HearsCommands(options) && !options.lockstep && !IsOffline(options);
   if (is_known) spec.lead_ns = ShortestPeriodNs(scenario);
   spec.pacing = options.pacing == "burst" ? Pacing::kBurst : Pacing::kSpread;
   spec.lockstep = options.lockstep;
@@ -203,6 +211,38 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options,
                          [&] { return std::make_unique<CommandChannel>(at, peer, models); });
   std::cout << "commands at " << EndpointText(channel->at()) << "\n";
   return channel;
+}
+
+std::unique_ptr<dds::Participant> JoinDomain(const std::optional<RosOutputSpec>& spec) {
+  if (!spec) return nullptr;
+  return AtPlace("protocol ros2: ", [&] { return dds::Join(spec->participant); });
+}
+
+std::unique_ptr<RosOutput> OpenRos(const std::optional<RosOutputSpec>& spec,
+                                   std::unique_ptr<dds::Participant> participant,
+                                   FrameMaker& maker) {
+  if (!spec) return nullptr;
+  return AtPlace("protocol ros2: ",
+                 [&] { return std::make_unique<RosOutput>(*spec, std::move(participant), maker); });
+}
+
+std::unique_ptr<TwistCommands> OpenTwists(const StreamOptions& options,
+                                          const ScenarioSpec& scenario,
+                                          RosOutput* ros) {
+  if (!options.commands_topic) return nullptr;
+  const double deceleration_mps2 = scenario.interfaces.ros2.value_or(Ros2Spec{}).deceleration_mps2;
+  return AtPlace("--commands-topic: ", [&] {
+    return std::make_unique<TwistCommands>(ros->participant(), *options.commands_topic,
+                                           deceleration_mps2);
+  });
+}
+
+/// Those of the two that there are.
+std::vector<CommandSource*> SourcesOf(CommandSource* channel, CommandSource* twists) {
+  std::vector<CommandSource*> sources;
+  if (channel != nullptr) sources.push_back(channel);
+  if (twists != nullptr) sources.push_back(twists);
+  return sources;
 }
 
 /// Connects a run with its commands and the user, and shows its progress.
@@ -259,16 +299,7 @@ class RunSurroundings {
   std::size_t num_faults_said_ = 0;
 };
 
-/// Prints the outcome of the run, writes its summary and returns the exit status.
-int ReportRun(const LiveResult& result,
-              const LiveStreams& streams,
-              const CommandChannel* channel,
-              const StreamOptions& options) {
-  const bool has_times = !IsOffline(options);
-  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
-  const std::vector<std::string> capture_faults = streams.CaptureFaults();
-  for (const std::string& fault : capture_faults)
-    std::cout << "capture: " << ShownLines(fault) << "\n";
+void ReportCommands(const CommandChannel* channel, const TwistCommands* twists) {
   if (channel != nullptr && channel->num_strangers() > 0) {
     std::cout << "commands from others than the peer: " << channel->num_strangers()
               << ", dropped\n";
@@ -276,6 +307,21 @@ int ReportRun(const LiveResult& result,
   if (channel != nullptr && channel->num_answers() > 0) {
     std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
   }
+  if (twists == nullptr) return;
+  const TwistCommands::Counts& counts = twists->counts();
+  std::cout << "commands on " << twists->topic() << ": " << counts.done << " done, "
+            << counts.refused << " refused";
+  if (counts.refused > 0) std::cout << "; the last one: " << ShownLines(counts.last_fault);
+  std::cout << "\n";
+}
+
+/// Prints the outcome of the run, writes its summary and returns the exit status.
+int ReportRun(const LiveResult& result, const LiveStreams& streams, const StreamOptions& options) {
+  const bool has_times = !IsOffline(options);
+  std::cout << ShownLines(LiveSummary(result.records, streams.Delivered(), has_times));
+  const std::vector<std::string> capture_faults = streams.CaptureFaults();
+  for (const std::string& fault : capture_faults)
+    std::cout << "capture: " << ShownLines(fault) << "\n";
   if (options.summary) {
     WriteFileWhole(*options.summary,
                    LiveSummaryJson(result, streams.Delivered(), capture_faults, has_times));
@@ -287,37 +333,51 @@ int ReportRun(const LiveResult& result,
   return is_failed ? kExitFailure : kExitSuccess;
 }
 
+/// A clock that jumps where nobody waits for frames.
+LiveResult RunBy(const StreamOptions& options,
+                 const LiveRunSpec& spec,
+                 LiveStreams& streams,
+                 RunSurroundings& surroundings) {
+  MonotonicClock monotonic;
+  JumpingClock jumping;
+  LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
+  return RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
+}
+
 int RunStream(const StreamOptions& options) {
   const ScenarioSpec scenario = ReadForStream(options);
   CheckOptionsTogether(options, SensorNames(scenario).size());
   if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
+  const std::optional<RosOutputSpec> ros_plan = PlanRos(options, scenario, plan);
+  auto participant = JoinDomain(ros_plan);
   const LiveRunSpec spec = RunSpecOf(options, scenario);
   const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   // With commands, the journeys of moving objects are not known in advance, so they are not
   // checked.
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
-                      options.commands_port ? std::nullopt : spec.duration_ns);
+                      HearsCommands(options) ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
   const auto channel = OpenChannel(options, scenario.models);
+  const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
+  const auto twists = OpenTwists(options, scenario, ros.get());
+  streams.Publish(ros.get());
   std::optional<CommandLoop> commands;
-  if (channel) {
-    commands.emplace(streams.maker(), *channel, options.lockstep, options.commands_log,
-                     IdentityOf(scenario).scenario_hash);
+  if (HearsCommands(options)) {
+    commands.emplace(streams.maker(), SourcesOf(channel.get(), twists.get()), options.lockstep,
+                     options.commands_log, IdentityOf(scenario).scenario_hash);
   }
   CatchStopSignals();
   streams.WarmUp(StopRequested);
-  std::cout << ShownLines(Describe(plan, scenario)) << std::flush;
+  std::cout << ShownLines(Describe(plan, ros_plan, scenario)) << std::flush;
 
-  MonotonicClock monotonic;
-  JumpingClock jumping;
-  LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
   RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
-  const LiveResult result = RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
+  const LiveResult result = RunBy(options, spec, streams, surroundings);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
   surroundings.End();
-  return ReportRun(result, streams, channel.get(), options);
+  ReportCommands(channel.get(), twists.get());
+  return ReportRun(result, streams, options);
 }
 
 }  // namespace
@@ -328,7 +388,7 @@ void AddStream(CLI::App& app, ProgramCommand& command) {
       app.add_subcommand("stream", "Send frames over UDP at the pace of real sensors until Ctrl-C");
   AddStreamOptions(*stream, *options);
   stream->callback([&command, options] {
-    if (options->fields) CheckFields(*options->fields);
+    if (options->fields && !IsForRos(*options->fields)) CheckFields(*options->fields);
     command = [options](const std::string&) { return RunStream(*options); };
   });
 }

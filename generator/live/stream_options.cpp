@@ -23,9 +23,11 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       ->allow_extra_args(false);
   stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Protocol>()));
-  stream.add_option("--fields", options.fields,
-                    "With protocol railcast: fields to send, separated by commas, or all; default: "
-                    "x,y,z,intensity,ring,time_ns,label,instance");
+  stream.add_option(
+      "--fields", options.fields,
+      "With protocols railcast and ros2: fields to send, separated by commas, or all; "
+      "default: x,y,z,intensity,ring,time_ns,label,instance. With ros2 also the names "
+      "of sensors' drivers, whose fields are sent then: velodyne, ouster, hesai, livox");
   stream.add_flag("--all-slots", options.has_all_slots,
                   "With protocol railcast: also send firings without a return");
   stream
@@ -64,6 +66,23 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       .add_option("--commands-log", options.commands_log,
                   "File to log the commands to, which `sequence --commands` can replay")
       ->check(NonEmpty());
+  stream
+      .add_option("--domain", options.domain,
+                  "With protocol ros2: domain to publish in; default: the scenario's, else "
+                  "ROS_DOMAIN_ID, else 0")
+      ->transform(Whole({0, 232}));
+  stream.add_option("--interface", options.interface,
+                    "With protocol ros2: name or IPv4 address of the network interface to publish "
+                    "through; default: the scenario's, else loopback");
+  stream
+      .add_option("--receive-buffers", options.receive_buffers,
+                  "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
+                  "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
+                  "default: the scenario's")
+      ->check(CLI::IsMember(NamesOf<ReceiveBuffers>()));
+  stream.add_option("--commands-topic", options.commands_topic,
+                    "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
+                    "receive commands, such as /brake; default: none");
   stream.add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
   stream
       .add_option("--duration", options.duration_s,
@@ -84,6 +103,10 @@ bool IsOffline(const StreamOptions& options) {
   return options.pcap && options.to.empty();
 }
 
+bool HearsCommands(const StreamOptions& options) {
+  return options.commands_port || options.commands_topic;
+}
+
 void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors) {
   const auto needs_one_sensor = [&](const std::string& option, bool is_given) {
     if (!is_given || num_sensors == 1) return;
@@ -99,7 +122,7 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
     }
   };
   needs_commands_port("--lockstep", options.lockstep);
-  needs_commands_port("--commands-log", options.commands_log.has_value());
+  needs_commands_port("--commands-log", options.commands_log && !options.commands_topic);
   needs_commands_port("--commands-from", options.commands_from.has_value());
   for (const auto& [option, is_given] : {std::pair{"--drop-late", options.drops_late},
                                          std::pair{"--fail-late", options.fails_late}}) {

@@ -16,8 +16,9 @@ struct StreamOptions {
   std::optional<std::string> sensor;    ///< Absent = all sensors.
   std::vector<std::string> to;          ///< HOST:PORT of each receiver, instead of the scenario's.
   std::optional<std::string> protocol;  ///< Protocol instead of the scenario's.
-  std::optional<std::string> fields;    ///< Fields for protocol railcast, instead of its default.
-  bool has_all_slots = false;           ///< For protocol railcast.
+  /// Fields for protocols railcast and ros2, instead of their defaults.
+  std::optional<std::string> fields;
+  bool has_all_slots = false;  ///< For protocol railcast.
   std::string pacing = "spread";
   bool drops_late = false;
   bool fails_late = false;    ///< A late or dropped frame makes the exit status 1.
@@ -28,6 +29,10 @@ struct StreamOptions {
   std::optional<std::uint16_t> commands_port;
   std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
   std::optional<std::filesystem::path> commands_log;
+  std::optional<std::uint32_t> domain;           ///< For protocol ros2, as the next three.
+  std::optional<std::string> interface;          ///< Name or address; absent: the scenario's.
+  std::optional<std::string> receive_buffers;    ///< Name of a ReceiveBuffers.
+  std::optional<std::string> commands_topic;     ///< On which ROS 2's nodes give commands.
   std::optional<std::filesystem::path> summary;  ///< JSON file on the run.
   std::optional<double> duration_s;              ///< Simulation time; absent = until stopped.
   std::optional<std::uint64_t> seed;             ///< Overrides the scenario's.
@@ -42,6 +47,9 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options);
 
 /// Whether there are no receivers, so that frames need not wait for their time.
 [[nodiscard]] bool IsOffline(const StreamOptions& options);
+
+/// Whether commands change what frames show.
+[[nodiscard]] bool HearsCommands(const StreamOptions& options);
 
 /// @throws InputError if options cannot be combined.
 void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors);

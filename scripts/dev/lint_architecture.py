@@ -58,6 +58,7 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
+    "Cyclone DDS": (r"dds/", ("core/io/dds",)),
     "SQLite": (r"sqlite3\.h$", ("core/io/bag", "generator/dataset")),
     "zstd": (r"zstd\.h$", ("core/io/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),

@@ -107,8 +107,8 @@ struct ToleranceSpec {
 };
 
 /// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a sensor of
-/// Velodyne's or Ouster's (docs/packets.md).
-enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e, kOuster };
+/// Velodyne's or Ouster's (docs/packets.md); or messages for ROS 2 instead (docs/ros2.md).
+enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e, kOuster, kRos2 };
 template <>
 inline constexpr auto kEnumNames<Protocol> =
     std::to_array<EnumName<Protocol>>({{Protocol::kRailcast, "railcast"},
@@ -117,7 +117,8 @@ inline constexpr auto kEnumNames<Protocol> =
                                        {Protocol::kHdl32e, "hdl32e"},
                                        {Protocol::kVlp32c, "vlp32c"},
                                        {Protocol::kHdl64e, "hdl64e"},
-                                       {Protocol::kOuster, "ouster"}});
+                                       {Protocol::kOuster, "ouster"},
+                                       {Protocol::kRos2, "ros2"}});
 
 /// Where the live frames of one of several sensors are sent, and how they are packed.
 struct SensorInterface {
@@ -128,11 +129,29 @@ struct SensorInterface {
   bool operator==(const SensorInterface&) const = default;
 };
 
+/// The room that readers of ROS 2 have in the buffers of their sockets: Linux's default of 208 KiB,
+/// or enough for a whole frame.
+enum class ReceiveBuffers { kUsual, kLarge };
+template <>
+inline constexpr auto kEnumNames<ReceiveBuffers> = std::to_array<EnumName<ReceiveBuffers>>(
+    {{ReceiveBuffers::kUsual, "usual"}, {ReceiveBuffers::kLarge, "large"}});
+
+/// Key `interfaces.ros2`: how the sensors of Protocol::kRos2 reach ROS 2.
+struct Ros2Spec {
+  std::optional<std::uint32_t> domain;  ///< Absent: as ROS_DOMAIN_ID says, or 0.
+  std::string interface;                ///< Name or IPv4 address; empty = loopback.
+  ReceiveBuffers receive_buffers = ReceiveBuffers::kUsual;
+  double deceleration_mps2 = 0.5;  ///< Of the vehicle at commands of ROS 2, which name none.
+
+  bool operator==(const Ros2Spec&) const = default;
+};
+
 /// Section `interfaces` (the published Interfaces.json): where live frames are sent.
 struct InterfacesSpec {
   std::vector<std::string> udp;             ///< For a single sensor, as SensorInterface::udp.
   Protocol protocol = Protocol::kRailcast;  ///< For a single sensor.
   std::vector<SensorInterface> sensors;     ///< For several sensors: empty, or one entry for each.
+  std::optional<Ros2Spec> ros2{};
 
   bool operator==(const InterfacesSpec&) const = default;
 };

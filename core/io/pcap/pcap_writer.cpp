@@ -105,7 +105,7 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     Check(item.size <= kMaxDatagramSize, "a datagram fits a UDP packet");
     const std::span<const char> payload = datagrams.BytesOf(item);
     const bool is_data = item.port == DatagramPort::kData;
-    StoreHeaders(item.size, is_data ? data_port_ : position_port_, frame.data());
+    StoreHeaders(static_cast<std::uint16_t>(item.size), is_data ? data_port_ : position_port_, frame.data());
     std::memcpy(frame.data() + kHeaderSize, payload.data(), payload.size());
     const std::int64_t time_us = item.due_ns / 1000;
     pcap_pkthdr header{};

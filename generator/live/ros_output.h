@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/io/datagrams.h"
+#include "core/io/dds/participant.h"
+#include "core/io/net/udp.h"
+#include "core/io/ros/frame_topics.h"
+#include "generator/live/live_run.h"
+#include "generator/run/frame_maker.h"
+
+namespace railcast {
+
+/// What sensors of protocol ros2 tell, and where.
+struct RosOutputSpec {
+  dds::ParticipantSpec participant;
+  ros::CloudSpec clouds;
+  std::vector<std::size_t> sensors;  ///< Their numbers on the vehicle.
+};
+
+/// Publishes the frames of a vehicle's sensors, its motion and the objects in sight on topics of
+/// ROS 2: the same bytes that `sequence` writes into bags.
+class RosOutput {
+ public:
+  /// @param participant As dds::Join() made it of the spec.
+  /// @param maker Must outlive this object.
+  /// @throws InputError as ros::FrameTopics does.
+  RosOutput(const RosOutputSpec& spec,
+            std::unique_ptr<dds::Participant> participant,
+            FrameMaker& maker);
+
+  [[nodiscard]] dds::Participant& participant() { return *participant_; }
+  /// Tells the name of the node and what holds for the whole run, once all topics are there.
+  void Begin();
+
+  /// Returns the sensors for RunLive(), valid as long as this object.
+  [[nodiscard]] std::vector<LiveSensor> Sensors();
+
+  /// Waits a second at most for readers that have not received everything.
+  void Finish();
+  /// Numbers of messages, in the order of Sensors().
+  /// @pre Nothing is being sent.
+  [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
+
+ private:
+  struct Sensor {
+    std::size_t number;  ///< On the vehicle.
+    MadeFrame made;
+    UdpSender::Counts counts;
+  };
+  void Make(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);
+  void Send(Sensor& sensor, const Datagrams& datagrams, std::span<const Datagrams::Item> items);
+
+  FrameMaker& maker_;
+  ros::FrameTopics topics_;
+  std::unique_ptr<dds::Participant> participant_;
+  std::vector<std::size_t> writers_;  ///< By topic.
+  std::vector<Sensor> sensors_;
+};
+
+}  // namespace railcast
