@@ -19,6 +19,7 @@
 #include "generator/live/command_channel.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
+#include "generator/live/ouster_service.h"
 #include "generator/live/stream_options.h"
 #include "generator/run/run_options.h"
 #include "generator/run/stopping.h"
@@ -55,8 +56,9 @@ bool IsIn(const std::vector<Endpoint>& receivers, const Endpoint& to) {
 /// Where a sensor's position packets go.
 std::vector<Endpoint> PositionReceivers(const SensorStreamSpec& stream) {
   std::vector<Endpoint> receivers;
-  if (stream.protocol == Protocol::kRailcast) return receivers;
-  for (const Endpoint& to : stream.to) receivers.push_back({to.address, kVelodynePositionPort});
+  const auto port = PositionPort(stream.protocol);
+  if (!port) return receivers;
+  for (const Endpoint& to : stream.to) receivers.push_back({to.address, *port});
   return receivers;
 }
 
@@ -205,6 +207,15 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options,
   return channel;
 }
 
+std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
+                                     const std::vector<SensorStreamSpec>& plan,
+                                     const ScenarioSpec& scenario) {
+  if (!options.http) return nullptr;
+  auto server = ServeOuster(*options.http, plan, scenario);
+  std::cout << "HTTP at " << EndpointText(server->at()) << "\n";
+  return server;
+}
+
 /// Connects a run with its commands and the user, and shows its progress.
 class RunSurroundings {
  public:
@@ -299,6 +310,10 @@ int RunStream(const StreamOptions& options) {
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       options.commands_port ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
+  for (const SensorStreamSpec& stream : plan) {
+    WriteMetadataBeside(stream, PickSensor(scenario, stream.name).lidar);
+  }
+  const auto http = OpenHttp(options, plan, scenario);
   const auto channel = OpenChannel(options, scenario.models);
   std::optional<CommandLoop> commands;
   if (channel) {
