@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/ouster/ouster_encoder.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/scenario/sensors.h"
@@ -55,16 +56,18 @@ SensorStream::SensorStream(SensorStreamSpec spec,
       encoder_(MakeEncoder(run)) {
   if (!spec_.to.empty()) {
     sender_ = AtPlace("receivers of " + spec_.name + ": ", [&] {
-      return std::make_unique<UdpSender>(spec_.to, kVelodynePositionPort, spec_.has_offload);
+      return std::make_unique<UdpSender>(spec_.to, PositionPort(spec_.protocol).value_or(0),
+                                         spec_.has_offload);
     });
   }
   if (spec_.pcap) {
     capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
-                                            kVelodynePositionPort);
+                                            PositionPort(spec_.protocol).value_or(0));
   }
 }
 
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {
+  if (spec_.protocol == Protocol::kOuster) return MakeOusterEncoder(lidar_);
   if (spec_.protocol != Protocol::kRailcast) {
     return MakeVelodyneEncoder(NameOf(spec_.protocol), lidar_.scan, lidar_.receiver.return_mode);
   }

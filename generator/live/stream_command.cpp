@@ -19,6 +19,7 @@
 #include "generator/live/command_channel.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
+#include "generator/live/ouster_service.h"
 #include "generator/live/ros_output.h"
 #include "generator/live/ros_plan.h"
 #include "generator/live/stream_options.h"
@@ -58,8 +59,9 @@ bool IsIn(const std::vector<Endpoint>& receivers, const Endpoint& to) {
 /// Where a sensor's position packets go.
 std::vector<Endpoint> PositionReceivers(const SensorStreamSpec& stream) {
   std::vector<Endpoint> receivers;
-  if (stream.protocol == Protocol::kRailcast) return receivers;
-  for (const Endpoint& to : stream.to) receivers.push_back({to.address, kVelodynePositionPort});
+  const auto port = PositionPort(stream.protocol);
+  if (!port) return receivers;
+  for (const Endpoint& to : stream.to) receivers.push_back({to.address, *port});
   return receivers;
 }
 
@@ -245,6 +247,15 @@ std::vector<CommandSource*> SourcesOf(CommandSource* channel, CommandSource* twi
   return sources;
 }
 
+std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
+                                     const std::vector<SensorStreamSpec>& plan,
+                                     const ScenarioSpec& scenario) {
+  if (!options.http) return nullptr;
+  auto server = ServeOuster(*options.http, plan, scenario);
+  std::cout << "HTTP at " << EndpointText(server->at()) << "\n";
+  return server;
+}
+
 /// Connects a run with its commands and the user, and shows its progress.
 class RunSurroundings {
  public:
@@ -358,6 +369,10 @@ int RunStream(const StreamOptions& options) {
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       HearsCommands(options) ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
+  for (const SensorStreamSpec& stream : plan) {
+    WriteMetadataBeside(stream, PickSensor(scenario, stream.name).lidar);
+  }
+  const auto http = OpenHttp(options, plan, scenario);
   const auto channel = OpenChannel(options, scenario.models);
   const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
   const auto twists = OpenTwists(options, scenario, ros.get());

@@ -57,6 +57,11 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
                   "With protocol hdl64e: file to write the calibration to, which receivers need")
       ->check(NonEmpty());
   stream
+      .add_option("--http", options.http,
+                  "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
+                  "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
+      ->check(NonEmpty());
+  stream
       .add_option("--commands-port", options.commands_port,
                   "UDP port on which to receive commands as lines of JSON; default: none")
       ->transform(Whole({1, 65535}));
@@ -130,6 +135,9 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
     throw InputError(std::string(option) + ": must be left out where frames " +
                      (options.lockstep ? "wait for steps, as with --lockstep"
                                        : "are never late, as with --pcap without --to"));
+  }
+  if (options.http && IsOffline(options)) {
+    throw InputError("--http: must be left out where nothing is sent, as with --pcap without --to");
   }
   if (options.sends_singly && IsOffline(options)) {
     throw InputError(

@@ -25,6 +25,7 @@ struct StreamOptions {
   bool sends_singly = false;  ///< Without UDP segmentation offload.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
+  std::optional<std::string> http;  ///< HOST:PORT to answer at; for protocol ouster.
   bool lockstep = false;
   std::optional<std::uint16_t> commands_port;
   std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.

@@ -82,7 +82,9 @@ HttpAnswer CommandAnswer(const Json& metadata, std::string_view command) {
   const std::string done = R"("set_config_param")";
   if (key == ".") return SetConfig(metadata, value, done);
   const JsonText parsed = ParseJson(value);
-  return SetConfig(metadata, Json{{key, parsed.json.value_or(Json(value))}}.dump(), done);
+  // Escapes may stand for bytes that are no UTF-8.
+  const Json asked{{key, parsed.json.value_or(Json(value))}};
+  return SetConfig(metadata, asked.dump(-1, ' ', false, Json::error_handler_t::replace), done);
 }
 
 HttpAnswer AnswerToGet(const Json& metadata, std::string_view target) {

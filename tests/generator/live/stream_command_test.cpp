@@ -128,8 +128,10 @@ TEST(Stream, SendsSeveralSensorsOfOneVehicleByOneClock) {
 
 TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
   EXPECT_EQ(DefaultPort(Protocol::kRailcast), kStreamPort);
+  EXPECT_EQ(DefaultPort(Protocol::kOuster), kOusterLidarPort);
+  EXPECT_EQ(PositionPort(Protocol::kOuster), kOusterImuPort);
   for (const auto& [protocol, name] : kEnumNames<Protocol>) {
-    if (protocol == Protocol::kRailcast) continue;
+    if (protocol == Protocol::kRailcast || protocol == Protocol::kOuster) continue;
     EXPECT_EQ(FindVelodyneFormat(name).name, name);
     EXPECT_EQ(DefaultPort(protocol), kVelodyneDataPort);
   }

@@ -64,6 +64,7 @@ TEST_F(OusterHttp, SaysWhatOfAConfigurationIsOtherwise) {
             "lidar_mode must be \"512x10\", as railcast streams it (got \"1024x10\")");
   EXPECT_EQ(Json::parse(Post(R"({"speed": 1})").body)["error"],
             "speed must be left out, as railcast streams it (got 1)");
+  EXPECT_EQ(Get("/api/v1/sensor/cmd/set_config_param?args=a%FF+%FE").status, 400U);
   EXPECT_EQ(Post("[1]").status, 400U);
   EXPECT_EQ(Post("{").status, 400U);
 }
