@@ -1,6 +1,8 @@
 #include "core/scenario/sensors.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -33,9 +35,10 @@ std::vector<std::string> FrameReceiversOf(const InterfacesSpec& interfaces) {
 std::vector<std::string> PositionReceiversOf(const InterfacesSpec& interfaces) {
   std::vector<std::string> receivers;
   for (const SensorInterface& interface : AllOf(interfaces)) {
-    if (interface.protocol == Protocol::kRailcast) continue;
+    const auto port = PositionPort(interface.protocol);
+    if (!port) continue;
     for (const std::string& to : ReceiversOf(interface)) {
-      receivers.push_back(to.substr(0, to.rfind(':') + 1) + std::to_string(kVelodynePositionPort));
+      receivers.push_back(to.substr(0, to.rfind(':') + 1) + std::to_string(*port));
     }
   }
   return receivers;
@@ -54,11 +57,31 @@ std::string SharingFault(const std::vector<std::string>& receivers,
   return "";
 }
 
+/// The ports of a family of protocols.
+struct ProtocolPorts {
+  Protocol first{};  ///< Of the family, which ends where the next one begins.
+  std::uint16_t data{};
+  std::optional<std::uint16_t> position{};
+};
+constexpr std::array<ProtocolPorts, 3> kPorts = {
+    {{Protocol::kRailcast, 27400, std::nullopt},
+     {Protocol::kVlp16, kVelodyneDataPort, kVelodynePositionPort},
+     // Position packets of Hesai's sensors repeat what a receiver of satellites said.
+     {Protocol::kPandar64, kVelodyneDataPort, std::nullopt}}};
+
+const ProtocolPorts& PortsOf(Protocol protocol) {
+  const auto next = std::ranges::upper_bound(kPorts, protocol, {}, &ProtocolPorts::first);
+  return *std::prev(next);
+}
+
 }  // namespace
 
 std::uint16_t DefaultPort(Protocol protocol) {
-  constexpr std::uint16_t kRailcastPort = 27400;
-  return protocol == Protocol::kRailcast ? kRailcastPort : kVelodyneDataPort;
+  return PortsOf(protocol).data;
+}
+
+std::optional<std::uint16_t> PositionPort(Protocol protocol) {
+  return PortsOf(protocol).position;
 }
 
 std::vector<std::string> ReceiversOf(const SensorInterface& interface) {

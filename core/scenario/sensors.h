@@ -23,11 +23,14 @@ struct SensorPlace {
 [[nodiscard]] std::string InterfacesFault(const InterfacesSpec& interfaces,
                                           const std::vector<std::string>& sensors);
 
-/// The port that Velodyne's sensors send frames to and from.
+/// The port that the sensors of Velodyne and Hesai send frames to and from.
 inline constexpr std::uint16_t kVelodyneDataPort = 2368;
 /// The port of each receiver to which sensors of Velodyne's protocols send position packets,
 /// whatever the port of their frames.
 inline constexpr std::uint16_t kVelodynePositionPort = 8308;
+
+/// The port of position packets; absent if sensors of this protocol send none.
+[[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);
 
 /// Whether each receiver is named once.
 [[nodiscard]] bool AreDifferent(const std::vector<std::string>& receivers);

@@ -55,8 +55,9 @@ bool IsIn(const std::vector<Endpoint>& receivers, const Endpoint& to) {
 /// Where a sensor's position packets go.
 std::vector<Endpoint> PositionReceivers(const SensorStreamSpec& stream) {
   std::vector<Endpoint> receivers;
-  if (stream.protocol == Protocol::kRailcast) return receivers;
-  for (const Endpoint& to : stream.to) receivers.push_back({to.address, kVelodynePositionPort});
+  const auto port = PositionPort(stream.protocol);
+  if (!port) return receivers;
+  for (const Endpoint& to : stream.to) receivers.push_back({to.address, *port});
   return receivers;
 }
 
@@ -118,9 +119,11 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
          .has_all_slots = options.has_all_slots});
   }
   CheckPortsDiffer(streams, scenario);
-  const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
-    return stream.protocol == Protocol::kRailcast;
-  });
+  const auto is_ours = [](const auto& stream) { return stream.protocol == Protocol::kRailcast; };
+  if (options.uses_wall_clock && std::all_of(streams.begin(), streams.end(), is_ours)) {
+    throw InputError("--wall-clock: is for packets of real sensors (got railcast)");
+  }
+  const bool has_fields = std::any_of(streams.begin(), streams.end(), is_ours);
   if (!has_fields && (options.fields || options.has_all_slots)) {
     throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
                      ": is for protocol railcast (got " +
@@ -205,12 +208,20 @@ std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options,
   return channel;
 }
 
+/// Lets packets state the time of day from now on, if asked to.
+void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns) {
+  if (!options.uses_wall_clock) return;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  streams.SetClocks(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), lead_ns);
+}
+
 /// Connects a run with its commands and the user, and shows its progress.
 class RunSurroundings {
  public:
   RunSurroundings(LiveStreams& streams, CommandLoop* commands, const StreamOptions& options)
       : streams_(streams),
         commands_(commands),
+        options_(options),
         is_offline_(IsOffline(options)),
         lag_(options.drops_late) {}
 
@@ -233,7 +244,10 @@ class RunSurroundings {
   [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns) {
     if (commands_ == nullptr) return NextFrames::kMake;
     const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
-    if (next == NextFrames::kReset) streams_.Restart();
+    if (next != NextFrames::kReset) return next;
+    streams_.Restart();
+    // Where commands are heard, no frame is begun before its stamp.
+    SetClocks(streams_, options_, 0);
     return next;
   }
 
@@ -253,6 +267,7 @@ class RunSurroundings {
 
   LiveStreams& streams_;
   CommandLoop* commands_;
+  const StreamOptions& options_;
   bool is_offline_;
   TerminalLine line_;
   LagReport lag_;
@@ -313,6 +328,7 @@ int RunStream(const StreamOptions& options) {
   JumpingClock jumping;
   LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
   RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
+  SetClocks(streams, options, spec.lead_ns);
   const LiveResult result = RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();

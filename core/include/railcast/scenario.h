@@ -103,8 +103,25 @@ struct ToleranceSpec {
   bool operator==(const ToleranceSpec&) const = default;
 };
 
-/// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a Velodyne.
-enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e };
+/// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a sensor of
+/// Velodyne's or Hesai's (docs/packets.md).
+enum class Protocol {
+  kRailcast,
+  kVlp16,
+  kVlp16Dual,
+  kHdl32e,
+  kVlp32c,
+  kHdl64e,
+  kPandar64,
+  kXt32,
+  kQt128,
+  kPandar128e4x,
+  kPandar128e4xStandard,
+  kPandar40p,
+  kQt64,
+  kXt16,
+  kXt32m,
+};
 template <>
 inline constexpr auto kEnumNames<Protocol> =
     std::to_array<EnumName<Protocol>>({{Protocol::kRailcast, "railcast"},
@@ -112,7 +129,16 @@ inline constexpr auto kEnumNames<Protocol> =
                                        {Protocol::kVlp16Dual, "vlp16-dual"},
                                        {Protocol::kHdl32e, "hdl32e"},
                                        {Protocol::kVlp32c, "vlp32c"},
-                                       {Protocol::kHdl64e, "hdl64e"}});
+                                       {Protocol::kHdl64e, "hdl64e"},
+                                       {Protocol::kPandar64, "pandar64"},
+                                       {Protocol::kXt32, "xt32"},
+                                       {Protocol::kQt128, "qt128"},
+                                       {Protocol::kPandar128e4x, "pandar128e4x"},
+                                       {Protocol::kPandar128e4xStandard, "pandar128e4x-standard"},
+                                       {Protocol::kPandar40p, "pandar40p"},
+                                       {Protocol::kQt64, "qt64"},
+                                       {Protocol::kXt16, "xt16"},
+                                       {Protocol::kXt32m, "xt32m"}});
 
 /// Where the live frames of one of several sensors are sent, and how they are packed.
 struct SensorInterface {

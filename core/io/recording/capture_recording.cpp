@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
@@ -85,15 +86,17 @@ class CaptureRecording : public Recording {
   std::string_view name_;
   std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
-  std::variant<VelodyneDecoder, HesaiDecoder> decoder_;
+  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder> decoder_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
   bool is_at_end_ = false;
 };
 
-CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
+CaptureSensor FindSensor(std::FILE* stream,
+                         const std::string& name,
+                         const LoadAt128Correction& load_correction) {
   PcapReader reader(stream, name);
-  SensorFinder finder;
+  SensorFinder finder(load_correction);
   while (const auto datagram = reader.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
   }
@@ -101,11 +104,21 @@ CaptureSensor FindSensor(std::FILE* stream, const std::string& name) {
                    finder.Findings(reader.num_torn()) + ")");
 }
 
+/// Reads the correction file of an AT128 that has the capture's name.
+std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path file) {
+  file.replace_extension(".dat");
+  if (!std::filesystem::exists(file)) return nullptr;
+  const std::string bytes = ReadFileWhole(file);
+  return AtPlace(ShownPath(file) + ": ",
+                 [&] { return std::make_shared<const At128Correction>(bytes); });
+}
+
 }  // namespace
 
 std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
-                                       const std::string& name) {
-  CaptureSensor sensor = FindSensor(open(), name);
+                                       const std::string& name,
+                                       const LoadAt128Correction& load_correction) {
+  CaptureSensor sensor = FindSensor(open(), name, load_correction);
   return std::make_unique<CaptureRecording>(open(), name, std::move(sensor));
 }
 
@@ -117,7 +130,7 @@ std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
         if (stream == nullptr) throw FileError(file, errno);
         return stream;
       },
-      ShownPath(file));
+      ShownPath(file), [&file] { return CorrectionBeside(file); });
 }
 
 }  // namespace railcast

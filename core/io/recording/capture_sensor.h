@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/io/hesai/at128_decoder.h"
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/sensor_turn.h"
 #include "core/io/velodyne/velodyne_decoder.h"
@@ -45,15 +48,21 @@ struct CaptureSensor {
   std::string_view name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
-  std::variant<VelodyneDecoder, HesaiDecoder> decoder;
+  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder> decoder;
 };
+
+/// Returns the angles of the AT128 that was captured, or null if they are not at hand.
+/// @throws InputError if they cannot be read.
+using LoadAt128Correction = std::function<std::shared_ptr<const At128Correction>()>;
 
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
-  SensorFinder();
+  /// @param load_correction Called if a packet of an AT128 is seen.
+  explicit SensorFinder(LoadAt128Correction load_correction);
 
   /// Returns the sensor once a datagram is, or begins with, one of its packets.
+  /// @throws InputError as `load_correction` does.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
   /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
@@ -65,6 +74,7 @@ class SensorFinder {
   std::vector<CaptureSensor> probes_;
   std::size_t num_datagrams_{};
   std::size_t first_size_{};
+  LoadAt128Correction load_correction_;
   std::string stranger_;  ///< The first sensor that was recognised but cannot be decoded.
 };
 

@@ -12,13 +12,16 @@
 
 namespace railcast {
 
+class At128Correction;
+
 /// The sensors whose captures can be opened: "VLP-16, HDL-32E or QT128".
 [[nodiscard]] std::string ReadableSensorsText();
 
 /// Opens a .pcap or .pcapng capture of one of these sensors. Each turn is a frame; the first and
-/// the last turn are usually cut short. The first packet of one of these sensors decides which
-/// sensor it is; other and damaged datagrams are skipped. Packets that segmentation offload merged
-/// into one datagram are cut apart.
+/// the last turn are usually cut short. That of an AT128 needs the sensor's correction file beside
+/// it, with the capture's name and the extension .dat. The first packet of one of these sensors
+/// decides which sensor it is; other and damaged datagrams are skipped. Packets that segmentation
+/// offload merged into one datagram are cut apart.
 /// @throws InputError with one line that says what was found instead; reading throws it, too, where
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
@@ -26,8 +29,11 @@ namespace railcast {
 /// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
 /// once to read.
 /// @param name Names the capture in error messages.
-[[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
-                                                     const std::string& name);
+/// @param load_correction Gives the correction of an AT128, if the capture is of one.
+[[nodiscard]] std::unique_ptr<Recording> OpenCapture(
+    const std::function<std::FILE*()>& open,
+    const std::string& name,
+    const std::function<std::shared_ptr<const At128Correction>()>& load_correction);
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
