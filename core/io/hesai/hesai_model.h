@@ -58,9 +58,9 @@ struct HesaiLayout {
   std::optional<std::size_t> state_place{};  ///< u16, of block b the loop, in bits 14 - 2 b and on.
   std::optional<HesaiMark> mark{};
   HesaiTail tail{};
-  /// The end of the last CRC, where packets have three: u32 after the blocks, of these; u32 16
-  /// bytes behind that one, of the functional safety between them but for its first byte; and u32
-  /// of what follows (CRC-32/MPEG-2, as all packets of a real QT128 have them).
+  /// Where the last of three checksums ends, in packets that have them, each a u32 CRC-32/MPEG-2.
+  /// The first follows the blocks and is of them. The second ends the functional safety behind it,
+  /// of kHesaiSafetySize bytes, and is of these but for the first byte. The third is of the tail.
   std::optional<std::size_t> checked_size{};
 
   [[nodiscard]] std::size_t header_size() const { return header ? header->size : 0; }

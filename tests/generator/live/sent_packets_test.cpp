@@ -66,7 +66,10 @@ TEST_P(SentPackets, OfACaptureHaveTheFramesThatSequenceWrites) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sensors, SentPackets, testing::Values("xt16", "pandar128e4x"));
+INSTANTIATE_TEST_SUITE_P(Sensors,
+                         SentPackets,
+                         testing::Values("xt16", "pandar128e4x"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(LivePackets, ArriveAtADecoder) {
   const TemporaryDirectory folder;
