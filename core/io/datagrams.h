@@ -44,11 +44,21 @@ class FrameEncoder {
  public:
   virtual ~FrameEncoder() = default;
 
+  /// Sets how far the clock of the sensors whose packets these are is ahead of simulation time,
+  /// which begins at 2000-01-01 00:00:00 UTC. It is not ahead unless set.
+  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
+
   /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames must come in
   /// order. A vendor's packet may span two frames: a packet that one frame leaves unfinished is
   /// completed by the next. If frames between two others are left out, every datagram that would
   /// contain a part of them is left out as well; all other datagrams are unaffected.
   virtual void Encode(const Frame& frame, Datagrams& datagrams) = 0;
+
+ protected:
+  [[nodiscard]] std::int64_t clock_ahead_ns() const { return clock_ahead_ns_; }
+
+ private:
+  std::int64_t clock_ahead_ns_{};
 };
 
 }  // namespace railcast

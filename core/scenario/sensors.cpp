@@ -63,9 +63,11 @@ struct ProtocolPorts {
   std::uint16_t data{};
   std::optional<std::uint16_t> position{};
 };
-constexpr std::array<ProtocolPorts, 3> kPorts = {
+constexpr std::array<ProtocolPorts, 4> kPorts = {
     {{Protocol::kRailcast, 27400, std::nullopt},
      {Protocol::kVlp16, kVelodyneDataPort, kVelodynePositionPort},
+     // Position packets of Hesai's sensors repeat what a receiver of satellites said.
+     {Protocol::kPandar64, kVelodyneDataPort, std::nullopt},
      {Protocol::kOuster, kOusterLidarPort, kOusterImuPort}}};
 
 const ProtocolPorts& PortsOf(Protocol protocol) {

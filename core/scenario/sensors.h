@@ -23,7 +23,7 @@ struct SensorPlace {
 [[nodiscard]] std::string InterfacesFault(const InterfacesSpec& interfaces,
                                           const std::vector<std::string>& sensors);
 
-/// The port that Velodyne's sensors send frames to and from.
+/// The port that the sensors of Velodyne and Hesai send frames to and from.
 inline constexpr std::uint16_t kVelodyneDataPort = 2368;
 /// The port of each receiver to which sensors of Velodyne's protocols send position packets,
 /// whatever the port of their frames.
@@ -31,6 +31,9 @@ inline constexpr std::uint16_t kVelodynePositionPort = 8308;
 /// The ports that Ouster's sensors send frames and their motion to.
 inline constexpr std::uint16_t kOusterLidarPort = 7502;
 inline constexpr std::uint16_t kOusterImuPort = 7503;
+
+/// The port of position packets; absent if sensors of this protocol send none.
+[[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);
 
 /// The port of position packets; absent if sensors of this protocol send none.
 [[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);

@@ -6,9 +6,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/hesai/hesai_encoder.h"
 #include "core/io/ouster/ouster_encoder.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
 #include "generator/run/stopping.h"
@@ -68,8 +71,12 @@ SensorStream::SensorStream(SensorStreamSpec spec,
 
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {
   if (spec_.protocol == Protocol::kOuster) return MakeOusterEncoder(lidar_);
+  const std::string_view protocol = NameOf(spec_.protocol);
+  if (const HesaiModel* const model = FindHesaiModel(protocol)) {
+    return MakeHesaiEncoder(*model, lidar_.scan, lidar_.receiver.return_mode);
+  }
   if (spec_.protocol != Protocol::kRailcast) {
-    return MakeVelodyneEncoder(NameOf(spec_.protocol), lidar_.scan, lidar_.receiver.return_mode);
+    return MakeVelodyneEncoder(protocol, lidar_.scan, lidar_.receiver.return_mode);
   }
   return std::make_unique<StreamEncoder>(pattern_, StreamSpec{.fields = spec_.fields,
                                                               .has_all_slots = spec_.has_all_slots,
@@ -80,6 +87,14 @@ std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const
 
 void SensorStream::Restart(std::uint32_t run) {
   encoder_ = MakeEncoder(run);
+}
+
+void SensorStream::SetClockAhead(std::int64_t ahead_ns) {
+  encoder_->SetClockAhead(ahead_ns);
+  // Later, another thread may be writing.
+  if (!has_capture_clock_)
+    UseCapture([&](PcapWriter& capture) { capture.SetClockAhead(ahead_ns); });
+  has_capture_clock_ = true;
 }
 
 void SensorStream::Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
@@ -216,6 +231,17 @@ void LiveStreams::Restart() {
   ++run_;
   if (camera_) camera_->Restart(run_);
   for (const auto& stream : streams_) stream->Restart(run_);
+}
+
+void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
+  std::int64_t first_ns = maker_.pattern(0).StampNs(0);
+  for (std::size_t i = 1; i < streams_.size(); ++i) {
+    first_ns = std::min(first_ns, maker_.pattern(i).StampNs(0));
+  }
+  constexpr std::int64_t kNsPerUs = 1000;  // Packets count microseconds.
+  const std::int64_t begins_ns = now_ns + lead_ns - kSimulationEpoch_s * kNsPerS;
+  const std::int64_t ahead_ns = (begins_ns - first_ns) / kNsPerUs * kNsPerUs;
+  for (const auto& stream : streams_) stream->SetClockAhead(ahead_ns);
 }
 
 void LiveStreams::Finish() {

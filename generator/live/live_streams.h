@@ -97,6 +97,9 @@ class SensorStream {
   void Encode(const Frame& frame, Datagrams& datagrams) { encoder_->Encode(frame, datagrams); }
   /// Restarts with frame 0.
   void Restart(std::uint32_t run);
+  /// Sets how far the sensor's clock is ahead, as FrameEncoder::SetClockAhead() does, also after a
+  /// restart. The stamps of a capture stay what they were first.
+  void SetClockAhead(std::int64_t ahead_ns);
 
   /// May be called from another thread than the other functions.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
@@ -122,6 +125,7 @@ class SensorStream {
   std::unique_ptr<FrameEncoder> encoder_;
   std::unique_ptr<UdpSender> sender_;    ///< Null if there are no receivers.
   std::unique_ptr<PcapWriter> capture_;  ///< Null if there is no capture.
+  bool has_capture_clock_ = false;       ///< Whether the capture's stamps were set ahead.
   std::uint64_t num_captured_{};         ///< Datagrams captured.
   mutable std::mutex mutex_;             ///< Guards capture_fault_.
   std::optional<std::string> capture_fault_;
@@ -165,6 +169,11 @@ class LiveStreams {
   /// Restarts all sensors with frame 0.
   /// @pre The maker has been reset.
   void Restart();
+
+  /// Sets all sensors' clocks by the time of day.
+  /// @param now_ns Time since 1970-01-01 00:00:00 UTC.
+  /// @param lead_ns How long after that the first frame begins.
+  void SetClocks(std::int64_t now_ns, std::int64_t lead_ns);
 
   /// Completes the capture files.
   void Finish();

@@ -124,9 +124,14 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                        .has_all_slots = options.has_all_slots});
   }
   CheckPortsDiffer(streams, scenario);
-  const bool has_fields = std::any_of(streams.begin(), streams.end(), [](const auto& stream) {
-    return stream.protocol == Protocol::kRailcast || stream.protocol == Protocol::kRos2;
-  });
+  const auto has_packets = [](const auto& stream) {
+    return stream.protocol != Protocol::kRailcast && stream.protocol != Protocol::kRos2;
+  };
+  if (options.uses_wall_clock && std::none_of(streams.begin(), streams.end(), has_packets)) {
+    throw InputError("--wall-clock: is for packets of real sensors (got " +
+                     std::string(NameOf(streams.front().protocol)) + ")");
+  }
+  const bool has_fields = !std::all_of(streams.begin(), streams.end(), has_packets);
   if (!has_fields && (options.fields || options.has_all_slots)) {
     throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
                      ": is for protocol railcast (got " +
@@ -256,12 +261,20 @@ std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
   return server;
 }
 
+/// Lets packets state the time of day from now on, if asked to.
+void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns) {
+  if (!options.uses_wall_clock) return;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  streams.SetClocks(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), lead_ns);
+}
+
 /// Connects a run with its commands and the user, and shows its progress.
 class RunSurroundings {
  public:
   RunSurroundings(LiveStreams& streams, CommandLoop* commands, const StreamOptions& options)
       : streams_(streams),
         commands_(commands),
+        options_(options),
         is_offline_(IsOffline(options)),
         lag_(options.drops_late) {}
 
@@ -284,7 +297,10 @@ class RunSurroundings {
   [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns) {
     if (commands_ == nullptr) return NextFrames::kMake;
     const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
-    if (next == NextFrames::kReset) streams_.Restart();
+    if (next != NextFrames::kReset) return next;
+    streams_.Restart();
+    // Where commands are heard, no frame is begun before its stamp.
+    SetClocks(streams_, options_, 0);
     return next;
   }
 
@@ -304,6 +320,7 @@ class RunSurroundings {
 
   LiveStreams& streams_;
   CommandLoop* commands_;
+  const StreamOptions& options_;
   bool is_offline_;
   TerminalLine line_;
   LagReport lag_;
@@ -387,6 +404,7 @@ int RunStream(const StreamOptions& options) {
   std::cout << ShownLines(Describe(plan, ros_plan, scenario)) << std::flush;
 
   RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
+  SetClocks(streams, options, spec.lead_ns);
   const LiveResult result = RunBy(options, spec, streams, surroundings);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();

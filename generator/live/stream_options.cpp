@@ -47,6 +47,10 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
       "this machine hold single datagrams");
+  stream.add_flag(
+      "--wall-clock", options.uses_wall_clock,
+      "Let packets of real sensors state the time of day, as with a synchronised clock; "
+      "default: simulation time, which begins with the year 2000");
   stream
       .add_option("--pcap", options.pcap,
                   "Capture file to write; without --to, nothing is sent and the file is written as "
@@ -139,9 +143,11 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
   if (options.http && IsOffline(options)) {
     throw InputError("--http: must be left out where nothing is sent, as with --pcap without --to");
   }
-  if (options.sends_singly && IsOffline(options)) {
-    throw InputError(
-        "--no-offload: must be left out where nothing is sent, as with --pcap without --to");
+  for (const auto& [option, is_given] : {std::pair{"--no-offload", options.sends_singly},
+                                         std::pair{"--wall-clock", options.uses_wall_clock}}) {
+    if (!is_given || !IsOffline(options)) continue;
+    throw InputError(std::string(option) +
+                     ": must be left out where nothing is sent, as with --pcap without --to");
   }
   if (IsOffline(options) && !options.duration_s && !options.lockstep) {
     throw InputError("--pcap: needs --duration where no --to is given (got none)");

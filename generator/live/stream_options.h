@@ -21,8 +21,9 @@ struct StreamOptions {
   bool has_all_slots = false;  ///< For protocol railcast.
   std::string pacing = "spread";
   bool drops_late = false;
-  bool fails_late = false;    ///< A late or dropped frame makes the exit status 1.
-  bool sends_singly = false;  ///< Without UDP segmentation offload.
+  bool fails_late = false;       ///< A late or dropped frame makes the exit status 1.
+  bool sends_singly = false;     ///< Without UDP segmentation offload.
+  bool uses_wall_clock = false;  ///< Packets state the time of day.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
   std::optional<std::string> http;  ///< HOST:PORT to answer at; for protocol ouster.

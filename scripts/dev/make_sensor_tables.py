@@ -4,7 +4,8 @@
 usage: make_sensor_tables.py DATA_DIR OUT_DIR
 
 DATA_DIR holds velodyne_calibration/ (of ros-drivers/velodyne), lidar_packets_nebula/calibration/ (of
-tier4/nebula) and lidar_hesai/calibration/ (of tier4/nebula and HesaiLidar_SDK_2.0).
+tier4/nebula), lidar_hesai/calibration/ (of tier4/nebula and HesaiLidar_SDK_2.0) and
+hesai_calibration/ (of tier4/nebula).
 scenarios/sensors/README.md names the source of every other figure.
 """
 
@@ -25,6 +26,38 @@ PANDAR64_BEFORE_END_US = [
     4.924, 21.876, 14.052, 17.964, 8.836, 19.268, 3.620, 20.572, 12.748, 16.660, 7.532,
     11.444, 6.228, 15.356, 10.140, 4.924, 3.620, 14.052, 8.836, 12.748,
 ]
+
+# Pandar40P: microseconds from the firing of channels 1 to 40 to the end of their block (tier4/nebula, pandar_40.hpp).
+PANDAR40P_BEFORE_END_US = [
+    42.22, 28.47, 16.04, 3.62, 45.49, 31.74, 47.46, 54.67, 20.62, 33.71, 40.91, 8.19, 20.62, 27.16,
+    50.73, 8.19, 14.74, 36.98, 45.49, 52.70, 23.89, 31.74, 38.95, 11.47, 18.65, 25.19, 48.76, 6.23,
+    12.77, 35.01, 21.92, 9.50, 43.52, 29.77, 17.35, 4.92, 42.22, 28.47, 16.04, 3.62,
+]
+
+# QT64: microseconds from the begin of a block to the firing of channels 1 to 64 (tier4/nebula, pandar_qt64.hpp, where
+# that of channel 56 lacks a digit: the four groups of sixteen have the same steps).
+QT64_SINCE_BEGIN_US = [
+    12.31, 14.37, 16.43, 18.49, 20.54, 22.60, 24.66, 26.71, 29.16, 31.22, 33.28, 35.34, 37.39, 39.45, 41.50, 43.56,
+    46.61, 48.67, 50.73, 52.78, 54.84, 56.90, 58.95, 61.01, 63.45, 65.52, 67.58, 69.63, 71.69, 73.74, 75.80, 77.86,
+    80.90, 82.97, 85.02, 87.08, 89.14, 91.19, 93.25, 95.30, 97.75, 99.82, 101.87, 103.93, 105.98, 108.04, 110.10,
+    112.15, 115.20, 117.26, 119.32, 121.38, 123.43, 125.49, 127.54, 129.60, 132.05, 134.11, 136.17, 138.22, 140.28,
+    142.34, 144.39, 146.45,
+]
+
+# 128E4X: nanoseconds from the begin of a block to the firing of lasers 0 to 127 (tier4/nebula, pandar_128e4x.hpp).
+# The tables there contradict each other and a recorded cloud; scenarios/sensors/README.md says what was put right.
+E4X_SINCE_BEGIN_NS = [
+    21980, 15446, 8912, 2378, 21980, 15446, 8912, 2378, 21980, 15446, 8912, 2378, 2378, 15446, 8912, 21980, 15446,
+    2378, 21980, 8912, 15446, 2378, 21980, 8912, 6534, 17224, 10690, 13068, 13068, 6534, 23758, 19602, 4156, 19602,
+    4156, 23758, 10690, 0, 0, 17224, 10690, 13068, 23758, 17224, 4156, 19602, 6534, 0, 10690, 13068, 23758, 17224,
+    4156, 19602, 6534, 0, 10690, 13068, 23758, 17224, 4156, 19602, 6534, 0, 17224, 17224, 23758, 10690, 13068, 19602,
+    13068, 4156, 17224, 0, 10690, 13068, 4156, 0, 10690, 6534, 6534, 6534, 19602, 23758, 4156, 23758, 19602, 0, 21980,
+    15446, 8912, 2378, 21980, 15446, 8912, 2378, 21980, 15446, 8912, 2378, 21980, 15446, 8912, 2378, 21980, 15446,
+    8912, 2378, 21980, 15446, 8912, 2378, 15446, 21980, 2378, 8912, 21980, 15446, 2378, 8912, 21980, 15446, 8912,
+    2378, 21980, 15446, 8912, 2378,
+]
+E4X_BLOCK_US = 27.778
+
 
 # QT128: the first firing of a loop, and from one loop to the next: 900 loops in 0.1 s.
 QT128_EARLIEST_US = 0.6
@@ -70,6 +103,31 @@ def qt128_firings(angles_path, times_path):
     return lasers, times_us
 
 
+def e4x_is_central(laser):
+    return 24 <= laser < 88
+
+
+def e4x_fires(laser, state):
+    """Whether a laser of the 128E4X fires in this azimuth state: the central ones in both, groups of four others in
+    turn."""
+    return e4x_is_central(laser) or laser // 4 % 2 != state
+
+
+def e4x_firings(angles, since_begin_us):
+    """(elevation, azimuth) in degrees and the time in us of each firing of a cycle of two blocks: those of azimuth
+    state 0, then those of state 1, by rising laser."""
+    fired = [(state, laser) for state in range(2) for laser in range(128) if e4x_fires(laser, state)]
+    return ([angles[laser] for _, laser in fired],
+            [since_begin_us[laser] + state * E4X_BLOCK_US for state, laser in fired])
+
+
+def e4x_standard_times(since_begin_us):
+    """The times in us at which the lasers of the 128E4X fire in its standard mode: all once in two blocks."""
+    times_us = [time_us + (E4X_BLOCK_US if e4x_is_central(laser) or laser // 4 % 2 == 0 else 0.0)
+                for laser, time_us in enumerate(since_begin_us)]
+    return [time_us - min(times_us) for time_us in times_us]
+
+
 def hdl64e_lasers(path):
     """(elevation, azimuth) in degrees of each laser, in laser order.
 
@@ -84,7 +142,9 @@ def hdl64e_lasers(path):
     return [lasers[i] for i in range(len(lasers))]
 
 
-def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection, rate_hz=10):
+def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection, rate_hz=10, turned_us=0.0):
+    """turned_us is the time from the azimuth of a packet's first block to its first firing: the frame begins where
+    that azimuth is 0."""
     section = {
         "version": 1,
         "name": name,
@@ -95,7 +155,7 @@ def write_sensor(path, name, lasers, times_us, cycle_us, columns, detection, rat
                 "cycle_us": cycle_us,
                 "columns": columns,
                 "rotation": "clockwise",
-                "start_azimuth_deg": 0.0,
+                "start_azimuth_deg": round(360e-6 * rate_hz * turned_us, 6),
                 "channels": "CHANNELS",
             },
         },
@@ -212,6 +272,28 @@ def main():
                  *qt128_firings(hesai / "sdk_QT128C2X_Angle_Correction_File.csv",
                                 hesai / "sdk_QT128C2X_Firetime_Correction_File.csv"),
                  222.2222222222, 450, detection(0.05, 50.0, 20.0, 0.01, [3.0, 1.5], *QT128))
+    e4x_angles = hesai_lasers(hesai / "nebula_Pandar128E4X.csv")
+    e4x_us = [1e-3 * time_ns for time_ns in E4X_SINCE_BEGIN_NS]
+    write_sensor(out / "pandar128e4x.json", "Pandar128E4X", *e4x_firings(e4x_angles, e4x_us),
+                 55.5555555556, 1800, detection(0.3, 230.0, 200.0, 0.01, [3.0, 1.5]))
+    write_sensor(out / "pandar128e4x_standard.json", "Pandar128E4X standard", e4x_angles,
+                 e4x_standard_times(e4x_us), 55.5555555556, 1800, {"file": "pandar128e4x.json"},
+                 turned_us=2.378)
+    hesai = data / "hesai_calibration"
+    earliest_us = max(PANDAR40P_BEFORE_END_US)
+    write_sensor(out / "pandar40p.json", "Pandar40P", hesai_lasers(hesai / "Pandar40P.csv"),
+                 [earliest_us - before_us for before_us in PANDAR40P_BEFORE_END_US],
+                 55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5]))
+    write_sensor(out / "qt64.json", "QT64", hesai_lasers(hesai / "PandarQT64.csv"),
+                 [time_us - QT64_SINCE_BEGIN_US[0] for time_us in QT64_SINCE_BEGIN_US],
+                 166.6666666667, 600, detection(0.1, 60.0, 20.0, 0.01, [3.0, 1.5]),
+                 turned_us=QT64_SINCE_BEGIN_US[0])
+    write_sensor(out / "xt16.json", "XT16", hesai_lasers(hesai / "PandarXT16.csv"),
+                 [3.024 * i for i in range(16)], 50.0, 2000,
+                 detection(0.05, 120.0, 80.0, 0.005, [3.0, 1.5], *XT32), turned_us=6.0)
+    write_sensor(out / "xt32m.json", "XT32M", hesai_lasers(hesai / "PandarXT32M.csv"),
+                 [2.888 * (i % 16) for i in range(32)], 50.0, 2000,
+                 detection(0.5, 300.0, 80.0, 0.005, [3.0, 1.5], *XT32), turned_us=6.0)
 
 
 if __name__ == "__main__":

@@ -2,11 +2,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/hesai/at128_decoder.h"
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/recording/recording_kinds.h"
 
@@ -25,16 +29,47 @@ void CheckTurn(const SensorTurn& turn, std::size_t num_rings) {
 }
 
 // Splits the bytes into packets; the last one may be truncated.
-void DecodePackets(const HesaiModel& model, std::span<const char> bytes) {
-  HesaiDecoder decoder(model);
+template <typename Decoder>
+void DecodeAll(Decoder decoder,
+               std::size_t packet_size,
+               std::size_t num_rings,
+               std::span<const char> bytes) {
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
-    const auto packet = bytes.first(std::min(bytes.size(), model.layout.packet_size));
+    const auto packet = bytes.first(std::min(bytes.size(), packet_size));
     (void)decoder.Decode(packet, turns);
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());
-  for (const SensorTurn& turn : turns) CheckTurn(turn, model.channels.size());
+  for (const SensorTurn& turn : turns) CheckTurn(turn, num_rings);
+}
+
+// A correction file whose fields start at 20, 140 and 260 deg; its angles are 0 but for what the
+// input begins with.
+std::string CorrectionFile(std::span<const char> start) {
+  std::string file(47'176, '\0');
+  const std::string head = {'\xEE', '\xFF', 1, 5, '\x80', 3, 3};
+  file.replace(0, head.size(), head);
+  file[15] = 1;
+  for (std::size_t field = 0; field < 3; ++field) {
+    const auto steps = static_cast<std::uint32_t>((20 + 120 * field) * 25'600);
+    std::memcpy(file.data() + 16 + 4 * field, &steps, sizeof steps);
+  }
+  std::copy_n(start.begin(), std::min(start.size(), file.size()), file.begin());
+  return file;
+}
+
+void UseCorrection(std::span<const char> bytes) {
+  try {
+    const At128Correction correction(CorrectionFile(bytes));
+    for (double block_deg = 0.0; block_deg < 360.0; block_deg += 7.3) {
+      const auto direction = correction.At(block_deg, correction.FieldAt(block_deg), 127);
+      Check(direction.azimuth_deg >= 0.0 && direction.azimuth_deg <= 360.0,
+            "an azimuth is of one turn");
+      Check(std::isfinite(direction.elevation_deg), "an elevation is a number");
+    }
+  } catch (const InputError&) {
+  }
 }
 
 void CheckFrame(const RecordedFrame& recorded) {
@@ -56,7 +91,7 @@ void ReadCapture(std::span<const char> bytes) {
     return stream;
   };
   try {
-    const auto recording = OpenCapture(open, "fuzz");
+    const auto recording = OpenCapture(open, "fuzz", [] { return nullptr; });
     while (const auto read = recording->Next()) CheckFrame((*read)());
   } catch (const InputError& error) {
     Check(std::string(error.what()).starts_with("fuzz: "), "a fault names its file");
@@ -67,22 +102,28 @@ void ReadCapture(std::span<const char> bytes) {
 }  // namespace railcast
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: h for packets of a
-/// Pandar64, x of an XT32, q of a QT128, anything else for a capture.
+/// Pandar64, x of an XT32, q of a QT128, 0 to 9 of any spinning sensor of Hesai's, a of an AT128, c
+/// for the start of its correction file, anything else for a capture.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  switch (data[0]) {
-    case 'h':
-      railcast::DecodePackets(railcast::Pandar64Model(), bytes);
-      break;
-    case 'x':
-      railcast::DecodePackets(railcast::Xt32Model(), bytes);
-      break;
-    case 'q':
-      railcast::DecodePackets(railcast::Qt128Model(), bytes);
-      break;
-    default:
-      railcast::ReadCapture(bytes);
+  const std::string_view letters = "hxq";
+  const std::size_t letter = letters.find(static_cast<char>(data[0]));
+  const std::size_t number = data[0] - std::size_t{'0'};
+  const std::size_t model = letter < letters.size() ? letter : number;
+  if (model < railcast::HesaiModels().size()) {
+    const railcast::HesaiModel& hesai = railcast::HesaiModels()[model];
+    railcast::DecodeAll(railcast::HesaiDecoder(hesai), hesai.layout.packet_size,
+                        hesai.channels.size(), bytes);
+  } else if (data[0] == 'a') {
+    const auto correction =
+        std::make_shared<const railcast::At128Correction>(railcast::CorrectionFile({}));
+    railcast::DecodeAll(railcast::At128Decoder(correction), railcast::kAt128PacketSize,
+                        railcast::kAt128Lasers, bytes);
+  } else if (data[0] == 'c') {
+    railcast::UseCorrection(bytes);
+  } else {
+    railcast::ReadCapture(bytes);
   }
   return 0;
 }

@@ -107,8 +107,26 @@ struct ToleranceSpec {
 };
 
 /// Packet format of live frames: the railcast protocol (docs/stream.md) or that of a sensor of
-/// Velodyne's or Ouster's (docs/packets.md); or messages for ROS 2 instead (docs/ros2.md).
-enum class Protocol { kRailcast, kVlp16, kVlp16Dual, kHdl32e, kVlp32c, kHdl64e, kOuster, kRos2 };
+/// Velodyne's, Hesai's or Ouster's (docs/packets.md); or messages for ROS 2 instead (docs/ros2.md).
+enum class Protocol {
+  kRailcast,
+  kVlp16,
+  kVlp16Dual,
+  kHdl32e,
+  kVlp32c,
+  kHdl64e,
+  kPandar64,
+  kXt32,
+  kQt128,
+  kPandar128e4x,
+  kPandar128e4xStandard,
+  kPandar40p,
+  kQt64,
+  kXt16,
+  kXt32m,
+  kOuster,
+  kRos2,
+};
 template <>
 inline constexpr auto kEnumNames<Protocol> =
     std::to_array<EnumName<Protocol>>({{Protocol::kRailcast, "railcast"},
@@ -117,6 +135,15 @@ inline constexpr auto kEnumNames<Protocol> =
                                        {Protocol::kHdl32e, "hdl32e"},
                                        {Protocol::kVlp32c, "vlp32c"},
                                        {Protocol::kHdl64e, "hdl64e"},
+                                       {Protocol::kPandar64, "pandar64"},
+                                       {Protocol::kXt32, "xt32"},
+                                       {Protocol::kQt128, "qt128"},
+                                       {Protocol::kPandar128e4x, "pandar128e4x"},
+                                       {Protocol::kPandar128e4xStandard, "pandar128e4x-standard"},
+                                       {Protocol::kPandar40p, "pandar40p"},
+                                       {Protocol::kQt64, "qt64"},
+                                       {Protocol::kXt16, "xt16"},
+                                       {Protocol::kXt32m, "xt32m"},
                                        {Protocol::kOuster, "ouster"},
                                        {Protocol::kRos2, "ros2"}});
 

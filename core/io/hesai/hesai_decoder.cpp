@@ -1,12 +1,12 @@
 #include "core/io/hesai/hesai_decoder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/hesai/hesai_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 
@@ -23,15 +23,35 @@ std::uint8_t ByteAt(std::span<const char> payload, std::size_t place) {
 }
 
 const char* BlockOf(std::span<const char> payload, const HesaiLayout& layout, std::size_t index) {
-  return payload.data() + layout.header_size + index * layout.block_size();
+  return payload.data() + layout.BlockPlace(index);
 }
 
-bool IsDual(const HesaiModel& model, std::uint8_t mode) {
-  return std::ranges::count(model.dual_modes, mode) > 0;
+std::uint16_t BlockAzimuth(std::span<const char> payload,
+                           const HesaiLayout& layout,
+                           std::size_t block) {
+  const std::size_t place = layout.block_head_size() - sizeof(std::uint16_t);
+  return LoadAt<std::uint16_t>(BlockOf(payload, layout, block) + place);
+}
+
+std::uint8_t ModeOf(const HesaiLayout& layout, std::span<const char> payload) {
+  return ByteAt(payload, layout.tail.mode_place);
 }
 
 std::size_t BlocksPerLoop(const HesaiModel& model, std::span<const char> payload) {
-  return IsDual(model, ByteAt(payload, model.layout.mode_place)) ? 2 : 1;
+  return model.IsDual(ModeOf(model.layout, payload)) ? 2 : 1;
+}
+
+/// The loop of a block, by what the packet says; it may be one that the sensor does not have.
+std::size_t LoopOf(const HesaiModel& model, std::span<const char> payload, std::size_t block) {
+  const HesaiLayout& layout = model.layout;
+  if (layout.state_place) {
+    const auto states = LoadAt<std::uint16_t>(payload.data() + *layout.state_place);
+    return (states >> (14 - 2 * block)) & 3U;
+  }
+  if (!layout.loop_place) return 0;
+  // An odd flag says that the packet begins with the first loop; from there on they alternate.
+  const std::size_t begins = ByteAt(payload, *layout.loop_place);
+  return (begins + block / BlocksPerLoop(model, payload) + 1) % model.loops.size();
 }
 
 std::optional<std::string> RefuseMode(const HesaiModel& model, std::uint8_t mode) {
@@ -46,62 +66,79 @@ std::optional<std::string> RefuseMode(const HesaiModel& model, std::uint8_t mode
   return rule + Got(mode);
 }
 
+std::optional<std::string> RefuseVersion(const HesaiHeader& header, std::span<const char> payload) {
+  if (!header.version) return std::nullopt;
+  const auto text = [](std::uint8_t major, std::uint8_t minor) {
+    return NumberText(major) + "." + NumberText(minor);
+  };
+  const auto [major, minor] = *header.version;
+  if (ByteAt(payload, 2) == major && ByteAt(payload, 3) == minor) return std::nullopt;
+  return "protocol must be " + text(major, minor) + " (got " +
+         text(ByteAt(payload, 2), ByteAt(payload, 3)) + ")";
+}
+
 std::optional<std::string> RefuseHeader(const HesaiLayout& layout, std::span<const char> payload) {
   if (payload.size() != layout.packet_size) {
     return "must be " + NumberText(layout.packet_size) + " bytes" + Got(payload.size());
   }
+  if (!layout.header) return std::nullopt;
+  const HesaiHeader& header = *layout.header;
   const auto flag = LoadAt<std::uint16_t>(payload.data());
   if (flag != kHesaiFlag) return "flag must be 65518" + Got(flag);
-  if (layout.version) {
-    const auto text = [](std::uint8_t major, std::uint8_t minor) {
-      return NumberText(major) + "." + NumberText(minor);
-    };
-    const auto [major, minor] = *layout.version;
-    if (ByteAt(payload, 2) != major || ByteAt(payload, 3) != minor) {
-      return "protocol must be " + text(major, minor) + " (got " +
-             text(ByteAt(payload, 2), ByteAt(payload, 3)) + ")";
-    }
-  }
-  const std::uint8_t lasers = ByteAt(payload, layout.lasers_place);
+  if (auto refusal = RefuseVersion(header, payload)) return refusal;
+  const std::uint8_t lasers = ByteAt(payload, header.lasers_place);
   if (lasers != layout.lasers) return "lasers must be " + NumberText(layout.lasers) + Got(lasers);
-  const std::uint8_t blocks = ByteAt(payload, layout.blocks_place);
+  const std::uint8_t blocks = ByteAt(payload, header.blocks_place);
   if (blocks != layout.blocks) return "blocks must be " + NumberText(layout.blocks) + Got(blocks);
-  if (ByteAt(payload, layout.unit_place) == 0) return "distance unit must be > 0" + Got(0);
+  if (ByteAt(payload, header.unit_place) == 0) return "distance unit must be > 0" + Got(0);
+  return std::nullopt;
+}
+
+std::optional<std::string> RefuseTail(const HesaiModel& model, std::span<const char> payload) {
+  const HesaiLayout& layout = model.layout;
+  const auto time_us = LoadAt<std::uint32_t>(payload.data() + layout.tail.time_place);
+  if (time_us >= kUsPerSecond) {
+    return "microseconds of the second must be < 1000000" + Got(time_us);
+  }
+  if (layout.mark && ByteAt(payload, layout.mark->place) != layout.mark->value) {
+    return std::string(layout.mark->what) + " must be " + NumberText(layout.mark->value) +
+           Got(ByteAt(payload, layout.mark->place));
+  }
+  return RefuseMode(model, ModeOf(layout, payload));
+}
+
+std::optional<std::string> RefuseBlock(const HesaiModel& model,
+                                       std::span<const char> payload,
+                                       std::size_t block) {
+  const HesaiLayout& layout = model.layout;
+  const std::string place = "block " + NumberText(block) + ": ";
+  const auto flag = LoadAt<std::uint16_t>(BlockOf(payload, layout, block));
+  if (layout.has_block_flags && flag != kHesaiBlockFlag) {
+    return place + "flag must be 61183" + Got(flag);
+  }
+  const std::uint16_t azimuth = BlockAzimuth(payload, layout, block);
+  if (azimuth >= kAzimuthUnitsPerTurn) return place + "azimuth must be <= 35999" + Got(azimuth);
+  const std::size_t in_group = BlocksPerLoop(model, payload);
+  const std::size_t first = block / in_group * in_group;
+  if (azimuth != BlockAzimuth(payload, layout, first)) {
+    return place + "azimuth must be that of its pair" + Got(azimuth);
+  }
+  const std::size_t loop = LoopOf(model, payload, block);
+  if (loop >= model.loops.size()) return place + "azimuth state must be 0 or 1" + Got(loop);
+  if (loop != LoopOf(model, payload, first)) {
+    return place + "azimuth state must be that of its pair" + Got(loop);
+  }
   return std::nullopt;
 }
 
 // Returns why the payload is not a data packet of this sensor, or nothing if it is one.
 std::optional<std::string> RefuseHesai(const HesaiModel& model, std::span<const char> payload) {
-  const HesaiLayout& layout = model.layout;
-  if (auto refusal = RefuseHeader(layout, payload)) return refusal;
-  const auto time_us = LoadAt<std::uint32_t>(payload.data() + layout.time_place);
-  if (time_us >= kUsPerSecond) {
-    return "microseconds of the second must be < 1000000" + Got(time_us);
-  }
-  if (auto refusal = RefuseMode(model, ByteAt(payload, layout.mode_place))) return refusal;
-  const std::size_t in_group = BlocksPerLoop(model, payload);
-  for (std::size_t i = 0; i < layout.blocks; ++i) {
-    const auto azimuth = LoadAt<std::uint16_t>(BlockOf(payload, layout, i));
-    if (azimuth >= kAzimuthUnitsPerTurn) {
-      return "block " + NumberText(i) + ": azimuth must be <= 35999" + Got(azimuth);
-    }
-    if (azimuth != LoadAt<std::uint16_t>(BlockOf(payload, layout, i / in_group * in_group))) {
-      return "block " + NumberText(i) + ": azimuth must be that of its pair" + Got(azimuth);
-    }
+  if (auto refusal = RefuseHeader(model.layout, payload)) return refusal;
+  if (auto refusal = RefuseTail(model, payload)) return refusal;
+  for (std::size_t i = 0; i < model.layout.blocks; ++i) {
+    if (auto refusal = RefuseBlock(model, payload, i)) return refusal;
   }
   return std::nullopt;
-}
-
-// The time that the packet states, since 1970.
-std::int64_t PacketNs(const HesaiLayout& layout, std::span<const char> payload) {
-  const auto date = [&](std::size_t i) { return ByteAt(payload, layout.date_place + i); };
-  const std::chrono::year_month_day day(std::chrono::year(1900 + date(0)),
-                                        std::chrono::month(date(1)), std::chrono::day(date(2)));
-  const std::int64_t days = day.ok() ? std::chrono::sys_days(day).time_since_epoch().count() : 0;
-  const std::int64_t hours = 24 * days + date(3);
-  const std::int64_t seconds = 3600 * hours + std::int64_t{60} * date(4) + date(5);
-  const auto time_us = LoadAt<std::uint32_t>(payload.data() + layout.time_place);
-  return (seconds * kUsPerSecond + time_us) * 1000;
 }
 
 }  // namespace
@@ -141,21 +178,22 @@ HesaiDecoder::Group HesaiDecoder::GroupOf(std::span<const char> payload, std::si
   const HesaiLayout& layout = model_->layout;
   const std::size_t in_group = BlocksPerLoop(*model_, payload);
   const char* const blocks = BlockOf(payload, layout, block);
-  const auto speed_rpm = LoadAt<std::uint16_t>(payload.data() + layout.speed_place);
+  const auto speed_rpm = LoadAt<std::uint16_t>(payload.data() + layout.tail.speed_place);
+  const auto loops_before = static_cast<std::int64_t>(block / in_group);
   const auto loops_left = static_cast<std::int64_t>((layout.blocks - block) / in_group) - 1;
-  // An odd flag says that the packet begins with the first loop; from there on they alternate.
-  const std::size_t loop =
-      layout.loop_place
-          ? (ByteAt(payload, *layout.loop_place) + block / in_group + 1) % model_->loops.size()
-          : 0;
+  const std::int64_t since_stated_ns =
+      model_->loop_ns * (model_->states_first ? loops_before : -loops_left);
+  const std::uint8_t mode = ModeOf(layout, payload);
   return {
       .blocks = {blocks, blocks + in_group * layout.block_size()},
-      .loop = loop,
-      .time_ns = PacketNs(layout, payload) + model_->last_loop_ns - model_->loop_ns * loops_left,
-      .azimuth = LoadAt<std::uint16_t>(blocks),
-      .unit_m = 1e-3 * ByteAt(payload, layout.unit_place),
+      .loop = LoopOf(*model_, payload, block),
+      .time_ns = HesaiStatedNs(layout.tail, model_->year_zero, payload) + model_->stated_loop_ns +
+                 since_stated_ns,
+      .azimuth = BlockAzimuth(payload, layout, block),
+      .unit_m = 1e-3 * (layout.header ? ByteAt(payload, layout.header->unit_place) : kHesaiUnit_mm),
       .speed_deg_per_us = kDegPerUsPerRpm * speed_rpm,
-      .is_dual = in_group == 2};
+      .is_dual = in_group == 2,
+      .has_last_second = mode == kHesaiFirstAndLast && !model_->has_last_first};
 }
 
 void HesaiDecoder::Take(Group group, std::vector<SensorTurn>& turns) {
@@ -191,15 +229,19 @@ void HesaiDecoder::AddGroup(const Group& group) {
   TurnPoint point{};
   point.column = static_cast<std::uint32_t>(turn_.num_columns() - 1);
   for (const Channel& channel : loops_[group.loop]) {
-    const char* const place =
-        group.blocks.data() + sizeof group.azimuth + channel.laser * layout.return_size;
+    const char* place =
+        group.blocks.data() + layout.block_head_size() + channel.laser * layout.return_size;
     point.time_ns = turn_.column_time_ns.back() + channel.time_ns;
     point.ring = channel.ring;
     point.laser = channel.laser;
     point.return_index = 0;
+    if (!group.is_dual) {
+      AddPoint(place, group, channel, point);
+      continue;
+    }
+    const char* other = place + layout.block_size();
+    if (group.has_last_second) std::swap(place, other);
     AddPoint(place, group, channel, point);
-    if (!group.is_dual) continue;
-    const char* const other = place + layout.block_size();
     if (std::equal(place, place + kMeasuredSize, other)) continue;
     point.return_index = 1;
     AddPoint(other, group, channel, point);
@@ -211,7 +253,7 @@ void HesaiDecoder::AddPoint(const char* place,
                             const Channel& channel,
                             TurnPoint point) {
   const auto distance = LoadAt<std::uint16_t>(place);
-  if (distance == 0) return;
+  if (distance < model_->least_distance()) return;
   const double range_m = distance * group.unit_m;
   const double azimuth_deg = group.azimuth * kAzimuthUnit_deg + channel.azimuth_deg +
                              group.speed_deg_per_us * channel.turned_us;

@@ -55,9 +55,10 @@ bool SaysNoGso(int error_number) {
 }
 
 void CheckReachable(const Endpoint& to) {
-  constexpr std::uint32_t kFirstMulticast = 0xE0000000;
-  if (to.address >= kFirstMulticast && !to.is_broadcast()) {
-    throw InputError("must be one host, or 255.255.255.255 for all (got " + EndpointText(to) + ")");
+  constexpr std::uint32_t kBehindMulticast = 0xF0000000;
+  if (to.address >= kBehindMulticast && !to.is_broadcast()) {
+    throw InputError("must be one host, a multicast group, or 255.255.255.255 for all (got " +
+                     EndpointText(to) + ")");
   }
   // Connecting a separate socket asks the routing table and sends nothing.
   const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);

@@ -59,8 +59,9 @@ class UdpReceiver {
 
 /// Sends datagrams to a list of receivers and never waits for any of them.
 ///
-/// A receiver is a loopback or unicast address, or 255.255.255.255 if that is given explicitly; the
-/// kernel refuses the broadcast addresses of single networks.
+/// A receiver is a loopback or unicast address, a multicast group (224.0.0.0 to 239.255.255.255),
+/// whose datagrams leave where the routing table says and cross no router, or 255.255.255.255 if
+/// that is given explicitly; the kernel refuses the broadcast addresses of single networks.
 class UdpSender {
  public:
   /// @param position_port Port of every receiver for datagrams that are DatagramPort::kPosition.

@@ -107,7 +107,7 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     const bool is_data = item.port == DatagramPort::kData;
     StoreHeaders(static_cast<std::uint16_t>(item.size), is_data ? data_port_ : position_port_, frame.data());
     std::memcpy(frame.data() + kHeaderSize, payload.data(), payload.size());
-    const std::int64_t time_us = item.due_ns / 1000;
+    const std::int64_t time_us = (item.due_ns + clock_ahead_ns_) / 1000;
     pcap_pkthdr header{};
     header.ts.tv_sec = kSimulationEpoch_s + time_us / 1'000'000;
     header.ts.tv_usec = time_us % 1'000'000;

@@ -26,6 +26,9 @@ class PcapWriter {
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
 
+  /// Sets how far the stamps are ahead of simulation time, as FrameEncoder::SetClockAhead() does.
+  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
+
   /// Appends these datagrams.
   /// @throws InputError if the system refuses, as on a full disk. The unfinished file then holds
   ///   what earlier calls wrote, and the writer must not be used any more.
@@ -46,6 +49,7 @@ class PcapWriter {
   std::uint16_t data_port_;
   std::uint16_t position_port_;
   std::unique_ptr<Dump> dump_;
+  std::int64_t clock_ahead_ns_{};
   std::int64_t whole_bytes_{};  ///< Size of the file after the last complete Write.
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -8,11 +10,19 @@
 
 namespace railcast {
 
+class At128Correction;
+
+/// Returns the angles of the AT128 that was captured, or null if they are not at hand.
+/// @throws InputError if they cannot be read.
+using LoadAt128Correction = std::function<std::shared_ptr<const At128Correction>()>;
+
 /// What stands beside a capture about the sensor whose packets it may hold.
 struct CaptureMetadata {
   std::filesystem::path file{};              ///< Empty if there is none.
   std::optional<OusterMetadata> metadata{};  ///< Absent if the file is none of an Ouster sensor's.
   std::string fault{};                       ///< Why not: "file: /lidar_mode: missing".
+  /// Called if a packet of an AT128 is seen; null if there is nothing to look for.
+  LoadAt128Correction load_correction{};
 };
 
 /// Reads the metadata of an Ouster sensor.

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
@@ -98,7 +99,7 @@ class CaptureRecording : public Recording {
   std::string name_;
   std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
-  std::variant<VelodyneDecoder, HesaiDecoder, OusterDecoder> decoder_;
+  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder> decoder_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
   bool is_at_end_ = false;
@@ -114,7 +115,7 @@ std::FILE* OpenStream(const std::filesystem::path& file) {
 CaptureSensor FindSensor(DatagramSource& datagrams,
                          const std::string& name,
                          const CaptureMetadata& beside) {
-  SensorFinder finder(beside.metadata);
+  SensorFinder finder(beside);
   while (const auto datagram = datagrams.Next()) {
     if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
   }
@@ -125,6 +126,15 @@ CaptureSensor FindSensor(DatagramSource& datagrams,
   }
   throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
                    finder.Findings(datagrams.num_torn()) + ")");
+}
+
+/// Reads the correction file of an AT128 that has the capture's name.
+std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path file) {
+  file.replace_extension(".dat");
+  if (!std::filesystem::exists(file)) return nullptr;
+  const std::string bytes = ReadFileWhole(file);
+  return AtPlace(ShownPath(file) + ": ",
+                 [&] { return std::make_shared<const At128Correction>(bytes); });
 }
 
 }  // namespace
@@ -144,8 +154,9 @@ std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
-  return OpenCapture([&file] { return OpenStream(file); }, ShownPath(file),
-                     FindOusterMetadata(file));
+  CaptureMetadata beside = FindOusterMetadata(file);
+  beside.load_correction = [&file] { return CorrectionBeside(file); };
+  return OpenCapture([&file] { return OpenStream(file); }, ShownPath(file), beside);
 }
 
 std::unique_ptr<Recording> OpenCaptureWithMetadata(const std::filesystem::path& source) {

@@ -16,6 +16,7 @@
 namespace railcast {
 namespace {
 
+constexpr std::string_view kAt128Name = "AT128";
 constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
@@ -122,14 +123,21 @@ std::vector<CaptureSensor> ReadableSensors(
                        .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
                        .decoder = VelodyneDecoder(*model)});
   }
-  for (const HesaiModel* model : HesaiModels()) {
-    sensors.push_back({.name = std::string(model->name),
-                       .packet_size = model->layout.packet_size,
-                       .shape = ShapeOfTurns(model->channels, IntensityBytes::kPercent),
-                       .decoder = HesaiDecoder(*model)});
+  for (const HesaiModel& model : HesaiModels()) {
+    sensors.push_back({.name = model.name,
+                       .packet_size = model.layout.packet_size,
+                       .shape = ShapeOfTurns(model.channels, IntensityBytes::kPercent),
+                       .decoder = HesaiDecoder(model)});
   }
   if (metadata) sensors.push_back(OusterSensor(*metadata));
   return sensors;
+}
+
+CaptureSensor At128Of(const std::shared_ptr<const At128Correction>& correction) {
+  return {.name = kAt128Name,
+          .packet_size = kAt128PacketSize,
+          .shape = ShapeOfTurns(At128Channels(*correction), IntensityBytes::kPercent),
+          .decoder = At128Decoder(correction)};
 }
 
 /// Whether this begins with a packet of Hesai's Pandar40P: 10 blocks of 124 bytes, each with the
@@ -150,6 +158,10 @@ bool IsPandar40P(std::span<const char> payload) {
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
   constexpr std::size_t kLeastHesaiHeader = 8;
+  if (load_correction_ && IsAt128Packet(payload)) {
+    return "packets of an AT128, whose correction file must be beside the capture, with its name "
+           "and .dat";
+  }
   if (payload.size() >= kLeastHesaiHeader && LoadAt<std::uint16_t>(payload.data()) == kHesaiFlag) {
     return "packets of " + NumberText(payload.size()) + " bytes of a Hesai sensor";
   }
@@ -165,7 +177,7 @@ std::string NameOfStranger(std::span<const char> payload) {
       LoadAt<std::uint16_t>(payload.data()) != kLowerBlockFlag) {
     return {};
   }
-  if (IsPandar40P(payload)) return "packets of Hesai's Pandar40P, which are not read";
+  if (IsPandar40P(payload)) return "damaged packets of Hesai's Pandar40P";
   const auto id = LoadAt<std::uint8_t>(payload.data() + kModelPlace);
   for (const OtherModel& model : kOtherModels) {
     if (model.id == id) return std::string(model.name);
@@ -218,15 +230,23 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
 
 std::string ReadableSensorsText() {
   std::vector<std::string> names;
-  for (const CaptureSensor& sensor : ReadableSensors()) names.emplace_back(sensor.name);
+  for (const CaptureSensor& sensor : ReadableSensors()) {
+    if (names.empty() || names.back() != sensor.name) names.emplace_back(sensor.name);
+  }
+  names.emplace_back(kAt128Name);
   return Alternatives(names);
 }
 
-SensorFinder::SensorFinder(std::optional<OusterMetadata> metadata)
-    : metadata_(std::move(metadata)), probes_(ReadableSensors(metadata_)) {}
+SensorFinder::SensorFinder(const CaptureMetadata& beside)
+    : metadata_(beside.metadata),
+      load_correction_(beside.load_correction),
+      probes_(ReadableSensors(metadata_)) {}
 
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
+  if (load_correction_ && IsAt128Packet(payload)) {
+    if (const auto correction = load_correction_()) return At128Of(correction);
+  }
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const std::span<const char> packet = FirstPacket(payload, probes_[i].packet_size);
     std::vector<SensorTurn> turns;

@@ -2,14 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "core/io/hesai/at128_decoder.h"
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/ouster/ouster_decoder.h"
+#include "core/io/recording/capture_metadata.h"
 #include "core/io/sensor_turn.h"
 #include "core/io/velodyne/velodyne_decoder.h"
 #include "railcast/io/recording.h"
@@ -45,16 +49,18 @@ struct CaptureSensor {
   std::string name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
-  std::variant<VelodyneDecoder, HesaiDecoder, OusterDecoder> decoder;
+  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder> decoder;
 };
 
 /// Finds out from datagrams which sensor sent them.
 class SensorFinder {
  public:
-  /// @param metadata Of an Ouster sensor, whose packets cannot be decoded without.
-  explicit SensorFinder(std::optional<OusterMetadata> metadata = std::nullopt);
+  /// @param beside What is known of an Ouster sensor or an AT128, whose packets cannot be decoded
+  ///   without.
+  explicit SensorFinder(const CaptureMetadata& beside = {});
 
   /// Returns the sensor once a datagram is, or begins with, one of its packets.
+  /// @throws InputError as CaptureMetadata::load_correction does.
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
   /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
@@ -68,6 +74,7 @@ class SensorFinder {
 
  private:
   std::optional<OusterMetadata> metadata_;
+  LoadAt128Correction load_correction_;
   /// Of a datagram that they refuse they use nothing, so that each can look at all of them.
   std::vector<CaptureSensor> probes_;
   std::size_t num_datagrams_{};

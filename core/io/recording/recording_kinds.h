@@ -19,9 +19,10 @@ namespace railcast {
 [[nodiscard]] std::string ReadableSensorsText();
 
 /// Opens a .pcap or .pcapng capture of one of these sensors. Each turn is a frame; the first and
-/// the last turn are usually cut short. The first packet of one of these sensors decides which
-/// sensor it is; other and damaged datagrams are skipped. Packets that segmentation offload merged
-/// into one datagram are cut apart.
+/// the last turn are usually cut short. That of an AT128 needs the sensor's correction file beside
+/// it, with the capture's name and the extension .dat. The first packet of one of these sensors
+/// decides which sensor it is; other and damaged datagrams are skipped. Packets that segmentation
+/// offload merged into one datagram are cut apart.
 /// @throws InputError with one line that says what was found instead; reading throws it, too, where
 ///   a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
@@ -35,7 +36,8 @@ namespace railcast {
 /// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
 /// once to read.
 /// @param name Names the capture in error messages.
-/// @param beside What stands beside it about its sensor; only an Ouster sensor needs it.
+/// @param beside What stands beside it about its sensor; only an Ouster sensor and an AT128 need
+/// it.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
                                                      const std::string& name,
                                                      const CaptureMetadata& beside = {});

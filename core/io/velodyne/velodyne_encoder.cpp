@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,83 +10,16 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/coded_return.h"
 #include "core/io/field_layout.h"
+#include "core/io/packet_fill.h"
+#include "core/io/scan_fit.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {
 namespace {
-
-/// Reports what in a scan does not fit one format.
-class Fit {
- public:
-  explicit Fit(const VelodyneFormat& format)
-      : model_(*format.model), prefix_("--protocol " + std::string(format.name) + ": /lidar") {}
-
-  void CheckPattern(const ScanSpec& scan) const {
-    const auto* const pattern = std::get_if<SpinningSpec>(&scan.pattern);
-    if (pattern == nullptr) Fail("/scan/pattern/type", "must be \"spinning\"");
-    if (pattern->rotation != Rotation::kClockwise) {
-      Fail("/scan/pattern/rotation", "must be \"clockwise\"", Quoted(NameOf(pattern->rotation)));
-    }
-    if (pattern->channels.size() != model_.lasers.size()) {
-      Fail("/scan/pattern/channels",
-           "must be " + NumberText(model_.lasers.size()) + " as " + std::string(model_.name) +
-               " has",
-           NumberText(pattern->channels.size()));
-    }
-    if (!model_.has_own_angles) {
-      CheckNear("/scan/pattern/cycle_us", pattern->cycle_us, model_.cycle_us, kMaxTimeOffset_us);
-      CheckChannels(pattern->channels);
-    }
-    CheckColumns(*pattern, scan.rate_hz);
-  }
-
-  [[noreturn]] void Fail(const std::string& place,
-                         const std::string& rule,
-                         const std::string& got = {}) const {
-    throw InputError(prefix_ + place + ": " + rule + (got.empty() ? "" : " (got " + got + ")"));
-  }
-
- private:
-  void CheckNear(const std::string& place, double got, double expected, double tolerance) const {
-    if (std::abs(got - expected) <= tolerance) return;
-    Fail(place, "must be " + NumberText(expected) + " as of " + std::string(model_.name),
-         NumberText(got));
-  }
-
-  void CheckChannels(const std::vector<ChannelSpec>& channels) const {
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      const std::string place = "/scan/pattern/channels/" + NumberText(i);
-      const ChannelSpec& laser = model_.lasers[i];
-      CheckNear(place + "/elevation_deg", channels[i].elevation_deg, laser.elevation_deg,
-                kMaxChannelOffset_deg);
-      CheckNear(place + "/azimuth_deg", channels[i].azimuth_deg, laser.azimuth_deg,
-                kMaxChannelOffset_deg);
-      CheckNear(place + "/time_us", channels[i].time_us, laser.time_us, kMaxTimeOffset_us);
-    }
-  }
-
-  void CheckColumns(const SpinningSpec& pattern, double rate_hz) const {
-    const std::size_t in_block = model_.cycles_per_block();
-    // The margin is for rounding: 1800 x 55.5555556 us is slightly more than 100 ms.
-    const double fitting = std::floor(1e6 / (rate_hz * pattern.cycle_us) * (1.0 + 1e-6));
-    const double most = fitting - std::fmod(fitting, static_cast<double>(in_block));
-    if (pattern.columns == most) return;
-    Fail("/scan/pattern/columns", "must be " + NumberText(most) + ", a whole turn",
-         NumberText(pattern.columns));
-  }
-
-  const VelodyneModel& model_;
-  std::string prefix_;
-};
-
-/// One return as a packet encodes it; all zeros if there is none.
-struct CodedReturn {
-  std::uint16_t distance{};
-  std::uint8_t reflectivity{};
-};
 
 void Store(const CodedReturn& coded, char* place) {
   StoreAt<std::uint16_t>(place, coded.distance);
@@ -100,11 +31,7 @@ std::vector<std::uint16_t> ColumnAzimuths(const SpinningSpec& pattern, double ra
   std::vector<std::uint16_t> azimuths;
   for (std::uint32_t column = 0; column < pattern.columns; ++column) {
     const double turns = rate_hz * column * pattern.cycle_us * 1e-6;
-    const std::int64_t units =
-        std::llround((pattern.start_azimuth_deg + 360.0 * turns) / kAzimuthUnit_deg);
-    const std::int64_t in_turn = units % kAzimuthUnitsPerTurn;
-    azimuths.push_back(
-        static_cast<std::uint16_t>(in_turn < 0 ? in_turn + kAzimuthUnitsPerTurn : in_turn));
+    azimuths.push_back(RotorAzimuth(pattern.start_azimuth_deg, turns));
   }
   return azimuths;
 }
@@ -134,17 +61,14 @@ class VelodyneEncoder final : public FrameEncoder {
           "the frame is the scan's");
     Check(frame.returns == 1 || (is_dual_ && frame.returns == 2), "frames have the mode's returns");
     if (!next_position_ns_) {
-      next_position_ns_ = (frame.stamp_ns + kNsPerS - 1) / kNsPerS * kNsPerS;
+      const std::int64_t clock_ns = frame.stamp_ns + clock_ahead_ns();
+      next_position_ns_ = (clock_ns + kNsPerS - 1) / kNsPerS * kNsPerS - clock_ahead_ns();
     }
     const auto step = static_cast<std::uint32_t>(model_.cycles_per_block());
-    if (next_frame_ && frame.index > *next_frame_) LeaveOut(frame.index - *next_frame_, step);
-    next_frame_ = frame.index + 1;
+    fill_.BeginFrame(frame.index, azimuths_.size() / step * BlocksPerAzimuth());
     for (std::uint32_t column = 0; column < frame.columns; column += step) {
       EncodeCycles(frame, column, column + step);
-      if (num_blocks_ < kBlocksPerPacket) continue;
-      if (!lacks_blocks_) AppendPacket(datagrams);
-      num_blocks_ = 0;
-      lacks_blocks_ = false;
+      if (fill_.Add(BlocksPerAzimuth())) AppendPacket(datagrams);
     }
   }
 
@@ -159,20 +83,12 @@ class VelodyneEncoder final : public FrameEncoder {
     return model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
   }
 
-  // Skips the frames that are left out and continues in the packet in which the next frame begins.
-  void LeaveOut(std::uint32_t num_frames, std::uint32_t step) {
-    const std::uint64_t num_azimuths = azimuths_.size() / step * std::uint64_t{num_frames};
-    const std::uint64_t num_blocks = num_blocks_ + num_azimuths * BlocksPerAzimuth();
-    num_blocks_ = static_cast<std::size_t>(num_blocks % kBlocksPerPacket);
-    lacks_blocks_ = num_blocks_ > 0;
-  }
-
   // Encodes the blocks of one azimuth: those of one firing cycle, or one block with two cycles.
   void EncodeCycles(const Frame& frame, std::uint32_t column, std::uint32_t end) {
     const std::size_t num_blocks = BlocksPerAzimuth();
-    if (num_blocks_ == 0) first_ns_ = FiringNs(frame, first_row_, column);
+    if (fill_.num_blocks() == 0) first_ns_ = FiringNs(frame, first_row_, column);
     last_ns_ = FiringNs(frame, last_row_, end - 1);
-    char* const blocks = packet_.data() + num_blocks_ * kBlockSize;
+    char* const blocks = packet_.data() + fill_.num_blocks() * kBlockSize;
     for (std::size_t i = 0; i < num_blocks; ++i) {
       const bool is_upper = i % model_.blocks_per_cycle() == 1;
       StoreAt<std::uint16_t>(blocks + i * kBlockSize, is_upper ? kUpperBlockFlag : kLowerBlockFlag);
@@ -189,14 +105,12 @@ class VelodyneEncoder final : public FrameEncoder {
                     place);
       }
     }
-    num_blocks_ += num_blocks;
   }
 
   [[nodiscard]] CodedReturn CodeReturn(const Frame& frame, std::size_t slot) const {
-    const double distance = static_cast<double>(frame.range_m[slot]) / model_.distance_unit_m + 0.5;
-    // Written so that NaN, which means no return, is left out, too.
-    if (!(distance >= 1.0 && distance < 65536.0)) return {};
-    return {static_cast<std::uint16_t>(distance), ReflectivityByte(frame.intensity[slot])};
+    const std::uint16_t distance = CodedDistance(frame.range_m[slot], model_.distance_unit_m);
+    if (distance == 0) return {};
+    return {distance, ReflectivityByte(frame.intensity[slot])};
   }
 
   void StoreFiring(const Frame& frame, std::size_t slot, char* place) const {
@@ -205,23 +119,18 @@ class VelodyneEncoder final : public FrameEncoder {
       Store(strongest, place);
       return;
     }
-    // The second slot holds the last return if that differs from the strongest, and otherwise the
-    // second strongest, which is then nearer. In both cases the even block gets the farther return
-    // and the odd block the nearer.
     const CodedReturn other = frame.returns == 2 ? CodeReturn(frame, slot + 1) : CodedReturn{};
-    CodedReturn farther = strongest;
-    CodedReturn nearer = other;
-    if (nearer.distance > farther.distance) std::swap(nearer, farther);
-    if (nearer.distance == 0) nearer = farther;
-    Store(farther, place);
-    Store(nearer, place + kBlockSize);
+    const CodedPair pair = LastAndOther(strongest, other, 1);
+    Store(pair.last, place);
+    Store(pair.other, place + kBlockSize);
   }
 
   void AppendPacket(Datagrams& datagrams) {
     for (; *next_position_ns_ <= last_ns_; *next_position_ns_ += kNsPerS) {
-      AppendPositionPacket(*next_position_ns_, datagrams);
+      AppendPositionPacket(*next_position_ns_, clock_ahead_ns(), datagrams);
     }
-    StoreAt<std::uint32_t>(packet_.data() + kTimePlace, MicrosecondsPastHour(first_ns_));
+    StoreAt<std::uint32_t>(packet_.data() + kTimePlace,
+                           MicrosecondsPastHour(first_ns_ + clock_ahead_ns()));
     datagrams.items.push_back({.offset = datagrams.bytes.size(),
                                .size = kVelodynePacketSize,
                                .port = DatagramPort::kData,
@@ -238,10 +147,7 @@ class VelodyneEncoder final : public FrameEncoder {
 
   // The packet under construction.
   std::array<char, kVelodynePacketSize> packet_{};
-  std::size_t num_blocks_{};
-  // Set if the packet's first blocks belong to a frame that was left out.
-  bool lacks_blocks_ = false;
-  std::optional<std::uint32_t> next_frame_;
+  PacketFill fill_{kBlocksPerPacket};
   std::int64_t first_ns_{};
   std::int64_t last_ns_{};
   std::optional<std::int64_t> next_position_ns_;
@@ -255,8 +161,13 @@ std::uint8_t ModeByte(ReturnMode return_mode) {
 }  // namespace
 
 void CheckFits(const VelodyneFormat& format, const ScanSpec& scan, ReturnMode return_mode) {
-  const Fit fit(format);
-  fit.CheckPattern(scan);
+  const VelodyneModel& model = *format.model;
+  const ScanFit fit(format.name);
+  fit.CheckPattern(scan, {.name = model.name,
+                          .channels = model.lasers,
+                          .cycle_us = model.cycle_us,
+                          .has_own_angles = model.has_own_angles,
+                          .cycles_per_block = model.cycles_per_block()});
   const std::string got = Quoted(NameOf(return_mode));
   if (format.is_dual && return_mode != ReturnMode::kDual) {
     fit.Fail("/receiver/return_mode", "must be \"dual\"", got);

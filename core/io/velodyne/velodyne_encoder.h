@@ -4,23 +4,16 @@
 #include <string_view>
 
 #include "core/io/datagrams.h"
+#include "core/io/scan_fit.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "railcast/effects.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
 
-/// The most by which elevations and azimuths of a scan may differ from the model's: the resolution
-/// of a packet's azimuth.
-inline constexpr double kMaxChannelOffset_deg = 0.01;
-/// The most by which firing times and cycles may differ; at 20 Hz the rotor turns by 0.00007 deg in
-/// that time.
-inline constexpr double kMaxTimeOffset_us = 0.01;
-
 /// Checks that a sensor of this model could make the scan. It must turn clockwise, have the model's
-/// channels in the vendor's laser order and the model's firing cycle (both are free for HDL-64E),
-/// and a whole turn of cycles, since packets continue into the next frame and have a single time
-/// stamp. VLP-16 puts two cycles into a block, so it needs an even number of cycles.
+/// channels and firing cycle (both are free for HDL-64E), and a whole turn of cycles (ScanFit).
+/// VLP-16 puts two cycles into a block, so it needs an even number of cycles.
 /// @param return_mode ReceiverSpec::return_mode: "dual" for vlp16-dual, "strongest" or "last" for
 ///   the others.
 /// @throws InputError with the first rule that is broken:

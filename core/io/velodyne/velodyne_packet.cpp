@@ -45,13 +45,14 @@ std::string GprmcSentence(std::int64_t time_ns) {
   return sentence.append(text.data()).append(end.data());
 }
 
-void AppendPositionPacket(std::int64_t time_ns, Datagrams& datagrams) {
+void AppendPositionPacket(std::int64_t time_ns, std::int64_t clock_ahead_ns, Datagrams& datagrams) {
+  const std::int64_t clock_ns = time_ns + clock_ahead_ns;
   const std::size_t offset = datagrams.bytes.size();
   datagrams.bytes.resize(offset + kPositionPacketSize);
   char* const packet = datagrams.bytes.data() + offset;
-  StoreAt<std::uint32_t>(packet + kClockPlace, MicrosecondsPastHour(time_ns));
+  StoreAt<std::uint32_t>(packet + kClockPlace, MicrosecondsPastHour(clock_ns));
   packet[kPulsePlace] = kPulseLocked;
-  const std::string sentence = GprmcSentence(time_ns);
+  const std::string sentence = GprmcSentence(clock_ns);
   sentence.copy(packet + kSentencePlace, sentence.size());
   datagrams.items.push_back({.offset = offset,
                              .size = kPositionPacketSize,

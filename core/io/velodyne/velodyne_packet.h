@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/io/datagrams.h"
+#include "core/io/scan_fit.h"
 
 namespace railcast {
 
@@ -39,8 +40,6 @@ inline constexpr std::uint8_t kLastMode = 0x38;
 /// the strongest. If both are the same return, the odd block holds the second strongest, or a copy.
 inline constexpr std::uint8_t kDualMode = 0x39;
 
-inline constexpr std::int64_t kAzimuthUnitsPerTurn = 36'000;
-inline constexpr double kAzimuthUnit_deg = 0.01;
 inline constexpr std::int64_t kUsPerHour = 3'600'000'000;
 
 /// Reads a number at an address of any alignment.
@@ -89,6 +88,7 @@ inline constexpr std::int64_t kSimulationEpoch_s = 946'684'800;
 
 /// Appends the 512 bytes that a sensor sends from port 8308: its clock (byte 0xC6), the state
 /// "locked" of the pulse per second (0xCA) and the sentence (0xCE).
-void AppendPositionPacket(std::int64_t time_ns, Datagrams& datagrams);
+/// @param clock_ahead_ns As FrameEncoder::SetClockAhead() takes it.
+void AppendPositionPacket(std::int64_t time_ns, std::int64_t clock_ahead_ns, Datagrams& datagrams);
 
 }  // namespace railcast

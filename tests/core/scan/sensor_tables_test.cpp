@@ -164,6 +164,61 @@ TEST(Xt32Table, AgreesWithThePublishedCalibration) {
   }
 }
 
+/// A sensor of which only the angles are published as a file.
+struct AngleTable {
+  const char* sensor;
+  const char* file;
+};
+
+void PrintTo(const AngleTable& table, std::ostream* out) {
+  *out << table.sensor;
+}
+
+class HesaiAngles : public testing::TestWithParam<AngleTable> {};
+
+TEST_P(HesaiAngles, AgreeWithThePublishedCalibration) {
+  const std::filesystem::path file =
+      std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/hesai_calibration") / GetParam().file;
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto angles = RowsOf(file, 1);
+  const std::vector<ChannelSpec> channels = ChannelsOf(GetParam().sensor);
+  ASSERT_EQ(angles.size(), channels.size());
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    EXPECT_EQ(channels[i].elevation_deg, angles[i].at(1));
+    EXPECT_EQ(channels[i].azimuth_deg, angles[i].at(2));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(SensorTables,
+                         HesaiAngles,
+                         testing::Values(AngleTable{"pandar40p", "Pandar40P.csv"},
+                                         AngleTable{"qt64", "PandarQT64.csv"},
+                                         AngleTable{"xt16", "PandarXT16.csv"},
+                                         AngleTable{"xt32m", "PandarXT32M.csv"},
+                                         AngleTable{"pandar128e4x_standard", "Pandar128E4X.csv"}),
+                         [](const auto& test) { return std::string(test.param.sensor); });
+
+TEST(Xt32mTable, HasTheMakersTimes) {
+  const auto file = HesaiTableFile("sdk_PandarXT-32M2X_Firetime_Correction_File.csv");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  const auto times = RowsOf(file, 1);
+  const std::vector<ChannelSpec> channels = ChannelsOf("xt32m");
+  ASSERT_EQ(times.size(), channels.size());
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    EXPECT_NEAR(channels[i].time_us, times[i].at(1) - times[0].at(1), 1e-9);
+  }
+}
+
+TEST(Pandar128e4xTable, FiresEightCentralLasersAtATime) {
+  std::map<double, std::vector<std::size_t>> lasers_at_us;
+  const std::vector<ChannelSpec> channels = ChannelsOf("pandar128e4x");
+  // Those of azimuth state 0: 12 outer lasers above the 64 central ones.
+  ASSERT_EQ(channels.size(), 192U);
+  for (std::size_t i = 12; i < 76; ++i) lasers_at_us[channels[i].time_us].push_back(i);
+  EXPECT_EQ(lasers_at_us.size(), 8U);
+  for (const auto& [time_us, lasers] : lasers_at_us) EXPECT_EQ(lasers.size(), 8U) << time_us;
+}
+
 // The maker's table has the 96 lasers of each loop and their times since that loop began.
 TEST(Qt128Table, AgreesWithTheMakersTables) {
   const auto file = HesaiTableFile("sdk_QT128C2X_Angle_Correction_File.csv");
@@ -220,7 +275,7 @@ TEST_P(SensorTable, FillsEveryCellOnceWithDirectionsOfUnitLengthThatRiseWithTheR
     ASSERT_NEAR(Direction(pattern, i).squaredNorm(), 1.0, 1.2e-7);
   }
   EXPECT_TRUE(std::ranges::all_of(num_in_cell, [](int count) { return count == 1; }));
-  // Two firings of QT128 have one elevation.
+  // Two firings of a laser of QT128 or Pandar128E4X have one elevation.
   for (std::size_t i = 1; i < elevation_deg.size(); ++i) {
     EXPECT_GT(elevation_deg[i], elevation_deg[i - 1] - kFloatAngle_deg);
   }
@@ -236,7 +291,14 @@ INSTANTIATE_TEST_SUITE_P(SensorTables,
                                          Calibration{"pandar64", "", 1e6 / 18000.0, 1800},
                                          Calibration{"vls128", "", 55.277, 1809},
                                          Calibration{"xt32", "", 50.0, 2000},
-                                         Calibration{"qt128", "", 1e6 / 4500.0, 450}),
+                                         Calibration{"qt128", "", 1e6 / 4500.0, 450},
+                                         Calibration{"pandar128e4x", "", 1e6 / 18000.0, 1800},
+                                         Calibration{"pandar128e4x_standard", "", 1e6 / 18000.0,
+                                                     1800},
+                                         Calibration{"pandar40p", "", 1e6 / 18000.0, 1800},
+                                         Calibration{"qt64", "", 1e6 / 6000.0, 600},
+                                         Calibration{"xt16", "", 50.0, 2000},
+                                         Calibration{"xt32m", "", 50.0, 2000}),
                          [](const auto& test) { return std::string(test.param.sensor); });
 
 TEST(SensorTables, Vlp16TurnsByTheAngleOfTwoCyclesFromBlockToBlock) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/hesai/hesai_model.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
@@ -131,9 +132,13 @@ TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
   EXPECT_EQ(DefaultPort(Protocol::kOuster), kOusterLidarPort);
   EXPECT_EQ(PositionPort(Protocol::kOuster), kOusterImuPort);
   for (const auto& [protocol, name] : kEnumNames<Protocol>) {
-    if (protocol == Protocol::kRailcast || protocol == Protocol::kOuster) continue;
-    EXPECT_EQ(FindVelodyneFormat(name).name, name);
+    const bool has_own_ports = protocol == Protocol::kRailcast || protocol == Protocol::kOuster ||
+                               protocol == Protocol::kRos2;
+    if (has_own_ports) continue;
+    const HesaiModel* const hesai = FindHesaiModel(name);
+    EXPECT_EQ(hesai != nullptr ? hesai->protocol : FindVelodyneFormat(name).name, name);
     EXPECT_EQ(DefaultPort(protocol), kVelodyneDataPort);
+    EXPECT_EQ(PositionPort(protocol).has_value(), hesai == nullptr);
   }
 }
 
@@ -161,6 +166,10 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             folder.path().string() + ": must be a regular file (got a directory)\n");
   EXPECT_EQ(fault(scenario + " --no-offload --pcap a --duration 1"),
             "--no-offload: must be left out where nothing is sent, as with --pcap without --to\n");
+  EXPECT_EQ(fault(scenario + " --wall-clock --pcap a --duration 1"),
+            "--wall-clock: must be left out where nothing is sent, as with --pcap without --to\n");
+  EXPECT_EQ(fault(scenario + " --wall-clock --to :1000"),
+            "--wall-clock: is for packets of real sensors (got railcast)\n");
   EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),
             "--drop-late: must be left out where frames are never late, as with --pcap without "
             "--to\n");

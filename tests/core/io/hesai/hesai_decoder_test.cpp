@@ -27,11 +27,11 @@ SensorTurn Decoded(const std::vector<char>& packet, const HesaiModel& model = Pa
 }
 
 TEST(HesaiModel, HasTheChannelsOfTheSensorsFile) {
-  for (const auto& [name, model] :
-       {std::pair{"pandar64", &Pandar64Model()}, std::pair{"xt32", &Xt32Model()},
-        std::pair{"qt128", &Qt128Model()}}) {
+  for (const HesaiModel& model : HesaiModels()) {
+    std::string name(model.protocol);
+    std::ranges::replace(name, '-', '_');
     const ScanSpec sensor = ReadSensor(name);
-    EXPECT_EQ(model->channels, std::get<SpinningSpec>(sensor.pattern).channels) << name;
+    EXPECT_EQ(model.channels, std::get<SpinningSpec>(sensor.pattern).channels) << name;
   }
 }
 
@@ -57,7 +57,7 @@ TEST(Pandar64Decoder, PlacesAPointByItsBlockAndChannel) {
 // the end of its block, and the earliest channel 54.668 us before it.
 TEST(Pandar64Decoder, CountsTimeBackFromThePacketsEnd) {
   const SensorTurn turn = Decoded(MadePacket());
-  const std::int64_t packet_ns = 86'403 * 1'000'000'000LL + 500'000'000;
+  const std::int64_t packet_ns = (kSimulationEpoch_s + 86'403) * 1'000'000'000 + 500'000'000;
   EXPECT_EQ(turn.stamp_ns, packet_ns - 42'580 - 277'800 - 54'668);
   EXPECT_EQ(turn.column_time_ns[5], 277'800);  // The time of five cycles.
   EXPECT_EQ(turn.stamp_ns + turn.points[5].time_ns, packet_ns - 42'580 - 23'180);
@@ -119,9 +119,9 @@ TEST(Pandar64Decoder, RefusesWhatIsNoPacketOfIts) {
   EXPECT_EQ(RefusalOfPacketWith<Byte>(2, 40), "lasers must be 64 (got 40)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(3, 8), "blocks must be 6 (got 8)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(5, 0), "distance unit must be > 0 (got 0)");
-  EXPECT_EQ(RefusalOfPacketWith<std::uint32_t>(Pandar64Model().layout.time_place, 1'000'000),
+  EXPECT_EQ(RefusalOfPacketWith<std::uint32_t>(Pandar64Model().layout.tail.time_place, 1'000'000),
             "microseconds of the second must be < 1000000 (got 1000000)");
-  EXPECT_EQ(RefusalOfPacketWith<Byte>(Pandar64Model().layout.mode_place, 0x3A),
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(Pandar64Model().layout.tail.mode_place, 0x3A),
             "return mode must be 51, 55, 56, 57, 59 or 60 (got 58)");
   EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(AzimuthPlace(2), 36'000),
             "block 2: azimuth must be <= 35999 (got 36000)");

@@ -47,7 +47,7 @@ TEST(Xt32Decoder, CountsTimeFromTheCommandToFireTheLastBlock) {
     ASSERT_EQ(decoder.Decode(PacketOf(Xt32Model(), 31, mode), turns), std::nullopt);
     const SensorTurn turn = decoder.TakeUnfinished();
     ASSERT_EQ(turn.num_columns(), static_cast<std::size_t>(cycles));
-    const std::int64_t packet_ns = 86'403 * 1'000'000'000LL + 500'000'000;
+    const std::int64_t packet_ns = (kSimulationEpoch_s + 86'403) * 1'000'000'000 + 500'000'000;
     EXPECT_EQ(turn.stamp_ns, packet_ns + 6'000 - 50'000 * (cycles - 1));
     EXPECT_EQ(turn.stamp_ns + turn.points.back().time_ns, packet_ns + 6'000 + 46'872);
   }
@@ -69,7 +69,7 @@ std::vector<char> LoopPacket(std::size_t loop, std::uint16_t azimuth, std::uint3
     StoreAt<std::uint16_t>(packet.data() + DistancePlace(model, block, 0) - 2, azimuth);
   }
   packet[*model.layout.loop_place] = loop == 1 ? 1 : 0;
-  StoreAt<std::uint32_t>(packet.data() + model.layout.time_place, time_us);
+  StoreAt<std::uint32_t>(packet.data() + model.layout.tail.time_place, time_us);
   return packet;
 }
 

@@ -12,6 +12,17 @@
 
 namespace railcast {
 
+// The models of which the tests know more.
+inline const HesaiModel& Pandar64Model() {
+  return *FindHesaiModel("pandar64");
+}
+inline const HesaiModel& Xt32Model() {
+  return *FindHesaiModel("xt32");
+}
+inline const HesaiModel& Qt128Model() {
+  return *FindHesaiModel("qt128");
+}
+
 // Return modes.
 inline constexpr std::uint8_t kMadeStrongest = 0x37;
 inline constexpr std::uint8_t kMadeDual = 0x39;  ///< Last and strongest.
@@ -19,21 +30,22 @@ inline constexpr std::uint8_t kMadeDual = 0x39;  ///< Last and strongest.
 /// The place of a laser's distance in a packet of this sensor.
 inline std::size_t DistancePlace(const HesaiModel& model, std::size_t block, std::size_t laser) {
   const HesaiLayout& layout = model.layout;
-  return layout.header_size + block * layout.block_size() + 2 + laser * layout.return_size;
+  return layout.BlockPlace(block) + layout.block_head_size() + laser * layout.return_size;
 }
 
-/// Returns a packet with blocks at azimuths 100, 120, ... (in 0.01 deg), at half a second past
-/// 1970-01-02 00:00:03 and 600 revolutions per minute. Laser 0 measures 1 m at 50 %; all others
-/// have no return.
+/// Returns a packet, with a header, with blocks at azimuths 100, 120, ... (in 0.01 deg), at half a
+/// second past 2000-01-02 00:00:03 and 600 revolutions per minute. Laser 0 measures 1 m at 50 %;
+/// all others have no return.
 inline std::vector<char> MadePacket(const HesaiModel& model = Pandar64Model(),
                                     std::uint8_t mode = kMadeStrongest) {
   const HesaiLayout& layout = model.layout;
   std::vector<char> packet(layout.packet_size, '\0');
   StoreAt<std::uint16_t>(packet.data(), kHesaiFlag);
-  if (layout.version) std::ranges::copy(*layout.version, packet.begin() + 2);
-  packet[layout.lasers_place] = static_cast<char>(layout.lasers);
-  packet[layout.blocks_place] = static_cast<char>(layout.blocks);
-  packet[layout.unit_place] = 4;
+  const HesaiHeader& header = *layout.header;
+  if (header.version) std::ranges::copy(*header.version, packet.begin() + 2);
+  packet[header.lasers_place] = static_cast<char>(layout.lasers);
+  packet[header.blocks_place] = static_cast<char>(layout.blocks);
+  packet[header.unit_place] = 4;
   const std::size_t in_group = mode == kMadeDual ? 2 : 1;
   for (std::size_t block = 0; block < layout.blocks; ++block) {
     char* const place = packet.data() + DistancePlace(model, block, 0);
@@ -41,11 +53,11 @@ inline std::vector<char> MadePacket(const HesaiModel& model = Pandar64Model(),
     StoreAt<std::uint16_t>(place, 250);
     place[2] = 50;
   }
-  StoreAt<std::uint32_t>(packet.data() + layout.time_place, 500'000);
-  StoreAt<std::uint16_t>(packet.data() + layout.speed_place, 600);
-  packet[layout.mode_place] = static_cast<char>(mode);
-  const std::array<std::uint8_t, 6> date = {70, 1, 2, 0, 0, 3};
-  std::ranges::copy(date, packet.begin() + static_cast<std::ptrdiff_t>(layout.date_place));
+  StoreAt<std::uint32_t>(packet.data() + layout.tail.time_place, 500'000);
+  StoreAt<std::uint16_t>(packet.data() + layout.tail.speed_place, 600);
+  packet[layout.tail.mode_place] = static_cast<char>(mode);
+  const std::array<std::uint8_t, 6> date = {100, 1, 2, 0, 0, 3};
+  std::ranges::copy(date, packet.begin() + static_cast<std::ptrdiff_t>(layout.tail.date_place));
   return packet;
 }
 

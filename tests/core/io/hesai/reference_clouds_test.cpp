@@ -12,6 +12,7 @@
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "railcast/transform.h"
+#include "tests/core/io/hesai/made_packet.h"
 #include "tests/support/hesai_bag.h"
 
 namespace railcast {

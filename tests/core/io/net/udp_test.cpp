@@ -159,11 +159,61 @@ TEST(UdpSender, BroadcastsOnlyWhereAskedByName) {
   EXPECT_EQ(said_of(Endpoint{0x7FFFFFFF, 2368}),
             "must not be a network's broadcast address; use 255.255.255.255 (got "
             "127.255.255.255:2368)");
-  EXPECT_EQ(said_of(Endpoint{0xEF000001, 2368}),
-            "must be one host, or 255.255.255.255 for all (got 239.0.0.1:2368)");
+  EXPECT_EQ(said_of(Endpoint{0xF0000001, 2368}),
+            "must be one host, a multicast group, or 255.255.255.255 for all (got "
+            "240.0.0.1:2368)");
   const std::string said = said_of(Endpoint{0xFFFFFFFF, 2368});
   if (said.find("unreachable") != std::string::npos) GTEST_SKIP() << "no network: " << said;
   EXPECT_EQ(said, "no error");
+}
+
+/// A socket that hears a multicast group on this machine.
+class GroupMember {
+ public:
+  explicit GroupMember(std::uint32_t group) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    socklen_t size = sizeof any;
+    ::bind(socket_, reinterpret_cast<const sockaddr*>(&any), size);
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&any), &size);
+    port_ = ntohs(any.sin_port);
+    ip_mreq membership{};
+    membership.imr_multiaddr.s_addr = htonl(group);
+    has_joined_ =
+        ::setsockopt(socket_, IPPROTO_IP, IP_ADD_MEMBERSHIP, &membership, sizeof membership) == 0;
+    const timeval patience{10, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  }
+  ~GroupMember() { ::close(socket_); }
+  GroupMember(const GroupMember&) = delete;
+  GroupMember& operator=(const GroupMember&) = delete;
+
+  [[nodiscard]] bool has_joined() const { return has_joined_; }
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+  [[nodiscard]] std::string Receive() const {
+    std::string bytes(100, '\0');
+    const ssize_t size = ::recv(socket_, bytes.data(), bytes.size(), 0);
+    bytes.resize(size < 0 ? 0 : static_cast<std::size_t>(size));
+    return bytes;
+  }
+
+ private:
+  int socket_;
+  std::uint16_t port_{};
+  bool has_joined_{};
+};
+
+TEST(UdpSender, ReachesTheMembersOfAMulticastGroup) {
+  constexpr std::uint32_t kGroup = 0xEFFF1744;  // 239.255.23.68, of this site's own.
+  const GroupMember member(kGroup);
+  if (!member.has_joined()) GTEST_SKIP() << "no network has a multicast route";
+  UdpSender sender({{kGroup, member.port()}}, 1);
+  const Datagrams datagrams = MakeDatagrams({8, 8, 3});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(sender.counts().sent, 3U);
+  for (const std::string& expected : ExpectedDatagrams(datagrams)) {
+    EXPECT_EQ(member.Receive(), expected);
+  }
 }
 
 TEST(UdpReceiver, RefusesAPortThatIsTaken) {

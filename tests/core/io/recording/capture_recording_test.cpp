@@ -204,8 +204,8 @@ std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   const std::string message = MessageOf([&] { (void)OpenRecording(file); });
   const std::string expected =
       file.string() +
-      ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
-      "QT128 ";
+      ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32, "
+      "QT128, Pandar128E4X, Pandar128E4X in standard mode, Pandar40P, QT64, XT16, XT32M or AT128 ";
   EXPECT_EQ(message.substr(0, expected.size()), expected);
   return message.substr(expected.size());
 }
@@ -235,9 +235,9 @@ TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0xA1)}),
             "(got VLS-128, of which only single returns are read)");
   EXPECT_EQ(MessageOfCapture({Pandar40PPacket(1262)}),
-            "(got packets of Hesai's Pandar40P, which are not read)");
+            "(got damaged packets of Hesai's Pandar40P)");
   EXPECT_EQ(MessageOfCapture({Pandar40PPacket(1266)}),
-            "(got packets of Hesai's Pandar40P, which are not read)");
+            "(got damaged packets of Hesai's Pandar40P)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77)}), "(got Velodyne packets of model byte 119)");
   EXPECT_EQ(MessageOfCapture({VelodynePacketOf(0x77, true)}),
             "(got HDL-64E, whose packets lack its calibration)");

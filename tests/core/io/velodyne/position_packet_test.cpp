@@ -36,7 +36,7 @@ TEST(GprmcSentence, HasTheChecksumOfItsText) {
 TEST(PositionPacket, SaysClockPulseAndSentenceWhereDecodersLook) {
   Datagrams datagrams;
   datagrams.bytes.resize(10);
-  AppendPositionPacket(25 * kHour_ns + 17 * kNsPerS, datagrams);
+  AppendPositionPacket(25 * kHour_ns + 17 * kNsPerS, 0, datagrams);
   ASSERT_EQ(datagrams.items.size(), 1U);
   EXPECT_EQ(datagrams.items[0].port, DatagramPort::kPosition);
   const auto packet = datagrams.BytesOf(datagrams.items[0]);

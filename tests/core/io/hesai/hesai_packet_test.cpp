@@ -1,0 +1,258 @@
+#include "core/io/hesai/hesai_packet.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/units.h"
+#include "core/io/hesai/hesai_decoder.h"
+#include "core/io/pcap/pcap_reader.h"
+#include "core/io/velodyne/velodyne_packet.h"
+#include "core/scan/spinning_pattern.h"
+#include "tests/core/io/hesai/made_packet.h"
+#include "tests/support/hesai_bag.h"
+
+namespace railcast {
+namespace {
+
+// The check value of this CRC in the published catalogues.
+TEST(HesaiCrc, IsThatOfMpeg2) {
+  const std::string digits = "123456789";
+  EXPECT_EQ(HesaiCrc(digits), 0x0376E6E7U);
+}
+
+using Packets = std::vector<std::vector<char>>;
+
+Packets PacketsOf(const std::filesystem::path& capture) {
+  Packets packets;
+  PcapReader reader(capture);
+  while (const auto datagram = reader.Next()) {
+    packets.emplace_back(datagram->payload.begin(), datagram->payload.end());
+  }
+  return packets;
+}
+
+/// What the decoder finds in the packets of whole cycles, as packets again.
+class Remade {
+ public:
+  Remade(const HesaiModel& model, const Packets& packets) : model_(model), packets_(packets) {
+    HesaiDecoder decoder(model);
+    std::vector<SensorTurn> turns;
+    for (const std::vector<char>& packet : packets) {
+      EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+    }
+    is_one_turn_ = turns.empty();
+    turn_ = decoder.TakeUnfinished();
+    const std::vector<std::uint16_t> rows = RowsByElevation(model.channels);
+    std::size_t channel = 0;
+    for (std::size_t loop = 0; loop < model.loops.size(); ++loop) {
+      for (std::size_t i = 0; i < model.loops[loop].size(); ++i, ++channel) {
+        places_[rows[channel]] = {loop, channel};
+      }
+    }
+    for (const TurnPoint& point : turn_.points) Add(point);
+  }
+
+  [[nodiscard]] bool is_one_turn() const { return is_one_turn_; }
+
+  [[nodiscard]] std::vector<char> Packet(std::size_t index) const {
+    const std::vector<char>& real = packets_[index];
+    const HesaiTail& tail = model_.layout.tail;
+    const auto mode = static_cast<std::uint8_t>(real[tail.mode_place]);
+    const std::size_t in_group = model_.IsDual(mode) ? 2 : 1;
+    HesaiPacket packet(model_, mode);
+    const std::size_t groups = model_.layout.blocks / in_group;
+    std::int64_t loop_ns = 0;
+    for (std::size_t group = 0; group < groups; ++group) {
+      const std::size_t number = index * groups + group;
+      const std::size_t column = number / model_.loops.size();
+      const std::size_t loop = number % model_.loops.size();
+      loop_ns = turn_.stamp_ns + turn_.column_time_ns.at(column) +
+                model_.loop_ns * static_cast<std::int64_t>(loop);
+      for (std::size_t i = 0; i < in_group; ++i) {
+        packet.BeginBlock(group * in_group + i, loop, azimuths_.at(number));
+      }
+      for (const auto& [key, coded] : returns_) {
+        const auto& [point_column, point_loop, laser, return_index] = key;
+        if (point_column != column || point_loop != loop) continue;
+        packet.SetReturn(group * in_group + return_index, laser, coded);
+        const bool is_repeated =
+            return_index == 0 && in_group == 2 &&
+            !returns_.contains({point_column, point_loop, laser, std::size_t{1}});
+        if (is_repeated) packet.SetReturn(group * in_group + 1, laser, coded);
+      }
+    }
+    const auto bytes =
+        packet.Close({.time_ns = loop_ns - model_.stated_loop_ns,
+                      .speed_rpm = LoadAt<std::uint16_t>(real.data() + tail.speed_place),
+                      .sequence = LoadAt<std::uint32_t>(real.data() + *tail.sequence_place)});
+    return {bytes.begin(), bytes.end()};
+  }
+
+ private:
+  using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
+
+  void Add(const TurnPoint& point) {
+    const auto [loop, channel] = places_.at(point.ring);
+    const auto distance = static_cast<std::uint16_t>(std::lround(point.range_m / 0.004F));
+    returns_[{point.column, loop, point.laser, point.return_index}] = {distance, point.intensity};
+    const double speed_deg_per_us =
+        6e-6 * LoadAt<std::uint16_t>(packets_[0].data() + model_.layout.tail.speed_place);
+    const ChannelSpec& spec = model_.channels[channel];
+    const double loop_us = 1e-3 * static_cast<double>(model_.loop_ns) * static_cast<double>(loop);
+    const double turned_us = model_.turned_us ? *model_.turned_us + spec.time_us - loop_us : 0.0;
+    const double azimuth_deg = DegFromRad(static_cast<double>(point.azimuth_rad)) -
+                               spec.azimuth_deg - speed_deg_per_us * turned_us;
+    const std::int64_t units = std::llround(100.0 * azimuth_deg);
+    azimuths_[point.column * model_.loops.size() + loop] =
+        static_cast<std::uint16_t>((units + 36'000) % 36'000);
+  }
+
+  const HesaiModel& model_;
+  const Packets& packets_;
+  bool is_one_turn_{};
+  SensorTurn turn_;
+  std::map<std::uint16_t, std::pair<std::size_t, std::size_t>> places_;  // Loop and channel.
+  std::map<Key, CodedReturn> returns_;
+  std::map<std::size_t, std::uint16_t> azimuths_;
+};
+
+/// Where a real packet has something that the decoder keeps: not the reflectivity of what is no
+/// return, and not that the second return of two is missing rather than a repetition of the first.
+std::vector<bool> KeptReturns(const HesaiModel& model, const std::vector<char>& real) {
+  const HesaiLayout& layout = model.layout;
+  std::vector<bool> kept(real.size(), false);
+  const bool is_dual = model.IsDual(static_cast<std::uint8_t>(real[layout.tail.mode_place]));
+  const auto distance = [&](std::size_t block, std::size_t laser) {
+    return LoadAt<std::uint16_t>(real.data() + DistancePlace(model, block, laser));
+  };
+  for (std::size_t block = 0; block < layout.blocks; ++block) {
+    for (std::size_t laser = 0; laser < layout.lasers; ++laser) {
+      const bool is_return = distance(block, laser) > 0;
+      const bool is_missing =
+          is_dual && block % 2 == 1 && !is_return && distance(block - 1, laser) > 0;
+      const auto place =
+          kept.begin() + static_cast<std::ptrdiff_t>(DistancePlace(model, block, laser));
+      std::fill_n(place, 2, !is_missing);
+      place[2] = is_return;
+    }
+  }
+  return kept;
+}
+
+/// The bytes that are neither reserved nor the vendor's own: confidences, temperatures, the state
+/// of the sensor, and the checksums that depend on these.
+/// @param states_time Whether the packet is the one whose time the decoder keeps, the first of a
+///   cycle.
+std::vector<bool> OwnBytes(const HesaiModel& model,
+                           const std::vector<char>& real,
+                           bool states_time) {
+  const HesaiLayout& layout = model.layout;
+  std::vector<bool> own = KeptReturns(model, real);
+  const auto mark = [&](std::size_t place, std::size_t size) {
+    std::fill_n(own.begin() + static_cast<std::ptrdiff_t>(place), size, true);
+  };
+  mark(0, layout.header_size());
+  if (layout.header_size() == 12) own[4] = own[5] = false;
+  for (std::size_t block = 0; block < layout.blocks; ++block) {
+    mark(layout.BlockPlace(block), layout.block_head_size());
+  }
+  mark(layout.tail.mode_place, 1);
+  mark(layout.tail.speed_place, 2);
+  mark(layout.tail.date_place, 6);
+  if (states_time) mark(layout.tail.time_place, 4);
+  mark(layout.tail.factory_place, 1);
+  mark(*layout.tail.sequence_place, 4);
+  if (layout.loop_place) mark(*layout.loop_place, 1);
+  return own;
+}
+
+struct RealCapture {
+  const char* name;
+  std::size_t first;        ///< The packet with which a cycle begins.
+  std::size_t per_cycle;    ///< Packets of a cycle.
+  std::size_t num_packets;  ///< But for those in which a turn ends.
+};
+
+void PrintTo(const RealCapture& capture, std::ostream* out) {
+  *out << capture.name;
+}
+
+std::string WhyNoCapture(const std::string& name) {
+  if (name != "pandar64") return WhyNoHesaiBag(name);
+  const std::string file = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/pandar64.pcap";
+  return std::filesystem::exists(file) ? "" : file + " is not there";
+}
+
+Packets RealPackets(const std::string& name) {
+  if (name == "pandar64") {
+    return PacketsOf(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/pandar64.pcap");
+  }
+  const TemporaryDirectory folder;
+  return PacketsOf(CaptureOfHesaiBag(name, folder));
+}
+
+class HesaiPacketOf : public testing::TestWithParam<RealCapture> {};
+
+TEST_P(HesaiPacketOf, ARealCaptureIsRemadeByteByByte) {
+  const auto& [name, first, per_cycle, num_expected] = GetParam();
+  if (const std::string why = WhyNoCapture(name); !why.empty()) GTEST_SKIP() << why;
+  const HesaiModel& model = *FindHesaiModel(name);
+  const Packets packets = RealPackets(name);
+  std::size_t num_packets = 0;
+  std::size_t num_bytes = 0;
+  std::size_t num_different = 0;
+  for (std::size_t i = first; i + per_cycle <= packets.size(); i += per_cycle) {
+    const auto begin = packets.begin() + static_cast<std::ptrdiff_t>(i);
+    const Packets cycle(begin, begin + static_cast<std::ptrdiff_t>(per_cycle));
+    const Remade remade(model, cycle);
+    if (!remade.is_one_turn()) continue;
+    for (std::size_t k = 0; k < per_cycle; ++k) {
+      const std::vector<char> ours = remade.Packet(k);
+      ASSERT_EQ(ours.size(), cycle[k].size());
+      const std::vector<bool> own = OwnBytes(model, cycle[k], k == 0);
+      for (std::size_t b = 0; b < ours.size(); ++b) {
+        num_bytes += own[b];
+        if (!own[b] || ours[b] == cycle[k][b]) continue;
+        ++num_different;
+        ADD_FAILURE() << "packet " << i + k << ", byte " << b;
+        ASSERT_LT(num_different, 10U);
+      }
+      ++num_packets;
+    }
+  }
+  RecordProperty("bytes", std::to_string(num_bytes));
+  EXPECT_EQ(num_packets, num_expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Captures,
+                         HesaiPacketOf,
+                         testing::Values(RealCapture{"pandar64", 0, 1, 2396},
+                                         RealCapture{"xt32", 0, 1, 1996},
+                                         RealCapture{"qt128", 1, 2, 1798}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// A QT128's: of the blocks, of the functional safety without its version, of the rest.
+TEST(HesaiCrc, IsThatOfEveryPacketOfARealSensor) {
+  if (const std::string why = WhyNoHesaiBag("qt128"); !why.empty()) GTEST_SKIP() << why;
+  const Packets packets = RealPackets("qt128");
+  ASSERT_EQ(packets.size(), 1800U);
+  for (const std::vector<char>& packet : packets) {
+    const std::span<const char> bytes(packet);
+    const auto crc = [&](std::size_t place) {
+      return LoadAt<std::uint32_t>(packet.data() + place);
+    };
+    ASSERT_EQ(HesaiCrc(bytes.subspan(12, 1028)), crc(1040));
+    ASSERT_EQ(HesaiCrc(bytes.subspan(1045, 12)), crc(1057));
+    ASSERT_EQ(HesaiCrc(bytes.subspan(1061, 30)), crc(1091));
+  }
+}
+
+}  // namespace
+}  // namespace railcast
