@@ -80,6 +80,10 @@ ros::TopicsSpec TopicsSpecOf(const ScenarioSpec& scenario,
                             NumReturns(lidar.receiver.return_mode), lidar.scan.rate_hz,
                             ChannelsByRow(lidar)});
   }
+  spec.motion = scenario.motion_sensors.value_or(MotionSensorsSpec{});
+  for (const ImuSpec& imu : spec.motion.imus) {
+    spec.vehicle_from_imu.push_back(VehicleFromSensor(imu.mount));
+  }
   spec.clouds = clouds;
   spec.output = scenario.output;
   spec.labels = LabelTable(scenario.labels);
@@ -95,7 +99,8 @@ std::vector<ros::TopicMessage> MessagesOf(const ros::FrameTopics& topics,
                     .frame = made.frame,
                     .vehicle = made.vehicle,
                     .boxes = boxes,
-                    .image = made.has_image ? &made.image : nullptr});
+                    .image = made.has_image ? &made.image : nullptr,
+                    .motion = &made.motion});
 }
 
 }  // namespace railcast

@@ -11,6 +11,7 @@
 #include "core/io/image/jpeg.h"
 #include "core/io/image/png.h"
 #include "core/io/ros/cdr.h"
+#include "core/io/ros/motion_topics.h"
 #include "core/io/ros/scene_topics.h"
 #include "railcast/scene.h"
 
@@ -25,8 +26,12 @@ bool IsLetterOfName(char letter) {
          letter == '_';
 }
 
+/// Names that frames of reference and topics have already.
+constexpr auto kOwnNames = std::to_array<const char*>(
+    {"map", "base_link", "tf", "tf_static", "odometry", "clock", "objects", "track"});
+
 void CheckNames(const TopicsSpec& spec) {
-  std::set<std::string> names = {std::string(kMapFrame), std::string(kVehicleFrame)};
+  std::set<std::string> names(kOwnNames.begin(), kOwnNames.end());
   const auto add = [&names](const std::string& name) {
     if (names.insert(RosName(name)).second) return;
     throw InputError(
@@ -36,6 +41,9 @@ void CheckNames(const TopicsSpec& spec) {
   };
   for (const TopicSensor& sensor : spec.sensors) add(sensor.name);
   if (spec.camera) add(spec.camera->spec.name);
+  for (const ImuSpec& imu : spec.motion.imus) add(imu.name);
+  for (const GnssSpec& gnss : spec.motion.gnss) add(gnss.name);
+  for (const OdometerSpec& odometer : spec.motion.odometers) add(odometer.name);
 }
 
 Header HeaderAt(std::int64_t time_ns, std::string_view frame_id) {
@@ -91,6 +99,16 @@ TfMessage StaticTransforms(const TopicsSpec& spec, std::int64_t time_ns) {
     message.transforms.push_back(StampedTransform(
         time_ns, kVehicleFrame, RosName(spec.camera->spec.name), spec.camera->vehicle_from_camera));
   }
+  for (std::size_t i = 0; i < spec.vehicle_from_imu.size(); ++i) {
+    message.transforms.push_back(StampedTransform(
+        time_ns, kVehicleFrame, RosName(spec.motion.imus.at(i).name), spec.vehicle_from_imu[i]));
+  }
+  for (const GnssSpec& gnss : spec.motion.gnss) {
+    const auto& [x_m, y_m, z_m] = gnss.antenna_m;
+    const Transform antenna = MakeTransform(Eigen::Matrix3d::Identity(), Vector3(x_m, y_m, z_m));
+    message.transforms.push_back(
+        StampedTransform(time_ns, kVehicleFrame, RosName(gnss.name), antenna));
+  }
   return message;
 }
 
@@ -126,6 +144,14 @@ FrameTopics::FrameTopics(TopicsSpec spec) : spec_(std::move(spec)) {
   places_.objects = Add<SceneUpdate>("/objects");
   if (!spec_.rails_m.empty()) places_.track = Add<SceneUpdate>("/track", true);
   if (spec_.camera) AddCameraTopics();
+  const auto topic = [](const std::string& name) { return "/" + RosName(name); };
+  for (const ImuSpec& imu : spec_.motion.imus) places_.imus.push_back(Add<Imu>(topic(imu.name)));
+  for (const GnssSpec& gnss : spec_.motion.gnss) {
+    places_.gnss.push_back(Add<NavSatFix>(topic(gnss.name)));
+  }
+  for (const OdometerSpec& odometer : spec_.motion.odometers) {
+    places_.odometers.push_back(Add<TwistStamped>(topic(odometer.name)));
+  }
 }
 
 template <typename Message>
@@ -164,6 +190,7 @@ std::vector<TopicMessage> FrameTopics::Of(const FrameContent& content) const {
       {places_.objects, time_ns,
        ToCdr(BoxesUpdate(content.boxes, spec_.labels, MapFromWorld(), time_ns, lifetime_ns))});
   if (content.image != nullptr && spec_.camera) AddImage(*content.image, messages);
+  if (content.sensor == 0 && content.motion != nullptr) AddSamples(*content.motion, messages);
   return messages;
 }
 
@@ -196,6 +223,27 @@ void FrameTopics::AddMotion(const FrameContent& content,
   odometry.twist.twist = {VectorOf(vehicle.velocity_vehicle_mps),
                           VectorOf(vehicle.turn_vehicle_radps)};
   messages.push_back({places_.odometry, time_ns, ToCdr(odometry)});
+}
+
+void FrameTopics::AddSamples(const MotionSamples& samples,
+                             std::vector<TopicMessage>& messages) const {
+  for (std::size_t i = 0; i < samples.imus.size(); ++i) {
+    for (const ImuSample& sample : samples.imus[i]) {
+      messages.push_back(
+          {places_.imus.at(i), sample.time_ns, ToCdr(ImuMessage(sample, spec_.motion.imus[i]))});
+    }
+  }
+  for (std::size_t i = 0; i < samples.gnss.size(); ++i) {
+    for (const GnssSample& sample : samples.gnss[i]) {
+      messages.push_back(
+          {places_.gnss.at(i), sample.time_ns, ToCdr(FixMessage(sample, spec_.motion.gnss[i]))});
+    }
+  }
+  for (std::size_t i = 0; i < samples.odometers.size(); ++i) {
+    for (const OdometerSample& sample : samples.odometers[i]) {
+      messages.push_back({places_.odometers.at(i), sample.time_ns, ToCdr(SpeedMessage(sample))});
+    }
+  }
 }
 
 void FrameTopics::AddImage(const CameraImage& image, std::vector<TopicMessage>& messages) const {

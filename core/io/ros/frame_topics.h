@@ -12,6 +12,7 @@
 #include "core/io/ros/point_layout.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
+#include "railcast/motion_sensors.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -63,6 +64,9 @@ struct TopicCamera {
 struct TopicsSpec {
   std::vector<TopicSensor> sensors;
   std::optional<TopicCamera> camera;  ///< Its images belong to frames of the first sensor.
+  /// Their samples belong to frames of the first sensor, too.
+  MotionSensorsSpec motion;
+  std::vector<Transform> vehicle_from_imu;  ///< Of each of motion.imus.
   CloudSpec clouds;
   OutputSpec output;  ///< Right-handed. Its origin is that of the frame of reference `map`.
   LabelTable labels;
@@ -98,7 +102,8 @@ struct FrameContent {
   const Frame& frame;
   VehicleState vehicle;  ///< At the stamp.
   std::span<const SceneBox> boxes{};
-  const CameraImage* image{};  ///< Null = the frame has none.
+  const CameraImage* image{};     ///< Null = the frame has none.
+  const MotionSamples* motion{};  ///< As above. Counts with frames of the first sensor only.
 };
 
 /// What railcast says about a run on topics of ROS 2, the same live and in bags:
@@ -111,6 +116,7 @@ struct FrameContent {
 /// | `/objects` | SceneUpdate (Foxglove) | each frame: the objects' boxes with their labels |
 /// | `/track` | SceneUpdate (Foxglove) | once: the rails |
 /// | `/CAMERA/image`, `/CAMERA/camera_info` | Image, CameraInfo | each image |
+/// | `/imu`, `/gnss`, `/odometer` (their names) | Imu, NavSatFix, TwistStamped | each sample |
 ///
 /// Frames of reference (REP 103, 105): `map` is the world frame minus OutputSpec::origin_m,
 /// `base_link` the vehicle. Stamps are simulation time. Messages are functions of their frame
@@ -135,12 +141,14 @@ class FrameTopics {
     std::vector<std::vector<std::size_t>> points;  ///< By sensor and cloud.
     std::size_t tf_static{}, tf{}, odometry{}, clock{}, objects{};
     std::optional<std::size_t> track, image, camera_info;
+    std::vector<std::size_t> imus, gnss, odometers;
   };
   template <typename Message>
   [[nodiscard]] std::size_t Add(std::string name, bool is_latched = false);
   void AddCameraTopics();
   void AddClouds(const FrameContent& content, std::vector<TopicMessage>& messages) const;
   void AddMotion(const FrameContent& content, std::vector<TopicMessage>& messages) const;
+  void AddSamples(const MotionSamples& samples, std::vector<TopicMessage>& messages) const;
   void AddImage(const CameraImage& image, std::vector<TopicMessage>& messages) const;
   [[nodiscard]] Transform MapFromWorld() const;
   [[nodiscard]] std::string FrameIdOf(std::size_t sensor) const;
