@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/base/input_file.h"
+#include "core/base/units.h"
 #include "core/io/bag/bag.h"
 #include "core/io/cloud/point_table.h"
 #include "core/io/pcap/pcap_reader.h"
@@ -16,6 +18,7 @@
 #include "core/io/recording/packet_messages.h"
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/geometry_messages.h"
+#include "core/io/ros/point_layout.h"
 #include "core/io/ros/sensor_messages.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
@@ -119,6 +122,115 @@ TEST(BagRecording, ReadsFieldsByNameAndOffsetOfEitherByteOrder) {
     EXPECT_EQ(frame.z[static_cast<std::size_t>(first)], 3.0F);
     EXPECT_TRUE(frames[i].Has("ring"));
   }
+}
+
+/// A turn of 16 rings at 100 s, with every third firing lost.
+Frame TurnAt100s() {
+  Frame frame;
+  frame.Resize(16, 90, 1);
+  frame.stamp_ns = 100 * kSecond_ns;
+  for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const std::uint32_t row = slot / 90;
+    const std::uint32_t column = slot % 90;
+    const double azimuth_rad = RadFromDeg(-4.0 * column);
+    const double elevation_rad = RadFromDeg(2.0 * row - 15.0);
+    frame.ring[slot] = static_cast<std::uint16_t>(row);
+    frame.column[slot] = column;
+    frame.time_ns[slot] = column * 1'000'000U;
+    frame.outcome[slot] = Outcome::kNoSurface;
+    frame.x[slot] = frame.y[slot] = frame.z[slot] = std::numeric_limits<float>::quiet_NaN();
+    if (slot % 3 == 1) continue;
+    frame.outcome[slot] = Outcome::kReturned;
+    frame.range_m[slot] = 10.0F;
+    frame.x[slot] = static_cast<float>(10.0 * std::cos(elevation_rad) * std::cos(azimuth_rad));
+    frame.y[slot] = static_cast<float>(10.0 * std::cos(elevation_rad) * std::sin(azimuth_rad));
+    frame.z[slot] = static_cast<float>(10.0 * std::sin(elevation_rad));
+    frame.intensity[slot] = 0.5F;
+    frame.return_count[slot] = 1;
+  }
+  return frame;
+}
+
+using Positions = std::vector<std::array<float, 3>>;
+
+Positions PositionsOf(const Frame& frame) {
+  Positions positions;
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (!std::isnan(frame.x[i])) positions.push_back({frame.x[i], frame.y[i], frame.z[i]});
+  }
+  std::ranges::sort(positions);
+  return positions;
+}
+
+void ExpectTurn(const RecordedFrame& recorded, const Frame& expected) {
+  EXPECT_EQ(PositionsOf(recorded.frame), PositionsOf(expected));
+  EXPECT_TRUE(recorded.is_grid);
+  EXPECT_TRUE(recorded.Has("ring"));
+  ASSERT_TRUE(recorded.Has("time_ns"));
+  // Seconds as float64 are 15 ns apart at 100 s, and those of float32 since the stamp 7 ns.
+  EXPECT_NEAR(static_cast<double>(recorded.frame.stamp_ns - expected.stamp_ns), 0.0, 30.0);
+  EXPECT_NEAR(static_cast<double>(recorded.frame.duration_ns), 89e6, 30.0);
+}
+
+TEST(BagRecording, ReadsTheLayoutsOfTheDriversOfVendors) {
+  const Frame turn = TurnAt100s();
+  for (const auto layout :
+       {ros::PointLayout::kRailcast, ros::PointLayout::kVelodyne, ros::PointLayout::kOuster,
+        ros::PointLayout::kHesai, ros::PointLayout::kLivox}) {
+    SCOPED_TRACE(NameOf(layout));
+    MadeBag bag;
+    bag.Add("/points", 0, ros::MakeCloud(turn, {layout, {}}, "lidar"));
+    const auto frames = ReadAll(bag.Closed());
+    ASSERT_EQ(frames.size(), 1U);
+    ExpectTurn(frames[0], turn);
+  }
+}
+
+/// A point of Autoware's XYZIRCAEDT.
+struct AutowarePoint {
+  float x{}, y{}, z{};
+  std::uint8_t intensity{};
+  std::uint8_t return_type{};
+  std::uint16_t channel{};
+  float azimuth_rad{}, elevation_rad{}, distance_m{};
+  std::uint32_t time_ns{};
+};
+static_assert(sizeof(AutowarePoint) == 32);
+
+TEST(BagRecording, ReadsTheLayoutOfAutoware) {
+  const Frame turn = TurnAt100s();
+  ros::PointCloud2 cloud{.header = {TimeAt(turn.stamp_ns), "lidar"},
+                         .height = 1,
+                         .fields = {{"x", 0, 7, 1},
+                                    {"y", 4, 7, 1},
+                                    {"z", 8, 7, 1},
+                                    {"intensity", 12, 2, 1},
+                                    {"return_type", 13, 2, 1},
+                                    {"channel", 14, 4, 1},
+                                    {"azimuth", 16, 7, 1},
+                                    {"elevation", 20, 7, 1},
+                                    {"distance", 24, 7, 1},
+                                    {"time_stamp", 28, 6, 1}},
+                         .point_step = sizeof(AutowarePoint),
+                         .data = {}};
+  for (std::size_t i = 0; i < turn.num_slots(); ++i) {
+    if (std::isnan(turn.x[i])) continue;
+    const AutowarePoint point{.x = turn.x[i],
+                              .y = turn.y[i],
+                              .z = turn.z[i],
+                              .intensity = 50,
+                              .channel = turn.ring[i],
+                              .time_ns = turn.time_ns[i]};
+    const auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof point>>(point);
+    cloud.data.insert(cloud.data.end(), bytes.begin(), bytes.end());
+    ++cloud.width;
+  }
+  cloud.row_step = cloud.width * cloud.point_step;
+  MadeBag bag;
+  bag.Add("/points", 0, cloud);
+  const auto frames = ReadAll(bag.Closed());
+  ASSERT_EQ(frames.size(), 1U);
+  ExpectTurn(frames[0], turn);
 }
 
 // Half way between two transforms, and through one that never changes.
