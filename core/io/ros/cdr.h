@@ -48,7 +48,8 @@ class Writer {
     } else if constexpr (kIsNumber<T>) {
       PutRun(&value, 1);
     } else {
-      T::VisitFields(value, [this](std::string_view, const auto& field, auto...) { Put(field); });
+      T::VisitFields(value,
+                     [this](std::string_view, const auto& field, auto...) { this->Put(field); });
     }
   }
   void Put(const std::string& text);
@@ -125,7 +126,7 @@ class Reader {
     } else if constexpr (kIsNumber<T>) {
       TakeRun(&value, 1);
     } else {
-      T::VisitFields(value, [this](std::string_view, auto& field, auto...) { Take(field); });
+      T::VisitFields(value, [this](std::string_view, auto& field, auto...) { this->Take(field); });
     }
   }
   void Take(std::string& text);

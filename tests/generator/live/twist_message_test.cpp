@@ -36,8 +36,8 @@ TEST(TwistMessage, OfASpeedBringsTheVehicleToIt) {
 }
 
 TEST(TwistMessage, OfNoSpeedThatACommandMayNameIsRefused) {
-  EXPECT_EQ(FaultOf(Twist(-1.0)), "command: /speed_mps: must be >= 0 and <= 200 (got -1)");
-  EXPECT_EQ(FaultOf(Twist(201.0)), "command: /speed_mps: must be >= 0 and <= 200 (got 201)");
+  EXPECT_EQ(FaultOf(Twist(-1.0)), "command: /speed_mps: must be >= 0 and <= 200 (got -1.0)");
+  EXPECT_EQ(FaultOf(Twist(201.0)), "command: /speed_mps: must be >= 0 and <= 200 (got 201.0)");
   EXPECT_EQ(FaultOf(Twist(std::numeric_limits<double>::quiet_NaN())),
             "command: /speed_mps: must be a number (got null)");
 }
