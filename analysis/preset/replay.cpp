@@ -60,7 +60,10 @@ class PlaneCaster final : public RayCaster {
       const std::uint8_t index = PlaneAlong(direction);
       if (index == SeenPlanes::kNone) continue;
       const SeenPlane& plane = seen_.planes[index];
-      const double range_m = plane.RangeAlong_m(direction);
+      const Vector3 origin_m(static_cast<double>(tile.origin_x[i]),
+                             static_cast<double>(tile.origin_y[i]),
+                             static_cast<double>(tile.origin_z[i]));
+      const double range_m = plane.RangeAlong_m(direction, origin_m);
       if (!(range_m > 0.0 && range_m < static_cast<double>(tile.range_m[i]))) continue;
       tile.range_m[i] = static_cast<float>(range_m);
       tile.surface[i] = SurfaceOf(CellOf(seen_, index, direction));

@@ -17,9 +17,11 @@ struct SeenPlane {
   Vector3 normal = Vector3::UnitZ();   ///< Unit vector of either sign.
   std::size_t num_points{};
 
-  /// Range at which a ray from the sensor meets the plane; infinite or negative if it does not.
-  [[nodiscard]] double RangeAlong_m(const Vector3& direction) const {
-    return normal.dot(middle_m) / normal.dot(direction);
+  /// Range at which a ray from the sensor, or from a place in it, meets the plane; infinite or
+  /// negative if it does not.
+  [[nodiscard]] double RangeAlong_m(const Vector3& direction,
+                                    const Vector3& origin_m = Vector3::Zero()) const {
+    return normal.dot(middle_m - origin_m) / normal.dot(direction);
   }
   /// Whether it is level within 20 deg and below the sensor.
   [[nodiscard]] bool is_ground() const;
