@@ -124,7 +124,7 @@ std::vector<CaptureSensor> ReadableSensors(
                        .decoder = VelodyneDecoder(*model)});
   }
   for (const HesaiModel& model : HesaiModels()) {
-    sensors.push_back({.name = model.name,
+    sensors.push_back({.name = std::string(model.name),
                        .packet_size = model.layout.packet_size,
                        .shape = ShapeOfTurns(model.channels, IntensityBytes::kPercent),
                        .decoder = HesaiDecoder(model)});
@@ -134,7 +134,7 @@ std::vector<CaptureSensor> ReadableSensors(
 }
 
 CaptureSensor At128Of(const std::shared_ptr<const At128Correction>& correction) {
-  return {.name = kAt128Name,
+  return {.name = std::string(kAt128Name),
           .packet_size = kAt128PacketSize,
           .shape = ShapeOfTurns(At128Channels(*correction), IntensityBytes::kPercent),
           .decoder = At128Decoder(correction)};
@@ -158,7 +158,7 @@ bool IsPandar40P(std::span<const char> payload) {
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
   constexpr std::size_t kLeastHesaiHeader = 8;
-  if (load_correction_ && IsAt128Packet(payload)) {
+  if (IsAt128Packet(payload)) {
     return "packets of an AT128, whose correction file must be beside the capture, with its name "
            "and .dat";
   }
