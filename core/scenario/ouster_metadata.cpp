@@ -24,7 +24,7 @@ constexpr std::string_view kDataFormat = "lidar_data_format";
 constexpr std::string_view kFlatDataFormat = "data_format";
 
 constexpr double kMetresPerMillimetre = 1e-3;
-constexpr std::size_t kMostPixels = 256;
+constexpr std::size_t kMostPixelsPerColumn = 256;
 constexpr std::size_t kMostColumnsPerPacket = 64;
 constexpr std::size_t kMaxDatagramSize = 65'507;
 
@@ -225,7 +225,7 @@ void ReadDataFormat(MetadataReader& reader, OusterMetadata& metadata) {
     return;
   }
   metadata.pixels_per_column =
-      reader.RequiredWhole(kDataFormat, "pixels_per_column", 1, kMostPixels).value_or(0);
+      reader.RequiredWhole(kDataFormat, "pixels_per_column", 1, kMostPixelsPerColumn).value_or(0);
   const auto columns = reader.RequiredWhole(kDataFormat, "columns_per_frame", 1, 1U << 16U);
   if (columns && metadata.columns_per_frame > 0 && *columns != metadata.columns_per_frame) {
     reader.Add(reader.Find(kDataFormat, "columns_per_frame"),
@@ -260,8 +260,9 @@ void ReadBeams(MetadataReader& reader, OusterMetadata& metadata) {
     metadata.pixels_per_column = static_cast<std::uint32_t>(altitudes_deg.size());
   }
   const auto check_number = [&](std::string_view key, std::size_t number) {
-    if (number == metadata.pixels_per_column && number > 0 && number <= kMostPixels) return;
-    const std::string rule = metadata.pixels_per_column > 0 && number <= kMostPixels
+    if (number == metadata.pixels_per_column && number > 0 && number <= kMostPixelsPerColumn)
+      return;
+    const std::string rule = metadata.pixels_per_column > 0 && number <= kMostPixelsPerColumn
                                  ? "must have " + NumberText(metadata.pixels_per_column) +
                                        " angles, one for each pixel of a column"
                                  : "must have from 1 to 256 angles";

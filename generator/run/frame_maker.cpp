@@ -114,8 +114,8 @@ Simulator& FrameMaker::At(std::size_t sensor, std::uint32_t frame_index) {
 FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
   Simulator& simulator = At(sensor, frame_index);
   const bool has_image = camera_ && sensor == 0 && frame_index % frames_per_image_ == 0;
-  const ros::VehicleState vehicle =
-      ros::VehicleStateAt(simulator.world(), simulator.pattern().StampNs(frame_index));
+  const std::int64_t stamp_ns = simulator.pattern().StampNs(frame_index);
+  const RigidMotion vehicle = StateAt(stamp_ns).world->VehicleMotion(stamp_ns);
   return [this, sensor, &simulator, begun = simulator.Begin(frame_index), has_image,
           vehicle](MadeFrame& made) {
     simulator.Scan(*begun, made.frame);
@@ -123,7 +123,7 @@ FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
     made.objects = Describe(sensor, *begun, made.frame);
     made.has_image = has_image;
     if (has_image) camera_->Render(simulator, *begun, made.image);
-    if (sensor == 0) made.motion = SampleMotion(*begun);
+    made.motion = sensor == 0 ? SampleMotion(*begun) : MotionSamples{};
   };
 }
 

@@ -11,12 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros/frame_topics.h"
 #include "core/scenario/command_log.h"
 #include "generator/record/object_survey.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
+#include "railcast/motion_sensors.h"
 #include "railcast/rail_world.h"
+#include "railcast/rigid_motion.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
 
@@ -27,9 +28,9 @@ struct MadeFrame {
   Frame frame;
   std::vector<ObjectInFrame> objects;  ///< The records of the world's objects.
   CameraImage image;
-  bool has_image = false;     ///< Whether the camera has an image of this frame.
-  ros::VehicleState vehicle;  ///< At the stamp.
-  MotionSamples motion;       ///< Those in the time of this frame; none but of the first sensor.
+  bool has_image = false;  ///< Whether the camera has an image of this frame.
+  RigidMotion vehicle;     ///< At the stamp.
+  MotionSamples motion;    ///< Those in the time of this frame; none but of the first sensor.
 };
 
 /// Makes one frame. Called once, by any thread, while other frames may be made.

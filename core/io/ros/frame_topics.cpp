@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/image/jpeg.h"
 #include "core/io/image/png.h"
 #include "core/io/ros/cdr.h"
@@ -114,18 +113,6 @@ TfMessage StaticTransforms(const TopicsSpec& spec, std::int64_t time_ns) {
 
 }  // namespace
 
-VehicleState VehicleStateAt(const World& world, std::int64_t time_ns) {
-  constexpr std::int64_t kStep_ns = 1'000'000;
-  VehicleState state;
-  state.world_from_vehicle = world.WorldFromVehicle(time_ns);
-  const Transform before_from_after =
-      state.world_from_vehicle.inverse() * world.WorldFromVehicle(time_ns + kStep_ns);
-  const Eigen::AngleAxisd turn(before_from_after.linear());
-  state.velocity_vehicle_mps = before_from_after.translation() / SecondsFromNs(kStep_ns);
-  state.turn_vehicle_radps = turn.axis() * turn.angle() / SecondsFromNs(kStep_ns);
-  return state;
-}
-
 FrameTopics::FrameTopics(TopicsSpec spec) : spec_(std::move(spec)) {
   CheckNames(spec_);
   if (spec_.output.handedness != Handedness::kRight) {
@@ -211,8 +198,9 @@ void FrameTopics::AddClouds(const FrameContent& content,
 void FrameTopics::AddMotion(const FrameContent& content,
                             std::vector<TopicMessage>& messages) const {
   const std::int64_t time_ns = content.frame.stamp_ns;
-  const VehicleState& vehicle = content.vehicle;
-  const Transform map_from_vehicle = MapFromWorld() * vehicle.world_from_vehicle;
+  const RigidMotion& vehicle = content.vehicle;
+  const Transform map_from_vehicle = MapFromWorld() * vehicle.world_from_body;
+  const Eigen::Matrix3d vehicle_from_world = vehicle.world_from_body.linear().transpose();
   messages.push_back({places_.clock, time_ns, ToCdr(Clock{TimeOf(time_ns)})});
   const TfMessage pose = {{StampedTransform(time_ns, kMapFrame, kVehicleFrame, map_from_vehicle)}};
   messages.push_back({places_.tf, time_ns, ToCdr(pose)});
@@ -220,8 +208,8 @@ void FrameTopics::AddMotion(const FrameContent& content,
   odometry.header = HeaderAt(time_ns, kMapFrame);
   odometry.child_frame_id = kVehicleFrame;
   odometry.pose.pose = PoseOf(map_from_vehicle);
-  odometry.twist.twist = {VectorOf(vehicle.velocity_vehicle_mps),
-                          VectorOf(vehicle.turn_vehicle_radps)};
+  odometry.twist.twist = {VectorOf(vehicle_from_world * vehicle.velocity_mps),
+                          VectorOf(vehicle_from_world * vehicle.angular_velocity_radps)};
   messages.push_back({places_.odometry, time_ns, ToCdr(odometry)});
 }
 

@@ -13,13 +13,8 @@
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/motion_sensors.h"
+#include "railcast/rigid_motion.h"
 #include "railcast/transform.h"
-
-namespace railcast {
-
-class World;
-
-}  // namespace railcast
 
 namespace railcast::ros {
 
@@ -86,21 +81,11 @@ struct SceneBox {
   std::optional<double> occlusion{};  ///< Share that something else hides; absent = not in sight.
 };
 
-/// Pose and velocity of the vehicle at an instant.
-struct VehicleState {
-  Transform world_from_vehicle = Transform::Identity();
-  Vector3 velocity_vehicle_mps = Vector3::Zero();  ///< Of its origin, in its own axes.
-  Vector3 turn_vehicle_radps = Vector3::Zero();    ///< As above.
-};
-
-/// The vehicle's state at a time, as the world moves it. The velocities are means over 1 ms.
-[[nodiscard]] VehicleState VehicleStateAt(const World& world, std::int64_t time_ns);
-
 /// A frame and what belongs to it.
 struct FrameContent {
   std::size_t sensor{};  ///< Index in TopicsSpec::sensors.
   const Frame& frame;
-  VehicleState vehicle;  ///< At the stamp.
+  RigidMotion vehicle;  ///< At the stamp.
   std::span<const SceneBox> boxes{};
   const CameraImage* image{};     ///< Null = the frame has none.
   const MotionSamples* motion{};  ///< As above. Counts with frames of the first sensor only.

@@ -93,9 +93,12 @@ TEST(FrameTopics, SayTheVehiclesMotionWithFramesOfTheFirstSensor) {
   spec.output.origin_m = {100.0, 0.0, 0.0};
   const FrameTopics topics(spec);
   const Frame frame = ExampleFrame(3);
-  VehicleState vehicle;
-  vehicle.world_from_vehicle.translation() = Vector3(150.0, 2.0, 1.0);
-  vehicle.velocity_vehicle_mps = Vector3(20.0, 0.0, 0.0);
+  // Northwards.
+  const Eigen::Matrix3d turned{{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
+  RigidMotion vehicle;
+  vehicle.world_from_body = MakeTransform(turned, Vector3(150.0, 2.0, 1.0));
+  vehicle.velocity_mps = Vector3(0.0, 20.0, 0.0);
+  vehicle.angular_velocity_radps = Vector3(0.0, 0.5, 0.1);
   const auto messages = ByTopic(topics, topics.Of({0, frame, vehicle}));
   const auto tf = Decoded<TfMessage>(messages.at("/tf"));
   ASSERT_EQ(tf.transforms.size(), 1U);
@@ -105,6 +108,7 @@ TEST(FrameTopics, SayTheVehiclesMotionWithFramesOfTheFirstSensor) {
   const auto odometry = Decoded<Odometry>(messages.at("/odometry"));
   EXPECT_EQ(odometry.pose.pose.position, (Point{50.0, 2.0, 1.0}));
   EXPECT_EQ(odometry.twist.twist.linear, (RosVector3{20.0, 0.0, 0.0}));
+  EXPECT_EQ(odometry.twist.twist.angular, (RosVector3{0.5, 0.0, 0.1}));
   EXPECT_EQ(Decoded<Clock>(messages.at("/clock")).clock, (Time{0, 300'000'000}));
   for (const auto& [topic, message] : messages) EXPECT_EQ(message.time_ns, 300'000'000);
   EXPECT_EQ(ByTopic(topics, topics.Of({1, frame, vehicle})).size(), 2U);
