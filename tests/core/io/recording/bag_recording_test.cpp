@@ -432,6 +432,16 @@ std::vector<std::vector<std::uint8_t>> PacketsOfCapture(const std::filesystem::p
   return packets;
 }
 
+void ExpectSamePoints(const std::vector<RecordedFrame>& frames,
+                      const std::vector<RecordedFrame>& expected) {
+  ASSERT_EQ(frames.size(), expected.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_TRUE(std::ranges::equal(frames[i].frame.x, expected[i].frame.x, [](float a, float b) {
+      return a == b || (std::isnan(a) && std::isnan(b));
+    }));
+  }
+}
+
 // The same frames as the capture from which the packets were taken.
 TEST(BagRecording, OfPacketsIsReadAsACaptureOfThem) {
   const std::filesystem::path capture =
@@ -446,12 +456,29 @@ TEST(BagRecording, OfPacketsIsReadAsACaptureOfThem) {
         PackedAs<ros::NebulaPackets, ros::NebulaPacket>(nebula, packets)}) {
     const auto recording = OpenRecording(file);
     EXPECT_EQ(recording->info().kind, "capture of VLP-32C");
-    const auto frames = ReadAll(*recording);
-    ASSERT_EQ(frames.size(), expected.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      EXPECT_TRUE(std::ranges::equal(frames[i].frame.x, expected[i].frame.x, [](float a, float b) {
-        return a == b || (std::isnan(a) && std::isnan(b));
-      }));
+    ExpectSamePoints(ReadAll(*recording), expected);
+  }
+}
+
+// Ouster's driver records the metadata of its sensor on a topic beside the packets.
+TEST(BagRecording, OfOustersPacketsHasTheirMetadataInATopic) {
+  const std::filesystem::path folder = RAILCAST_SHARED_DATA_DIR "/lidar_ouster";
+  if (!exists(folder)) GTEST_SKIP() << folder << " is not there";
+  const std::filesystem::path capture = folder / "OS-2-128-U1_v2.3.0_1024x10.pcap";
+  const std::string metadata = ReadFileWhole(folder / "OS-2-128-U1_v2.3.0_1024x10.json");
+  for (const auto& text : {metadata, std::string("{}")}) {
+    MadeBag bag;
+    bag.Add("/ouster/metadata", 0, ros::StringMessage{text});
+    for (const auto& packet : PacketsOfCapture(capture)) {
+      bag.Add("/ouster/lidar_packets", 0, ros::OusterPacketMessage{packet});
+    }
+    const auto file = bag.Closed();
+    if (text == metadata) {
+      ExpectSamePoints(ReadAll(*OpenRecording(file)), ReadAll(capture));
+    } else {
+      EXPECT_TRUE(MessageOf([&] {
+                    (void)OpenRecording(file);
+                  }).starts_with(file.string() + ": /ouster/metadata: "));
     }
   }
 }
