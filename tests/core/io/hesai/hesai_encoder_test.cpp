@@ -52,16 +52,16 @@ std::vector<SensorTurn> TurnsIn(const HesaiModel& model, const Datagrams& datagr
   return turns;
 }
 
-struct Sending {
+struct SentAs {
   std::string protocol;
   ReturnMode mode{};
 };
 
-void PrintTo(const Sending& sending, std::ostream* out) {
+void PrintTo(const SentAs& sending, std::ostream* out) {
   *out << sending.protocol << " " << NameOf(sending.mode);
 }
 
-class HesaiRoundTrip : public testing::TestWithParam<Sending> {
+class HesaiRoundTrip : public testing::TestWithParam<SentAs> {
  protected:
   const HesaiModel& model_ = *FindHesaiModel(GetParam().protocol);
   const MadeScan scan_{ReadSensor(FileOf(model_))};
@@ -174,8 +174,8 @@ TEST_P(HesaiRoundTrip, GivesThePointsOfTheFrames) {
   EXPECT_EQ(num_points, num_expected);
 }
 
-std::vector<Sending> Sendings() {
-  std::vector<Sending> sendings;
+std::vector<SentAs> Sendings() {
+  std::vector<SentAs> sendings;
   std::string last;
   for (const HesaiModel& model : HesaiModels()) {
     if (model.protocol == last) continue;
