@@ -91,7 +91,7 @@ void ReadCapture(std::span<const char> bytes) {
     return stream;
   };
   try {
-    const auto recording = OpenCapture(open, "fuzz", [] { return nullptr; });
+    const auto recording = OpenCapture(open, "fuzz");
     while (const auto read = recording->Next()) CheckFrame((*read)());
   } catch (const InputError& error) {
     Check(std::string(error.what()).starts_with("fuzz: "), "a fault names its file");
