@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/io/pcap/pcap_writer.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
@@ -109,11 +110,10 @@ class MadeOusterCapture : public testing::Test {
 
 TEST_F(MadeOusterCapture, WithoutMetadataSaysWhatIsMissing) {
   WriteCapture({48, 24'832});
-  EXPECT_EQ(
-      FaultOfCapture(),
-      "drive.pcap: must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32 or "
-      "QT128 (got packets of 24832 bytes of an Ouster sensor, whose metadata must stand beside "
-      "the capture)");
+  EXPECT_EQ(FaultOfCapture(),
+            "drive.pcap: must be a capture of " + ReadableSensorsText() +
+                " (got packets of 24832 bytes of an Ouster sensor, whose metadata must stand "
+                "beside the capture)");
 }
 
 TEST_F(MadeOusterCapture, WithMetadataOfAnotherModelSaysWhatDiffers) {
