@@ -23,9 +23,12 @@ function digest(message) {
     return message.entities.map((entity) => ({ id: entity.id, lines: entity.lines.length,
       cubes: entity.cubes.length, texts: entity.texts.map((text) => text.text) }));
   }
-  if (message.twist !== undefined) {
+  if (message.pose !== undefined) {
     return { x: message.pose.pose.position.x, speed: message.twist.twist.linear.x };
   }
+  if (message.twist !== undefined) return message.twist.linear.x;
+  if (message.linear_acceleration !== undefined) return message.linear_acceleration.z;
+  if (message.latitude !== undefined) return message.status.status;
   if (message.format !== undefined) return message.format;
   if (message.distortion_model !== undefined) return message.k[0];
   return message.clock;
