@@ -2,17 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/io/bag/bag.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/cloud/kitti_names.h"
+#include "core/io/content_hash.h"
 #include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/cloud_message.h"
 #include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/ros/cdr.h"
+#include "core/io/ros/point_layout.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
@@ -72,11 +83,72 @@ void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorde
   CheckRecords(line, lines);
 }
 
-RecordedFrame ReadFrame(const SequenceContext& context, const FrameLines& lines) {
+/// A message of a run's bag.
+struct CloudInBag {
+  std::string bag;
+  std::vector<std::byte> cdr;
+};
+
+/// The clouds of a run's bag, which has one for each of the run's frames.
+class CloudsOfBag {
+ public:
+  /// @throws InputError "bag: rule" if its clouds cannot be put into the slots of the scan.
+  explicit CloudsOfBag(const SequenceSummary& summary)
+      : file_((summary.directory / summary.run.bag).lexically_normal()) {
+    if (!exists(file_)) file_ += kUnfinishedSuffix;
+    if (ros::ParseCloudSpec(summary.run.fields).layout != ros::PointLayout::kRailcast) {
+      throw InputError(ShownPath(summary.directory) + ": must have railcast's fields (got " +
+                       summary.run.fields + "); open " + ShownPath(file_) + " instead");
+    }
+    reader_ = bag::OpenBag(file_);
+    const auto& topics = reader_->topics();
+    const auto found =
+        std::ranges::find(topics, summary.run.cloud_topics.at(0), &bag::BagTopic::name);
+    if (found == topics.end()) {
+      throw InputError(ShownPath(file_) + ": must have the topic " +
+                       ShownText(summary.run.cloud_topics[0]));
+    }
+    reader_->Select({static_cast<std::size_t>(found - topics.begin())});
+  }
+
+  /// @throws InputError "bag: rule" if there is no further cloud.
+  [[nodiscard]] CloudInBag Next() {
+    const auto message = reader_->Next();
+    if (!message) throw InputError(ShownPath(file_) + ": must have a cloud for each frame");
+    return {ShownPath(file_), {message->data.begin(), message->data.end()}};
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::unique_ptr<bag::BagReader> reader_;
+};
+
+RecordedFrame ReadCloudInBag(const SequenceContext& context,
+                             const CloudInBag& cloud,
+                             const std::string& known_hash,
+                             bool& has_ranges) {
+  const std::string_view bytes(reinterpret_cast<const char*>(cloud.cdr.data()), cloud.cdr.size());
+  if (ContentHash(bytes) != known_hash) {
+    throw InputError(cloud.bag + ": must have the clouds of which " + std::string(kFramesFile) +
+                     " states the hashes");
+  }
+  return AtPlace(cloud.bag + ": ", [&] {
+    const PointTable table = MakePointTable(ros::FromCdr<ros::PointCloud2>(cloud.cdr));
+    has_ranges = table.Find("range_m") != nullptr;
+    return MakeScanFrame(table, cloud.bag, context.pattern, true);
+  });
+}
+
+/// @param cloud Null unless the run's clouds are in a bag.
+RecordedFrame ReadFrame(const SequenceContext& context,
+                        const FrameLines& lines,
+                        const CloudInBag* cloud) {
   FrameLine line = ReadNextFrameLine(lines);
   RecordedFrame recorded;
   bool has_ranges = true;
-  if (context.has_clouds) {
+  if (cloud != nullptr) {
+    recorded = ReadCloudInBag(context, *cloud, line.clouds_hash, has_ranges);
+  } else if (context.has_clouds) {
     const KnownFile& known = CloudFileOf(line, lines.frame.place);
     const std::string file = ShownPath(context.directory / known.name);
     std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
@@ -172,6 +244,7 @@ class SequenceRecording : public Recording {
                         .pattern = BuildScanPattern(lidar.scan),
                         .output = info_.scenario->output,
                         .vehicle_from_sensor = VehicleFromSensor(lidar.mount)});
+    if (!summary.run.bag.empty()) clouds_.emplace(summary);
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -179,9 +252,11 @@ class SequenceRecording : public Recording {
   [[nodiscard]] std::optional<FrameReader> Next() override {
     auto lines = lines_.Next();
     if (!lines) return std::nullopt;
-    return [context = context_, lines = std::move(*lines)] {
+    std::shared_ptr<const CloudInBag> cloud;
+    if (clouds_) cloud = std::make_shared<const CloudInBag>(clouds_->Next());
+    return [context = context_, lines = std::move(*lines), cloud = std::move(cloud)] {
       return WithinMemory([&] { return ReadingFrameText(context->directory, lines); },
-                          [&] { return ReadFrame(*context, lines); });
+                          [&] { return ReadFrame(*context, lines, cloud.get()); });
     };
   }
 
@@ -204,6 +279,7 @@ class SequenceRecording : public Recording {
   RecordingInfo info_;
   std::shared_ptr<const SequenceContext> context_;
   FrameLineReader lines_;
+  std::optional<CloudsOfBag> clouds_;  ///< If the run's clouds are in a bag.
 };
 
 /// The clouds of a sequence in KITTI's format: read like any KITTI clouds, but checked against

@@ -66,6 +66,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
       throw InputError(place + ": motion_sensors: must be names of files (got " +
                        ShownText(sensor) + ")");
     }
+    if (json.contains("fields")) json.at("fields").get_to(run.fields);
     if (json.contains("bag")) ReadBag(json.at("bag"), place, run);
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");

@@ -19,6 +19,8 @@ struct RunSummary {
   std::string scenario_hash;
   std::uint64_t seed{};
   std::string format;
+  std::string
+      fields{};  ///< Of its points, as `--fields` says them; empty if the format has others.
   std::uint32_t start_frame{};
   std::uint32_t num_frames{};
   std::uint32_t stride = 1;                 ///< From one frame's number to the next.

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "generator/run/make_frames.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
@@ -123,6 +126,32 @@ TEST_F(Bags, HoldTheCloudsOfTheFilesBitByBit) {
     EXPECT_EQ(cloud.data.size(), std::size_t{cloud.width} * cloud.height * 63);
     EXPECT_EQ(bag.times_ns.at("/beams/points")[i], 100'000'000LL * static_cast<int>(i));
   }
+}
+
+// With the poses and objects that stand beside the bag.
+TEST_F(Bags, AreOpenedAsTheSequencesThatTheyBelongTo) {
+  const std::vector<RecordedFrame> expected = ReadAll(Make("files", "--format pcd " + frames_));
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    const std::vector<RecordedFrame> frames =
+        ReadAll(Make(format, "--format " + format + " " + frames_));
+    ASSERT_EQ(frames.size(), expected.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Frame& frame = frames[i].frame;
+      EXPECT_EQ(frames[i].fields, expected[i].fields);
+      EXPECT_TRUE(frames[i].is_grid);
+      EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(frame.x)),
+                                     std::as_bytes(std::span(expected[i].frame.x))));
+      EXPECT_EQ(frame.label, expected[i].frame.label);
+      EXPECT_EQ(frame.time_ns, expected[i].frame.time_ns);
+      EXPECT_EQ(frame.stamp_ns, expected[i].frame.stamp_ns);
+      EXPECT_TRUE(frame.world_from_sensor.isApprox(expected[i].frame.world_from_sensor, 0.0));
+      EXPECT_EQ(frames[i].objects.size(), expected[i].objects.size());
+    }
+  }
+  const fs::path vendor = Make("vendor", "--format mcap --fields velodyne " + frames_);
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(vendor); }),
+            vendor.string() + ": must have railcast's fields (got velodyne); open " +
+                (vendor / "frames.mcap").string() + " instead");
 }
 
 TEST_F(Bags, HaveTheTopicsOfTheRun) {
