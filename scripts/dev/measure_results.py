@@ -29,7 +29,7 @@ FILE = ROOT / results.FILE
 IDLE_LOAD = 0.5
 BUSY = "other programs ran, to be measured again"
 SCENES = ("open_line", "parallel_wagons", "forest_rain", "fog_yard")
-SENSORS = {"pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette", "narrow": "narrow view"}
+SENSORS = {"pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette"}
 
 
 def said(*command, **options):
@@ -255,8 +255,8 @@ def situations(build):
 
 
 # Each with the minutes that it takes on two cores.
-PARTS = {"frontier": (frontier, 60), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
-         "modules": (modules, 5), "settings": (settings, 15), "plants": (plants, 2), "weather": (weather, 5),
+PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
+         "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
          "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "situations": (situations, 10),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
 UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
