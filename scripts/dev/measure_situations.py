@@ -135,13 +135,21 @@ def run(build, name, folder):
     return num_frames / seconds
 
 
-def telling_frame(name, folder):
+def first_sequence(run):
+    """The sequence of a run's first sensor: the run's own folder if that is the only one."""
+    sensors = run / "sensors.json"
+    if not sensors.exists():
+        return run
+    return run / json.loads(sensors.read_text(encoding="utf-8"))["sensors"][0]["name"]
+
+
+def telling_frame(name, sequence):
     """The first frame that shows half as many points on the situation's objects as any."""
-    with open(folder / name / "objects.jsonl", encoding="utf-8") as lines:
+    with open(sequence / "objects.jsonl", encoding="utf-8") as lines:
         points = [sum(o["points"] for o in json.loads(line)["objects"]
                       if o["name"] in SITUATIONS[name][1]) for line in lines]
     if name == "signal_in_fog":
-        points = [labels.get("signal", 0) for _, labels in label_counts(folder / name)]
+        points = [labels.get("signal", 0) for _, labels in label_counts(sequence)]
     return next(i for i, count in enumerate(points) if 2 * count >= max(points))
 
 
@@ -149,13 +157,14 @@ def draw(build, name, folder):
     """Draws the picture of a situation from the driver's place."""
     images = ROOT / "docs/images/situations"
     images.mkdir(exist_ok=True)
+    sequence = first_sequence(folder / name)
     with tempfile.TemporaryDirectory() as scratch:
         png = Path(scratch) / f"{name}.png"
         # In the runs' folder, so that no picture shows a temporary path.
         subprocess.run(["xvfb-run", "--auto-servernum",
                         "--server-args=-noreset -screen 0 1920x1080x24",
-                        build / "viewer/railcast-view", name, "--frame",
-                        str(telling_frame(name, folder)), "--camera", "driver", "--color-by",
+                        build / "viewer/railcast-view", sequence.relative_to(folder), "--frame",
+                        str(telling_frame(name, sequence)), "--camera", "driver", "--color-by",
                         "label", "--point-size", "3", "--size", "960x540", "--screenshot", png],
                        check=True, capture_output=True, cwd=folder)
         code = ("import sys, open3d as o3d; "
