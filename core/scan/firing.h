@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,19 @@ struct FiringGrid {
   std::vector<Firing> firings;
 };
 
+/// Gives the firings of the frames of a pattern that does not repeat. Between frames only azimuths
+/// and elevations differ.
+struct MovingFigure {
+  /// @param since_first_ns From the stamp of frame 0 to that of the frame.
+  std::function<FiringGrid(std::uint32_t frame_index, std::int64_t since_first_ns)> firings_of;
+};
+
+/// The firings of frame 0, and what gives those of later frames if they differ.
+struct FramesOfFirings {
+  FiringGrid first;
+  std::shared_ptr<const MovingFigure> figure{};
+};
+
 /// Larger frames (this one takes about 1 GB) are assumed to be a mistake in the input.
 inline constexpr std::size_t kMaxNumFirings = std::size_t{1} << 24U;
 
@@ -44,11 +59,23 @@ inline constexpr double kNsPerUs = 1e3;
 [[nodiscard]] FiringGrid SpinningFirings(const SpinningSpec& spec,
                                          double rate_hz,
                                          ErrorList& errors);
+[[nodiscard]] FramesOfFirings RisleyFirings(const RisleySpec& spec,
+                                            double rate_hz,
+                                            ErrorList& errors);
 /// Faults in the file read "file:line: column: rule (got ...)".
-[[nodiscard]] FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors);
-/// As TableFirings(), for a stream that messages call `shown`.
-[[nodiscard]] FiringGrid ParseFiringTable(std::istream& file,
-                                          const std::string& shown,
-                                          ErrorList& errors);
+[[nodiscard]] FramesOfFirings TableFirings(const FiringTableSpec& spec,
+                                           double rate_hz,
+                                           ErrorList& errors);
+
+/// A stream with a firing table.
+struct FiringTableText {
+  std::istream& text;
+  std::string shown;  ///< What messages call it.
+  std::uint32_t num_frames = 1;
+};
+/// The firings of each frame of a table.
+[[nodiscard]] std::vector<FiringGrid> ParseFiringTable(FiringTableText table,
+                                                       double rate_hz,
+                                                       ErrorList& errors);
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ constexpr std::array<std::string_view, 4> kNames = {"azimuth_deg", "elevation_de
                                                     "ring"};
 constexpr double kMaxRing = 65535.0;
 constexpr double kMaxTime_us = 4294967.0;  // Time in a frame is stored as 32-bit nanoseconds.
+constexpr std::uint32_t kMaxNumFrames = 100'000;
+// Between frames, times may differ by the rounding of what wrote the table.
+constexpr std::int64_t kSameTime_ns = 1000;
 // A file that is not a table at all has a fault in every line.
 constexpr std::size_t kMaxNumFaults = 20;
 
@@ -66,9 +70,14 @@ bool ParseLine(std::string_view line,
   return good;
 }
 
-/// @param last_us Time of the previous line; negative for the first.
+/// The times that a line may have.
+struct TimeLimits {
+  double last_us{};  ///< Time of the previous line; negative for the first.
+  double most_us{};
+};
+
 void CheckValues(const Values& values,
-                 double last_us,
+                 const TimeLimits& limits,
                  const std::string& place,
                  ErrorList& errors) {
   const auto [azimuth_deg, elevation_deg, time_us, ring] = values;
@@ -78,12 +87,12 @@ void CheckValues(const Values& values,
   if (std::abs(elevation_deg) > 90.0) {
     errors.Add(FaultOf(place + ": elevation_deg", "must be >= -90 and <= 90", elevation_deg));
   }
-  if (last_us < 0.0 && time_us != 0.0) {
+  if (limits.last_us < 0.0 && time_us != 0.0) {
     errors.Add(FaultOf(place + ": time_us", "the first must be 0", time_us));
-  } else if (time_us < last_us) {
+  } else if (time_us < limits.last_us) {
     errors.Add(FaultOf(place + ": time_us", "must not decrease", time_us));
-  } else if (time_us > kMaxTime_us) {
-    errors.Add(FaultOf(place + ": time_us", "must be <= 4294967", time_us));
+  } else if (time_us > limits.most_us) {
+    errors.Add(FaultOf(place + ": time_us", "must be <= " + NumberText(limits.most_us), time_us));
   }
   if (!(ring >= 0.0 && ring <= kMaxRing && ring == std::floor(ring))) {
     errors.Add(FaultOf(place + ": ring", "must be a whole number from 0 to 65535", ring));
@@ -135,17 +144,80 @@ FiringGrid GridOf(std::vector<Firing> firings, const std::string& place, ErrorLi
           .firings = std::move(firings)};
 }
 
-}  // namespace
-
-FiringGrid TableFirings(const FiringTableSpec& spec, ErrorList& errors) {
-  auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
-  if (!file) return {};
-  return ParseFiringTable(*file, ShownPath(spec.file), errors);
+// A firing of a later frame, which must repeat one of the first frame but for its direction.
+void CheckRepeats(const Firing& firing,
+                  const Firing& first,
+                  std::int64_t since_first_ns,
+                  const std::string& place,
+                  ErrorList& errors) {
+  const std::int64_t time_ns = first.time_ns + since_first_ns;
+  if (std::abs(firing.time_ns - time_ns) > kSameTime_ns) {
+    errors.Add(FaultOf(place + ": time_us",
+                       "must be that of the same firing in the first frame, and the periods since, "
+                       "to 1 us: " +
+                           NumberText(static_cast<double>(time_ns) / kNsPerUs),
+                       static_cast<double>(firing.time_ns) / kNsPerUs));
+  }
+  if (firing.row != first.row) {
+    errors.Add(
+        FaultOf(place + ": ring",
+                "must be that of the same firing in the first frame, " + NumberText(first.row),
+                firing.row));
+  }
 }
 
-FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorList& errors) {
+/// Cuts a table into frames of as many firings, which get the times and places of the first.
+std::vector<FiringGrid> FramesOf(FiringGrid whole,
+                                 const FiringTableText& table,
+                                 double rate_hz,
+                                 ErrorList& errors) {
+  const std::size_t num_firings = whole.firings.size() / table.num_frames;
+  if (num_firings * table.num_frames != whole.firings.size()) {
+    errors.Add(FaultOf(
+        table.shown,
+        "must have as many firings in each of its " + NumberText(table.num_frames) + " frames",
+        static_cast<double>(whole.firings.size())));
+    return {};
+  }
+  std::vector<FiringGrid> frames(table.num_frames,
+                                 {whole.rows, whole.columns / table.num_frames, {}});
+  for (std::size_t i = 0; i < whole.firings.size(); ++i) {
+    Firing& firing = whole.firings[i];
+    const Firing& first = whole.firings[i % num_firings];
+    const std::size_t frame = i / num_firings;
+    CheckRepeats(firing, first, std::llround(kNsPerS * static_cast<double>(frame) / rate_hz),
+                 table.shown + ":" + std::to_string(i + 2), errors);
+    if (!errors.empty()) return {};
+    firing.time_ns = first.time_ns;
+    firing.column = first.column;
+    frames[frame].firings.push_back(firing);
+  }
+  return frames;
+}
+
+}  // namespace
+
+FramesOfFirings TableFirings(const FiringTableSpec& spec, double rate_hz, ErrorList& errors) {
+  if (spec.frames == 0 || spec.frames > kMaxNumFrames) {
+    errors.Add(FaultOf("/pattern/frames", "must be >= 1 and <= 100000", spec.frames));
+    return {};
+  }
+  auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
+  if (!file) return {};
+  auto frames = ParseFiringTable({*file, ShownPath(spec.file), spec.frames}, rate_hz, errors);
+  if (!errors.empty()) return {};
+  if (frames.size() == 1) return {std::move(frames.front())};
+  const auto shared = std::make_shared<const std::vector<FiringGrid>>(std::move(frames));
+  const auto of_frame = [shared](std::uint32_t frame_index, std::int64_t) {
+    return (*shared)[frame_index % shared->size()];
+  };
+  return {shared->front(), std::make_shared<const MovingFigure>(MovingFigure{of_frame})};
+}
+
+std::vector<FiringGrid> ParseFiringTable(FiringTableText table, double rate_hz, ErrorList& errors) {
+  auto& [text, shown, num_frames] = table;
   std::string line;
-  std::getline(file, line);
+  std::getline(text, line);
   const bool has_rings = Trimmed(line) == kRingHeader;
   if (!has_rings && Trimmed(line) != kHeader) {
     errors.Add({shown + ":1", "must be " + Quoted(kHeader) + " or " + Quoted(kRingHeader),
@@ -154,17 +226,17 @@ FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorL
   }
   const std::size_t num_columns = has_rings ? kNames.size() : kNames.size() - 1;
   std::vector<Firing> firings;
-  double last_us = -1.0;
-  for (std::size_t number = 2; std::getline(file, line); ++number) {
+  TimeLimits limits{-1.0, kMaxTime_us * num_frames};
+  for (std::size_t number = 2; std::getline(text, line); ++number) {
     const std::string place = shown + ":" + std::to_string(number);
     Values values{};
     if (!ParseLine(line, num_columns, place, values, errors)) {
       if (errors.size() >= kMaxNumFaults) return {};
       continue;
     }
-    CheckValues(values, last_us, place, errors);
+    CheckValues(values, limits, place, errors);
     if (errors.size() >= kMaxNumFaults) return {};
-    last_us = values[2];
+    limits.last_us = values[2];
     if (firings.size() == kMaxNumFirings) {
       errors.Add({shown, "must have at most 16777216 firings", ""});
       return {};
@@ -172,15 +244,16 @@ FiringGrid ParseFiringTable(std::istream& file, const std::string& shown, ErrorL
     if (!errors.empty()) continue;
     firings.push_back({.azimuth_rad = RadFromDeg(values[0]),
                        .elevation_rad = RadFromDeg(values[1]),
-                       .time_ns = std::llround(last_us * kNsPerUs),
+                       .time_ns = std::llround(values[2] * kNsPerUs),
                        .row = static_cast<std::uint16_t>(values[3])});
   }
   if (firings.empty() && errors.empty()) {
     errors.Add({shown, "must have at least one firing", "0"});
   }
   if (!errors.empty()) return {};
-  FiringGrid grid = GridOf(std::move(firings), shown + ": ring", errors);
-  return errors.empty() ? grid : FiringGrid{};
+  FiringGrid whole = GridOf(std::move(firings), shown + ": ring", errors);
+  return errors.empty() ? FramesOf(std::move(whole), table, rate_hz, errors)
+                        : std::vector<FiringGrid>{};
 }
 
 }  // namespace railcast

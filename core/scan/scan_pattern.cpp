@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "core/base/text.h"
@@ -21,13 +22,15 @@ namespace {
 ///
 /// If n firings cover a x e (azimuth x elevation), each takes a e / n. A square of p firings has
 /// the side sqrt(p a e / n), and a band of that height holds n / e times as many: sqrt(p n a / e).
-std::size_t BandSize(const FiringGrid& grid) {
+/// @param has_level_rows Whether the firings of a row have one elevation: then bands are whole
+/// rows.
+std::size_t BandSize(const FiringGrid& grid, bool has_level_rows) {
   const auto [left, right] = std::ranges::minmax(grid.firings, {}, &Firing::azimuth_rad);
   const auto [low, high] = std::ranges::minmax(grid.firings, {}, &Firing::elevation_rad);
   const double width_rad = right.azimuth_rad - left.azimuth_rad;
   const double height_rad = high.elevation_rad - low.elevation_rad;
   const auto num_firings = static_cast<double>(grid.firings.size());
-  const double whole_rows = grid.rows > 1 ? grid.columns : 1;
+  const double whole_rows = grid.rows > 1 && has_level_rows ? grid.columns : 1;
   const double size = std::sqrt(kPacketSize * num_firings * width_rad / height_rad);
   if (!(size < num_firings)) return grid.firings.size();  // True also if the height is 0.
   return static_cast<std::size_t>(std::max(1.0, std::round(size / whole_rows)) * whole_rows);
@@ -43,7 +46,7 @@ std::size_t BandSize(const FiringGrid& grid) {
 // is cut into packets. Every packet is therefore full, even where blocks of whole rows and columns
 // would not fit, and compact, even if the channels of one column differ by several degrees in
 // azimuth.
-std::vector<std::uint32_t> PacketOrder(const FiringGrid& grid) {
+std::vector<std::uint32_t> PacketOrder(const FiringGrid& grid, bool has_level_rows) {
   const std::vector<Firing>& firings = grid.firings;
   std::vector<std::uint32_t> order(firings.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -52,7 +55,7 @@ std::vector<std::uint32_t> PacketOrder(const FiringGrid& grid) {
   std::ranges::sort(order, {}, [&](std::uint32_t i) {
     return std::tuple(firings[i].elevation_rad, firings[i].row, i);
   });
-  const std::size_t band_size = BandSize(grid);
+  const std::size_t band_size = BandSize(grid, has_level_rows);
   bool leftward = false;
   for (std::size_t begin = 0; begin < order.size(); begin += band_size) {
     const std::size_t end = std::min(begin + band_size, order.size());
@@ -70,14 +73,40 @@ std::vector<std::uint32_t> PacketOrder(const FiringGrid& grid) {
   return order;
 }
 
-FiringGrid MakeFirings(const ScanSpec& spec, ErrorList& errors) {
+FramesOfFirings MakeFirings(const ScanSpec& spec, ErrorList& errors) {
   if (const auto* raster = std::get_if<RasterSpec>(&spec.pattern)) {
-    return RasterFirings(*raster, spec.rate_hz, errors);
+    return {RasterFirings(*raster, spec.rate_hz, errors)};
   }
   if (const auto* spinning = std::get_if<SpinningSpec>(&spec.pattern)) {
-    return SpinningFirings(*spinning, spec.rate_hz, errors);
+    return {SpinningFirings(*spinning, spec.rate_hz, errors)};
   }
-  return TableFirings(std::get<FiringTableSpec>(spec.pattern), errors);
+  if (const auto* risley = std::get_if<RisleySpec>(&spec.pattern)) {
+    return RisleyFirings(*risley, spec.rate_hz, errors);
+  }
+  return TableFirings(std::get<FiringTableSpec>(spec.pattern), spec.rate_hz, errors);
+}
+
+void SortByTime(FiringGrid& grid) {
+  std::ranges::sort(grid.firings, {}, [](const Firing& firing) {
+    return std::tuple(firing.time_ns, firing.row, firing.column);
+  });
+}
+
+// Sets what differs between the frames of a pattern that does not repeat.
+// @pre The firings are in the pattern's order.
+void Aim(const FiringGrid& grid, ScanPattern& pattern) {
+  const std::size_t num_firings = grid.firings.size();
+  pattern.direction_x.resize(num_firings);
+  pattern.direction_y.resize(num_firings);
+  pattern.direction_z.resize(num_firings);
+  for (std::size_t i = 0; i < num_firings; ++i) {
+    const Firing& firing = grid.firings[i];
+    const double horizontal = std::cos(firing.elevation_rad);
+    pattern.direction_x[i] = static_cast<float>(horizontal * std::cos(firing.azimuth_rad));
+    pattern.direction_y[i] = static_cast<float>(horizontal * std::sin(firing.azimuth_rad));
+    pattern.direction_z[i] = static_cast<float>(std::sin(firing.elevation_rad));
+  }
+  pattern.packet_order = PacketOrder(grid, pattern.repeats());
 }
 
 /// @param last_ns Time of the last firing.
@@ -140,11 +169,9 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
   if (!(spec.phase_s >= 0.0 && spec.phase_s * spec.rate_hz < 1.0)) {
     errors.Add(FaultOf("/phase_s", "must be >= 0 and < 1 / rate_hz", spec.phase_s));
   }
-  FiringGrid grid = MakeFirings(spec, errors);
+  auto [grid, figure] = MakeFirings(spec, errors);
   errors.ThrowIfAny();
-  std::ranges::sort(grid.firings, {}, [](const Firing& firing) {
-    return std::tuple(firing.time_ns, firing.row, firing.column);
-  });
+  SortByTime(grid);
   CheckLength(spec.rate_hz, grid.firings.back().time_ns, errors);
   errors.ThrowIfAny();
 
@@ -153,19 +180,26 @@ ScanPattern BuildScanPattern(const ScanSpec& spec) {
   pattern.phase_ns = std::llround(spec.phase_s * kNsPerS);
   pattern.rows = grid.rows;
   pattern.columns = grid.columns;
+  pattern.figure = std::move(figure);
   for (const Firing& firing : grid.firings) {
-    const double horizontal = std::cos(firing.elevation_rad);
-    pattern.direction_x.push_back(static_cast<float>(horizontal * std::cos(firing.azimuth_rad)));
-    pattern.direction_y.push_back(static_cast<float>(horizontal * std::sin(firing.azimuth_rad)));
-    pattern.direction_z.push_back(static_cast<float>(std::sin(firing.elevation_rad)));
     pattern.time_ns.push_back(static_cast<std::uint32_t>(firing.time_ns));
     pattern.row.push_back(firing.row);
     pattern.column.push_back(firing.column);
   }
-  pattern.packet_order = PacketOrder(grid);
+  Aim(grid, pattern);
   const auto* const spinning = std::get_if<SpinningSpec>(&spec.pattern);
   if (spinning != nullptr && spinning->beam_origin_m) AddBeamOrigins(*spinning, pattern);
   return pattern;
+}
+
+ScanPattern PatternOfFrame(const ScanPattern& pattern, std::uint32_t frame_index) {
+  ScanPattern of_frame = pattern;
+  if (pattern.repeats()) return of_frame;
+  FiringGrid grid =
+      pattern.figure->firings_of(frame_index, pattern.StampNs(frame_index) - pattern.phase_ns);
+  SortByTime(grid);
+  Aim(grid, of_frame);
+  return of_frame;
 }
 
 }  // namespace railcast

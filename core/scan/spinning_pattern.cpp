@@ -33,14 +33,13 @@ void CheckChannel(const ChannelSpec& channel,
   }
 }
 
-void CheckChannels(const SpinningSpec& spec, ErrorList& errors) {
-  const std::vector<ChannelSpec>& channels = spec.channels;
+void CheckChannels(const std::vector<ChannelSpec>& channels, double cycle_us, ErrorList& errors) {
   if (channels.empty()) {
     errors.Add({"/pattern/channels", "must have at least one channel", "0"});
     return;
   }
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    CheckChannel(channels[i], "/pattern/channels/" + std::to_string(i), spec.cycle_us, errors);
+    CheckChannel(channels[i], "/pattern/channels/" + std::to_string(i), cycle_us, errors);
   }
   const double first_us = std::ranges::min(channels, {}, &ChannelSpec::time_us).time_us;
   if (first_us > 0.0) {
@@ -64,23 +63,28 @@ void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
     errors.Add(FaultOf("/pattern/start_azimuth_deg", "must be >= -360 and <= 360",
                        spec.start_azimuth_deg));
   }
-  if (!(spec.cycle_us > 0.0 && std::isfinite(spec.cycle_us))) {
-    errors.Add(FaultOf("/pattern/cycle_us", "must be > 0", spec.cycle_us));
-    return;
-  }
-  CheckChannels(spec, errors);
-  if (spec.columns == 0) errors.Add({"/pattern/columns", "must be > 0", "0"});
-  const double scan_us = spec.columns * spec.cycle_us;
-  if (scan_us * rate_hz > kUsPerS * (1.0 + kFullPeriodTolerance)) {
-    errors.Add(FaultOf("/pattern/columns", "columns x cycle_us must be <= 1 / rate_hz", scan_us));
-  }
-  const double num_firings = static_cast<double>(spec.channels.size()) * spec.columns;
-  if (num_firings > static_cast<double>(kMaxNumFirings) || spec.channels.size() > 65536) {
-    errors.Add(FaultOf("/pattern", "must have at most 16777216 firings", num_firings));
-  }
+  CheckCycles({spec.channels, spec.cycle_us, spec.columns}, rate_hz, errors);
 }
 
 }  // namespace
+
+void CheckCycles(const FiringCycles& cycles, double rate_hz, ErrorList& errors) {
+  const auto& [channels, cycle_us, columns] = cycles;
+  if (!(cycle_us > 0.0 && std::isfinite(cycle_us))) {
+    errors.Add(FaultOf("/pattern/cycle_us", "must be > 0", cycle_us));
+    return;
+  }
+  CheckChannels(channels, cycle_us, errors);
+  if (columns == 0) errors.Add({"/pattern/columns", "must be > 0", "0"});
+  const double scan_us = columns * cycle_us;
+  if (scan_us * rate_hz > kUsPerS * (1.0 + kFullPeriodTolerance)) {
+    errors.Add(FaultOf("/pattern/columns", "columns x cycle_us must be <= 1 / rate_hz", scan_us));
+  }
+  const double num_firings = static_cast<double>(channels.size()) * columns;
+  if (num_firings > static_cast<double>(kMaxNumFirings) || channels.size() > 65536) {
+    errors.Add(FaultOf("/pattern", "must have at most 16777216 firings", num_firings));
+  }
+}
 
 std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels) {
   std::vector<std::size_t> by_elevation(channels.size());

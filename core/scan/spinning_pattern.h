@@ -3,9 +3,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/error.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
+
+/// The firing cycles of a frame, in each of which every channel fires once.
+struct FiringCycles {
+  const std::vector<ChannelSpec>& channels;
+  double cycle_us{};
+  std::uint32_t columns{};
+};
+
+/// Appends the faults of cycles that do not fit into a frame, with pointers relative to the scan.
+void CheckCycles(const FiringCycles& cycles, double rate_hz, ErrorList& errors);
 
 /// The row of each channel: its rank by elevation, starting with the lowest. Channels of equal
 /// elevation keep their order.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -97,15 +98,22 @@ Transform NominalFromTrue(const MountErrorSpec& error) {
 }
 
 void AddBuildFaults(const ScenarioSpec& spec, const UnknownPlaces& unknown, ErrorList& errors) {
+  // A spec left at its default was not read, and its fault has been reported already. It is on the
+  // heap because GCC 12 suspects members of a local one of being uninitialized.
+  const auto unread = std::make_unique<const LidarSpec>();
   for (const auto& [lidar, pointer] : SensorsOf(spec)) {
-    // A spec left at its default was not read, and its fault has been reported already.
-    const bool is_read = lidar != LidarSpec{};
+    const bool is_read = lidar != *unread;
     if (!is_read || !unknown.IsKnown(pointer + "/scan/pattern")) continue;
     // If the rate is unknown, use the slowest that 32-bit times in nanoseconds allow: a pattern
     // that breaks a rule at this rate does so at every rate.
     constexpr double kSlowestRate_hz = 1e9 / 4'294'967'295.0;
     ScanSpec known = lidar.scan;
-    if (!unknown.IsKnown(pointer + "/scan/rate_hz")) known.rate_hz = kSlowestRate_hz;
+    if (!unknown.IsKnown(pointer + "/scan/rate_hz")) {
+      const auto* const table = std::get_if<FiringTableSpec>(&known.pattern);
+      // The period alone says where the frames of a longer table begin.
+      if (table != nullptr && table->frames > 1) continue;
+      known.rate_hz = kSlowestRate_hz;
+    }
     known.phase_s = 0.0;  // The reader reports a wrong one.
     static_cast<void>(TryPattern(spec, pointer, known, errors));
   }

@@ -12,6 +12,8 @@ inline constexpr const char* kTypeName<RasterSpec> = "raster";
 template <>
 inline constexpr const char* kTypeName<SpinningSpec> = "spinning";
 template <>
+inline constexpr const char* kTypeName<RisleySpec> = "risley";
+template <>
 inline constexpr const char* kTypeName<FiringTableSpec> = "table";
 
 template <class Archive>
@@ -28,7 +30,9 @@ template <class Archive>
 void Describe(Archive& a, ChannelSpec& s) {
   a.Required("elevation_deg", s.elevation_deg, "Up positive.", Within(-90, 90));
   a.Required("azimuth_deg", s.azimuth_deg,
-             "Added to the rotor's azimuth; same sense as the rotation.", Within(-360, 360));
+             "Added to the rotor's azimuth; same sense as the rotation. Before prisms: left "
+             "positive.",
+             Within(-360, 360));
   a.Required("time_us", s.time_us, "Since the start of the firing cycle.", Within(0, 4.3e6));
 }
 
@@ -46,10 +50,35 @@ void Describe(Archive& a, SpinningSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, PrismSpec& s) {
+  a.Required("wedge_deg", s.wedge_deg, "Angle between the faces.", Within(0, 60));
+  a.Required("refractive_index", s.refractive_index, "Of the glass.", Within(1, 4));
+  a.Required("turns_hz", s.turns_hz, "Turns per second; positive from left to up.",
+             Within(-10'000, 10'000));
+  a.Optional("start_deg", s.start_deg,
+             "Where the prism bends the beams to when the sensor's first frame begins: 0 = left, "
+             "90 = up.",
+             Within(-360, 360));
+}
+
+template <class Archive>
+void Describe(Archive& a, RisleySpec& s) {
+  a.Required("channels", s.channels, "The beams before the prisms.", NonEmptyList());
+  a.Required("cycle_us", s.cycle_us, "Duration of a firing cycle.", Within(1e-3, 4.3e6));
+  a.Required("columns", s.columns, "Firing cycles per frame.", Within(1, 1 << 24));
+  a.Required("prisms", s.prisms,
+             "1 to 4 wedges that turn on from frame to frame, in the order in which the light "
+             "passes them.",
+             NonEmptyList());
+}
+
+template <class Archive>
 void Describe(Archive& a, FiringTableSpec& s) {
   a.Required("file", s.file,
              "CSV with the header azimuth_deg,elevation_deg,time_us, or these and ring.",
              ExistingFile());
+  a.Optional("frames", s.frames, "Frames that the table lasts before it begins again.",
+             Within(1, 100'000));
 }
 
 template <class Archive>

@@ -14,7 +14,8 @@
 namespace railcast {
 
 /// The rule for a sensor: rays without width unless effect footprint is on, full detail if the spec
-/// or effect dense_footprint, the yardstick, demands it.
+/// or effect dense_footprint, the yardstick, demands it. It is the same in all frames, and goes by
+/// frame 0 where the pattern does not repeat.
 [[nodiscard]] DetailRule DetailOf(const SimulatorSpec& spec, const ScanPattern& pattern);
 
 /// The angle between neighbouring firings where the pattern is dense: the square root of the solid

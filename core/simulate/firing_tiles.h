@@ -13,7 +13,7 @@
 
 namespace railcast {
 
-/// A scan pattern in tracing order: packets of 16 firings, grouped into tiles.
+/// A scan pattern, that of one frame, in tracing order: packets of 16 firings, grouped into tiles.
 class FiringTiles {
  public:
   explicit FiringTiles(const ScanPattern& pattern);
@@ -42,7 +42,7 @@ class FiringTiles {
   /// Number of lanes that hold firings; the others pad the last packet.
   [[nodiscard]] std::size_t num_firings(std::size_t tile) const;
 
-  /// Stores the fields that are the same in every frame.
+  /// Stores the fields that are the same in every frame: times, rings, columns and returns.
   void StoreConstants(Frame& frame) const;
 
   /// Tile and lane in which a firing is traced.

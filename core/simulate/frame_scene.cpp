@@ -109,7 +109,7 @@ void FrameScenes::UseWind(const Wind& wind) {
 
 BegunFrame FrameScenes::Begin(std::uint32_t index, std::int64_t stamp_ns) {
   const int home_chunk = world_->HomeChunk(stamp_ns);
-  BegunFrame begun{index, stamp_ns, windows_.Get(home_chunk), nullptr};
+  BegunFrame begun{index, stamp_ns, windows_.Get(home_chunk)};
   PrepareNextWindow(stamp_ns, home_chunk);
   return begun;
 }

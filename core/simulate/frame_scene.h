@@ -17,6 +17,8 @@
 
 namespace railcast {
 
+class FiringTiles;
+
 /// An object that rays of a packet hit.
 struct ObjectHits {
   std::size_t object{};   ///< Index into World::objects().
@@ -69,7 +71,8 @@ struct BegunFrame {
   std::uint32_t index{};
   std::int64_t stamp_ns{};
   std::shared_ptr<const Window> window;
-  std::unique_ptr<const FrameScene> scene;  ///< Null until FrameScenes::SceneOf().
+  std::unique_ptr<const FrameScene> scene{};   ///< Null until FrameScenes::SceneOf().
+  std::shared_ptr<const FiringTiles> tiles{};  ///< Its firings; null until their first use.
 };
 
 /// Properties that all frames of a run share.

@@ -100,7 +100,7 @@ struct Simulator::Parts {
   ScanPattern pattern;
   SimulatorSpec spec;
   std::vector<Material> materials;
-  FiringTiles tiles;
+  std::shared_ptr<const FiringTiles> tiles;  // Of all frames, or of frame 0 if they differ.
   FrameScenes scenes;
   std::unique_ptr<const BeamTracer> tracer;
   std::unique_ptr<WorkOfThreads> work;
@@ -130,6 +130,14 @@ struct Simulator::Parts {
     arena.execute([&] { static_cast<void>(scenes.SceneOf(begun)); });
     return *begun.scene;
   }
+  [[nodiscard]] std::shared_ptr<const FiringTiles> TilesOf(std::uint32_t frame_index) const {
+    if (pattern.repeats()) return tiles;
+    return std::make_shared<const FiringTiles>(PatternOfFrame(pattern, frame_index));
+  }
+  [[nodiscard]] const FiringTiles& TilesOf(BegunFrame& begun) const {
+    if (begun.tiles == nullptr) begun.tiles = TilesOf(begun.index);
+    return *begun.tiles;
+  }
   /// For WithinMemory: "making frame 3 (28800 firings)".
   [[nodiscard]] auto Making(std::uint32_t frame_index) const {
     return [this, frame_index] {
@@ -139,16 +147,18 @@ struct Simulator::Parts {
   }
   void UseSpec();
   /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
-  void ForAllEchoes(const CastFrame& cast, const EchoUse& use);
-  [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast);
-  void Scan(const CastFrame& cast, Frame& frame);
-  [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene);
+  void ForAllEchoes(const CastFrame& cast, const FiringTiles& firings, const EchoUse& use);
+  [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast,
+                                                        const FiringTiles& firings);
+  void Scan(const CastFrame& cast, const FiringTiles& firings, Frame& frame);
+  [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene,
+                                                    const FiringTiles& firings);
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
     // One by one, since a tile takes up to milliseconds, for which others would wait at the end.
     arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, tiles.num_tiles(), job, tbb::simple_partitioner{});
+      tbb::parallel_for(std::size_t{0}, tiles->num_tiles(), job, tbb::simple_partitioner{});
     });
   }
 };
@@ -170,12 +180,12 @@ Simulator::Simulator(std::shared_ptr<SceneStore> store,
                      const SimulatorSpec& spec,
                      int num_threads) {
   CheckSimulatorSpec(spec, materials.materials());
-  FiringTiles tiles(pattern);
+  auto tiles = std::make_shared<const FiringTiles>(pattern);
   const FrameSceneSpec scene_spec{
       .range_max_m = spec.detector.range_max_m,
       .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
       .detail = DetailOf(spec, pattern),
-      .duration_ns = tiles.duration_ns()};
+      .duration_ns = tiles->duration_ns()};
   parts_.reset(new Parts{.pattern = std::move(pattern),
                          .spec = spec,
                          .materials = materials.materials(),
@@ -252,13 +262,15 @@ void Simulator::UseLastStamp(std::int64_t stamp_ns) {
   parts_->scenes.UseLastStamp(stamp_ns);
 }
 
-void Simulator::Parts::ForAllEchoes(const CastFrame& cast, const EchoUse& use) {
+void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
+                                    const FiringTiles& firings,
+                                    const EchoUse& use) {
   // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
   // one pass; otherwise the tiles that halos reach are made a second time.
-  std::vector<std::vector<HaloSource>> found(halo ? tiles.num_tiles() : 0);
+  std::vector<std::vector<HaloSource>> found(halo ? firings.num_tiles() : 0);
   ForEachTile([&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
-    tracer->MakeEchoes(cast, tiles, tile, mine);
+    tracer->MakeEchoes(cast, firings, tile, mine);
     if (halo) halo->CollectSources(mine.echoes, found[tile]);
     use(tile, mine);
   });
@@ -266,29 +278,30 @@ void Simulator::Parts::ForAllEchoes(const CastFrame& cast, const EchoUse& use) {
   if (sources.empty()) return;
   ForEachTile([&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
-    tiles.Describe(tile, mine.echoes.first);
+    firings.Describe(tile, mine.echoes.first);
     if (!halo->Reaches(mine.echoes.first, sources)) return;
-    tracer->MakeEchoes(cast, tiles, tile, mine);
+    tracer->MakeEchoes(cast, firings, tile, mine);
     halo->AddEchoes(mine.echoes, sources);
     use(tile, mine);
   });
 }
 
-std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast) {
-  std::vector<std::vector<HaloSource>> found(tiles.num_tiles());
+std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast,
+                                                          const FiringTiles& firings) {
+  std::vector<std::vector<HaloSource>> found(firings.num_tiles());
   ForEachTile([&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
-    tracer->MakeEchoes(cast, tiles, tile, mine);
+    tracer->MakeEchoes(cast, firings, tile, mine);
     halo->CollectSources(mine.echoes, found[tile]);
   });
   return Joined(found);
 }
 
-void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
+void Simulator::Parts::Scan(const CastFrame& cast, const FiringTiles& firings, Frame& frame) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
   frame.world_from_sensor = ReportedPose(frame.stamp_ns);
-  frame.duration_ns = tiles.duration_ns();
+  frame.duration_ns = firings.duration_ns();
   frame.world_from_sensor_end = ReportedPose(frame.stamp_ns + frame.duration_ns);
   frame.poses_between = PosesBetween(frame.duration_ns, [&](std::uint32_t time_ns) {
     return ReportedPose(frame.stamp_ns + time_ns);
@@ -302,13 +315,14 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   const Transform world_from_window = cast.window_from_world.inverse();
   const double time_s = SecondsFromNs(frame.stamp_ns);
 
-  ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
+  ForAllEchoes(cast, firings, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
-    tiles.MoveToOrigins(tile, mine.echoes);
-    axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
-    store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
+    firings.MoveToOrigins(tile, mine.echoes);
+    axes.Apply(cast.poses, firings.times_ns(tile), mine.echoes);
+    store.Store(mine.echoes, cast.surfaces, {firings.slots(tile), firings.num_firings(tile)},
+                frame);
   });
-  tiles.StoreConstants(frame);
+  firings.StoreConstants(frame);
   if (!tracer->has_beams()) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     std::fill(frame.footprint_share.begin(), frame.footprint_share.end(), kNaN);
@@ -324,9 +338,9 @@ std::shared_ptr<BegunFrame> Simulator::Begin(std::uint32_t frame_index) {
 void Simulator::Scan(BegunFrame& begun, Frame& frame) {
   WithinMemory(parts_->Making(begun.index), [&] {
     const FrameScene& scene = parts_->SceneOf(begun);
-    parts_->Scan(
-        CastOf(scene, world(), spec().detector, *parts_->tracer, parts_->tiles.duration_ns()),
-        frame);
+    const FiringTiles& firings = parts_->TilesOf(begun);
+    parts_->Scan(CastOf(scene, world(), spec().detector, *parts_->tracer, firings.duration_ns()),
+                 firings, frame);
   });
 }
 
@@ -346,7 +360,7 @@ void Simulator::Scan(std::uint32_t frame_index, const HostScene& host, Frame& fr
                   .window_from_world = host.window_from_world,
                   .spray = {},
                   .mirrors = parts_->tracer->MirrorsAmong(host.surfaces, host.window_from_world)},
-                 frame);
+                 *parts_->TilesOf(frame_index), frame);
   });
 }
 
@@ -377,9 +391,10 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   Parts& parts = *parts_;
   BegunFrame begun = parts.Begin(frame_index);
   const FrameScene& scene = parts.SceneOf(begun);
+  const FiringTiles& firings = parts.TilesOf(begun);
   const CastFrame cast =
-      CastOf(scene, world(), spec().detector, *parts.tracer, parts.tiles.duration_ns());
-  const FiringTiles::Place place = parts.tiles.PlaceOf(firing);
+      CastOf(scene, world(), spec().detector, *parts.tracer, firings.duration_ns());
+  const FiringTiles::Place place = firings.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;
   BeamTracer::Work work(*parts.tracer);
@@ -401,10 +416,10 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
                            .range_m = first.range_m[lane],
                            .num_added_echoes = num_echoes - num_before});
   };
-  parts.tracer->MakeEchoes(cast, parts.tiles, tile, work, record);
+  parts.tracer->MakeEchoes(cast, firings, tile, work, record);
   const RayTile& rays = work.rays;
   if (parts.halo) {
-    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast));
+    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast, firings));
     record(EffectBetweenBeams(spec().detector)->name);
   }
   const Transform world_from_window = scene.window->window_from_world.inverse();
@@ -412,8 +427,8 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   parts.tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
   const Surface& surface = scene.surfaces()[first.surface[lane]];
   story.firing = firing;
-  story.time_ns = parts.tiles.times_ns(tile)[lane];
-  story.slot = parts.tiles.slots(tile)[lane] * NumReturns(parts.return_mode());
+  story.time_ns = firings.times_ns(tile)[lane];
+  story.slot = firings.slots(tile)[lane] * NumReturns(parts.return_mode());
   story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
                                    static_cast<double>(first.direction_y[lane]),
                                    static_cast<double>(first.direction_z[lane]));
@@ -431,10 +446,11 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
 std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   BegunFrame begun = parts_->Begin(frame_index);
   static_cast<void>(parts_->SceneOf(begun));
+  const FiringTiles& firings = parts_->TilesOf(begun);
   const std::shared_ptr<const FrameScene> scene = std::move(begun.scene);
-  auto aimed = std::make_shared<std::vector<RayTile>>(parts_->tiles.num_tiles());
+  auto aimed = std::make_shared<std::vector<RayTile>>(firings.num_tiles());
   for (std::size_t tile = 0; tile < aimed->size(); ++tile) {
-    parts_->tiles.Aim(tile, scene->poses, parts_->range_max_m(), (*aimed)[tile]);
+    firings.Aim(tile, scene->poses, parts_->range_max_m(), (*aimed)[tile]);
   }
   return [this, scene, aimed] {
     parts_->ForEachTile([&](std::size_t tile) {
@@ -445,17 +461,19 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   };
 }
 
-std::vector<ObjectView> Simulator::Parts::ViewObjects(const FrameScene& scene) {
+std::vector<ObjectView> Simulator::Parts::ViewObjects(const FrameScene& scene,
+                                                      const FiringTiles& firings) {
   const CastFrame cast{scene.index,      scene.poses, scene,
                        scene.surfaces(), nullptr,     scene.window->window_from_world};
   ViewCounter views(cast, scenes.world(), scenes.ObjectsAlone(scene));
-  ForEachTile([&](std::size_t tile) { views.Add(*tracer, tiles, tile, work->local()); });
+  ForEachTile([&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
   return views.Total();
 }
 
 std::vector<ObjectView> Simulator::ViewObjects(BegunFrame& begun) {
-  return WithinMemory(parts_->Making(begun.index),
-                      [&] { return parts_->ViewObjects(parts_->SceneOf(begun)); });
+  return WithinMemory(parts_->Making(begun.index), [&] {
+    return parts_->ViewObjects(parts_->SceneOf(begun), parts_->TilesOf(begun));
+  });
 }
 
 std::vector<ObjectView> Simulator::ViewObjects(std::uint32_t frame_index) {

@@ -94,7 +94,8 @@ std::string SensorText(const LidarSpec& lidar, const ScanPattern& pattern) {
                                   NumberText(lidar.range_max_m) + " m") +
          ReportLine("", NumberText(pattern.rate_hz) + " frames/s" + begin + ", each fired within " +
                             ShortText(SecondsFromNs(duration_ns)) + " s; at most " +
-                            Rounded(num_firings * pattern.rate_hz, 0) + " points/s");
+                            Rounded(num_firings * pattern.rate_hz, 0) + " points/s") +
+         (pattern.repeats() ? "" : ReportLine("", "a figure that goes on from frame to frame"));
 }
 
 std::string CameraText(const CameraSpec& camera) {

@@ -12,9 +12,13 @@
 namespace railcast {
 namespace {
 
-FiringGrid Parse(const std::string& text, ErrorList& errors) {
+constexpr double kRate_hz = 10.0;
+
+std::vector<FiringGrid> Parse(const std::string& text,
+                              std::uint32_t num_frames,
+                              ErrorList& errors) {
   std::istringstream stream(text);
-  return ParseFiringTable(stream, "fuzz", errors);
+  return ParseFiringTable({stream, "fuzz", num_frames}, kRate_hz, errors);
 }
 
 void CheckGrid(const FiringGrid& grid) {
@@ -35,19 +39,23 @@ void CheckGrid(const FiringGrid& grid) {
 
 // Compares the times only, since angles in degrees may change when they are converted to radians
 // and back.
-std::string TableText(const FiringGrid& grid) {
+std::string TableText(const std::vector<FiringGrid>& frames) {
   std::string text = "azimuth_deg,elevation_deg,time_us,ring\n";
-  for (const Firing& firing : grid.firings) {
-    text += "0,0," + NumberText(static_cast<double>(firing.time_ns) / 1e3) + ',' +
-            NumberText(firing.row) + '\n';
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    for (const Firing& firing : frames[frame].firings) {
+      text += "0,0," +
+              NumberText(static_cast<double>(firing.time_ns) / 1e3 +
+                         1e6 / kRate_hz * static_cast<double>(frame)) +
+              ',' + NumberText(firing.row) + '\n';
+    }
   }
   return text;
 }
 
-void ReadTable(const std::string& text) {
+void ReadTable(const std::string& text, std::uint32_t num_frames) {
   ErrorList errors;
-  const FiringGrid grid = Parse(text, errors);
-  Check(grid.firings.empty() != errors.empty(), "a table has firings or a fault");
+  const std::vector<FiringGrid> frames = Parse(text, num_frames, errors);
+  Check(frames.empty() != errors.empty(), "a table has frames or a fault");
   // The last line may have four faults.
   Check(errors.size() <= 23, "faults are few");
   for (const std::string& line : errors.lines()) {
@@ -55,11 +63,20 @@ void ReadTable(const std::string& text) {
           "a fault is a short line that names its file");
   }
   if (!errors.empty()) return;
-  CheckGrid(grid);
-  const FiringGrid again = Parse(TableText(grid), errors);
-  Check(errors.empty() && again.firings.size() == grid.firings.size(), "what is written is read");
-  for (std::size_t i = 0; i < grid.firings.size(); ++i) {
-    Check(again.firings[i].time_ns == grid.firings[i].time_ns, "and says the same");
+  Check(frames.size() == num_frames, "a table has the frames asked for");
+  for (const FiringGrid& frame : frames) CheckGrid(frame);
+  // BuildScanPattern() refuses frames that overlap.
+  const std::int64_t last_ns = frames.front().firings.back().time_ns;
+  if (num_frames > 1 && static_cast<double>(last_ns) >= 1e9 / kRate_hz) return;
+  const std::vector<FiringGrid> again = Parse(TableText(frames), num_frames, errors);
+  Check(errors.empty() && again.size() == frames.size(), "what is written is read");
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    const std::vector<Firing>& firings = frames[frame].firings;
+    Check(!firings.empty() && again[frame].firings.size() == firings.size(),
+          "every frame has its firings");
+    for (std::size_t i = 0; i < firings.size(); ++i) {
+      Check(again[frame].firings[i].time_ns == firings[i].time_ns, "and says the same");
+    }
   }
 }
 
@@ -68,6 +85,7 @@ void ReadTable(const std::string& text) {
 
 /// Entry point for libFuzzer: a table of firings as CSV.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  railcast::ReadTable({reinterpret_cast<const char*>(data), size});
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  for (const std::uint32_t num_frames : {1U, 2U}) railcast::ReadTable(text, num_frames);
   return 0;
 }

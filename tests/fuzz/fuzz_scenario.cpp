@@ -44,6 +44,9 @@ double NumFirings(const RasterSpec& pattern) {
 double NumFirings(const SpinningSpec& pattern) {
   return static_cast<double>(pattern.channels.size()) * pattern.columns;
 }
+double NumFirings(const RisleySpec& pattern) {
+  return static_cast<double>(pattern.channels.size()) * pattern.columns;
+}
 
 double NumFirings(const FiringTableSpec& /*in_the_input*/) {
   return 0.0;
@@ -104,6 +107,12 @@ void CheckPattern(const ScanSpec& scan) {
     for (std::uint32_t firing = 0; firing < pattern.num_firings(); ++firing) {
       Check(pattern.row[firing] < pattern.rows && pattern.column[firing] < pattern.columns,
             "a firing has a place");
+    }
+    const ScanPattern later = PatternOfFrame(pattern, 12'345);
+    for (std::uint32_t firing = 0; firing < later.num_firings(); ++firing) {
+      Check(std::isfinite(later.direction_x[firing] + later.direction_y[firing] +
+                          later.direction_z[firing]),
+            "a firing goes somewhere in every frame");
     }
   } catch (const InputError& error) {
     CheckFaultLines(error.what());

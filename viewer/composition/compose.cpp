@@ -8,12 +8,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/io/cloud/nearest_points.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/recording/scan_table.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
@@ -105,6 +107,7 @@ void AddTo(Overlay&& part, Overlay& drawing) {
 struct Composer::World {
   Surroundings surroundings;
   ScanPattern pattern;
+  std::optional<ScanTable> scan;  ///< Of the pattern, if that is a grid.
   std::optional<int> home_chunk;  ///< The chunk that `standing` was gathered for.
   Transform world_from_standing = Transform::Identity();
   std::shared_ptr<const std::vector<Part>> standing;
@@ -131,6 +134,7 @@ Composer::Composer(RecordingInfo info) : info_(std::move(info)) {
   world_ = std::make_unique<World>();
   world_->surroundings = {*info_.scenario, MakeWorld(*info_.scenario)};
   world_->pattern = BuildScanPattern(info_.scenario->lidar.scan);
+  world_->scan = MakeScanTable(world_->pattern);
 }
 
 Composer::~Composer() = default;
@@ -140,7 +144,10 @@ void Composer::AddEmptyBeams(const RecordedFrame& recorded, Composition& composi
   const Frame& frame = recorded.frame;
   const bool has_pattern_shape = world_ && recorded.is_grid && frame.rows == world_->pattern.rows &&
                                  frame.columns == world_->pattern.columns;
-  const auto beams = has_pattern_shape ? BeamsOf(world_->pattern) : BeamsOf(recorded);
+  const auto beams = !has_pattern_shape ? BeamsOf(recorded)
+                     : world_->pattern.repeats()
+                         ? BeamsOf(world_->pattern)
+                         : BeamsOf(PatternOfFrame(world_->pattern, frame.index));
   if (!beams) return;
   composition.empty_beams = DrawEmptyBeams(recorded, *beams);
   composition.beam_kinds = BeamKinds(recorded);
@@ -155,8 +162,9 @@ std::string Composer::Missing(const ShownFrame& shown, const Choices& choices) c
   if (overlays.frustum && info_.kind == kMergedKind) {
     return "the frustum needs the frames of one sensor, and these are of several";
   }
-  if (overlays.frustum && !world_ && !MakeScanTable(shown.frame())) {
-    return "the frustum needs the scenario or a grid of firings";
+  if (overlays.frustum && !(world_ ? world_->scan : MakeScanTable(shown.frame()))) {
+    return world_ ? "the frustum needs a sensor whose firings are a grid"
+                  : "the frustum needs the scenario or a grid of firings";
   }
   if (needs_world && !world_) {
     return "track, gauge and surfaces need the scenario, which is not known";
@@ -183,7 +191,7 @@ void Composer::AddOverlays(const ShownFrame& shown,
           composition.overlays);
   }
   if (choices.frustum && info_.kind != kMergedKind) {
-    const auto table = world_ ? MakeScanTable(world_->pattern) : MakeScanTable(recorded.frame);
+    const auto table = world_ ? world_->scan : MakeScanTable(recorded.frame);
     const double range_m = world_ ? info_.scenario->lidar.range_max_m : kUnknownRange_m;
     if (table) AddTo(DrawSensorFrustum(*table, range_m), composition.overlays);
   }

@@ -146,15 +146,13 @@ Cover::Cover(const DetectorSpec& spec, const ScanPattern& pattern)
   for (std::uint32_t drop = 0; drop < drop_phase_.size(); ++drop) {
     drop_phase_[drop] = DropPhase(seed_, drop);
   }
-  const SpotLayer dirt =
-      LastingLayer(spec, SpotKind::kDirt, spec_.dirt_coverage, spec_.dirt_diameter_mm);
-  const SpotLayer snow =
-      LastingLayer(spec, SpotKind::kSnow, spec_.snow_coverage, spec_.snow_diameter_mm);
+  dirt_ = LastingLayer(spec, SpotKind::kDirt, spec_.dirt_coverage, spec_.dirt_diameter_mm);
+  snow_ = LastingLayer(spec, SpotKind::kSnow, spec_.snow_coverage, spec_.snow_diameter_mm);
+  if (!pattern.repeats()) return;
   lasting_.resize(pattern.num_firings());
   for (std::size_t i = 0; i < lasting_.size(); ++i) {
-    const SpotLayer::Center direction{pattern.direction_x[i], pattern.direction_y[i],
-                                      pattern.direction_z[i]};
-    lasting_[i] = dirt.FreeShare(direction) * snow.FreeShare(direction);
+    lasting_[i] =
+        LastingShare({pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i]});
   }
 }
 
@@ -173,9 +171,10 @@ void Cover::Fill(DetectTile& tile, Drops& drops) const {
     drops = {true, tile.frame, DropsAt(static_cast<double>(tile.frame) / rate_hz_)};
   }
   for (std::size_t i = 0; i < tile.num_rays; ++i) {
-    const float free =
-        lasting_[tile.firing[i]] *
-        drops.layer.FreeShare({tile.direction_x[i], tile.direction_y[i], tile.direction_z[i]});
+    const SpotLayer::Center direction{tile.direction_x[i], tile.direction_y[i],
+                                      tile.direction_z[i]};
+    const float lasting = lasting_.empty() ? LastingShare(direction) : lasting_[tile.firing[i]];
+    const float free = lasting * drops.layer.FreeShare(direction);
     tile.cover[i] = free * free;
   }
 }

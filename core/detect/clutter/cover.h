@@ -80,11 +80,19 @@ class Cover {
   [[nodiscard]] SpotLayer DropsAt(double time_s) const;
 
  private:
+  /// The share of the aperture around a direction that dirt and snow leave.
+  [[nodiscard]] float LastingShare(const SpotLayer::Center& direction) const {
+    return dirt_.FreeShare(direction) * snow_.FreeShare(direction);
+  }
+
   CoverSpec spec_;
   std::uint64_t seed_;
   double rate_hz_;
   std::vector<float> drop_phase_;  // Offset of each drop's life in lifetimes, 0 to 1.
-  std::vector<float> lasting_;     // Share of the aperture that dirt and snow leave, by firing.
+  SpotLayer dirt_;
+  SpotLayer snow_;
+  // Share of the aperture that dirt and snow leave, by firing; empty if firings move.
+  std::vector<float> lasting_;
 };
 
 /// Whether anything lies on the window.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -39,11 +40,13 @@ template <>
 inline constexpr auto kEnumNames<Rotation> = std::to_array<EnumName<Rotation>>(
     {{Rotation::kClockwise, "clockwise"}, {Rotation::kCounterclockwise, "counterclockwise"}});
 
-/// One laser of a spinning sensor.
+/// One laser of a spinning sensor, or of one with prisms.
 struct ChannelSpec {
   double elevation_deg{};  ///< Up positive.
-  double azimuth_deg{};    ///< Added to the rotor's azimuth; counted in the sense of rotation.
-  double time_us{};        ///< Time since the start of the firing cycle; the earliest is 0.
+  /// Added to the rotor's azimuth and counted in the sense of rotation; of a beam that enters
+  /// prisms, left positive.
+  double azimuth_deg{};
+  double time_us{};  ///< Time since the start of the firing cycle; the earliest is 0.
 
   bool operator==(const ChannelSpec&) const = default;
 };
@@ -69,21 +72,54 @@ struct SpinningSpec {
   bool operator==(const SpinningSpec&) const = default;
 };
 
+/// A glass wedge that turns about the sensor's x axis and bends the beams towards its thick side.
+struct PrismSpec {
+  double wedge_deg{};         ///< Angle between its two faces, >= 0 and <= 60.
+  double refractive_index{};  ///< Of the glass against air, >= 1 and <= 4.
+  double turns_hz{};          ///< Turns per second; positive from left to up. At most 10,000.
+  double start_deg{};         ///< Its thick side at the stamp of frame 0: 0 = left, 90 = up.
+
+  bool operator==(const PrismSpec&) const = default;
+};
+
+/// A Risley scanner, as in sensors that do not repeat their figure: all beams pass the same prisms,
+/// each of which turns at a speed of its own. The prisms turn on from frame to frame, so that each
+/// frame continues the figure where the one before it ended.
+///
+/// Light is refracted exactly, by Snell's law at every face. The first prism's face towards the
+/// lasers is at right angles to the axis, as is the outer face of all others; their other faces
+/// are inclined by the wedge. (Brazeal et al. 2021, doi 10.3390/s21144722, model a Livox Mid-40 so;
+/// thin prisms would simply add deflections of (index - 1) wedge each.) What the beams are
+/// displaced within the prisms, millimetres, is neglected. Rows and columns are those of
+/// SpinningSpec.
+struct RisleySpec {
+  std::vector<ChannelSpec> channels;  ///< The beams before the prisms.
+  double cycle_us{};                  ///< Duration of a firing cycle.
+  std::uint32_t columns{};        ///< Firing cycles per frame; columns x cycle_us <= 1 / rate_hz.
+  std::vector<PrismSpec> prisms;  ///< 1 to 4, in the order in which the light passes them.
+
+  bool operator==(const RisleySpec&) const = default;
+};
+
 /// An arbitrary sequence of firings, read from a CSV file with the header
 /// `azimuth_deg,elevation_deg,time_us`: azimuth positive to the left (counterclockwise), time from
 /// 0 and non-decreasing. The frame has one row and a column for each firing. With a fourth column,
 /// `ring`, it has a row for each ring, 0 the lowest, and a column for each of the ring's firings;
 /// all rings have as many.
+///
+/// A table of several frames is gone through frame by frame and then begins again. All of its
+/// frames have as many firings, and the same rings at the same times since their stamps, to 1 us.
 struct FiringTableSpec {
-  std::string file;  ///< Relative to the file that refers to it.
+  std::string file;          ///< Relative to the file that refers to it.
+  std::uint32_t frames = 1;  ///< Frames that the table lasts, > 0.
 
   bool operator==(const FiringTableSpec&) const = default;
 };
 
-/// How a sensor scans: the frame rate and one of three kinds of pattern.
+/// How a sensor scans: the frame rate and one of four kinds of pattern.
 struct ScanSpec {
   double rate_hz{};  ///< Frames per second, > 0.
-  std::variant<RasterSpec, SpinningSpec, FiringTableSpec> pattern;
+  std::variant<RasterSpec, SpinningSpec, RisleySpec, FiringTableSpec> pattern;
   double phase_s = 0.0;  ///< Stamp of frame 0; >= 0 and < 1 / rate_hz.
 
   bool operator==(const ScanSpec&) const = default;
@@ -102,7 +138,10 @@ struct MountSpec {
 /// Rays per packet: Embree traces 16 rays at once.
 inline constexpr std::size_t kPacketSize = 16;
 
-/// The firings of one frame, the same in every frame: a table of directions and times.
+/// The directions of later frames where frames differ; see ScanPattern::repeats().
+struct MovingFigure;
+
+/// The firings of one frame: a table of directions and times.
 ///
 /// BuildScanPattern() makes it. It is not changed afterwards, so that threads may share one
 /// pattern. All per-firing arrays have num_firings() elements in order of time (ties: by row, then
@@ -126,6 +165,12 @@ struct ScanPattern {
   /// order is fixed, because what a ray on a vertex or edge hits depends on its packet.
   std::vector<std::uint32_t> packet_order;
 
+  /// Null if all frames are the same.
+  std::shared_ptr<const MovingFigure> figure;
+
+  /// Whether all frames have the same firings. Otherwise directions and packet_order are those of
+  /// one frame, and PatternOfFrame() gives those of any other; all else is the same in all frames.
+  [[nodiscard]] bool repeats() const { return figure == nullptr; }
   [[nodiscard]] std::size_t num_firings() const { return time_ns.size(); }
   /// Stamp of a frame, the simulation time from which its time_ns count: phase_ns for frame 0.
   /// Stamps are exactly 1 / rate_hz apart.
@@ -144,13 +189,20 @@ struct ScanPattern {
                                          std::uint32_t returns,
                                          std::size_t slot);
 
-/// Builds the table of firings of a scan:
+/// Makes the pattern of a frame, which depends on nothing but its index. It is a copy of `pattern`
+/// where that repeats.
+/// @param pattern That of any frame.
+/// @pre frame_index <= pattern.LastFrame().
+[[nodiscard]] ScanPattern PatternOfFrame(const ScanPattern& pattern, std::uint32_t frame_index);
+
+/// Builds the table of firings of a scan, in frame 0:
 ///
 ///   const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = RasterSpec{...}});
 ///
 /// @throws InputError if the spec has no firing or more than 2^24, a number of cells is not whole,
 ///   a frame lasts longer than 1 / rate_hz or 4.29 s (time_ns has 32 bits), frame 0 does not begin
-///   within the first 1 / rate_hz, or the firing table cannot be read. The message has a line for
+///   within the first 1 / rate_hz, a beam may be reflected totally in a prism, or the firing table
+///   cannot be read. The message has a line for
 ///   every fault, with pointers relative to the scan object: "/pattern/cycle_us: must be > 0 (got
 ///   -1)"; lines about a firing table name its file and line.
 [[nodiscard]] ScanPattern BuildScanPattern(const ScanSpec& spec);

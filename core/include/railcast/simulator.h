@@ -229,6 +229,8 @@ class Simulator {
   /// The world currently in use.
   [[nodiscard]] const World& world() const;
   [[nodiscard]] const std::shared_ptr<const World>& shared_world() const;
+  /// The pattern that the simulator was made with, which gives that of any frame
+  /// (PatternOfFrame()).
   [[nodiscard]] const ScanPattern& pattern() const;
   [[nodiscard]] Transform WorldFromSensor(std::int64_t time_ns) const;
 

@@ -141,6 +141,19 @@ void FindTurn(ScanTable& table) {
   }
 }
 
+// Whether each row has one elevation. In a figure of loops, drawn by several lasers at once, rows
+// lie beside each other, but each extends over the whole field of view.
+bool HasLevelRows(const DirectionGrid& grid, const ScanTable& table) {
+  constexpr double kMostSteps = 2.0;
+  std::vector<double> deviations_rad;
+  for (std::size_t place = 0; place < grid.elevation_rad.size(); ++place) {
+    const double deviation_rad =
+        std::abs(grid.elevation_rad[place] - table.elevation_rad[place / grid.columns]);
+    if (!std::isnan(deviation_rad)) deviations_rad.push_back(deviation_rad);
+  }
+  return MedianOf(deviations_rad) < kMostSteps * table.row_step_rad;
+}
+
 std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   constexpr int kPasses = 3;
   ScanTable table;
@@ -158,6 +171,7 @@ std::optional<ScanTable> TableOf(const DirectionGrid& grid) {
   std::erase_if(heights_rad, [](double height_rad) { return std::isnan(height_rad); });
   table.row_step_rad = MedianOf(heights_rad);
   if (!(table.column_step_rad > 0.0 && table.row_step_rad > 0.0)) return std::nullopt;
+  if (!HasLevelRows(grid, table)) return std::nullopt;
   FindTurn(table);
   return table;
 }
@@ -188,7 +202,7 @@ std::optional<ScanTable> MakeScanTable(const Frame& frame) {
 }
 
 std::optional<ScanTable> MakeScanTable(const ScanPattern& pattern) {
-  if (pattern.rows < 2 || pattern.columns < 2) return std::nullopt;
+  if (pattern.rows < 2 || pattern.columns < 2 || !pattern.repeats()) return std::nullopt;
   DirectionGrid grid(pattern.rows, pattern.columns);
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
     grid.Set(std::size_t{pattern.row[i]} * pattern.columns + pattern.column[i],

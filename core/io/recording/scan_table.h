@@ -54,11 +54,12 @@ struct ScanTable {
 
 /// Makes the table from the points' directions: medians over rows and columns, with linear
 /// interpolation across gaps. Returns nothing if the frame is not a grid of at least 2 x 2 with
-/// points.
+/// points: the elevations within the rows of a grid differ by less than two steps between rows.
 /// @pre The slots of `frame` are firings.
 [[nodiscard]] std::optional<ScanTable> MakeScanTable(const Frame& frame);
 
-/// Makes the table from the firings of a pattern; returns nothing if that is not a grid.
+/// Makes the table from the firings of a pattern; returns nothing if that is not a grid, or differs
+/// from frame to frame.
 [[nodiscard]] std::optional<ScanTable> MakeScanTable(const ScanPattern& pattern);
 
 }  // namespace railcast

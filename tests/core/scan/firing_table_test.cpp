@@ -14,14 +14,14 @@ class FiringTable : public testing::Test {
  protected:
   ~FiringTable() override { std::filesystem::remove(file_); }
 
-  ScanSpec Write(const std::string& text, double rate_hz = 10.0) const {
+  ScanSpec Write(const std::string& text, std::uint32_t frames = 1) const {
     std::ofstream(file_, std::ios::binary) << text;
-    return {.rate_hz = rate_hz, .pattern = FiringTableSpec{file_}};
+    return {.rate_hz = 10.0, .pattern = FiringTableSpec{file_, frames}};
   }
 
   /// The faults, with the file name shortened to "table.csv".
-  std::string FaultsOfText(const std::string& text) const {
-    std::string faults = FaultsOf(Write(text));
+  std::string FaultsOfText(const std::string& text, std::uint32_t frames = 1) const {
+    std::string faults = FaultsOf(Write(text, frames));
     for (std::size_t at = 0; (at = faults.find(file_, at)) != std::string::npos;) {
       faults.replace(at, file_.size(), "table.csv");
     }
@@ -73,6 +73,48 @@ TEST_F(FiringTable, RefusesRingsThatAreNoRowsOfAGrid) {
             "table.csv:3: ring: must be a whole number from 0 to 65535 (got 0.5)\n"
             "table.csv:4: ring: must be a whole number from 0 to 65535 (got 65536)\n"
             "table.csv:5: must have 4 values (got 3)");
+}
+
+TEST_F(FiringTable, OfSeveralFramesIsGoneThroughFrameByFrameAndBeginsAgain) {
+  const ScanPattern pattern =
+      BuildScanPattern(Write(std::string(kHeader) + "1,0,0\n2,0,50000\n3,5,100000\n4,5,150000.4\n"
+                                                    "5,0,200000\n6,0,249999.6\n",
+                             3));
+  EXPECT_FALSE(pattern.repeats());
+  EXPECT_EQ(pattern.rows, 1U);
+  EXPECT_EQ(pattern.columns, 2U);
+  for (std::uint32_t frame = 0; frame < 7; ++frame) {
+    const ScanPattern of_frame = PatternOfFrame(pattern, frame);
+    EXPECT_EQ(of_frame.time_ns, (std::vector<std::uint32_t>{0, 50'000'000}));
+    EXPECT_NEAR(AzimuthInDegrees(of_frame, 0), 1.0 + 2.0 * (frame % 3), kFloatAngle_deg);
+    EXPECT_NEAR(AzimuthInDegrees(of_frame, 1), 2.0 + 2.0 * (frame % 3), kFloatAngle_deg);
+    EXPECT_NEAR(ElevationInDegrees(of_frame, 1), frame % 3 == 1 ? 5.0 : 0.0, kFloatAngle_deg);
+  }
+}
+
+TEST_F(FiringTable, OfSeveralFramesHasTheSameRingsInAll) {
+  const ScanPattern pattern = BuildScanPattern(
+      Write(std::string(kRingHeader) + "0,2,0,1\n0,-3,0,0\n1,4,100000,1\n1,-1,100000,0\n", 2));
+  EXPECT_EQ(pattern.rows, 2U);
+  EXPECT_EQ(pattern.columns, 1U);
+  const ScanPattern second = PatternOfFrame(pattern, 1);
+  EXPECT_EQ(second.row, pattern.row);
+  EXPECT_NEAR(ElevationInDegrees(second, 0), -1.0, kFloatAngle_deg);
+  EXPECT_NEAR(ElevationInDegrees(second, 1), 4.0, kFloatAngle_deg);
+}
+
+TEST_F(FiringTable, RefusesFramesThatDifferInMoreThanDirections) {
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n0,0,5\n0,0,100000\n", 2),
+            "table.csv: must have as many firings in each of its 2 frames (got 3)");
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n0,0,5\n0,0,100000\n0,0,100007\n", 2),
+            "table.csv:5: time_us: must be that of the same firing in the first frame, and the "
+            "periods since, to 1 us: 100005 (got 100007)");
+  EXPECT_EQ(FaultsOfText(std::string(kRingHeader) + "0,0,0,0\n0,0,0,1\n0,0,1e5,1\n0,0,1e5,0\n", 2),
+            "table.csv:4: ring: must be that of the same firing in the first frame, 0 (got 1)");
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n0,0,9e6\n", 2),
+            "table.csv:3: time_us: must be <= 8589934 (got 9e+06)");
+  EXPECT_EQ(FaultsOfText(std::string(kHeader) + "0,0,0\n", 0),
+            "/pattern/frames: must be >= 1 and <= 100000 (got 0)");
 }
 
 TEST_F(FiringTable, NamesLineAndColumnOfWhatIsNoNumber) {

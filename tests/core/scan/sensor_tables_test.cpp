@@ -8,7 +8,9 @@
 #include <map>
 #include <numbers>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <utility>
 
 #include "tests/core/scan/pattern_angles.h"
 #include "tests/support/sensor_file.h"
@@ -100,6 +102,82 @@ TEST(RosetteTable, IsThatOfTwoTurningPrisms) {
     widest_deg = std::max(widest_deg, std::abs(deflection_deg));
   }
   EXPECT_NEAR(widest_deg, 19.2, 0.01);
+}
+
+/// The field of view of a minute's frames of a sensor, every tenth.
+struct View {
+  double width_deg{};
+  double height_deg{};
+};
+
+View ViewOf(const ScanPattern& pattern) {
+  double left_deg = 0.0;
+  double right_deg = 0.0;
+  double top_deg = 0.0;
+  double bottom_deg = 0.0;
+  for (std::uint32_t frame = 0; frame < 600; frame += 10) {
+    const ScanPattern of_frame = PatternOfFrame(pattern, frame);
+    for (std::size_t i = 0; i < of_frame.num_firings(); ++i) {
+      left_deg = std::max(left_deg, AzimuthInDegrees(of_frame, i));
+      right_deg = std::min(right_deg, AzimuthInDegrees(of_frame, i));
+      top_deg = std::max(top_deg, ElevationInDegrees(of_frame, i));
+      bottom_deg = std::min(bottom_deg, ElevationInDegrees(of_frame, i));
+    }
+  }
+  return {left_deg - right_deg, top_deg - bottom_deg};
+}
+
+struct LikeSensor {
+  const char* name;
+  std::size_t num_firings;
+  View view;
+};
+
+class SensorWithPrisms : public testing::TestWithParam<LikeSensor> {};
+
+// Points per second and fields of view are those that Livox states for the sensors.
+TEST_P(SensorWithPrisms, HasTheViewAndThePointsOfItsModel) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor(GetParam().name));
+  EXPECT_FALSE(pattern.repeats());
+  EXPECT_EQ(pattern.num_firings(), GetParam().num_firings);
+  const View view = ViewOf(pattern);
+  EXPECT_NEAR(view.width_deg, GetParam().view.width_deg, 0.1);
+  EXPECT_NEAR(view.height_deg, GetParam().view.height_deg, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(SensorTables,
+                         SensorWithPrisms,
+                         testing::Values(LikeSensor{"mid40_like", 10'000, {38.4, 38.4}},
+                                         LikeSensor{"tele15_like", 24'000, {14.5, 16.2}}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+using Cell = std::pair<int, int>;
+
+/// The cells of 0.3 deg, by azimuth and elevation, into which a frame's beams go.
+void AddCells(const ScanPattern& of_frame, std::set<Cell>& cells) {
+  constexpr double kCell_deg = 0.3;
+  for (std::size_t i = 0; i < of_frame.num_firings(); ++i) {
+    const Cell cell(static_cast<int>(std::floor(AzimuthInDegrees(of_frame, i) / kCell_deg)),
+                    static_cast<int>(std::floor(ElevationInDegrees(of_frame, i) / kCell_deg)));
+    const double from_axis_deg = kCell_deg * std::hypot(cell.first + 0.5, cell.second + 0.5);
+    if (from_axis_deg < 19.2) cells.insert(cell);
+  }
+}
+
+// The shares were found by a script of a few lines, which refracts the beams one by one and knows
+// nothing of frames.
+TEST(Mid40Like, CoversItsViewBitByBit) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor("mid40_like"));
+  std::set<Cell> cells;
+  constexpr double kNumCells = 12892.0;
+  const std::map<std::uint32_t, double> shares = {{0, 0.213}, {1, 0.386}, {4, 0.734}, {9, 0.945}};
+  for (std::uint32_t frame = 0; frame < 10; ++frame) {
+    AddCells(PatternOfFrame(pattern, frame), cells);
+    const auto share = shares.find(frame);
+    if (share == shares.end()) continue;
+    // Rounded to 0.001; some beams on the edges of cells are rounded otherwise.
+    EXPECT_NEAR(static_cast<double>(cells.size()) / kNumCells, share->second, 0.002) << frame;
+  }
 }
 
 TEST(PandarTable, AgreesWithThePublishedCalibration) {

@@ -1,5 +1,6 @@
 #include "generator/check/check_report.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "railcast/scenario.h"
@@ -26,6 +27,20 @@ TEST(CheckReport, StatesTheSensorsRates) {
   EXPECT_EQ(SensorText(lidar, FourFirings()),
             "sensor    odd: 4 firings a frame (1 rows x 4 columns), range 0.5 to 300 m\n"
             "          10 frames/s, each fired within 0.075 s; at most 40 points/s\n");
+}
+
+TEST(CheckReport, SaysThatFramesDiffer) {
+  LidarSpec lidar;
+  lidar.name = "loops";
+  const ScanPattern pattern = BuildScanPattern(
+      {.rate_hz = 10.0,
+       .pattern = RisleySpec{.channels = {ChannelSpec{}},
+                             .cycle_us = 100.0,
+                             .columns = 1000,
+                             .prisms = {{.refractive_index = 1.5, .turns_hz = 7.0}}}});
+  EXPECT_THAT(SensorText(lidar, pattern),
+              testing::EndsWith("10000 points/s\n"
+                                "          a figure that goes on from frame to frame\n"));
 }
 
 TEST(CheckReport, SaysWhatACameraIs) {

@@ -15,6 +15,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/composition/shared_clouds.h"
 #include "tests/viewer/made_run.h"
+#include "viewer/overlays/beams.h"
 
 namespace railcast {
 namespace {
@@ -216,6 +217,31 @@ TEST(Compose, SaysWhatCannotBeDrawnAndWhy) {
   EXPECT_EQ(without_scenario.Missing(*bare, {.empty_beams = true}),
             "beams without return need a frame in which every firing has its place");
   EXPECT_EQ(without_scenario.Missing(*bare, {.overlays = {.axes = true, .rings = true}}), "");
+}
+
+TEST(Compose, AimsEmptyBeamsAsTheFrameOfASensorThatDoesNotRepeat) {
+  const TemporaryDirectory directory;
+  static_cast<void>(
+      MakeSequence(directory.path() / "run",
+                   {.sensor = "mid40_like", .start_frame = kRunBegins, .num_frames = 1}));
+  const auto recording = OpenRecording(directory.path() / "run");
+  const std::vector<RecordedFrame> recorded = ReadAll(*recording);
+  Composer composer(recording->info());
+  Choices choices = By("height");
+  choices.empty_beams = true;
+  const auto shown = Shared(RecordedFrame(recorded.at(0)));
+  const auto drawn = composer.Compose({shown}, choices).empty_beams.segments;
+  const ScanPattern first = BuildScanPattern(recording->info().scenario->lidar.scan);
+  const auto expected =
+      DrawEmptyBeams(recorded[0], BeamsOf(PatternOfFrame(first, kRunBegins))).segments;
+  const auto others = DrawEmptyBeams(recorded[0], BeamsOf(first)).segments;
+  ASSERT_EQ(drawn.size(), expected.size());
+  ASSERT_GT(drawn.size(), 100U);
+  for (std::size_t i = 0; i < drawn.size(); ++i) ASSERT_EQ(drawn[i].to_m, expected[i].to_m);
+  EXPECT_NE(drawn[50].to_m, others[50].to_m);
+  choices.overlays.frustum = true;
+  EXPECT_EQ(composer.Missing(*shown, choices),
+            "the frustum needs a sensor whose firings are a grid");
 }
 
 TEST(Compose, KnowsThatMergedCloudsHaveNoSingleSensor) {

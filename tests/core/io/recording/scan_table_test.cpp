@@ -93,6 +93,16 @@ TEST(ScanTable, KnowsWhoLooksIntoTheSameDirection) {
   EXPECT_EQ(raster->ColumnBeside(5, 0, 6), 0U);
 }
 
+// Its lasers lie beside each other, but each draws loops over the whole view.
+TEST(ScanTable, OfAFigureOfLoopsIsNone) {
+  const ScanPattern pattern = BuildScanPattern(ReadSensor("tele15_like"));
+  ASSERT_EQ(pattern.rows, 6U);
+  EXPECT_FALSE(MakeScanTable(pattern));
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeSphere(20.0, 24, 48), 2, 1}};
+  EXPECT_FALSE(MakeScanTable(ScanOnce(world, pattern)));
+}
+
 TEST(ScanTable, OfAListOfFiringsIsNone) {
   Frame frame;
   frame.Resize(1, 100, 1);

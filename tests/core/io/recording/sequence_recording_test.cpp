@@ -47,6 +47,26 @@ void ExpectSameHead(const Frame& a, const Frame& b) {
   }
 }
 
+TEST(SequenceRecording, GivesBackTheFramesOfASensorThatDoesNotRepeat) {
+  const TemporaryDirectory directory;
+  for (const char* format : {"pcd", "pcd-ascii"}) {
+    const auto made = MakeSequence(directory.path() / format,
+                                   {.format = format, .sensor = "tele15_like", .start_frame = 7});
+    const auto frames = ReadAll(*OpenRecording(directory.path() / format));
+    ASSERT_EQ(frames.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      ExpectSameHead(frames[i].frame, made.frames[i]);
+      ExpectSameShape(frames[i].frame, made.frames[i]);
+      EXPECT_TRUE(AreSame(frames[i].frame.x, made.frames[i].x));
+      EXPECT_TRUE(AreSame(frames[i].frame.y, made.frames[i].y));
+      EXPECT_TRUE(AreSame(frames[i].frame.z, made.frames[i].z));
+      EXPECT_EQ(frames[i].frame.time_ns, made.frames[i].time_ns);
+      EXPECT_EQ(frames[i].frame.ring, made.frames[i].ring);
+    }
+    EXPECT_FALSE(AreSame(frames[0].frame.y, frames[1].frame.y));
+  }
+}
+
 class OrganisedFormat : public testing::TestWithParam<const char*> {};
 
 TEST_P(OrganisedFormat, GivesBackEveryFieldOfEverySlot) {

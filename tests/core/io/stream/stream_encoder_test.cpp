@@ -5,7 +5,10 @@
 #include "core/io/stream/stream_clouds.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/stream_example.h"
+#include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/scan_once.h"
+#include "tests/support/simple_world.h"
 
 namespace railcast {
 namespace {
@@ -40,6 +43,39 @@ TEST(StreamEncoder, SendsTheReturnedPointsInTheOrderOfTheirFirings) {
   EXPECT_EQ(next, received.num_points());
   EXPECT_EQ(header.fields.size(), 8U);
   EXPECT_EQ(header.point_size, 30);
+}
+
+TEST(StreamEncoder, SendsTheDirectionsOfItsFrameForASensorThatDoesNotRepeat) {
+  const RisleySpec risley{
+      .channels = {ChannelSpec{}},
+      .cycle_us = 100.0,
+      .columns = 1000,
+      .prisms = {{.wedge_deg = 18.0, .refractive_index = 1.51, .turns_hz = -77.7},
+                 {.wedge_deg = 18.0, .refractive_index = 1.51, .turns_hz = 121.6}}};
+  const ScanPattern pattern = BuildScanPattern({.rate_hz = 10.0, .pattern = risley});
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = {{MakeSphere(20.0, 24, 48), 2, 1}};
+  StreamEncoder encoder(pattern, {});
+  for (const std::uint32_t index : {0U, 7U}) {
+    FrameAssembler assembler;
+    Datagrams datagrams;
+    encoder.Encode(ScanOnce(world, pattern, {}, index), datagrams);
+    std::vector<ReceivedFrame> received;
+    for (const Datagrams::Item& item : datagrams.items) {
+      const auto bytes = datagrams.BytesOf(item);
+      assembler.Take(std::string(bytes.begin(), bytes.end()), received);
+    }
+    ASSERT_EQ(received.size(), 1U);
+    ASSERT_EQ(received[0].num_points(), 1000U);
+    const StreamHeader& header = received[0].header;
+    const ScanPattern of_frame = PatternOfFrame(pattern, index);
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const Vector3 point(static_cast<double>(received[0].At<float>(*header.Find("x"), i)),
+                          static_cast<double>(received[0].At<float>(*header.Find("y"), i)),
+                          static_cast<double>(received[0].At<float>(*header.Find("z"), i)));
+      ASSERT_LT((point.normalized() - DirectionOf(of_frame, i)).norm(), 1e-6);
+    }
+  }
 }
 
 TEST(StreamEncoder, SaysWhatTheFrameIs) {
