@@ -74,8 +74,7 @@ class FrameCounter {
     }
     totals_.last_s = Now_s();
     if (totals_.frames == 0) totals_.first_s = totals_.last_s;
-    ++totals_.frames;
-    totals_.points += frame.num_points();
+    totals_.Add(frame);
   }
 
   [[nodiscard]] bool is_done() const {

@@ -12,6 +12,8 @@ namespace railcast {
 void AddSequence(CLI::App& app, ProgramCommand& command);
 /// Sends frames live, at the pace of real sensors, until stopped.
 void AddStream(CLI::App& app, ProgramCommand& command);
+/// Sends a recording at its own pace, faster, or step by step.
+void AddReplay(CLI::App& app, ProgramCommand& command);
 /// Prints a report on a scenario and its scene, or the resolved scenario alone.
 void AddCheck(CLI::App& app, ProgramCommand& command);
 /// Writes the scene as triangles: a stretch of the line, or the window of frame 0.

@@ -8,6 +8,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   app.add_flag("-v,--verbose")->description("Print details of each step");
   railcast::AddSequence(app, command);
   railcast::AddStream(app, command);
+  railcast::AddReplay(app, command);
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <pcl/io/pcd_io.h>
@@ -15,6 +16,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 
@@ -47,6 +49,23 @@ std::uint64_t PointsEach(const ReceivedTotals& totals) {
   return totals.frames == 0 ? 0 : totals.points / totals.frames;
 }
 
+constexpr double kNsPerMs = 1e6;
+
+double QuantileMs(const DurationHistogram& times, double fraction) {
+  return static_cast<double>(times.QuantileNs(fraction)) / kNsPerMs;
+}
+
+void PutTimes(std::string_view head, const DurationHistogram& times, std::ostream& text) {
+  if (times.count() == 0) return;
+  text << head << ": p50 " << std::fixed << std::setprecision(3) << QuantileMs(times, 0.5)
+       << " ms, p99 " << QuantileMs(times, 0.99) << " ms\n";
+}
+
+Json TimesJson(const DurationHistogram& times) {
+  if (times.count() == 0) return {};
+  return {{"p50", QuantileMs(times, 0.5)}, {"p99", QuantileMs(times, 0.99)}};
+}
+
 std::string RateText(const ReceivedTotals& totals) {
   if (totals.frames < 2) return "no rate yet";
   std::ostringstream text;
@@ -67,7 +86,8 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
   lines_.open(index);
   lines_.precision(std::numeric_limits<double>::max_digits10);
   lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points,"
-            "end_time_ns,end_x,end_y,end_z,end_qx,end_qy,end_qz,end_qw\n"
+            "end_time_ns,end_x,end_y,end_z,end_qx,end_qy,end_qz,end_qw,"
+            "first_arrival_ns,last_arrival_ns,latency_ns\n"
          << std::flush;
   if (!lines_) throw FileError(index, errno);
 }
@@ -84,9 +104,32 @@ void ReceivedFiles::Write(const ReceivedFrame& frame) {
   if (header.axes == StreamAxes::kSensor && !header.is_left_handed) {
     lines_ << ',' << header.duration_ns;
     PutPose(header.world_from_sensor_end, lines_);
+  } else {
+    lines_ << ",,,,,,,,";
   }
+  lines_ << ',' << frame.first_arrival_ns << ',' << frame.last_arrival_ns << ',';
+  if (const auto latency_ns = LatencyOf(frame)) lines_ << *latency_ns;
   lines_ << '\n' << std::flush;
   if (!lines_) throw FileError(directory_ / kIndexName, errno);
+}
+
+std::optional<std::int64_t> LatencyOf(const ReceivedFrame& frame) {
+  constexpr std::int64_t kHour_ns = 3600 * kNsPerS;
+  std::int64_t since_stamp_ns = 0;
+  // The stamp is what the sender claims.
+  if (__builtin_sub_overflow(frame.last_arrival_ns, frame.header.stamp_ns, &since_stamp_ns) ||
+      since_stamp_ns < -kHour_ns || since_stamp_ns > kHour_ns) {
+    return std::nullopt;
+  }
+  return since_stamp_ns - std::int64_t{frame.header.duration_ns};
+}
+
+void ReceivedTotals::Add(const ReceivedFrame& frame) {
+  ++frames;
+  points += frame.num_points();
+  if (last_arrival_ns) between.Add(frame.last_arrival_ns - *last_arrival_ns);
+  last_arrival_ns = frame.last_arrival_ns;
+  if (const auto latency_ns = LatencyOf(frame)) latency.Add(*latency_ns);
 }
 
 double ReceivedTotals::rate_hz() const {
@@ -124,6 +167,8 @@ std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::C
        << " reordered, " << stream.late_packets << " late, " << stream.stray_packets << " stray, "
        << stream.num_refused() << " refused\n";
   text << "points: " << totals.points << ", " << PointsEach(totals) << " a frame\n";
+  PutTimes("from frame to frame", totals.between, text);
+  PutTimes("latency since the last firing", totals.latency, text);
   if (stream.other_sender) {
     text << "packets of other senders: " << stream.other_sender_packets
          << ", dropped; the last from " << EndpointText(*stream.other_sender) << "\n";
@@ -162,6 +207,8 @@ std::string ReceiveSummaryJson(const ReceivedTotals& totals, const StreamReceive
                           {"refused", stream.num_refused()}}},
                         {"refused_for", refused},
                         {"points", totals.points},
+                        {"from_frame_to_frame_ms", TimesJson(totals.between)},
+                        {"latency_ms", TimesJson(totals.latency)},
                         {"restarts_of_the_sender", stream.restarts}};
   return summary.dump() + "\n";
 }

@@ -6,14 +6,16 @@
 #include <optional>
 #include <string>
 
+#include "core/program/duration_histogram.h"
 #include "railcast/io/stream.h"
 
 namespace railcast {
 
 /// Records a stream: frames/000000.pcd, ... in the order of arrival with every field that was sent,
 /// and frames.csv with one line per file: file, run, frame, stamp_ns, the pose at the stamp (x y z
-/// in m, qx qy qz qw), points, lost_points and, where points are in the sensor's axes, the time
-/// from the stamp to the last firing and the pose at that.
+/// in m, qx qy qz qw), points, lost_points; where points are in the sensor's axes, the time from
+/// the stamp to the last firing and the pose at that; the times at which the frame's first and last
+/// datagram arrived, and LatencyOf() it.
 class ReceivedFiles {
  public:
   /// @throws InputError if the directory cannot be made or already holds a recording.
@@ -28,13 +30,23 @@ class ReceivedFiles {
   std::uint32_t num_files_{};
 };
 
+/// Returns the time from a frame's last firing to the arrival of its last datagram, below 0 where
+/// the sender's clock is ahead. Nothing if its stamp is no time of day, which one is that differs
+/// from the arrival by an hour at most.
+[[nodiscard]] std::optional<std::int64_t> LatencyOf(const ReceivedFrame& frame);
+
 /// Totals of the frames received, beside the receiver's own counts.
 struct ReceivedTotals {
   std::uint64_t frames{};
   std::uint64_t points{};
   double first_s{};  ///< Arrival times of the first and the last frame.
   double last_s{};
+  std::optional<std::int64_t> last_arrival_ns;  ///< Of the last frame.
+  DurationHistogram between;  ///< From the arrival of each frame to that of the next.
+  DurationHistogram latency;  ///< LatencyOf() the frames that have one.
 
+  /// Adds what is known of a frame, but for `first_s` and `last_s`.
+  void Add(const ReceivedFrame& frame);
   /// NaN before the second frame.
   [[nodiscard]] double rate_hz() const;
 };
@@ -54,8 +66,8 @@ struct ReceiveLimits {
                                                   double elapsed_s,
                                                   const ReceiveLimits& limits);
 
-/// Lines on frames, packets and points and, where there are any, on datagrams of other senders and
-/// on refused ones by reason.
+/// Lines on frames, packets, points and times of arrival and, where there are any, on datagrams of
+/// other senders and on refused ones by reason.
 [[nodiscard]] std::string ReceiveSummary(const ReceivedTotals& totals,
                                          const StreamReceiver::Counts& counts);
 

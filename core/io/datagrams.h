@@ -24,7 +24,9 @@ struct Datagrams {
     DatagramPort port{};
     /// Simulation time of the last firing in the datagram; a real sensor could not send it earlier.
     std::int64_t due_ns{};
-    std::uint16_t topic{};  ///< Of a message for ROS 2, which takes the place of a datagram.
+    /// Of a message for ROS 2, which takes the place of a datagram; of a recorded datagram, the
+    /// port that it was sent to.
+    std::uint16_t topic{};
   };
   std::vector<char> bytes;
   std::vector<Item> items;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
-#include "generator/live/duration_histogram.h"
+#include "core/program/duration_histogram.h"
 #include "generator/live/live_clock.h"
 
 namespace railcast {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
+#include "core/program/duration_histogram.h"
 #include "generator/live/datagram_queue.h"
-#include "generator/live/duration_histogram.h"
 #include "generator/live/live_clock.h"
 
 namespace railcast {

@@ -69,15 +69,17 @@ SensorStream::SensorStream(SensorStreamSpec spec,
   }
 }
 
+std::unique_ptr<FrameEncoder> MakePacketEncoder(Protocol protocol, const LidarSpec& lidar) {
+  if (protocol == Protocol::kOuster) return MakeOusterEncoder(lidar);
+  const std::string_view name = NameOf(protocol);
+  if (const HesaiModel* const model = FindHesaiModel(name)) {
+    return MakeHesaiEncoder(*model, lidar.scan, lidar.receiver.return_mode);
+  }
+  return MakeVelodyneEncoder(name, lidar.scan, lidar.receiver.return_mode);
+}
+
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {
-  if (spec_.protocol == Protocol::kOuster) return MakeOusterEncoder(lidar_);
-  const std::string_view protocol = NameOf(spec_.protocol);
-  if (const HesaiModel* const model = FindHesaiModel(protocol)) {
-    return MakeHesaiEncoder(*model, lidar_.scan, lidar_.receiver.return_mode);
-  }
-  if (spec_.protocol != Protocol::kRailcast) {
-    return MakeVelodyneEncoder(protocol, lidar_.scan, lidar_.receiver.return_mode);
-  }
+  if (spec_.protocol != Protocol::kRailcast) return MakePacketEncoder(spec_.protocol, lidar_);
   return std::make_unique<StreamEncoder>(pattern_, StreamSpec{.fields = spec_.fields,
                                                               .has_all_slots = spec_.has_all_slots,
                                                               .output = output_,

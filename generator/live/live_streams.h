@@ -77,6 +77,12 @@ struct SensorStreamSpec {
 /// Whether the frames of a sensor have any.
 [[nodiscard]] bool HasReaders(const SensorStreamSpec& stream);
 
+/// Makes the encoder of a real sensor's packets.
+/// @param protocol Neither railcast nor ros2.
+/// @throws InputError if the sensor does not fit the protocol.
+[[nodiscard]] std::unique_ptr<FrameEncoder> MakePacketEncoder(Protocol protocol,
+                                                              const LidarSpec& lidar);
+
 /// Encodes one sensor's frames and hands them to its receivers and to a capture file. If the system
 /// refuses to write the capture, as on a full disk, the capture ends, but receivers continue to get
 /// all frames.

@@ -91,7 +91,8 @@ std::string LiveSummary(const std::vector<LiveRecord>& records,
   return text.str();
 }
 
-std::string LiveSummaryJson(const LiveResult& result,
+std::string LiveSummaryJson(std::string_view command,
+                            const LiveResult& result,
                             const std::vector<UdpSender::Counts>& delivered,
                             const std::vector<std::string>& capture_faults,
                             bool has_times) {
@@ -112,7 +113,7 @@ std::string LiveSummaryJson(const LiveResult& result,
                        {"lateness_ms", times(record.sent.lateness)}});
   }
   const Json fault = result.fault ? Json(*result.fault) : Json();
-  const Json summary = {{"command", "stream"},
+  const Json summary = {{"command", command},
                         {"sensors", sensors},
                         {"capture_faults", capture_faults},
                         {"fault", fault}};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/net/udp.h"
@@ -42,7 +43,9 @@ class LagReport {
 
 /// Returns the same as JSON, in one line, with what ended the run or its captures early. Times are
 /// null where the clock does not measure them.
-[[nodiscard]] std::string LiveSummaryJson(const LiveResult& result,
+/// @param command The command that was run.
+[[nodiscard]] std::string LiveSummaryJson(std::string_view command,
+                                          const LiveResult& result,
                                           const std::vector<UdpSender::Counts>& delivered,
                                           const std::vector<std::string>& capture_faults,
                                           bool has_times);

@@ -8,8 +8,6 @@
 namespace railcast {
 namespace {
 
-constexpr int kLastWait_ms = 1000;
-
 /// What the sensors of protocol ros2 tell, and the camera if the sensor that it belongs to is one
 /// of them.
 ros::TopicsSpec SpecOfTopics(const RosOutputSpec& spec, const FrameMaker& maker) {
@@ -22,20 +20,15 @@ ros::TopicsSpec SpecOfTopics(const RosOutputSpec& spec, const FrameMaker& maker)
   return all;
 }
 
-/// Appends messages that leave when the frame's last firing does.
-void AppendMessages(const std::vector<ros::TopicMessage>& messages,
-                    std::int64_t due_ns,
-                    Datagrams& datagrams) {
-  for (const ros::TopicMessage& message : messages) {
-    const std::size_t offset = datagrams.bytes.size();
-    const auto* bytes = reinterpret_cast<const char*>(message.cdr.data());
-    datagrams.bytes.insert(datagrams.bytes.end(), bytes, bytes + message.cdr.size());
-    datagrams.items.push_back({.offset = offset,
-                               .size = static_cast<std::uint32_t>(message.cdr.size()),
-                               .port = DatagramPort::kData,
-                               .due_ns = due_ns,
-                               .topic = static_cast<std::uint16_t>(message.topic)});
+std::vector<dds::TopicSpec> SpecsOf(const std::vector<ros::Topic>& topics) {
+  std::vector<dds::TopicSpec> specs;
+  for (const ros::Topic& topic : topics) {
+    specs.push_back({.name = topic.name,
+                     .type = topic.type.dds_name,
+                     .hash = topic.type.hash,
+                     .is_latched = topic.is_latched});
   }
+  return specs;
 }
 
 }  // namespace
@@ -43,21 +36,17 @@ void AppendMessages(const std::vector<ros::TopicMessage>& messages,
 RosOutput::RosOutput(const RosOutputSpec& spec,
                      std::unique_ptr<dds::Participant> participant,
                      FrameMaker& maker)
-    : maker_(maker), topics_(SpecOfTopics(spec, maker)), participant_(std::move(participant)) {
-  for (const ros::Topic& topic : topics_.topics()) {
-    writers_.push_back(participant_->AddWriter({.name = topic.name,
-                                                .type = topic.type.dds_name,
-                                                .hash = topic.type.hash,
-                                                .is_latched = topic.is_latched}));
-  }
+    : maker_(maker),
+      topics_(SpecOfTopics(spec, maker)),
+      writers_(std::move(participant), SpecsOf(topics_.topics())) {
   for (const std::size_t number : spec.sensors) sensors_.push_back({number, {}, {}});
 }
 
 void RosOutput::Begin() {
-  participant_->Announce();
+  writers_.participant().Announce();
   const std::int64_t begin_ns = maker_.pattern(sensors_.front().number).StampNs(0);
   for (const ros::TopicMessage& message : topics_.First(begin_ns)) {
-    static_cast<void>(participant_->Write(writers_[message.topic], message.cdr));
+    static_cast<void>(writers_.Write(message.topic, message.cdr));
   }
 }
 
@@ -68,18 +57,11 @@ void RosOutput::Make(std::size_t sensor, std::uint32_t frame, Datagrams& datagra
   // On the threads that scan.
   maker_.simulator(number).Execute([&] {
     const std::int64_t last_ns = made.frame.stamp_ns + std::int64_t{made.frame.duration_ns};
-    AppendMessages(MessagesOf(topics_, sensor, made), last_ns, datagrams);
+    for (const ros::TopicMessage& message : MessagesOf(topics_, sensor, made)) {
+      // They leave when the frame's last firing does.
+      AppendMessage(message.topic, message.cdr, last_ns, datagrams);
+    }
   });
-}
-
-void RosOutput::Send(Sensor& sensor,
-                     const Datagrams& datagrams,
-                     std::span<const Datagrams::Item> items) {
-  for (const Datagrams::Item& item : items) {
-    const bool is_sent =
-        participant_->Write(writers_[item.topic], std::as_bytes(datagrams.BytesOf(item)));
-    ++(is_sent ? sensor.counts.sent : sensor.counts.refused);
-  }
 }
 
 std::vector<LiveSensor> RosOutput::Sensors() {
@@ -94,16 +76,17 @@ std::vector<LiveSensor> RosOutput::Sensors() {
          .stamp_ns = [&pattern](std::uint32_t frame) { return pattern.StampNs(frame); },
          .make = [this, i](std::uint32_t frame,
                            Datagrams& datagrams) { Make(i, frame, datagrams); },
-         .send = [this, &sensor](
-                     const Datagrams& datagrams,
-                     std::span<const Datagrams::Item> items) { Send(sensor, datagrams, items); },
+         .send =
+             [this, &sensor](const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
+               writers_.Send(datagrams, items, sensor.counts);
+             },
          .sends = "messages"});
   }
   return sensors;
 }
 
 void RosOutput::Finish() {
-  participant_->WaitForReaders(kLastWait_ms);
+  writers_.Finish();
 }
 
 std::vector<UdpSender::Counts> RosOutput::Delivered() const {

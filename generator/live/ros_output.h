@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "core/io/datagrams.h"
@@ -11,6 +10,7 @@
 #include "core/io/net/udp.h"
 #include "core/io/ros/frame_topics.h"
 #include "generator/live/live_run.h"
+#include "generator/live/ros_writers.h"
 #include "generator/run/frame_maker.h"
 
 namespace railcast {
@@ -33,7 +33,7 @@ class RosOutput {
             std::unique_ptr<dds::Participant> participant,
             FrameMaker& maker);
 
-  [[nodiscard]] dds::Participant& participant() { return *participant_; }
+  [[nodiscard]] dds::Participant& participant() { return writers_.participant(); }
   /// Tells the name of the node and what holds for the whole run, once all topics are there.
   void Begin();
 
@@ -53,12 +53,10 @@ class RosOutput {
     UdpSender::Counts counts;
   };
   void Make(std::size_t sensor, std::uint32_t frame, Datagrams& datagrams);
-  void Send(Sensor& sensor, const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 
   FrameMaker& maker_;
   ros::FrameTopics topics_;
-  std::unique_ptr<dds::Participant> participant_;
-  std::vector<std::size_t> writers_;  ///< By topic.
+  RosWriters writers_;  ///< Of topics_.
   std::vector<Sensor> sensors_;
 };
 

@@ -1,8 +1,5 @@
 #include "generator/live/ros_plan.h"
 
-#include <charconv>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
@@ -11,33 +8,6 @@
 
 namespace railcast {
 namespace {
-
-constexpr const char* kDomainVariable = "ROS_DOMAIN_ID";
-
-/// As ROS 2 reads it: the domain 0 where it is not set, or empty.
-std::uint32_t DomainOfEnvironment() {
-  const char* const value = std::getenv(kDomainVariable);
-  const std::string_view text = value == nullptr ? "" : value;
-  std::uint32_t domain = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), domain);
-  const bool is_whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
-  if (text.empty() || (is_whole && domain <= dds::kMaxDomain)) return domain;
-  throw InputError(std::string(kDomainVariable) + ": must be a whole number from 0 to " +
-                   std::to_string(dds::kMaxDomain) + " (got \"" + ShownText(text) + "\")");
-}
-
-dds::ParticipantSpec ParticipantOf(const StreamOptions& options, const Ros2Spec& spec) {
-  dds::ParticipantSpec participant;
-  participant.node = "railcast";
-  participant.interface = options.interface.value_or(spec.interface);
-  const ReceiveBuffers buffers = options.receive_buffers
-                                     ? ValueNamed<ReceiveBuffers>(*options.receive_buffers).value()
-                                     : spec.receive_buffers;
-  participant.has_large_buffers = buffers == ReceiveBuffers::kLarge;
-  const std::optional<std::uint32_t> domain = options.domain ? options.domain : spec.domain;
-  participant.domain = domain ? *domain : DomainOfEnvironment();
-  return participant;
-}
 
 void CheckNoneIsForRos(const StreamOptions& options, const SensorStreamSpec& stream) {
   for (const auto& [option, is_given] :
@@ -94,11 +64,6 @@ std::optional<RosOutputSpec> PlanRos(const StreamOptions& options,
                                : ros::CloudSpec{.fields = StreamSpec{}.fields};
   spec.participant = ParticipantOf(options, scenario.interfaces.ros2.value_or(Ros2Spec{}));
   return spec;
-}
-
-std::string PlaceText(const dds::ParticipantSpec& spec) {
-  return "domain " + std::to_string(spec.domain) + ", on " +
-         (spec.interface.empty() ? "loopback" : ShownText(spec.interface));
 }
 
 }  // namespace railcast

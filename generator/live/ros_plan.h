@@ -20,7 +20,4 @@ namespace railcast {
                                                    const ScenarioSpec& scenario,
                                                    const std::vector<SensorStreamSpec>& streams);
 
-/// Returns "domain 42, on loopback".
-[[nodiscard]] std::string PlaceText(const dds::ParticipantSpec& spec);
-
 }  // namespace railcast

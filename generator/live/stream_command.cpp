@@ -17,6 +17,7 @@
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_channel.h"
+#include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
 #include "generator/live/ouster_service.h"
@@ -157,11 +158,7 @@ void WriteCalibration(const std::filesystem::path& file,
 /// Returns a number that distinguishes this start from earlier ones. A run that is only captured
 /// always gets 0, so that it is reproducible.
 std::uint32_t RunNumber(const StreamOptions& options) {
-  if (IsOffline(options)) return 0;
-  // Counted in milliseconds, so that a later start has a larger number even after many resets.
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(
-      std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+  return IsOffline(options) ? 0 : NextRunNumber();
 }
 
 std::string Describe(const std::vector<SensorStreamSpec>& streams,
@@ -202,27 +199,6 @@ LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario
   spec.drops_late = options.drops_late;
   if (options.duration_s) spec.duration_ns = std::llround(1e9 * *options.duration_s);
   return spec;
-}
-
-std::unique_ptr<CommandChannel> OpenChannel(const StreamOptions& options,
-                                            const std::vector<ModelSpec>& models) {
-  if (!options.commands_port) return nullptr;
-  Endpoint peer = AtPlace("--commands-from: ", [&] {
-    return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
-  });
-  // A socket on the loopback address cannot be reached from other machines.
-  const std::uint32_t any_address = 0;
-  const std::uint32_t loopback = 0x7F000001;
-  const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
-  auto channel = AtPlace("--commands-port: ",
-                         [&] { return std::make_unique<CommandChannel>(at, peer, models); });
-  std::cout << "commands at " << EndpointText(channel->at()) << "\n";
-  return channel;
-}
-
-std::unique_ptr<dds::Participant> JoinDomain(const std::optional<RosOutputSpec>& spec) {
-  if (!spec) return nullptr;
-  return AtPlace("protocol ros2: ", [&] { return dds::Join(spec->participant); });
 }
 
 std::unique_ptr<RosOutput> OpenRos(const std::optional<RosOutputSpec>& spec,
@@ -351,8 +327,8 @@ int ReportRun(const LiveResult& result, const LiveStreams& streams, const Stream
   for (const std::string& fault : capture_faults)
     std::cout << "capture: " << ShownLines(fault) << "\n";
   if (options.summary) {
-    WriteFileWhole(*options.summary,
-                   LiveSummaryJson(result, streams.Delivered(), capture_faults, has_times));
+    WriteFileWhole(*options.summary, LiveSummaryJson("stream", result, streams.Delivered(),
+                                                     capture_faults, has_times));
   }
   if (result.fault) std::cerr << ShownLines(*result.fault) << "\n";
   const std::string late = options.fails_late ? LateText(result.records) : "";
@@ -378,7 +354,7 @@ int RunStream(const StreamOptions& options) {
   if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
   const std::optional<RosOutputSpec> ros_plan = PlanRos(options, scenario, plan);
-  auto participant = JoinDomain(ros_plan);
+  auto participant = ros_plan ? JoinDomain(ros_plan->participant) : nullptr;
   const LiveRunSpec spec = RunSpecOf(options, scenario);
   const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   // With commands, the journeys of moving objects are not known in advance, so they are not

@@ -65,34 +65,15 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
                   "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
                   "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
       ->check(NonEmpty());
-  stream
-      .add_option("--commands-port", options.commands_port,
-                  "UDP port on which to receive commands as lines of JSON; default: none")
-      ->transform(Whole({1, 65535}));
-  stream.add_option("--commands-from", options.commands_from,
-                    "HOST or HOST:PORT whose commands are accepted; default: this machine only");
+  AddCommandOptions(stream, options);
   stream
       .add_option("--commands-log", options.commands_log,
                   "File to log the commands to, which `sequence --commands` can replay")
       ->check(NonEmpty());
-  stream
-      .add_option("--domain", options.domain,
-                  "With protocol ros2: domain to publish in; default: the scenario's, else "
-                  "ROS_DOMAIN_ID, else 0")
-      ->transform(Whole({0, 232}));
-  stream.add_option("--interface", options.interface,
-                    "With protocol ros2: name or IPv4 address of the network interface to publish "
-                    "through; default: the scenario's, else loopback");
-  stream
-      .add_option("--receive-buffers", options.receive_buffers,
-                  "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
-                  "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
-                  "default: the scenario's")
-      ->check(CLI::IsMember(NamesOf<ReceiveBuffers>()));
+  AddRosOptions(stream, options);
   stream.add_option("--commands-topic", options.commands_topic,
                     "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
                     "receive commands, such as /brake; default: none");
-  stream.add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
   stream
       .add_option("--duration", options.duration_s,
                   "Seconds of simulation time after which to end; default: run until stopped")

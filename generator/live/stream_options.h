@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "generator/live/live_options.h"
+
 namespace railcast {
 
 /// The options of `railcast-generate stream`.
-struct StreamOptions {
+struct StreamOptions : CommandOptions, RosOptions {
   std::filesystem::path scenario;
   std::optional<std::string> sensor;    ///< Absent = all sensors.
   std::vector<std::string> to;          ///< HOST:PORT of each receiver, instead of the scenario's.
@@ -27,14 +29,9 @@ struct StreamOptions {
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
   std::optional<std::string> http;  ///< HOST:PORT to answer at; for protocol ouster.
-  bool lockstep = false;
-  std::optional<std::uint16_t> commands_port;
-  std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
   std::optional<std::filesystem::path> commands_log;
-  std::optional<std::uint32_t> domain;           ///< For protocol ros2, as the next three.
-  std::optional<std::string> interface;          ///< Name or address; absent: the scenario's.
-  std::optional<std::string> receive_buffers;    ///< Name of a ReceiveBuffers.
-  std::optional<std::string> commands_topic;     ///< On which ROS 2's nodes give commands.
+  /// On which ROS 2's nodes give commands, for protocol ros2.
+  std::optional<std::string> commands_topic;
   std::optional<std::filesystem::path> summary;  ///< JSON file on the run.
   std::optional<double> duration_s;              ///< Simulation time; absent = until stopped.
   std::optional<std::uint64_t> seed;             ///< Overrides the scenario's.

@@ -35,7 +35,8 @@ TEST(ReceiveCommand, CountsFramesAndPackets) {
               MatchesRegex("frames: 3 complete, 1 incomplete, 1 missing, 0 dropped here; .* Hz\n"
                            "packets: 99 received, 1 lost, 0 duplicate, 0 reordered, 0 late, "
                            "0 stray, 0 refused\n"
-                           "points: 3801, 950 a frame\n"));
+                           "points: 3801, 950 a frame\n"
+                           "from frame to frame: p50 [0-9.]+ ms, p99 [0-9.]+ ms\n"));
   EXPECT_EQ(program.ExitStatus(), 0);
 }
 
@@ -108,8 +109,10 @@ TEST(ReceiveCommand, KeepsFramesWithTheirPoses) {
   std::getline(lines, second);
   // The position of frame 7 is (5.3e6 + 0.7, 6e5, 412.25) m; 17 digits represent any double.
   EXPECT_THAT(first, MatchesRegex("frames/000000.pcd,0,7,700000000,5300000.7[0-9]*,600000,412.25,"
-                                  ".*,960,0(,[-0-9.e]+){8}"));
-  EXPECT_THAT(second, MatchesRegex("frames/000001.pcd,0,8,800000000,.*,921,39(,[-0-9.e]+){8}"));
+                                  ".*,960,0(,[-0-9.e]+){8},[0-9]+,[0-9]+,"));
+  EXPECT_THAT(
+      second,
+      MatchesRegex("frames/000001.pcd,0,8,800000000,.*,921,39(,[-0-9.e]+){8},[0-9]+,[0-9]+,"));
   const Ended again = RunCommand(command);
   EXPECT_EQ(again.status, 1);
   EXPECT_EQ(again.said,

@@ -1,12 +1,68 @@
 #include "analysis/receive/receive_report.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
 
 namespace railcast {
 namespace {
 
 ReceivedTotals Totals() {
-  return {.frames = 21, .points = 21 * 16'000, .first_s = 100.0, .last_s = 102.5};
+  return {.frames = 21,
+          .points = 21 * 16'000,
+          .first_s = 100.0,
+          .last_s = 102.5,
+          .last_arrival_ns = {},
+          .between = {},
+          .latency = {}};
+}
+
+constexpr std::int64_t kMs_ns = 1'000'000;
+constexpr std::int64_t kNow_ns = 1'795'000'000'000'000'000;
+
+/// A frame of which the last datagram arrives so long after the stamp, and the last firing is 100
+/// ms after that.
+ReceivedFrame FrameAt(std::int64_t stamp_ns, std::int64_t arrival_ns) {
+  ReceivedFrame frame;
+  frame.header.stamp_ns = stamp_ns;
+  frame.header.duration_ns = 100 * kMs_ns;
+  frame.header.point_size = 4;
+  frame.points.resize(40);
+  frame.first_arrival_ns = arrival_ns - 90 * kMs_ns;
+  frame.last_arrival_ns = arrival_ns;
+  return frame;
+}
+
+TEST(ReceiveReport, KnowsTheLatencyOfStampsThatAreATimeOfDay) {
+  EXPECT_EQ(LatencyOf(FrameAt(kNow_ns, kNow_ns + 103 * kMs_ns)), 3 * kMs_ns);
+  // The sender's clock is ahead.
+  EXPECT_EQ(LatencyOf(FrameAt(kNow_ns, kNow_ns + 98 * kMs_ns)), -2 * kMs_ns);
+  const std::int64_t hour_ns = 3'600'000 * kMs_ns;
+  EXPECT_NE(LatencyOf(FrameAt(kNow_ns, kNow_ns + hour_ns)), std::nullopt);
+  EXPECT_EQ(LatencyOf(FrameAt(kNow_ns, kNow_ns + hour_ns + 1)), std::nullopt);
+  EXPECT_EQ(LatencyOf(FrameAt(kNow_ns, kNow_ns - hour_ns - 1)), std::nullopt);
+  EXPECT_EQ(LatencyOf(FrameAt(0, kNow_ns)), std::nullopt);
+  EXPECT_EQ(LatencyOf(FrameAt(std::numeric_limits<std::int64_t>::min(), kNow_ns)), std::nullopt);
+}
+
+TEST(ReceiveReport, TellsTimesOfArrival) {
+  ReceivedTotals totals;
+  for (const std::int64_t ms : {0, 100, 200, 350}) {
+    const std::int64_t stamp_ns = kNow_ns + ms * kMs_ns;
+    totals.Add(FrameAt(stamp_ns, stamp_ns + 104 * kMs_ns));
+  }
+  EXPECT_EQ(totals.frames, 4U);
+  EXPECT_EQ(totals.points, 40U);
+  const std::string text = ReceiveSummary(totals, {});
+  EXPECT_THAT(text, testing::HasSubstr("\nlatency since the last firing: p50 4.000 ms, p99 "));
+  EXPECT_THAT(text, testing::HasSubstr("\nfrom frame to frame: p50 100."));
+  const auto json = nlohmann::json::parse(ReceiveSummaryJson(totals, {}));
+  // Quantiles are exact to 1 %.
+  EXPECT_NEAR(json.at("from_frame_to_frame_ms").at("p50"), 100.0, 1.0);
+  EXPECT_NEAR(json.at("from_frame_to_frame_ms").at("p99"), 150.0, 1.5);
+  EXPECT_NEAR(json.at("latency_ms").at("p99"), 4.0, 0.04);
 }
 
 StreamReceiver::Counts Counts() {
@@ -70,7 +126,8 @@ TEST(ReceiveReport, IsJsonInOneLine) {
             R"({"command":"receive","frames":{"complete":20,"incomplete":1,"missing":2,)"
             R"("dropped_here":8},"rate_hz":8.0,"packets":{"received":8620,"lost":3,"duplicate":4,)"
             R"("reordered":5,"late":6,"stray":7,"of_other_senders":0,"refused":2},)"
-            R"("refused_for":{"magic":2},"points":336000,"restarts_of_the_sender":0})"
+            R"("refused_for":{"magic":2},"points":336000,"from_frame_to_frame_ms":null,)"
+            R"("latency_ms":null,"restarts_of_the_sender":0})"
             "\n");
   EXPECT_NE(ReceiveSummaryJson({}, {}).find(R"("rate_hz":null)"), std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/io/hesai/at128_decoder.h"
 #include "core/io/hesai/hesai_decoder.h"
+#include "core/io/recording/packet_recording.h"
 #include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
@@ -82,6 +84,23 @@ void CheckFrame(const RecordedFrame& recorded) {
   }
 }
 
+void ReadFrames(const std::function<std::FILE*()>& open) {
+  const auto recording = OpenCapture(open, "fuzz");
+  while (const auto read = recording->Next()) CheckFrame((*read)());
+}
+
+void ReadPackets(const std::function<std::FILE*()>& open) {
+  PacketRecording recording(PlaceOfCapture(open, "fuzz"));
+  std::size_t num = 1;
+  while (num > 0) {
+    const auto turn = recording.NextTurn();
+    num = turn.size();
+    for (const RecordedDatagram& datagram : turn) {
+      Check(!datagram.bytes.empty() && datagram.port != 0, "a datagram can be sent");
+    }
+  }
+}
+
 void ReadCapture(std::span<const char> bytes) {
   const auto open = [&] {
     std::FILE* const stream =
@@ -90,11 +109,12 @@ void ReadCapture(std::span<const char> bytes) {
     if (stream == nullptr) throw InputError("fuzz: empty");
     return stream;
   };
-  try {
-    const auto recording = OpenCapture(open, "fuzz");
-    while (const auto read = recording->Next()) CheckFrame((*read)());
-  } catch (const InputError& error) {
-    Check(std::string(error.what()).starts_with("fuzz: "), "a fault names its file");
+  for (const auto read : {&ReadFrames, &ReadPackets}) {
+    try {
+      read(open);
+    } catch (const InputError& error) {
+      Check(std::string(error.what()).starts_with("fuzz: "), "a fault names its file");
+    }
   }
 }
 

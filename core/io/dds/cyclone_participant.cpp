@@ -84,6 +84,7 @@ Qos QosOf(const TopicSpec& topic) {
   ::dds_qset_durability(
       qos.get(), topic.is_latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   ::dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, topic.is_latched ? 1 : kDepth);
+  if (topic.hash.empty()) return qos;
   const std::string data = "typehash=" + topic.hash + ";";
   ::dds_qset_userdata(qos.get(), data.data(), data.size());
   return qos;

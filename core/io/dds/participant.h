@@ -33,7 +33,7 @@ struct ParticipantSpec {
 struct TopicSpec {
   std::string name;         ///< As ROS writes it: "/front/points".
   std::string type;         ///< As DDS writes it: "sensor_msgs::msg::dds_::PointCloud2_".
-  std::string hash{};       ///< REP-2016's: "RIHS01_" and 64 hex digits.
+  std::string hash{};       ///< REP-2016's: "RIHS01_" and 64 hex digits; empty = not known.
   bool is_latched = false;  ///< Whether a reader that comes late gets the last message.
 };
 

@@ -102,6 +102,11 @@ std::optional<IpFragment> FindFragment(std::span<const char> frame) {
   return ip ? UdpFragment(*ip) : std::nullopt;
 }
 
+std::uint32_t SourceOf(const IpFragment& fragment) {
+  const std::span<const char> packet = fragment.packet;
+  return std::uint32_t{BigAt(packet, 0)} << 16U | BigAt(packet, 2);
+}
+
 // The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
 std::int64_t TimeOf(const pcap_pkthdr& header, const std::string& place) {
   // pcapng's clocks have more bits than int64_t has nanoseconds.
@@ -179,7 +184,9 @@ std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment
 std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
   const auto fragment = FindFragment(frame);
   if (!fragment || !IsWhole(*fragment)) return std::nullopt;
-  return DatagramIn(fragment->bytes);
+  auto datagram = DatagramIn(fragment->bytes);
+  if (datagram) datagram->source_address = SourceOf(*fragment);
+  return datagram;
 }
 
 struct PcapReader::Capture {
@@ -235,6 +242,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     auto datagram =
         IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
     if (!datagram) continue;
+    datagram->source_address = SourceOf(*fragment);
     datagram->packet = packet;
     datagram->time_ns = time_ns;
     return datagram;

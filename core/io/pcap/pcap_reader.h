@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "railcast/io/stream.h"
+
 namespace railcast {
 
 /// A piece of what an IPv4 packet carries.
@@ -62,6 +64,7 @@ class IpFragments {
 /// decoder of the protocol can tell where to cut.
 struct CapturedDatagram {
   std::span<const char> payload;  ///< Valid until the next datagram is read.
+  decltype(Endpoint::address) source_address{};
   std::uint16_t source_port{};
   std::uint16_t destination_port{};
   /// Time of capture since 1970-01-01 00:00:00 UTC; of a datagram in fragments, the last one's.

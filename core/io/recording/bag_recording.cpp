@@ -164,6 +164,18 @@ class PacketSource : public DatagramSource {
   std::size_t next_{};
 };
 
+/// @param source As messages and RecordingInfo name the bag.
+DatagramPlace PlaceOfPackets(const std::filesystem::path& source,
+                             const std::filesystem::path& bag,
+                             std::size_t topic,
+                             bag::BagReader& reader) {
+  const std::string& name = reader.topics()[topic].name;
+  return {.open = [=] { return std::make_unique<PacketSource>(bag, topic, ShownPath(source)); },
+          .source = source,
+          .beside = AtPlace(ShownPath(source) + ": ",
+                            [&] { return OusterMetadataBeside(name, reader); })};
+}
+
 /// Returns when the first point was measured. Times of points count from the message's stamp, or
 /// as the stamp itself does; whichever they are nearer to.
 std::int64_t StampOf(const ros::Header& header, const PointTable& table) {
@@ -269,6 +281,18 @@ std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag)
                    ShownText(topics[picked].type) + ")");
 }
 
+bool HoldsPoints(const bag::BagTopic& topic) {
+  return CanBeOpened(topic);
+}
+
+std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
+                                            const std::string& topic) {
+  const auto reader = bag::OpenBag(bag);
+  const std::size_t picked = PickTopic(reader->topics(), bag, topic);
+  if (PacketTypeOf(reader->topics()[picked]) == nullptr) return std::nullopt;
+  return PlaceOfPackets(bag, bag, picked, *reader);
+}
+
 std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
                                             const std::filesystem::path& bag,
                                             const std::string& topic) {
@@ -277,12 +301,7 @@ std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
   if (PacketTypeOf(reader->topics()[picked]) == nullptr) {
     return std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
   }
-  const std::string& name = reader->topics()[picked].name;
-  const CaptureMetadata beside =
-      AtPlace(ShownPath(source) + ": ", [&] { return OusterMetadataBeside(name, *reader); });
-  return OpenDatagrams(
-      [&] { return std::make_unique<PacketSource>(bag, picked, ShownPath(source)); }, source,
-      beside);
+  return OpenDatagrams(PlaceOfPackets(source, bag, picked, *reader));
 }
 
 }  // namespace railcast

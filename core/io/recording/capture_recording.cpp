@@ -112,22 +112,6 @@ std::FILE* OpenStream(const std::filesystem::path& file) {
   return stream;
 }
 
-CaptureSensor FindSensor(DatagramSource& datagrams,
-                         const std::string& name,
-                         const CaptureMetadata& beside) {
-  SensorFinder finder(beside);
-  while (const auto datagram = datagrams.Next()) {
-    if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
-  }
-  if (finder.has_seen_ouster() && !beside.fault.empty()) throw InputError(beside.fault);
-  if (!finder.ouster_refusal().empty()) {
-    throw InputError(name + ": packets are not of the sensor of " + ShownPath(beside.file) + ": " +
-                     finder.ouster_refusal());
-  }
-  throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
-                   finder.Findings(datagrams.num_torn()) + ")");
-}
-
 /// Reads the correction file of an AT128 that has the capture's name.
 std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path file) {
   file.replace_extension(".dat");
@@ -137,41 +121,86 @@ std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path fi
                  [&] { return std::make_shared<const At128Correction>(bytes); });
 }
 
+DatagramPlace PlaceOfFile(const std::filesystem::path& file,
+                          const std::filesystem::path& source,
+                          const CaptureMetadata& beside) {
+  return PlaceOfCapture([file] { return OpenStream(file); }, ShownPath(source), beside);
+}
+
+DatagramPlace PlaceOfFile(const std::filesystem::path& file) {
+  CaptureMetadata beside = FindOusterMetadata(file);
+  beside.load_correction = [file] { return CorrectionBeside(file); };
+  return PlaceOfFile(file, file, beside);
+}
+
+bool IsCaptureName(const std::filesystem::path& file) {
+  return file.extension() == ".pcap" || file.extension() == ".pcapng";
+}
+
+std::optional<DatagramPlace> FindCaptureWithMetadata(const std::filesystem::path& source) {
+  const std::string& text = source.native();
+  for (std::size_t mark = text.find(':'); mark != std::string::npos;
+       mark = text.find(':', mark + 1)) {
+    const std::filesystem::path file = text.substr(0, mark);
+    std::error_code error;
+    if (!IsCaptureName(file) || !std::filesystem::exists(file, error)) continue;
+    const std::filesystem::path metadata = text.substr(mark + 1);
+    return PlaceOfFile(file, source, {.file = metadata, .metadata = ReadOusterMetadata(metadata)});
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-std::unique_ptr<Recording> OpenDatagrams(
-    const std::function<std::unique_ptr<DatagramSource>()>& open,
-    const std::filesystem::path& source,
-    const CaptureMetadata& beside) {
-  CaptureSensor sensor = FindSensor(*open(), ShownPath(source), beside);
-  return std::make_unique<CaptureRecording>(open(), source, std::move(sensor));
+CaptureSensor FindSensor(const DatagramPlace& place) {
+  const auto datagrams = place.open();
+  const std::string name = ShownPath(place.source);
+  const CaptureMetadata& beside = place.beside;
+  SensorFinder finder(beside);
+  while (const auto datagram = datagrams->Next()) {
+    if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
+  }
+  if (finder.has_seen_ouster() && !beside.fault.empty()) throw InputError(beside.fault);
+  if (!finder.ouster_refusal().empty()) {
+    throw InputError(name + ": packets are not of the sensor of " + ShownPath(beside.file) + ": " +
+                     finder.ouster_refusal());
+  }
+  throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
+                   finder.Findings(datagrams->num_torn()) + ")");
+}
+
+std::unique_ptr<Recording> OpenDatagrams(const DatagramPlace& place) {
+  CaptureSensor sensor = FindSensor(place);
+  return std::make_unique<CaptureRecording>(place.open(), place.source, std::move(sensor));
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::function<std::FILE*()>& open,
                                        const std::string& name,
                                        const CaptureMetadata& beside) {
-  return OpenDatagrams([&] { return std::make_unique<PcapSource>(open(), name); }, name, beside);
+  return OpenDatagrams(PlaceOfCapture(open, name, beside));
+}
+
+DatagramPlace PlaceOfCapture(const std::function<std::FILE*()>& open,
+                             const std::string& name,
+                             const CaptureMetadata& beside) {
+  return {.open = [open, name] { return std::make_unique<PcapSource>(open(), name); },
+          .source = name,
+          .beside = beside};
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
-  CaptureMetadata beside = FindOusterMetadata(file);
-  beside.load_correction = [&file] { return CorrectionBeside(file); };
-  return OpenCapture([&file] { return OpenStream(file); }, ShownPath(file), beside);
+  return OpenDatagrams(PlaceOfFile(file));
 }
 
 std::unique_ptr<Recording> OpenCaptureWithMetadata(const std::filesystem::path& source) {
-  const std::string& text = source.native();
-  for (std::size_t mark = text.find(':'); mark != std::string::npos;
-       mark = text.find(':', mark + 1)) {
-    const std::filesystem::path file = text.substr(0, mark);
-    const bool is_capture = file.extension() == ".pcap" || file.extension() == ".pcapng";
-    std::error_code error;
-    if (!is_capture || !std::filesystem::exists(file, error)) continue;
-    const std::filesystem::path metadata = text.substr(mark + 1);
-    return OpenCapture([&file] { return OpenStream(file); }, ShownPath(source),
-                       {.file = metadata, .metadata = ReadOusterMetadata(metadata)});
-  }
-  return nullptr;
+  const auto place = FindCaptureWithMetadata(source);
+  return place ? OpenDatagrams(*place) : nullptr;
+}
+
+std::optional<DatagramPlace> FindCapture(const std::filesystem::path& source) {
+  if (auto place = FindCaptureWithMetadata(source)) return place;
+  if (!IsCaptureName(source)) return std::nullopt;
+  return PlaceOfFile(source);
 }
 
 }  // namespace railcast

@@ -84,4 +84,10 @@ class SensorFinder {
   std::string stranger_;  ///< The first sensor that was recognised but cannot be decoded.
 };
 
+struct DatagramPlace;
+
+/// Returns the sensor of the first packet of one that can be decoded.
+/// @throws InputError with one line that says what was found instead.
+[[nodiscard]] CaptureSensor FindSensor(const DatagramPlace& place);
+
 }  // namespace railcast

@@ -106,9 +106,10 @@ struct ReceivedLine {
 ReceivedLine ParseReceivedLine(const PlacedLine& line) {
   constexpr std::size_t kNumWords = 13;    // file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost
   constexpr std::size_t kNumWithEnd = 21;  // end_time_ns,x,y,z,qx,qy,qz,qw
+  constexpr std::size_t kNumWithTimes = 24;  // first_arrival_ns,last_arrival_ns,latency_ns
   std::vector<std::string_view> words;
   std::string_view rest = line.text;
-  while (words.size() <= kNumWithEnd) {
+  while (words.size() <= kNumWithTimes) {
     const std::size_t end = rest.find(',');
     words.push_back(rest.substr(0, end));
     if (end == std::string_view::npos) break;
@@ -117,8 +118,9 @@ ReceivedLine ParseReceivedLine(const PlacedLine& line) {
   const auto fail = [&] {
     throw InputError(line.place + ": must be a line as railcast-analyze receive writes it");
   };
-  const bool has_end = words.size() == kNumWithEnd;
-  if (words.size() != kNumWords && !has_end) fail();
+  const bool has_times = words.size() == kNumWithTimes;
+  if (words.size() != kNumWords && words.size() != kNumWithEnd && !has_times) fail();
+  const bool has_end = words.size() > kNumWords && !(has_times && words[kNumWords].empty());
   const auto pose_from = [&](std::size_t first) {
     std::vector<double> pose;
     for (std::size_t i = first; i < first + 7; ++i) {

@@ -15,6 +15,10 @@
 
 namespace railcast {
 
+namespace bag {
+struct BagTopic;
+}
+
 /// The sensors whose captures can be opened: "VLP-16, HDL-32E or QT128".
 [[nodiscard]] std::string ReadableSensorsText();
 
@@ -54,11 +58,25 @@ class DatagramSource {
   [[nodiscard]] virtual std::size_t num_torn() const { return 0; }
 };
 
-/// As OpenCapture(), for datagrams of any source, which is opened twice, too.
-[[nodiscard]] std::unique_ptr<Recording> OpenDatagrams(
-    const std::function<std::unique_ptr<DatagramSource>()>& open,
-    const std::filesystem::path& source,
-    const CaptureMetadata& beside = {});
+/// Datagrams that can be read from their beginning any number of times.
+struct DatagramPlace {
+  std::function<std::unique_ptr<DatagramSource>()> open;
+  std::filesystem::path source;  ///< As messages and RecordingInfo name it.
+  CaptureMetadata beside;        ///< What is known of the sensor.
+};
+
+/// The place of a capture that `open` opens, as OpenCapture() takes it.
+[[nodiscard]] DatagramPlace PlaceOfCapture(const std::function<std::FILE*()>& open,
+                                           const std::string& name,
+                                           const CaptureMetadata& beside = {});
+
+/// As OpenCapture(), for datagrams of any place, which is opened twice, too.
+[[nodiscard]] std::unique_ptr<Recording> OpenDatagrams(const DatagramPlace& place);
+
+/// Finds the capture that `source` names, with or without metadata behind it. Returns nothing if it
+/// names none.
+/// @throws InputError if the metadata that it names cannot be read.
+[[nodiscard]] std::optional<DatagramPlace> FindCapture(const std::filesystem::path& source);
 
 /// Stands between the path of a bag and the name of one of its topics.
 inline constexpr std::string_view kTopicMark = ":/";
@@ -76,6 +94,14 @@ inline constexpr std::string_view kTopicMark = ":/";
 /// Opens the packets of a sensor in the only topic of a bag that can be opened.
 /// @throws InputError as OpenBagRecording(), or if that topic holds clouds.
 [[nodiscard]] std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag);
+
+/// Finds the packets of a sensor in a topic of a bag. Returns nothing if the topic holds clouds.
+/// @throws InputError as OpenBagRecording().
+[[nodiscard]] std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
+                                                          const std::string& topic);
+
+/// Whether the messages of a topic hold points: clouds, or the packets of a sensor.
+[[nodiscard]] bool HoldsPoints(const bag::BagTopic& topic);
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);

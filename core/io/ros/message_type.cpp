@@ -101,7 +101,8 @@ std::string HashOf(const std::vector<MessageDescription>& descriptions) {
   return "RIHS01_" + Sha256(text + "]}");
 }
 
-// "sensor_msgs::msg::dds_::Image_" for "sensor_msgs/msg/Image".
+}  // namespace
+
 std::string DdsName(std::string_view name) {
   std::string text;
   for (const char letter : name.substr(0, name.rfind('/'))) {
@@ -109,8 +110,6 @@ std::string DdsName(std::string_view name) {
   }
   return text + "::dds_::" + std::string(name.substr(name.rfind('/') + 1)) + "_";
 }
-
-}  // namespace
 
 MessageType MakeMessageType(const std::vector<MessageDescription>& descriptions) {
   const std::string_view name = descriptions.front().name;

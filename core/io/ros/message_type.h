@@ -20,6 +20,10 @@ struct MessageType {
   std::string dds_name;  ///< "sensor_msgs::msg::dds_::PointCloud2_"
 };
 
+/// Returns the name that DDS has for a type: "sensor_msgs::msg::dds_::Image_" for
+/// "sensor_msgs/msg/Image".
+[[nodiscard]] std::string DdsName(std::string_view name);
+
 /// A constant of a message's definition.
 struct MessageConstant {
   std::string_view type;

@@ -15,6 +15,7 @@ namespace railcast {
 struct DatagramOrigin {
   Endpoint from{};
   std::int64_t time_ns{};  ///< By a monotonic clock.
+  std::int64_t utc_ns{};   ///< The same by the time of day, since 1970.
 };
 
 /// The one sender that an assembler listens to: the first that it follows, until that has been

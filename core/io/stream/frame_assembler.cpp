@@ -72,7 +72,7 @@ void FrameAssembler::Take(std::span<const char> bytes,
   if (place == Place::kPast) {
     CountPast(*datagram);
   } else {
-    Store(*datagram, frames);
+    Store(*datagram, origin.utc_ns, frames);
   }
 }
 
@@ -105,13 +105,16 @@ void FrameAssembler::CountPast(const StreamDatagram& datagram) {
   ++(is_copy ? counts_.duplicate_packets : counts_.late_packets);
 }
 
-void FrameAssembler::Store(const StreamDatagram& datagram, std::vector<ReceivedFrame>& frames) {
+void FrameAssembler::Store(const StreamDatagram& datagram,
+                           std::int64_t utc_ns,
+                           std::vector<ReceivedFrame>& frames) {
   const auto [at, is_new] = open_.try_emplace(datagram.frame);
   OpenFrame& open = at->second;
   if (is_new) {
     open.header.assign(datagram.header.begin(), datagram.header.end());
     open.points_each = datagram.points_each;
     open.has_packet.resize(datagram.num_packets);
+    open.first_utc_ns = utc_ns;
   } else if (!DescribeOneFrame(open.header, datagram.header) ||
              open.points_each != datagram.points_each) {
     ++counts_.refused[static_cast<std::size_t>(StreamFault::kDisagrees)];
@@ -126,6 +129,7 @@ void FrameAssembler::Store(const StreamDatagram& datagram, std::vector<ReceivedF
   if (place < furthest_) ++counts_.reordered_packets;
   furthest_ = std::max(furthest_, place);
   open.has_packet[datagram.packet] = true;
+  open.last_utc_ns = utc_ns;
   open.arrivals.push_back({datagram.packet, open.points.size(), datagram.points.size()});
   open.points.insert(open.points.end(), datagram.points.begin(), datagram.points.end());
   if (open.arrivals.size() == open.has_packet.size()) {
@@ -149,6 +153,8 @@ ReceivedFrame FrameAssembler::Assemble(OpenFrame& open) {
   ReceivedFrame frame;
   frame.header = ReadStreamHeader(open.header);
   frame.num_packets = static_cast<std::uint32_t>(open.has_packet.size());
+  frame.first_arrival_ns = open.first_utc_ns;
+  frame.last_arrival_ns = open.last_utc_ns;
   frame.points = JoinArrivals(open.arrivals, open.points);
   std::uint32_t next = 0;
   const auto lose = [&](std::uint32_t end) {

@@ -50,6 +50,8 @@ class FrameAssembler {
   struct OpenFrame {
     std::vector<char> header;
     std::uint16_t points_each{};
+    std::int64_t first_utc_ns{};
+    std::int64_t last_utc_ns{};
     std::vector<bool> has_packet;
     std::vector<Arrival> arrivals;
     std::vector<char> points;  ///< In the order of arrival.
@@ -64,7 +66,9 @@ class FrameAssembler {
   [[nodiscard]] Place PlaceOf(const StreamDatagram& datagram) const;
   [[nodiscard]] bool BeginsAnew(const StreamDatagram& datagram);
   void CountPast(const StreamDatagram& datagram);
-  void Store(const StreamDatagram& datagram, std::vector<ReceivedFrame>& frames);
+  void Store(const StreamDatagram& datagram,
+             std::int64_t utc_ns,
+             std::vector<ReceivedFrame>& frames);
   void GiveFirst(std::vector<ReceivedFrame>& frames);
   static ReceivedFrame Assemble(OpenFrame& open);
 

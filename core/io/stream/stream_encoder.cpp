@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 
@@ -114,11 +115,15 @@ void EncodeImageDatagrams(const CameraImage& image,
 }
 
 StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
-    : spec_(spec), rows_(pattern.rows), columns_(pattern.columns) {
+    : StreamEncoder(spec) {
+  shape_ = Shape{pattern.rows, pattern.columns};
   cells_.reserve(pattern.num_firings());
   for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
-    cells_.push_back(std::uint32_t{pattern.row[i]} * columns_ + pattern.column[i]);
+    cells_.push_back(std::uint32_t{pattern.row[i]} * pattern.columns + pattern.column[i]);
   }
+}
+
+StreamEncoder::StreamEncoder(const StreamSpec& spec) : spec_(spec) {
   header_.resize(kFieldsAt);
   ForEachPossibleField([&](std::string_view name, std::string_view, const auto& values) {
     if (!spec_.fields.Has(name)) return;
@@ -138,6 +143,14 @@ StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
   Put(header + kSensorAt, spec.sensor);
   Put(header + kPointSizeAt, static_cast<std::uint16_t>(point_size_));
   Put(header + kNumFieldsAt, static_cast<std::uint16_t>(spec.fields.names().size()));
+}
+
+void StreamEncoder::OrderCells(const Frame& frame) {
+  cells_.resize(std::size_t{frame.rows} * frame.columns);
+  std::iota(cells_.begin(), cells_.end(), 0U);
+  std::ranges::stable_sort(cells_, {}, [&](std::uint32_t cell) {
+    return frame.time_ns[std::size_t{cell} * frame.returns];
+  });
 }
 
 void StreamEncoder::FindSources(const Frame& frame) {
@@ -204,7 +217,9 @@ void StreamEncoder::WriteDatagram(std::size_t packet,
 }
 
 void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
-  Check(frame.rows == rows_ && frame.columns == columns_, "frames are of the encoder's pattern");
+  if (!shape_) OrderCells(frame);
+  Check(!shape_ || (frame.rows == shape_->rows && frame.columns == shape_->columns),
+        "frames are of the encoder's pattern");
   const std::size_t overhead = header_.size() + kTrailerSize;
   const std::size_t points_each = (kMaxStreamDatagram - overhead) / point_size_;
   constexpr std::size_t kMaxPackets = std::numeric_limits<std::uint16_t>::max();

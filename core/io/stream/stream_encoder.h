@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct StreamSpec {
 class StreamEncoder final : public FrameEncoder {
  public:
   StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec);
+  /// For frames of any shape, as recordings have them. The times of their points say in which order
+  /// they were fired.
+  explicit StreamEncoder(const StreamSpec& spec);
 
   /// @throws InputError if a frame may need more than the 65535 datagrams that the protocol can
   ///   count.
@@ -49,6 +53,7 @@ class StreamEncoder final : public FrameEncoder {
     std::size_t offset{};
   };
 
+  void OrderCells(const Frame& frame);
   void FindSources(const Frame& frame);
   void ChooseSlots(const Frame& frame);
   void WriteFrameHeader(const Frame& frame);
@@ -56,9 +61,14 @@ class StreamEncoder final : public FrameEncoder {
   /// many.
   void WriteDatagram(std::size_t packet, std::size_t points_each, char* datagram) const;
 
+  /// The rows and columns of the grid whose firings have a known order.
+  struct Shape {
+    std::uint32_t rows{};
+    std::uint32_t columns{};
+  };
+
   StreamSpec spec_;
-  std::uint32_t rows_;
-  std::uint32_t columns_;
+  std::optional<Shape> shape_;        ///< Absent: frames have any.
   std::vector<std::uint32_t> cells_;  ///< Cells of the grid in firing order.
   /// Header of every datagram, except for the datagram's number and points.
   std::vector<char> header_;

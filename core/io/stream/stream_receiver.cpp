@@ -62,7 +62,8 @@ void StreamReceiver::Parts::Listen() {
     if (received) {
       last_heard = now;
       const std::chrono::nanoseconds time = now.time_since_epoch();
-      assembler.Take(received->bytes, frames, {received->from, time.count()});
+      const std::chrono::nanoseconds utc = std::chrono::system_clock::now().time_since_epoch();
+      assembler.Take(received->bytes, frames, {received->from, time.count(), utc.count()});
     } else if (now - last_heard >= std::chrono::milliseconds(kSilence_ms)) {
       assembler.Flush(frames);
     }

@@ -41,8 +41,8 @@ TEST(LiveSummaryJson, IsOneLineOfTheSameNumbers) {
   record.sent.datagrams = 12;
   record.sent.bytes = 16'800;
   const auto parsed = [&](const LiveResult& result, bool has_times) {
-    const std::string text =
-        LiveSummaryJson(result, {{24, 1}}, {"a.pcap: no space left on device"}, has_times);
+    const std::string text = LiveSummaryJson("stream", result, {{24, 1}},
+                                             {"a.pcap: no space left on device"}, has_times);
     EXPECT_EQ(text.find('\n'), text.size() - 1);
     return nlohmann::json::parse(text);
   };

@@ -118,7 +118,11 @@ struct IndexRange {
 struct ReceivedFrame {
   StreamHeader header;
   std::uint32_t num_packets{};  ///< Packets of the frame, whether or not they arrived.
-  std::vector<char> points;     ///< Points that arrived: point_size bytes each, in firing order.
+  /// When the first and the last of its packets were taken from the socket, by this machine's time
+  /// of day: ns since 1970-01-01 00:00:00 UTC.
+  std::int64_t first_arrival_ns{};
+  std::int64_t last_arrival_ns{};
+  std::vector<char> points;  ///< Points that arrived: point_size bytes each, in firing order.
   std::vector<IndexRange> lost_packets;
   std::vector<IndexRange> lost_points;  ///< Ranges within the frame's header.num_points.
 

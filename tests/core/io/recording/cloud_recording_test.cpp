@@ -273,6 +273,14 @@ TEST(CloudRecording, OfAReceivedStreamHasItsPoses) {
   EXPECT_EQ(moving.world_from_sensor.translation(), Vector3(5.0, 6.0, 7.0));
   EXPECT_EQ(moving.world_from_sensor_end.translation(), Vector3(8.0, 6.5, 7.0));
   EXPECT_EQ(moving.world_from_sensor_end.linear(), Eigen::Matrix3d::Identity());
+  // Times of arrival, with and without a pose at the last firing.
+  for (const std::string end : {"99000000,8,6.5,7,0,0,0,1", ",,,,,,,"}) {
+    WriteFileWhole(directory.path() / "frames.csv",
+                   header + "frames/000000.pcd,7,12,1200000000,5,6,7,0,0,1,0,54,0," + end +
+                       ",1795000000000000000,1795000000090000000,\n");
+    EXPECT_EQ(ReadAll(directory.path()).at(0).frame.duration_ns,
+              end.starts_with(',') ? 0U : 99'000'000U);
+  }
   WriteFileWhole(directory.path() / "frames.csv", header + "frames/000000.pcd,7,12,x,5\n");
   EXPECT_EQ(MessageOf([&] { (void)ReadAll(directory.path()); }),
             directory.path().string() +

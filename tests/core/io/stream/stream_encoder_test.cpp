@@ -78,6 +78,19 @@ TEST(StreamEncoder, SendsTheDirectionsOfItsFrameForASensorThatDoesNotRepeat) {
   }
 }
 
+TEST(StreamEncoder, TakesTheOrderOfFiringsFromTheirTimesWhereThePatternIsNotKnown) {
+  StreamEncoder encoder{StreamSpec{}};
+  for (const std::uint32_t columns : {kStreamColumns, 7U}) {
+    const Frame frame = StreamFrame(3, kStreamRows, columns);
+    Datagrams datagrams;
+    encoder.Encode(frame, datagrams);
+    const Datagrams expected = EncodeOne(frame);
+    EXPECT_TRUE(datagrams.bytes == expected.bytes);
+    ASSERT_EQ(datagrams.items.size(), expected.items.size());
+    EXPECT_EQ(datagrams.items.back().due_ns, expected.items.back().due_ns);
+  }
+}
+
 TEST(StreamEncoder, SaysWhatTheFrameIs) {
   StreamSpec spec;
   spec.sensor = 513;

@@ -1,4 +1,4 @@
-#include "generator/live/duration_histogram.h"
+#include "core/program/duration_histogram.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/text.h"
+#include "core/io/recording/capture_sensor.h"
+#include "core/io/recording/recording_kinds.h"
+#include "railcast/io/stream.h"
+
+namespace railcast {
+
+/// A datagram as a sensor sent it.
+struct RecordedDatagram {
+  std::vector<char> bytes;
+  /// That it was sent to. Bags do not say; theirs go to where such sensors send unless told
+  /// otherwise.
+  std::uint16_t port{};
+  std::int64_t time_ns{};  ///< When it was captured, since 1970-01-01 00:00:00 UTC.
+};
+
+/// The datagrams of the sensors of a capture, or of a bag's topic of packets, byte for byte and in
+/// their order.
+///
+/// A sensor is known by the address that its packets of points come from. All that comes from there
+/// counts, such as reports of time and position; of sensors other than the first one, from their
+/// first packet of points on. What others sent is left out. Packets that segmentation offload
+/// merged are cut apart.
+class PacketRecording {
+ public:
+  /// A turn with more datagrams is returned in parts, so that memory is bounded.
+  static constexpr std::size_t kMostDatagrams = 65'536;
+
+  using Address = decltype(Endpoint::address);
+
+  /// @param sender Address of the only sensor that is wanted; absent = all sensors.
+  /// @throws InputError as OpenDatagrams().
+  explicit PacketRecording(DatagramPlace place,
+                           const std::optional<Address>& sender = std::nullopt);
+
+  /// As messages name it.
+  [[nodiscard]] std::string source() const { return ShownPath(place_.source); }
+  /// Of the first sensor: "VLP-16".
+  [[nodiscard]] const std::string& name() const { return first_.name; }
+  /// The port that the first sensor's packets went to.
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+
+  /// Returns the datagrams up to the one that completes a turn of the first sensor, which belongs
+  /// to the next turn already; nothing at the end.
+  /// @throws InputError where the recording is damaged.
+  [[nodiscard]] std::deque<RecordedDatagram> NextTurn();
+
+  /// Number of datagrams so far that came from others.
+  [[nodiscard]] std::size_t num_left_out() const { return num_left_out_; }
+
+ private:
+  void FindFirstSender();
+  /// Returns nothing at the end, and where the recording is damaged behind what was kept.
+  [[nodiscard]] std::optional<CapturedDatagram> NextDatagram();
+  /// Returns the size of the packets of the sensor that sent it; 0 if none did.
+  [[nodiscard]] std::size_t PacketSizeOf(const CapturedDatagram& datagram);
+  /// Returns whether a turn is complete.
+  [[nodiscard]] bool Take(const CapturedDatagram& datagram, std::size_t packet_size);
+
+  DatagramPlace place_;
+  CaptureSensor first_;
+  std::unique_ptr<DatagramSource> source_;
+  SensorFinder finder_;
+  struct Sender {
+    Address address{};
+    std::size_t packet_size{};
+  };
+  std::vector<Sender> senders_;  ///< The sensors so far.
+  std::uint16_t port_{};
+  std::deque<RecordedDatagram> datagrams_;
+  std::size_t num_left_out_{};
+  std::exception_ptr fault_;  ///< Why there is no further datagram.
+};
+
+}  // namespace railcast

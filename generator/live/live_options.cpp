@@ -1,0 +1,104 @@
+#include "generator/live/live_options.h"
+
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/program/command_line.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kDomainVariable = "ROS_DOMAIN_ID";
+
+/// As ROS 2 reads it: the domain 0 where it is not set, or empty.
+std::uint32_t DomainOfEnvironment() {
+  const char* const value = std::getenv(kDomainVariable);
+  const std::string_view text = value == nullptr ? "" : value;
+  std::uint32_t domain = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), domain);
+  const bool is_whole = read.ec == std::errc() && read.ptr == text.data() + text.size();
+  if (text.empty() || (is_whole && domain <= dds::kMaxDomain)) return domain;
+  throw InputError(std::string(kDomainVariable) + ": must be a whole number from 0 to " +
+                   std::to_string(dds::kMaxDomain) + " (got \"" + ShownText(text) + "\")");
+}
+
+}  // namespace
+
+void AddCommandOptions(CLI::App& command, CommandOptions& options) {
+  command
+      .add_option("--commands-port", options.commands_port,
+                  "UDP port on which to receive commands as lines of JSON; default: none")
+      ->transform(Whole({1, 65535}));
+  command.add_option("--commands-from", options.commands_from,
+                     "HOST or HOST:PORT whose commands are accepted; default: this machine only");
+  command.add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
+}
+
+void AddRosOptions(CLI::App& command, RosOptions& options) {
+  command
+      .add_option("--domain", options.domain,
+                  "With protocol ros2: domain to publish in; default: the scenario's, else "
+                  "ROS_DOMAIN_ID, else 0")
+      ->transform(Whole({0, 232}));
+  command.add_option("--interface", options.interface,
+                     "With protocol ros2: name or IPv4 address of the network interface to publish "
+                     "through; default: the scenario's, else loopback");
+  command
+      .add_option("--receive-buffers", options.receive_buffers,
+                  "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
+                  "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
+                  "default: the scenario's")
+      ->check(CLI::IsMember(NamesOf<ReceiveBuffers>()));
+}
+
+std::unique_ptr<CommandChannel> OpenChannel(const CommandOptions& options,
+                                            const std::vector<ModelSpec>& models) {
+  if (!options.commands_port) return nullptr;
+  Endpoint peer = AtPlace("--commands-from: ", [&] {
+    return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
+  });
+  // A socket on the loopback address cannot be reached from other machines.
+  const std::uint32_t any_address = 0;
+  const std::uint32_t loopback = 0x7F000001;
+  const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
+  auto channel = AtPlace("--commands-port: ",
+                         [&] { return std::make_unique<CommandChannel>(at, peer, models); });
+  std::cout << "commands at " << EndpointText(channel->at()) << "\n";
+  return channel;
+}
+
+dds::ParticipantSpec ParticipantOf(const RosOptions& options, const Ros2Spec& spec) {
+  dds::ParticipantSpec participant;
+  participant.node = "railcast";
+  participant.interface = options.interface.value_or(spec.interface);
+  const ReceiveBuffers buffers = options.receive_buffers
+                                     ? ValueNamed<ReceiveBuffers>(*options.receive_buffers).value()
+                                     : spec.receive_buffers;
+  participant.has_large_buffers = buffers == ReceiveBuffers::kLarge;
+  const std::optional<std::uint32_t> domain = options.domain ? options.domain : spec.domain;
+  participant.domain = domain ? *domain : DomainOfEnvironment();
+  return participant;
+}
+
+std::unique_ptr<dds::Participant> JoinDomain(const dds::ParticipantSpec& spec) {
+  return AtPlace("protocol ros2: ", [&] { return dds::Join(spec); });
+}
+
+std::string PlaceText(const dds::ParticipantSpec& spec) {
+  return "domain " + std::to_string(spec.domain) + ", on " +
+         (spec.interface.empty() ? "loopback" : ShownText(spec.interface));
+}
+
+std::uint32_t NextRunNumber() {
+  // Counted in milliseconds, so that a later start has a larger number even after many resets.
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+}  // namespace railcast
