@@ -20,6 +20,16 @@
 
 namespace railcast {
 
+namespace {
+
+// Whether a capture of what is sent there holds packets of IPv6.
+bool GoesByIpv6(const std::vector<Endpoint>& to) {
+  return !to.empty() &&
+         std::ranges::none_of(to, [](const Endpoint& each) { return each.address.is_ipv4(); });
+}
+
+}  // namespace
+
 std::vector<Endpoint> ImageReceivers(const ScenarioSpec& scenario) {
   std::vector<Endpoint> receivers;
   if (!scenario.camera) return receivers;
@@ -33,11 +43,13 @@ bool HasReaders(const SensorStreamSpec& stream) {
   return stream.protocol == Protocol::kRos2 || !stream.to.empty();
 }
 
-CameraStream::CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run)
+CameraStream::CameraStream(const ScenarioSpec& scenario,
+                           const SendOptions& sending,
+                           std::uint32_t run)
     : camera_(*MakeCamera(scenario)),
       num_frames_(FramesPerImage(scenario)),
       run_(run),
-      sender_(ImageReceivers(scenario), kVelodynePositionPort, has_offload) {}
+      sender_(ImageReceivers(scenario), kVelodynePositionPort, sending) {}
 
 void CameraStream::Make(Simulator& simulator, std::uint32_t image, Datagrams& datagrams) {
   const std::uint32_t frame = FrameOf(image);
@@ -60,12 +72,13 @@ SensorStream::SensorStream(SensorStreamSpec spec,
   if (!spec_.to.empty()) {
     sender_ = AtPlace("receivers of " + spec_.name + ": ", [&] {
       return std::make_unique<UdpSender>(spec_.to, PositionPort(spec_.protocol).value_or(0),
-                                         spec_.has_offload);
+                                         spec_.sending);
     });
   }
   if (spec_.pcap) {
     capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
-                                            PositionPort(spec_.protocol).value_or(0));
+                                            PositionPort(spec_.protocol).value_or(0),
+                                            GoesByIpv6(spec_.to));
   }
 }
 
@@ -149,8 +162,7 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
   }
   const SensorStreamSpec& first = streams.front();
   if (!HasReaders(first) || ImageReceivers(scenario).empty()) return;
-  camera_ =
-      std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.has_offload, run);
+  camera_ = std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.sending, run);
 }
 
 void LiveStreams::ChooseFidelity() {

@@ -32,7 +32,7 @@ class CameraStream {
   /// @param scenario Has a camera with receivers, and one sensor, whose stamps the images have.
   /// @param run Distinguishes this start from others.
   /// @throws InputError if a receiver cannot be sent to.
-  CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run);
+  CameraStream(const ScenarioSpec& scenario, const SendOptions& sending, std::uint32_t run);
 
   [[nodiscard]] const std::string& name() const { return camera_.spec().name; }
   /// The sensor's frame that has the stamp of an image.
@@ -68,7 +68,7 @@ struct SensorStreamSpec {
   std::uint16_t sensor{};  ///< Its number on the vehicle.
   Protocol protocol = Protocol::kRailcast;
   std::vector<Endpoint> to;
-  bool has_offload = true;  ///< As UdpSender takes it.
+  SendOptions sending;
   std::optional<std::filesystem::path> pcap;
   FieldSelection fields;  ///< For protocol railcast only, as is the next member.
   bool has_all_slots{};

@@ -21,7 +21,7 @@ Json MetadataOf(const SensorStreamSpec& stream, const LidarSpec& lidar) {
   constexpr std::uint32_t kBroadcast = 0xFFFFFFFF;
   const Endpoint to =
       stream.to.empty() ? Endpoint{kBroadcast, kOusterLidarPort} : stream.to.front();
-  return MetadataOfStream(ReadFileWhole(lidar.ouster_metadata.value()), EndpointText(to));
+  return MetadataOfStream(ReadFileWhole(lidar.ouster_metadata.value()), to);
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "Name of the sensor to stream, where the scenario has several; default: all of them");
   stream
       .add_option("--to", options.to,
-                  "HOST:PORT of a receiver; repeat the option for several, or use 255.255.255.255 "
-                  "to broadcast to the local network; default: the scenario's receivers or, if it "
-                  "has none, this machine")
+                  "HOST:PORT of a receiver, [HOST]:PORT where HOST is an IPv6 address; repeat the "
+                  "option for several, or use 255.255.255.255 to broadcast to the local network; "
+                  "default: the scenario's receivers or, if it has none, this machine")
       ->allow_extra_args(false);
   stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Protocol>()));
@@ -51,6 +51,12 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--wall-clock", options.uses_wall_clock,
       "Let packets of real sensors state the time of day, as with a synchronised clock; "
       "default: simulation time, which begins with the year 2000");
+  stream
+      .add_option("--multicast-hops", options.multicast_hops,
+                  "Networks on which what is sent to multicast groups may be: 1 = no router passes "
+                  "it on")
+      ->transform(Whole({0, 255}))
+      ->capture_default_str();
   stream
       .add_option("--pcap", options.pcap,
                   "Capture file to write; without --to, nothing is sent and the file is written as "

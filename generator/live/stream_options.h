@@ -24,6 +24,7 @@ struct StreamOptions {
   bool fails_late = false;       ///< A late or dropped frame makes the exit status 1.
   bool sends_singly = false;     ///< Without UDP segmentation offload.
   bool uses_wall_clock = false;  ///< Packets state the time of day.
+  int multicast_hops = 1;        ///< As SendOptions::multicast_hops.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
   std::optional<std::string> http;  ///< HOST:PORT to answer at; for protocol ouster.
