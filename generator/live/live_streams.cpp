@@ -19,7 +19,6 @@
 #include "railcast/scenario.h"
 
 namespace railcast {
-
 namespace {
 
 // Whether a capture of what is sent there holds packets of IPv6.
@@ -102,8 +101,9 @@ void SensorStream::Restart(std::uint32_t run) {
   encoder_ = MakeEncoder(run);
 }
 
-void SensorStream::SetClockAhead(std::int64_t ahead_ns) {
-  encoder_->SetClockAhead(ahead_ns);
+void SensorStream::SetUtcAhead(std::int64_t ahead_ns) {
+  if (spec_.clock == StampClock::kSimulated) return;
+  encoder_->SetClockAhead(ahead_ns + (spec_.clock == StampClock::kTai ? kTaiAhead_ns : 0));
   // Later, another thread may be writing.
   if (!has_capture_clock_)
     UseCapture([&](PcapWriter& capture) { capture.SetClockAhead(ahead_ns); });
@@ -194,7 +194,6 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
 
 void LiveStreams::Publish(RosOutput* ros) {
   ros_ = ros;
-  if (ros_ != nullptr) ros_->Begin();
 }
 
 void LiveStreams::MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams) {
@@ -247,13 +246,13 @@ void LiveStreams::Restart() {
 
 void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
   std::int64_t first_ns = maker_.pattern(0).StampNs(0);
-  for (std::size_t i = 1; i < streams_.size(); ++i) {
+  for (std::size_t i = 1; i < maker_.num_sensors(); ++i) {
     first_ns = std::min(first_ns, maker_.pattern(i).StampNs(0));
   }
   constexpr std::int64_t kNsPerUs = 1000;  // Packets count microseconds.
-  const std::int64_t begins_ns = now_ns + lead_ns - kSimulationEpoch_s * kNsPerS;
-  const std::int64_t ahead_ns = (begins_ns - first_ns) / kNsPerUs * kNsPerUs;
-  for (const auto& stream : streams_) stream->SetClockAhead(ahead_ns);
+  const std::int64_t time_0_ns = (now_ns + lead_ns - first_ns) / kNsPerUs * kNsPerUs;
+  for (const auto& stream : streams_) stream->SetUtcAhead(time_0_ns - kSimulationEpoch_s * kNsPerS);
+  if (ros_ != nullptr) ros_->SetClockAhead(time_0_ns);
 }
 
 void LiveStreams::Finish() {

@@ -15,6 +15,7 @@
 #include "core/io/pcap/pcap_writer.h"
 #include "generator/live/live_run.h"
 #include "generator/live/ros_output.h"
+#include "generator/live/stamp_clock.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
@@ -69,6 +70,8 @@ struct SensorStreamSpec {
   Protocol protocol = Protocol::kRailcast;
   std::vector<Endpoint> to;
   SendOptions sending;
+  StampClock clock =
+      StampClock::kSimulated;  ///< Of packets and messages; not of protocol railcast.
   std::optional<std::filesystem::path> pcap;
   FieldSelection fields;  ///< For protocol railcast only, as is the next member.
   bool has_all_slots{};
@@ -97,9 +100,10 @@ class SensorStream {
   void Encode(const Frame& frame, Datagrams& datagrams) { encoder_->Encode(frame, datagrams); }
   /// Restarts with frame 0.
   void Restart(std::uint32_t run);
-  /// Sets how far the sensor's clock is ahead, as FrameEncoder::SetClockAhead() does, also after a
-  /// restart. The stamps of a capture stay what they were first.
-  void SetClockAhead(std::int64_t ahead_ns);
+  /// Sets how far UTC is ahead of simulation time, as FrameEncoder::SetClockAhead() does, also
+  /// after a restart; the sensor's clock follows. The stamps of a capture, which state UTC, stay
+  /// what they were first.
+  void SetUtcAhead(std::int64_t ahead_ns);
 
   /// May be called from another thread than the other functions.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
@@ -152,7 +156,7 @@ class LiveStreams {
 
   [[nodiscard]] FrameMaker& maker() { return maker_; }
 
-  /// Begins to publish the frames of the sensors of protocol ros2.
+  /// Publishes the frames of the sensors of protocol ros2 by this output from now on.
   /// @param ros Made with maker(), must outlive this object; null where no sensor is of ros2.
   void Publish(RosOutput* ros);
 
@@ -170,7 +174,7 @@ class LiveStreams {
   /// @pre The maker has been reset.
   void Restart();
 
-  /// Sets all sensors' clocks by the time of day.
+  /// Sets the clocks of all sensors that do not state simulation time by the time of day.
   /// @param now_ns Time since 1970-01-01 00:00:00 UTC.
   /// @param lead_ns How long after that the first frame begins.
   void SetClocks(std::int64_t now_ns, std::int64_t lead_ns);

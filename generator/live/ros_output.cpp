@@ -22,6 +22,19 @@ ros::TopicsSpec SpecOfTopics(const RosOutputSpec& spec, const FrameMaker& maker)
   return all;
 }
 
+void AddToStamps(std::int64_t ahead_ns, MadeFrame& made) {
+  made.frame.stamp_ns += ahead_ns;
+  if (made.has_image) made.image.stamp_ns += ahead_ns;
+  const auto add = [ahead_ns](auto& sensors) {
+    for (auto& samples : sensors) {
+      for (auto& sample : samples) sample.time_ns += ahead_ns;
+    }
+  };
+  add(made.motion.imus);
+  add(made.motion.gnss);
+  add(made.motion.odometers);
+}
+
 /// Appends messages that leave when the frame's last firing does.
 void AppendMessages(const std::vector<ros::TopicMessage>& messages,
                     std::int64_t due_ns,
@@ -55,7 +68,8 @@ RosOutput::RosOutput(const RosOutputSpec& spec,
 
 void RosOutput::Begin() {
   participant_->Announce();
-  const std::int64_t begin_ns = maker_.pattern(sensors_.front().number).StampNs(0);
+  const std::int64_t begin_ns =
+      maker_.pattern(sensors_.front().number).StampNs(0) + clock_ahead_ns_;
   for (const ros::TopicMessage& message : topics_.First(begin_ns)) {
     static_cast<void>(participant_->Write(writers_[message.topic], message.cdr));
   }
@@ -68,6 +82,7 @@ void RosOutput::Make(std::size_t sensor, std::uint32_t frame, Datagrams& datagra
   // On the threads that scan.
   maker_.simulator(number).Execute([&] {
     const std::int64_t last_ns = made.frame.stamp_ns + std::int64_t{made.frame.duration_ns};
+    AddToStamps(clock_ahead_ns_, made);
     AppendMessages(MessagesOf(topics_, sensor, made), last_ns, datagrams);
   });
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/program/command_line.h"
+#include "generator/live/stamp_clock.h"
 #include "generator/run/run_options.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
@@ -47,15 +48,19 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
       "this machine hold single datagrams");
-  stream.add_flag(
-      "--wall-clock", options.uses_wall_clock,
-      "Let packets of real sensors state the time of day, as with a synchronised clock; "
-      "default: simulation time, which begins with the year 2000");
   stream
       .add_option("--multicast-hops", options.multicast_hops,
                   "Networks on which what is sent to multicast groups may be: 1 = no router passes "
                   "it on")
       ->transform(Whole({0, 255}))
+      ->capture_default_str();
+  stream
+      .add_option("--clock", options.clock,
+                  "What packets of real sensors and messages of ROS 2 state. simulated: simulation "
+                  "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
+                  "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
+                  "which is 37 s ahead")
+      ->check(CLI::IsMember(NamesOf<StampClock>()))
       ->capture_default_str();
   stream
       .add_option("--pcap", options.pcap,
@@ -118,6 +123,10 @@ bool IsOffline(const StreamOptions& options) {
   return options.pcap && options.to.empty();
 }
 
+bool StatesTimeOfDay(const StreamOptions& options) {
+  return options.clock != NameOf(StampClock::kSimulated);
+}
+
 bool HearsCommands(const StreamOptions& options) {
   return options.commands_port || options.commands_topic;
 }
@@ -150,7 +159,7 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
     throw InputError("--http: must be left out where nothing is sent, as with --pcap without --to");
   }
   for (const auto& [option, is_given] : {std::pair{"--no-offload", options.sends_singly},
-                                         std::pair{"--wall-clock", options.uses_wall_clock}}) {
+                                         std::pair{"--clock", StatesTimeOfDay(options)}}) {
     if (!is_given || !IsOffline(options)) continue;
     throw InputError(std::string(option) +
                      ": must be left out where nothing is sent, as with --pcap without --to");

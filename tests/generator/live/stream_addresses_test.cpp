@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -136,6 +137,57 @@ TEST(StreamAddresses, AreRefusedWhereNothingCanBeSent) {
   EXPECT_EQ(fault("--commands-port 9 --commands-from ::1%lo"),
             "--commands-from: must name no network interface, which multicast groups and "
             "link-local addresses alone have (got ::1%lo)\n");
+}
+
+/// The time that the first packet of an XT16 states, less the time of day, in s.
+double AheadOfDay_s(const std::string& clock) {
+  const TemporaryDirectory folder;
+  UdpReceiver receiver(kAnyLoopbackPort);
+  const std::string scenario = ScenarioOfSensors(
+      folder.path(),
+      {{"xt16", Quote(receiver.at())}, {"vlp16", "\"127.0.0.1:" + FreePort() + "\""}});
+  Stream stream(scenario + " --duration 0.2 --clock " + clock);
+  HesaiDecoder decoder(*FindHesaiModel("xt16"));
+  std::vector<SensorTurn> turns;
+  EXPECT_EQ(decoder.Decode(receiver.Receive(kPatience_ms).value().bytes, turns), std::nullopt);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const Ended ended = stream.Wait();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  return 1e-9 * static_cast<double>(decoder.TakeUnfinished().stamp_ns) -
+         std::chrono::duration<double>(now).count();
+}
+
+// Packets leave within a period, 0.1 s, of their last firing. A busy machine may receive them late,
+// but not half a minute late.
+TEST(StreamClock, StatesTheTimeOfDayOrAtomicTime) {
+  const double utc_s = AheadOfDay_s("utc");
+  EXPECT_LE(utc_s, 0.0);
+  EXPECT_GT(utc_s, -30.0);
+  const double tai_s = AheadOfDay_s("tai");
+  EXPECT_LE(tai_s, 37.0);
+  EXPECT_GT(tai_s, 37.0 - 30.0);
+  // 2000-01-01 00:00:00, and less than a minute.
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  EXPECT_NEAR(AheadOfDay_s("simulated"), 946'684'800.0 - std::chrono::duration<double>(now).count(),
+              60.0);
+}
+
+TEST(StreamClock, IsForWhatStatesTime) {
+  const TemporaryDirectory folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  const auto fault = [](const std::string& arguments) {
+    const Ended ended = Generate("stream " + arguments);
+    EXPECT_EQ(ended.status, 1);
+    return ended.said;
+  };
+  EXPECT_EQ(fault(scenario + " --clock utc --pcap a --duration 1"),
+            "--clock: must be left out where nothing is sent, as with --pcap without --to\n");
+  EXPECT_EQ(fault(scenario + " --clock utc --to :1000"),
+            "--clock: is for packets of real sensors and messages of ROS 2 (got railcast)\n");
+  EXPECT_EQ(
+      fault(ScenarioOfSensors(folder.path(), {{"vlp16", "\"127.0.0.1:9\""}}) + " --clock tai"),
+      "--clock: tai is for packets of sensors that PTP synchronises, Hesai's and Ouster's "
+      "(got vlp16)\n");
 }
 
 }  // namespace
