@@ -152,7 +152,8 @@ void AddReceive(CLI::App& app, ProgramCommand& command) {
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
   receive
       ->add_option("HOST:PORT", options->at,
-                   "Address and port to listen at; 0.0.0.0 hears other machines, too")
+                   "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
+                   "multicast group what is sent to it")
       ->capture_default_str();
   receive
       ->add_option("--from", options->from,

@@ -19,7 +19,7 @@ import struct
 import sys
 import time
 
-from receive_stream import read_datagram
+from receive_stream import listener_at, read_datagram
 
 # Half the width of the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and
 # sleepers are below the box, and the contact wire is above it.
@@ -73,14 +73,14 @@ class Train:
     """The simulated train: receives its sensor's frames and sends it commands."""
 
     def __init__(self, options):
-        self.stream = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.stream = listener_at(options.stream)
         self.stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
-        self.stream.bind(options.stream)
         # Sender of the first frame. Datagrams of others are ignored, so that they cannot feign
         # obstacles.
         self.sender = None
-        self.controls = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.to = options.commands
+        self.controls = socket.socket(socket.AF_INET6 if ":" in self.to[0] else socket.AF_INET,
+                                      socket.SOCK_DGRAM)
         self.is_lockstep = options.lockstep
         self.session = f"brake_client {random.randrange(1 << 64):016x}"
         self.next_id = 0
@@ -261,7 +261,7 @@ class Drive:
 
 def endpoint(text):
     host, port = text.rsplit(":", 1)
-    return host, int(port)
+    return host.strip("[]"), int(port)
 
 
 def weather(file):
@@ -272,7 +272,7 @@ def weather(file):
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--stream", type=endpoint, default="127.0.0.1:27400", metavar="HOST:PORT",
+    parser.add_argument("--stream", default="127.0.0.1:27400", metavar="HOST:PORT",
                         help="address at which to receive frames")
     parser.add_argument("--commands", type=endpoint, default="127.0.0.1:27401",
                         metavar="HOST:PORT", help="address at which the simulation takes commands")

@@ -9,6 +9,8 @@ import pathlib
 import socket
 import struct
 import zlib
+
+from receive_stream import listener_at, place_of
 HEADER = struct.Struct("<4sBBHIIqHHIIII7d8d")  # The table in docs/stream.md, in its order.
 
 
@@ -27,11 +29,9 @@ def main():
     parser.add_argument("--images", type=int, default=-1, help="how many; default: until Ctrl-C")
     parser.add_argument("--out", type=pathlib.Path, help="folder for the JPEG files")
     arguments = parser.parse_args()
-    host, _, port = arguments.at.rpartition(":")
-    listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    listener = listener_at(arguments.at)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 22)
-    listener.bind((host, int(port)))
-    print("listening at %s:%d" % listener.getsockname(), flush=True)
+    print("listening at", place_of(listener), flush=True)
     first_run, current, pieces, left = None, (0, 0), {}, arguments.images
     while left:
         try:

@@ -26,6 +26,19 @@ def read_datagram(datagram):
     return head, names, list(struct.iter_unpack(types, datagram[head[3]:-4]))
 
 
+def listener_at(text):
+    """A socket that listens at HOST:PORT, or [HOST]:PORT of IPv6."""
+    host, _, port = text.rpartition(":")
+    listener = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET, socket.SOCK_DGRAM)
+    listener.bind((host.strip("[]"), int(port)))
+    return listener
+
+
+def place_of(listener):
+    at = "[%s]:%d" if listener.family == socket.AF_INET6 else "%s:%d"
+    return at % listener.getsockname()[:2]
+
+
 def report(number, packets, num_packets, axes):
     points = [[point[axis] for axis in axes] for part in packets.values() for point in part]
     nearest = min((math.hypot(*point) for point in points), default=math.nan)
@@ -38,10 +51,8 @@ def main():
     parser.add_argument("at", nargs="?", default="127.0.0.1:27400", metavar="HOST:PORT")
     parser.add_argument("--frames", type=int, default=-1, help="how many; default: until Ctrl-C")
     arguments = parser.parse_args()
-    host, _, port = arguments.at.rpartition(":")
-    listener = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    listener.bind((host, int(port)))
-    print("listening at %s:%d" % listener.getsockname(), flush=True)
+    listener = listener_at(arguments.at)
+    print("listening at", place_of(listener), flush=True)
     current, last, frames, left = None, -1, {}, arguments.frames
     sender, heard_s = None, -math.inf
     while left:

@@ -38,8 +38,10 @@ void Describe(Archive& a, CameraSpec& s) {
              Within(1e-6, 1e6));
   a.Optional("mount", s.mount, "Where it is on the vehicle; absent = in the place of the sensor.");
   a.Optional("distortion", s.distortion, "Of the lens: Brown and Conrady's model as in OpenCV.");
-  a.Optional("udp", s.udp, "host:port of each receiver of live images; empty = they are not sent.",
-             HostAndPort());
+  a.Optional(
+      "udp", s.udp,
+      "host:port of each receiver of live images, [host]:port of IPv6; empty = they are not sent.",
+      HostAndPort());
   a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   // The longest side that libjpeg encodes.
   constexpr std::uint32_t kLongestJpeg = 65'500;
@@ -94,7 +96,8 @@ void Describe(Archive& a, SensorInterface& s) {
   a.Required("sensor", s.sensor, "Name of the sensor.", NonEmptyString());
   a.Optional("protocol", s.protocol, "How its live frames are packed.");
   a.Optional("udp", s.udp,
-             "host:port of each receiver; empty = loopback at the protocol's own port.",
+             "host:port of each receiver, [host]:port of IPv6; empty = loopback at the protocol's "
+             "own port.",
              HostAndPort());
   a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   a.Ensure({"udp", "protocol"}, s.protocol != Protocol::kRos2 || s.udp.empty(), kNoUdpForRos2);
@@ -114,10 +117,11 @@ void Describe(Archive& a, Ros2Spec& s) {
 
 template <class Archive>
 void Describe(Archive& a, InterfacesSpec& s) {
-  a.Optional("udp", s.udp,
-             "host:port of each receiver of live frames; empty = loopback at the protocol's own "
-             "port.",
-             HostAndPort());
+  a.Optional(
+      "udp", s.udp,
+      "host:port of each receiver of live frames, [host]:port of IPv6; empty = loopback at the "
+      "protocol's own port.",
+      HostAndPort());
   a.Ensure({"udp"}, AreDifferent(s.udp), "must name each receiver once");
   a.Optional("protocol", s.protocol, "How live frames are packed.");
   a.Ensure({"udp", "protocol"}, s.protocol != Protocol::kRos2 || s.udp.empty(), kNoUdpForRos2);

@@ -66,6 +66,9 @@ std::optional<std::string> Broken(OneLine, std::string_view value) {
 
 std::optional<std::string> Broken(HostAndPort, std::string_view value) {
   const std::size_t colon = value.rfind(':');
+  if (std::ranges::count(value, ':') > 1 && !(value.starts_with('[') && value[colon - 1] == ']')) {
+    return "must be [host]:port where the host is an IPv6 address";
+  }
   if (colon != std::string_view::npos && colon > 0) {
     const std::string_view digits = value.substr(colon + 1);
     std::uint16_t port = 0;

@@ -47,7 +47,7 @@ struct AllowedNames {
 struct OneLine {};
 /// A string as OneLine, but not empty.
 struct NonEmptyString {};
-/// A string, or a list of strings, of the form host:port.
+/// A string, or a list of strings, of the form host:port, with brackets around a host of IPv6.
 struct HostAndPort {};
 /// A string that names an existing file relative to the file it is written in; the reader makes the
 /// name absolute.

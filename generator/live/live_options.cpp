@@ -63,9 +63,10 @@ std::unique_ptr<CommandChannel> OpenChannel(const CommandOptions& options,
     return ParseEndpoint(options.commands_from.value_or("127.0.0.1"), 0);
   });
   // A socket on the loopback address cannot be reached from other machines.
-  const std::uint32_t any_address = 0;
-  const std::uint32_t loopback = 0x7F000001;
-  const Endpoint at{peer.is_loopback() ? loopback : any_address, *options.commands_port};
+  const bool is_ipv4 = peer.address.is_ipv4();
+  const Endpoint at = ParseEndpoint(
+      peer.is_loopback() ? (is_ipv4 ? "127.0.0.1" : "::1") : (is_ipv4 ? "0.0.0.0" : "::"),
+      *options.commands_port);
   auto channel = AtPlace("--commands-port: ",
                          [&] { return std::make_unique<CommandChannel>(at, peer, models); });
   std::cout << "commands at " << EndpointText(channel->at()) << "\n";

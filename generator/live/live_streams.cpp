@@ -19,6 +19,15 @@
 #include "railcast/scenario.h"
 
 namespace railcast {
+namespace {
+
+// Whether a capture of what is sent there holds packets of IPv6.
+bool GoesByIpv6(const std::vector<Endpoint>& to) {
+  return !to.empty() &&
+         std::ranges::none_of(to, [](const Endpoint& each) { return each.address.is_ipv4(); });
+}
+
+}  // namespace
 
 std::vector<Endpoint> ImageReceivers(const ScenarioSpec& scenario) {
   std::vector<Endpoint> receivers;
@@ -33,11 +42,13 @@ bool HasReaders(const SensorStreamSpec& stream) {
   return stream.protocol == Protocol::kRos2 || !stream.to.empty();
 }
 
-CameraStream::CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run)
+CameraStream::CameraStream(const ScenarioSpec& scenario,
+                           const SendOptions& sending,
+                           std::uint32_t run)
     : camera_(*MakeCamera(scenario)),
       num_frames_(FramesPerImage(scenario)),
       run_(run),
-      sender_(ImageReceivers(scenario), kVelodynePositionPort, has_offload) {}
+      sender_(ImageReceivers(scenario), kVelodynePositionPort, sending) {}
 
 void CameraStream::Make(Simulator& simulator, std::uint32_t image, Datagrams& datagrams) {
   const std::uint32_t frame = FrameOf(image);
@@ -60,12 +71,13 @@ SensorStream::SensorStream(SensorStreamSpec spec,
   if (!spec_.to.empty()) {
     sender_ = AtPlace("receivers of " + spec_.name + ": ", [&] {
       return std::make_unique<UdpSender>(spec_.to, PositionPort(spec_.protocol).value_or(0),
-                                         spec_.has_offload);
+                                         spec_.sending);
     });
   }
   if (spec_.pcap) {
     capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
-                                            PositionPort(spec_.protocol).value_or(0));
+                                            PositionPort(spec_.protocol).value_or(0),
+                                            GoesByIpv6(spec_.to));
   }
 }
 
@@ -91,8 +103,9 @@ void SensorStream::Restart(std::uint32_t run) {
   encoder_ = MakeEncoder(run);
 }
 
-void SensorStream::SetClockAhead(std::int64_t ahead_ns) {
-  encoder_->SetClockAhead(ahead_ns);
+void SensorStream::SetUtcAhead(std::int64_t ahead_ns) {
+  if (spec_.clock == StampClock::kSimulated) return;
+  encoder_->SetClockAhead(ahead_ns + (spec_.clock == StampClock::kTai ? kTaiAhead_ns : 0));
   // Later, another thread may be writing.
   if (!has_capture_clock_)
     UseCapture([&](PcapWriter& capture) { capture.SetClockAhead(ahead_ns); });
@@ -151,8 +164,7 @@ LiveStreams::LiveStreams(const ScenarioSpec& scenario,
   }
   const SensorStreamSpec& first = streams.front();
   if (!HasReaders(first) || ImageReceivers(scenario).empty()) return;
-  camera_ =
-      std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.has_offload, run);
+  camera_ = std::make_unique<CameraStream>(PickSensor(scenario, first.name), first.sending, run);
 }
 
 void LiveStreams::ChooseFidelity() {
@@ -184,7 +196,6 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
 
 void LiveStreams::Publish(RosOutput* ros) {
   ros_ = ros;
-  if (ros_ != nullptr) ros_->Begin();
 }
 
 void LiveStreams::MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams) {
@@ -237,13 +248,13 @@ void LiveStreams::Restart() {
 
 void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
   std::int64_t first_ns = maker_.pattern(0).StampNs(0);
-  for (std::size_t i = 1; i < streams_.size(); ++i) {
+  for (std::size_t i = 1; i < maker_.num_sensors(); ++i) {
     first_ns = std::min(first_ns, maker_.pattern(i).StampNs(0));
   }
   constexpr std::int64_t kNsPerUs = 1000;  // Packets count microseconds.
-  const std::int64_t begins_ns = now_ns + lead_ns - kSimulationEpoch_s * kNsPerS;
-  const std::int64_t ahead_ns = (begins_ns - first_ns) / kNsPerUs * kNsPerUs;
-  for (const auto& stream : streams_) stream->SetClockAhead(ahead_ns);
+  const std::int64_t time_0_ns = (now_ns + lead_ns - first_ns) / kNsPerUs * kNsPerUs;
+  for (const auto& stream : streams_) stream->SetUtcAhead(time_0_ns - kSimulationEpoch_s * kNsPerS);
+  if (ros_ != nullptr) ros_->SetClockAhead(time_0_ns);
 }
 
 void LiveStreams::Finish() {

@@ -15,6 +15,7 @@
 #include "core/io/pcap/pcap_writer.h"
 #include "generator/live/live_run.h"
 #include "generator/live/ros_output.h"
+#include "generator/live/stamp_clock.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
@@ -32,7 +33,7 @@ class CameraStream {
   /// @param scenario Has a camera with receivers, and one sensor, whose stamps the images have.
   /// @param run Distinguishes this start from others.
   /// @throws InputError if a receiver cannot be sent to.
-  CameraStream(const ScenarioSpec& scenario, bool has_offload, std::uint32_t run);
+  CameraStream(const ScenarioSpec& scenario, const SendOptions& sending, std::uint32_t run);
 
   [[nodiscard]] const std::string& name() const { return camera_.spec().name; }
   /// The sensor's frame that has the stamp of an image.
@@ -68,7 +69,9 @@ struct SensorStreamSpec {
   std::uint16_t sensor{};  ///< Its number on the vehicle.
   Protocol protocol = Protocol::kRailcast;
   std::vector<Endpoint> to;
-  bool has_offload = true;  ///< As UdpSender takes it.
+  SendOptions sending;
+  StampClock clock =
+      StampClock::kSimulated;  ///< Of packets and messages; not of protocol railcast.
   std::optional<std::filesystem::path> pcap;
   FieldSelection fields;  ///< For protocol railcast only, as is the next member.
   bool has_all_slots{};
@@ -103,9 +106,10 @@ class SensorStream {
   void Encode(const Frame& frame, Datagrams& datagrams) { encoder_->Encode(frame, datagrams); }
   /// Restarts with frame 0.
   void Restart(std::uint32_t run);
-  /// Sets how far the sensor's clock is ahead, as FrameEncoder::SetClockAhead() does, also after a
-  /// restart. The stamps of a capture stay what they were first.
-  void SetClockAhead(std::int64_t ahead_ns);
+  /// Sets how far UTC is ahead of simulation time, as FrameEncoder::SetClockAhead() does, also
+  /// after a restart; the sensor's clock follows. The stamps of a capture, which state UTC, stay
+  /// what they were first.
+  void SetUtcAhead(std::int64_t ahead_ns);
 
   /// May be called from another thread than the other functions.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
@@ -158,7 +162,7 @@ class LiveStreams {
 
   [[nodiscard]] FrameMaker& maker() { return maker_; }
 
-  /// Begins to publish the frames of the sensors of protocol ros2.
+  /// Publishes the frames of the sensors of protocol ros2 by this output from now on.
   /// @param ros Made with maker(), must outlive this object; null where no sensor is of ros2.
   void Publish(RosOutput* ros);
 
@@ -176,7 +180,7 @@ class LiveStreams {
   /// @pre The maker has been reset.
   void Restart();
 
-  /// Sets all sensors' clocks by the time of day.
+  /// Sets the clocks of all sensors that do not state simulation time by the time of day.
   /// @param now_ns Time since 1970-01-01 00:00:00 UTC.
   /// @param lead_ns How long after that the first frame begins.
   void SetClocks(std::int64_t now_ns, std::int64_t lead_ns);

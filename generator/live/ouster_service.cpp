@@ -1,6 +1,7 @@
 #include "generator/live/ouster_service.h"
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
@@ -15,13 +16,20 @@
 namespace railcast {
 namespace {
 
+/// What a sensor calls the source of such time. UTC comes as a sentence of NMEA with a pulse.
+std::optional<std::string> TimestampMode(StampClock clock) {
+  if (clock == StampClock::kSimulated) return std::nullopt;
+  return clock == StampClock::kUtc ? "TIME_FROM_SYNC_PULSE_IN" : "TIME_FROM_PTP_1588";
+}
+
 /// The metadata as of a sensor that sends to the first receiver of a stream, or as captures have
 /// it.
 Json MetadataOf(const SensorStreamSpec& stream, const LidarSpec& lidar) {
   constexpr std::uint32_t kBroadcast = 0xFFFFFFFF;
   const Endpoint to =
       stream.to.empty() ? Endpoint{kBroadcast, kOusterLidarPort} : stream.to.front();
-  return MetadataOfStream(ReadFileWhole(lidar.ouster_metadata.value()), EndpointText(to));
+  return MetadataOfStream(ReadFileWhole(lidar.ouster_metadata.value()), to,
+                          TimestampMode(stream.clock));
 }
 
 }  // namespace

@@ -20,6 +20,19 @@ ros::TopicsSpec SpecOfTopics(const RosOutputSpec& spec, const FrameMaker& maker)
   return all;
 }
 
+void AddToStamps(std::int64_t ahead_ns, MadeFrame& made) {
+  made.frame.stamp_ns += ahead_ns;
+  if (made.has_image) made.image.stamp_ns += ahead_ns;
+  const auto add = [ahead_ns](auto& sensors) {
+    for (auto& samples : sensors) {
+      for (auto& sample : samples) sample.time_ns += ahead_ns;
+    }
+  };
+  add(made.motion.imus);
+  add(made.motion.gnss);
+  add(made.motion.odometers);
+}
+
 std::vector<dds::TopicSpec> SpecsOf(const std::vector<ros::Topic>& topics) {
   std::vector<dds::TopicSpec> specs;
   for (const ros::Topic& topic : topics) {
@@ -44,7 +57,8 @@ RosOutput::RosOutput(const RosOutputSpec& spec,
 
 void RosOutput::Begin() {
   writers_.participant().Announce();
-  const std::int64_t begin_ns = maker_.pattern(sensors_.front().number).StampNs(0);
+  const std::int64_t begin_ns =
+      maker_.pattern(sensors_.front().number).StampNs(0) + clock_ahead_ns_;
   for (const ros::TopicMessage& message : topics_.First(begin_ns)) {
     static_cast<void>(writers_.Write(message.topic, message.cdr));
   }
@@ -57,6 +71,7 @@ void RosOutput::Make(std::size_t sensor, std::uint32_t frame, Datagrams& datagra
   // On the threads that scan.
   maker_.simulator(number).Execute([&] {
     const std::int64_t last_ns = made.frame.stamp_ns + std::int64_t{made.frame.duration_ns};
+    AddToStamps(clock_ahead_ns_, made);
     for (const ros::TopicMessage& message : MessagesOf(topics_, sensor, made)) {
       // They leave when the frame's last firing does.
       AppendMessage(message.topic, message.cdr, last_ns, datagrams);

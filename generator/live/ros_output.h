@@ -37,6 +37,10 @@ class RosOutput {
   /// Tells the name of the node and what holds for the whole run, once all topics are there.
   void Begin();
 
+  /// Sets how far the stamps of all messages are ahead of simulation time: time 0 since 1970 where
+  /// they state the time of day. They are not ahead unless set.
+  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
+
   /// Returns the sensors for RunLive(), valid as long as this object.
   [[nodiscard]] std::vector<LiveSensor> Sensors();
 
@@ -58,6 +62,7 @@ class RosOutput {
   ros::FrameTopics topics_;
   RosWriters writers_;  ///< Of topics_.
   std::vector<Sensor> sensors_;
+  std::int64_t clock_ahead_ns_{};
 };
 
 }  // namespace railcast

@@ -23,6 +23,7 @@
 #include "generator/live/ouster_service.h"
 #include "generator/live/ros_output.h"
 #include "generator/live/ros_plan.h"
+#include "generator/live/stamp_clock.h"
 #include "generator/live/stream_options.h"
 #include "generator/live/twist_commands.h"
 #include "generator/run/run_options.h"
@@ -105,6 +106,27 @@ void CheckPortsDiffer(const std::vector<SensorStreamSpec>& streams, const Scenar
   }
 }
 
+/// What the stamps of a protocol state.
+StampClock ClockOf(const StreamOptions& options, Protocol protocol) {
+  const StampClock clock = ValueNamed<StampClock>(options.clock).value();
+  return clock == StampClock::kTai && !FollowsPtp(protocol) ? StampClock::kUtc : clock;
+}
+
+void CheckClock(const StreamOptions& options, const std::vector<SensorStreamSpec>& streams) {
+  if (!StatesTimeOfDay(options)) return;
+  const std::string got = " (got " + std::string(NameOf(streams.front().protocol)) + ")";
+  const auto has_stamps = [](const auto& stream) { return stream.protocol != Protocol::kRailcast; };
+  if (std::ranges::none_of(streams, has_stamps)) {
+    throw InputError("--clock: is for packets of real sensors and messages of ROS 2" + got);
+  }
+  const auto follows_ptp = [](const auto& stream) { return FollowsPtp(stream.protocol); };
+  const bool is_tai = options.clock == NameOf(StampClock::kTai);
+  if (is_tai && std::ranges::none_of(streams, follows_ptp)) {
+    throw InputError(
+        "--clock: tai is for packets of sensors that PTP synchronises, Hesai's and Ouster's" + got);
+  }
+}
+
 std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                                           const ScenarioSpec& scenario) {
   std::vector<SensorStreamSpec> streams;
@@ -117,7 +139,9 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                        .protocol = protocol,
                        .to = IsOffline(options) ? std::vector<Endpoint>{}
                                                 : EndpointsOf(options, interfaces, protocol),
-                       .has_offload = !options.sends_singly,
+                       .sending = {.has_offload = !options.sends_singly,
+                                   .multicast_hops = options.multicast_hops},
+                       .clock = ClockOf(options, protocol),
                        .pcap = options.pcap,
                        .fields = options.fields && protocol != Protocol::kRos2
                                      ? FieldSelection(*options.fields)
@@ -128,10 +152,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
   const auto has_packets = [](const auto& stream) {
     return stream.protocol != Protocol::kRailcast && stream.protocol != Protocol::kRos2;
   };
-  if (options.uses_wall_clock && std::none_of(streams.begin(), streams.end(), has_packets)) {
-    throw InputError("--wall-clock: is for packets of real sensors (got " +
-                     std::string(NameOf(streams.front().protocol)) + ")");
-  }
+  CheckClock(options, streams);
   const bool has_fields = !std::all_of(streams.begin(), streams.end(), has_packets);
   if (!has_fields && (options.fields || options.has_all_slots)) {
     throw InputError(std::string(options.fields ? "--fields" : "--all-slots") +
@@ -237,11 +258,21 @@ std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
   return server;
 }
 
-/// Lets packets state the time of day from now on, if asked to.
-void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns) {
-  if (!options.uses_wall_clock) return;
+/// The time since 1970.
+std::int64_t UtcNow_ns() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  streams.SetClocks(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count(), lead_ns);
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+void BeginRos(const StreamOptions& options, RosOutput* ros) {
+  if (ros == nullptr) return;
+  if (StatesTimeOfDay(options)) ros->SetClockAhead(UtcNow_ns());
+  ros->Begin();
+}
+
+/// Lets stamps state the time of day from now on, if asked to.
+void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns) {
+  if (StatesTimeOfDay(options)) streams.SetClocks(UtcNow_ns(), lead_ns);
 }
 
 /// Connects a run with its commands and the user, and shows its progress.
@@ -370,6 +401,7 @@ int RunStream(const StreamOptions& options) {
   const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
   const auto twists = OpenTwists(options, scenario, ros.get());
   streams.Publish(ros.get());
+  BeginRos(options, ros.get());
   std::optional<CommandLoop> commands;
   if (HearsCommands(options)) {
     commands.emplace(streams.maker(), SourcesOf(channel.get(), twists.get()), options.lockstep,

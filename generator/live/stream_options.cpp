@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/program/command_line.h"
+#include "generator/live/stamp_clock.h"
 #include "generator/run/run_options.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
@@ -17,9 +18,9 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "Name of the sensor to stream, where the scenario has several; default: all of them");
   stream
       .add_option("--to", options.to,
-                  "HOST:PORT of a receiver; repeat the option for several, or use 255.255.255.255 "
-                  "to broadcast to the local network; default: the scenario's receivers or, if it "
-                  "has none, this machine")
+                  "HOST:PORT of a receiver, [HOST]:PORT where HOST is an IPv6 address; repeat the "
+                  "option for several, or use 255.255.255.255 to broadcast to the local network; "
+                  "default: the scenario's receivers or, if it has none, this machine")
       ->allow_extra_args(false);
   stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
       ->check(CLI::IsMember(NamesOf<Protocol>()));
@@ -47,10 +48,20 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
       "this machine hold single datagrams");
-  stream.add_flag(
-      "--wall-clock", options.uses_wall_clock,
-      "Let packets of real sensors state the time of day, as with a synchronised clock; "
-      "default: simulation time, which begins with the year 2000");
+  stream
+      .add_option("--multicast-hops", options.multicast_hops,
+                  "Networks on which what is sent to multicast groups may be: 1 = no router passes "
+                  "it on")
+      ->transform(Whole({0, 255}))
+      ->capture_default_str();
+  stream
+      .add_option("--clock", options.clock,
+                  "What packets of real sensors and messages of ROS 2 state. simulated: simulation "
+                  "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
+                  "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
+                  "which is 37 s ahead")
+      ->check(CLI::IsMember(NamesOf<StampClock>()))
+      ->capture_default_str();
   stream
       .add_option("--pcap", options.pcap,
                   "Capture file to write; without --to, nothing is sent and the file is written as "
@@ -93,6 +104,10 @@ bool IsOffline(const StreamOptions& options) {
   return options.pcap && options.to.empty();
 }
 
+bool StatesTimeOfDay(const StreamOptions& options) {
+  return options.clock != NameOf(StampClock::kSimulated);
+}
+
 bool HearsCommands(const StreamOptions& options) {
   return options.commands_port || options.commands_topic;
 }
@@ -125,7 +140,7 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
     throw InputError("--http: must be left out where nothing is sent, as with --pcap without --to");
   }
   for (const auto& [option, is_given] : {std::pair{"--no-offload", options.sends_singly},
-                                         std::pair{"--wall-clock", options.uses_wall_clock}}) {
+                                         std::pair{"--clock", StatesTimeOfDay(options)}}) {
     if (!is_given || !IsOffline(options)) continue;
     throw InputError(std::string(option) +
                      ": must be left out where nothing is sent, as with --pcap without --to");

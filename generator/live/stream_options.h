@@ -23,9 +23,10 @@ struct StreamOptions : CommandOptions, RosOptions {
   bool has_all_slots = false;  ///< For protocol railcast.
   std::string pacing = "spread";
   bool drops_late = false;
-  bool fails_late = false;       ///< A late or dropped frame makes the exit status 1.
-  bool sends_singly = false;     ///< Without UDP segmentation offload.
-  bool uses_wall_clock = false;  ///< Packets state the time of day.
+  bool fails_late = false;          ///< A late or dropped frame makes the exit status 1.
+  bool sends_singly = false;        ///< Without UDP segmentation offload.
+  std::string clock = "simulated";  ///< Name of a StampClock.
+  int multicast_hops = 1;           ///< As SendOptions::multicast_hops.
   std::optional<std::filesystem::path> pcap;
   std::optional<std::filesystem::path> calibration;  ///< For protocol hdl64e.
   std::optional<std::string> http;  ///< HOST:PORT to answer at; for protocol ouster.
@@ -46,6 +47,9 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options);
 
 /// Whether there are no receivers, so that frames need not wait for their time.
 [[nodiscard]] bool IsOffline(const StreamOptions& options);
+
+/// Whether stamps state anything but simulation time.
+[[nodiscard]] bool StatesTimeOfDay(const StreamOptions& options);
 
 /// Whether commands change what frames show.
 [[nodiscard]] bool HearsCommands(const StreamOptions& options);

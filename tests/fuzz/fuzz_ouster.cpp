@@ -50,7 +50,7 @@ void ReadMetadata(const std::string& text) {
     const OusterMetadata metadata = ParseOusterMetadata(text);
     const OusterDecoder decoder(metadata);
     Check(decoder.layout().packet_size() <= 65'507, "a packet is a datagram");
-    const std::string streamed = MetadataOfStream(text, "127.0.0.1:7502").dump();
+    const std::string streamed = MetadataOfStream(text, {0x7F000001, 7502}).dump();
     const OusterMetadata again = ParseOusterMetadata(streamed);
     Check(again.beams.size() == metadata.beams.size() && again.profile == metadata.profile &&
               again.column_window == metadata.column_window,
@@ -64,7 +64,7 @@ void ReadMetadata(const std::string& text) {
 
 // The first line is the method and the target, the rest the body.
 void Ask(std::string_view text) {
-  static const Json metadata = MetadataOfStream(MadeOusterMetadataText(), "127.0.0.1:7502");
+  static const Json metadata = MetadataOfStream(MadeOusterMetadataText(), {0x7F000001, 7502});
   const std::string_view line = text.substr(0, text.find('\n'));
   const std::string_view method = line.substr(0, line.find(' '));
   const HttpAnswer answer = AnswerAsOuster(

@@ -1,11 +1,13 @@
-#include "railcast/io/stream.h"
+#include "railcast/io/endpoint.h"
 
 #include <arpa/inet.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
 #include <charconv>
+#include <optional>
 
 #include "core/base/error.h"
 
@@ -37,7 +39,7 @@ bool IsNumeric(std::string_view host) {
              std::string_view::npos;
 }
 
-std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
+IpAddress ParseIpv4(const std::string& host, std::string_view whole) {
   // Resolved here because a minimal system may have no /etc/hosts entry for it (RFC 6761, 6.3).
   if (host == "localhost") return INADDR_LOOPBACK;
   in_addr address{};
@@ -53,8 +55,10 @@ std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
   hints.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;
   if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) {
-    throw InputError("must be HOST:PORT with an IPv4 address or a known name (got " +
-                     std::string(whole) + ")");
+    throw InputError(
+        "must be HOST:PORT with an IPv4 address, an IPv6 address in brackets, or a known name "
+        "(got " +
+        std::string(whole) + ")");
   }
   const auto* socket_address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
   const std::uint32_t first = ntohl(socket_address->sin_addr.s_addr);
@@ -62,26 +66,111 @@ std::uint32_t ParseHost(const std::string& host, std::string_view whole) {
   return first;
 }
 
+IpAddress ParseIpv6(const std::string& host, std::string_view whole) {
+  IpAddress address;
+  if (::inet_pton(AF_INET6, host.c_str(), address.bytes.data()) == 1) return address;
+  throw InputError("must be an IPv6 address, as [::1]:2368 or [fe80::1%eth0]:2368 (got " +
+                   std::string(whole) + ")");
+}
+
+// Of addresses and groups that are the same on every link (RFC 4291, 2.5.6 and 2.7), so that only
+// an interface tells which one is meant.
+bool NeedsInterface(const IpAddress& address) {
+  const auto& bytes = address.bytes;
+  const bool is_of_link = bytes[0] == 0xFE && (bytes[1] & 0xC0U) == 0x80U;
+  const bool is_group_of_link = bytes[0] == 0xFF && (bytes[1] & 0x0FU) <= 2;
+  return is_of_link || is_group_of_link;
+}
+
+/// @param name Behind the address's %; absent = there is none.
+std::uint32_t ParseInterface(const std::optional<std::string>& name,
+                             const IpAddress& address,
+                             std::string_view whole) {
+  const std::string got = " (got " + std::string(whole) + ")";
+  if (!name) {
+    if (!NeedsInterface(address)) return 0;
+    throw InputError("must name the network interface, as [fe80::1%eth0]:2368 does" + got);
+  }
+  if (!NeedsInterface(address) && !address.is_multicast()) {
+    throw InputError(
+        "must name no network interface, which multicast groups and link-local addresses alone "
+        "have" +
+        got);
+  }
+  const unsigned interface = ::if_nametoindex(name->c_str());
+  if (interface == 0) {
+    throw InputError("must name a network interface of this machine behind %" + got);
+  }
+  return interface;
+}
+
+IpAddress ParseHost(std::string_view host, bool is_ipv6, std::string_view whole) {
+  const std::size_t percent = host.find('%');
+  const std::string plain(host.substr(0, percent));
+  std::optional<std::string> name;
+  if (percent != std::string_view::npos) name = host.substr(percent + 1);
+  IpAddress address = is_ipv6 ? ParseIpv6(plain, whole) : ParseIpv4(plain, whole);
+  address.interface = ParseInterface(name, address, whole);
+  return address;
+}
+
 }  // namespace
+
+bool IpAddress::is_loopback() const {
+  if (is_ipv4()) return bytes[12] == 127;
+  return bytes.back() == 1 &&
+         std::all_of(bytes.begin(), bytes.end() - 1, [](auto byte) { return byte == 0; });
+}
+
+bool IpAddress::is_multicast() const {
+  return is_ipv4() ? (bytes[12] & 0xF0U) == 0xE0U : bytes[0] == 0xFF;
+}
 
 Endpoint ParseEndpoint(std::string_view text, std::uint16_t default_port) {
   constexpr std::string_view kLoopback = "127.0.0.1";
-  const std::size_t colon = text.rfind(':');
-  const std::string_view host = text.substr(0, colon);
   if (text.empty()) throw InputError("must be HOST:PORT, HOST or :PORT (got nothing)");
+  const bool has_brackets = text.starts_with('[');
+  // Without brackets, several colons are those of an address alone.
+  const bool is_ipv6 = has_brackets || std::count(text.begin(), text.end(), ':') > 1;
+  std::string_view host = text;
+  std::optional<std::string_view> port;
+  const std::size_t colon = text.rfind(':');
+  if (has_brackets) {
+    host = text.substr(1, text.find(']') - 1);
+    const std::string_view rest = text.substr(std::min(text.size(), host.size() + 2));
+    if (rest.starts_with(':')) port = rest.substr(1);
+    // What is between or behind the brackets and is no port makes no address.
+    if (host.size() + 1 == text.size() || (!port && !rest.empty())) host = "";
+  } else if (!is_ipv6 && colon != std::string_view::npos) {
+    host = text.substr(0, colon);
+    port = text.substr(colon + 1);
+  }
   Endpoint endpoint;
-  endpoint.port =
-      colon == std::string_view::npos ? default_port : ParsePort(text.substr(colon + 1), text);
-  endpoint.address = ParseHost(std::string(host.empty() ? kLoopback : host), text);
+  endpoint.port = port ? ParsePort(*port, text) : default_port;
+  endpoint.address = ParseHost(host.empty() && !is_ipv6 ? kLoopback : host, is_ipv6, text);
   return endpoint;
 }
 
-std::string EndpointText(const Endpoint& endpoint) {
-  std::string text;
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) {
-    text += std::to_string(endpoint.address >> shift & 0xFFU) + (shift > 0 ? "." : ":");
+std::string AddressText(const IpAddress& address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (address.is_ipv4()) {
+    ::inet_ntop(AF_INET, address.bytes.data() + 12, text.data(), text.size());
+  } else {
+    ::inet_ntop(AF_INET6, address.bytes.data(), text.data(), text.size());
   }
-  return text + std::to_string(endpoint.port);
+  if (address.interface == 0) return text.data();
+  std::array<char, IF_NAMESIZE> name{};
+  // An interface that has gone has but its number.
+  if (::if_indextoname(address.interface, name.data()) == nullptr) {
+    return std::string(text.data()) + "%" + std::to_string(address.interface);
+  }
+  return std::string(text.data()) + "%" + name.data();
+}
+
+std::string EndpointText(const Endpoint& endpoint) {
+  const std::string address = AddressText(endpoint.address);
+  return (endpoint.address.is_ipv4() ? address : "[" + address + "]") + ":" +
+         std::to_string(endpoint.port);
 }
 
 }  // namespace railcast

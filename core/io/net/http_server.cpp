@@ -2,6 +2,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -73,9 +74,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   http::response<http::string_body> response_;
 };
 
-Endpoint EndpointOfAcceptor(const Tcp::acceptor& acceptor) {
-  const Tcp::endpoint at = acceptor.local_endpoint();
-  return {at.address().to_v4().to_uint(), at.port()};
+Tcp::endpoint TcpEndpointOf(const Endpoint& at) {
+  if (at.address.is_ipv4()) return {asio::ip::address_v4(at.address.ipv4()), at.port};
+  return {asio::ip::address_v6(at.address.bytes, at.address.interface), at.port};
 }
 
 }  // namespace
@@ -112,15 +113,17 @@ struct HttpServer::Parts {
 HttpServer::HttpServer(const Endpoint& at, Answer answer) : parts_(std::make_unique<Parts>()) {
   parts_->answer = std::move(answer);
   try {
-    const Tcp::endpoint endpoint(asio::ip::address_v4(at.address), at.port);
+    const Tcp::endpoint endpoint = TcpEndpointOf(at);
     parts_->acceptor.open(endpoint.protocol());
+    // Beside 0.0.0.0, [::] is for IPv6 alone.
+    if (!at.address.is_ipv4()) parts_->acceptor.set_option(asio::ip::v6_only(true));
     parts_->acceptor.set_option(Tcp::acceptor::reuse_address(true));
     parts_->acceptor.bind(endpoint);
     parts_->acceptor.listen();
   } catch (const boost::system::system_error& error) {
     throw InputError(EndpointText(at) + ": " + error.code().message());
   }
-  parts_->at = EndpointOfAcceptor(parts_->acceptor);
+  parts_->at = {at.address, parts_->acceptor.local_endpoint().port()};
   parts_->Accept();
   parts_->thread = std::thread([parts = parts_.get()] { parts->context.run(); });
 }

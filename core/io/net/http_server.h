@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "railcast/io/stream.h"
+#include "railcast/io/endpoint.h"
 
 namespace railcast {
 

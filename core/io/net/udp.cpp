@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
-#include <utility>
 
 #include <netinet/in.h>
 #include <netinet/udp.h>
@@ -19,28 +18,14 @@
 namespace railcast {
 namespace {
 
-sockaddr_in SocketAddressOf(const Endpoint& endpoint) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(endpoint.address);
-  address.sin_port = htons(endpoint.port);
-  return address;
-}
-
-Endpoint EndpointOf(const sockaddr_in& address) {
-  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
-}
-
 // Holds several seconds of data from any sensor. The kernel grants less where this much is not
 // allowed.
 constexpr int kReceiveBufferBytes = 32 << 20;
 constexpr std::size_t kMaxDatagramBytes = 65'536;
 
-void GrowReceiveBuffer(int socket) {
-  if (::setsockopt(socket, SOL_SOCKET, SO_RCVBUFFORCE, &kReceiveBufferBytes,
-                   sizeof kReceiveBufferBytes) != 0) {
-    ::setsockopt(socket, SOL_SOCKET, SO_RCVBUF, &kReceiveBufferBytes, sizeof kReceiveBufferBytes);
-  }
+void GrowReceiveBuffer(const UdpSocket& socket) {
+  static_cast<void>(socket.Set(SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBufferBytes) ||
+                    socket.Set(SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes));
 }
 
 // The kernel's limits for one call with generic segmentation offload, GSO (UDP_MAX_SEGMENTS, and
@@ -56,20 +41,15 @@ bool SaysNoGso(int error_number) {
 
 void CheckReachable(const Endpoint& to) {
   constexpr std::uint32_t kBehindMulticast = 0xF0000000;
-  if (to.address >= kBehindMulticast && !to.is_broadcast()) {
+  if (to.address.is_ipv4() && to.address.ipv4() >= kBehindMulticast && !to.is_broadcast()) {
     throw InputError("must be one host, a multicast group, or 255.255.255.255 for all (got " +
                      EndpointText(to) + ")");
   }
   // Connecting a separate socket asks the routing table and sends nothing.
-  const int probe = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;
-  if (to.is_broadcast()) ::setsockopt(probe, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
-  const sockaddr_in address = SocketAddressOf(to);
-  const bool is_reachable =
-      ::connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  const UdpSocket probe = SocketTo(to, 1);
+  const SocketAddress address = SocketAddressOf(to);
+  if (::connect(probe.get(), address.get(), address.size) == 0) return;
   const int error = errno;
-  ::close(probe);
-  if (is_reachable) return;
   if (error == EACCES) {
     throw InputError("must not be a network's broadcast address; use 255.255.255.255 (got " +
                      EndpointText(to) + ")");
@@ -78,47 +58,55 @@ void CheckReachable(const Endpoint& to) {
                    EndpointText(to) + ")");
 }
 
+/// Binds a socket and, if the address is that of a group, joins it.
+/// @returns Whether the system does, else errno says why not.
+bool Bind(const UdpSocket& socket, const Endpoint& at) {
+  const int yes = 1;
+  const SocketAddress address = SocketAddressOf(at);
+  // Beside 0.0.0.0, [::] is for IPv6 alone.
+  if (!at.address.is_ipv4()) static_cast<void>(socket.Set(IPPROTO_IPV6, IPV6_V6ONLY, yes));
+  // Every program of a machine may hear a group.
+  if (at.address.is_multicast()) static_cast<void>(socket.Set(SOL_SOCKET, SO_REUSEADDR, yes));
+  return ::bind(socket.get(), address.get(), address.size) == 0 &&
+         (!at.address.is_multicast() || JoinGroup(socket, at.address));
+}
+
 }  // namespace
 
-UdpReceiver::UdpReceiver(const Endpoint& at) : at_(at), buffer_(kMaxDatagramBytes) {
-  const sockaddr_in address = SocketAddressOf(at);
-  socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+UdpReceiver::UdpReceiver(const Endpoint& at)
+    : socket_(at.address), at_(at), buffer_(kMaxDatagramBytes) {
   wake_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  sockaddr_in bound{};
-  socklen_t size = sizeof bound;
-  if (socket_ < 0 || wake_ < 0 ||
-      ::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::getsockname(socket_, reinterpret_cast<sockaddr*>(&bound), &size) != 0) {
+  SocketAddress bound;
+  if (wake_ < 0 || !Bind(socket_, at) ||
+      ::getsockname(socket_.get(), bound.get(), &bound.size) != 0) {
     const int error = errno;
-    if (socket_ >= 0) ::close(socket_);
     if (wake_ >= 0) ::close(wake_);
     throw InputError("cannot listen: " + std::string(std::strerror(error)) + " (got " +
                      EndpointText(at) + ")");
   }
-  at_ = EndpointOf(bound);
+  at_.port = EndpointOf(bound).port;
   GrowReceiveBuffer(socket_);
   // A kernel that does not know of it gives single datagrams.
   const int yes = 1;
-  ::setsockopt(socket_, SOL_UDP, UDP_GRO, &yes, sizeof yes);
+  static_cast<void>(socket_.Set(SOL_UDP, UDP_GRO, yes));
 }
 
 UdpReceiver::~UdpReceiver() {
-  ::close(socket_);
   ::close(wake_);
 }
 
 bool UdpReceiver::TakeFromSocket() {
-  sockaddr_in from{};
+  SocketAddress from;
   iovec data{buffer_.data(), buffer_.size()};
   alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
   msghdr message{};
-  message.msg_name = &from;
-  message.msg_namelen = sizeof from;
+  message.msg_name = from.get();
+  message.msg_namelen = from.size;
   message.msg_iov = &data;
   message.msg_iovlen = 1;
   message.msg_control = control;
   message.msg_controllen = sizeof control;
-  const ssize_t size = ::recvmsg(socket_, &message, 0);
+  const ssize_t size = ::recvmsg(socket_.get(), &message, 0);
   // The datagram's checksum failed after poll() had announced it.
   if (size < 0) return false;
   waiting_ = std::span(buffer_).first(static_cast<std::size_t>(size));
@@ -136,7 +124,7 @@ bool UdpReceiver::TakeFromSocket() {
 std::optional<UdpReceiver::Received> UdpReceiver::Receive(int timeout_ms) {
   if (is_ended_) return std::nullopt;
   if (!waiting_.empty()) return NextWaiting();
-  std::array<pollfd, 2> waits{pollfd{socket_, POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
+  std::array<pollfd, 2> waits{pollfd{socket_.get(), POLLIN, 0}, pollfd{wake_, POLLIN, 0}};
   if (::poll(waits.data(), waits.size(), timeout_ms) <= 0) return std::nullopt;
   if (waits[1].revents != 0) return std::nullopt;
   if (!TakeFromSocket()) return std::nullopt;
@@ -163,27 +151,21 @@ bool UdpReceiver::is_interrupted() const {
 }
 
 void UdpReceiver::Answer(std::span<const char> bytes, const Endpoint& to) const {
-  const sockaddr_in address = SocketAddressOf(to);
-  ::sendto(socket_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&address),
-           sizeof address);
+  const SocketAddress address = SocketAddressOf(to);
+  ::sendto(socket_.get(), bytes.data(), bytes.size(), 0, address.get(), address.size);
 }
 
-UdpSender::UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool has_offload)
-    : to_(std::move(to)), position_port_(position_port), has_gso_(has_offload) {
-  for (const Endpoint& endpoint : to_) CheckReachable(endpoint);
-  socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (socket_ < 0) throw InputError("no socket: " + std::string(std::strerror(errno)));
-  const bool broadcasts =
-      std::any_of(to_.begin(), to_.end(), [](const Endpoint& each) { return each.is_broadcast(); });
-  const int yes = 1;
-  if (broadcasts) ::setsockopt(socket_, SOL_SOCKET, SO_BROADCAST, &yes, sizeof yes);
-  // As large as a network card's queue; a kernel that allows less grants less.
-  const int send_buffer_bytes = 4 << 20;
-  ::setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &send_buffer_bytes, sizeof send_buffer_bytes);
-}
-
-UdpSender::~UdpSender() {
-  if (socket_ >= 0) ::close(socket_);
+UdpSender::UdpSender(const std::vector<Endpoint>& to,
+                     std::uint16_t position_port,
+                     const SendOptions& options)
+    : position_port_(position_port), has_gso_(options.has_offload) {
+  for (const Endpoint& endpoint : to) {
+    CheckReachable(endpoint);
+    targets_.push_back({SocketTo(endpoint, options.multicast_hops), endpoint});
+    // As large as a network card's queue; a kernel that allows less grants less.
+    const int send_buffer_bytes = 4 << 20;
+    static_cast<void>(targets_.back().socket.Set(SOL_SOCKET, SO_SNDBUF, send_buffer_bytes));
+  }
 }
 
 void UdpSender::Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
@@ -199,26 +181,27 @@ void UdpSender::Send(const Datagrams& datagrams, std::span<const Datagrams::Item
       run_bytes += items[count].size;
       ++count;
     }
-    for (Endpoint to : to_) {
+    const std::span<const char> run(datagrams.bytes.data() + first.offset, run_bytes);
+    for (const Target& target : targets_) {
+      Endpoint to = target.to;
       if (first.port == DatagramPort::kPosition) to.port = position_port_;
-      SendRun(datagrams.bytes.data() + first.offset, run_bytes, first.size, to);
+      SendRun(run, first.size, target.socket, SocketAddressOf(to));
     }
     items = items.subspan(count);
   }
 }
 
-void UdpSender::SendRun(const char* bytes,
-                        std::size_t size,
+void UdpSender::SendRun(std::span<const char> run,
                         std::size_t segment_size,
-                        const Endpoint& to) {
-  sockaddr_in address = SocketAddressOf(to);
-  const std::uint64_t num_datagrams = (size + segment_size - 1) / segment_size;
+                        const UdpSocket& socket,
+                        SocketAddress to) {
+  const std::uint64_t num_datagrams = (run.size() + segment_size - 1) / segment_size;
   if (has_gso_ && num_datagrams > 1) {
-    iovec data{const_cast<char*>(bytes), size};
+    iovec data{const_cast<char*>(run.data()), run.size()};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint16_t))] = {};
     msghdr message{};
-    message.msg_name = &address;
-    message.msg_namelen = sizeof address;
+    message.msg_name = to.get();
+    message.msg_namelen = to.size;
     message.msg_iov = &data;
     message.msg_iovlen = 1;
     message.msg_control = control;
@@ -229,7 +212,7 @@ void UdpSender::SendRun(const char* bytes,
     option->cmsg_len = CMSG_LEN(sizeof(std::uint16_t));
     const auto segment = static_cast<std::uint16_t>(segment_size);
     std::memcpy(CMSG_DATA(option), &segment, sizeof segment);
-    if (::sendmsg(socket_, &message, 0) == static_cast<ssize_t>(size)) {
+    if (::sendmsg(socket.get(), &message, 0) == static_cast<ssize_t>(run.size())) {
       counts_.sent += num_datagrams;
       return;
     }
@@ -239,11 +222,11 @@ void UdpSender::SendRun(const char* bytes,
     }
     has_gso_ = false;
   }
-  for (std::size_t offset = 0; offset < size; offset += segment_size) {
-    const std::size_t length = std::min(segment_size, size - offset);
-    const ssize_t sent = ::sendto(socket_, bytes + offset, length, 0,
-                                  reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    ++(sent == static_cast<ssize_t>(length) ? counts_.sent : counts_.refused);
+  for (std::size_t offset = 0; offset < run.size(); offset += segment_size) {
+    const auto datagram = run.subspan(offset, std::min(segment_size, run.size() - offset));
+    const ssize_t sent =
+        ::sendto(socket.get(), datagram.data(), datagram.size(), 0, to.get(), to.size);
+    ++(sent == static_cast<ssize_t>(datagram.size()) ? counts_.sent : counts_.refused);
   }
 }
 

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
-#include "railcast/io/stream.h"
+#include "core/io/net/socket.h"
+#include "railcast/io/endpoint.h"
 
 namespace railcast {
 
@@ -17,9 +18,10 @@ namespace railcast {
 /// are taken from the kernel in one call, too, where it can (UDP GRO).
 class UdpReceiver {
  public:
-  /// @param at Loopback accepts datagrams from this machine only, 0.0.0.0 from all; port 0 takes a
-  ///   free port.
-  /// @throws InputError if the port is taken or not allowed.
+  /// @param at Loopback accepts datagrams from this machine only, 0.0.0.0 those of IPv4 from all,
+  ///   [::] those of IPv6, and a multicast group, which is joined, those that are sent to it. Port
+  ///   0 takes a free port.
+  /// @throws InputError if the port is taken or not allowed, or if the group cannot be joined.
   explicit UdpReceiver(const Endpoint& at);
   ~UdpReceiver();
   UdpReceiver(const UdpReceiver&) = delete;
@@ -47,7 +49,7 @@ class UdpReceiver {
   [[nodiscard]] bool TakeFromSocket();
   [[nodiscard]] Received NextWaiting();
 
-  int socket_ = -1;
+  UdpSocket socket_;
   int wake_ = -1;
   Endpoint at_;
   std::vector<char> buffer_;
@@ -57,22 +59,28 @@ class UdpReceiver {
   mutable std::atomic<bool> is_ended_ = false;
 };
 
+struct SendOptions {
+  /// Whether runs of datagrams may be handed over in one call, to be cut by the kernel or the
+  /// network card. A capture on the sending machine then holds runs instead of single datagrams.
+  bool has_offload = true;
+  /// Networks on which what is sent to multicast groups may be: 1 = this one, no router passes it
+  /// on.
+  int multicast_hops = 1;
+};
+
 /// Sends datagrams to a list of receivers and never waits for any of them.
 ///
-/// A receiver is a loopback or unicast address, a multicast group (224.0.0.0 to 239.255.255.255),
-/// whose datagrams leave where the routing table says and cross no router, or 255.255.255.255 if
-/// that is given explicitly; the kernel refuses the broadcast addresses of single networks.
+/// A receiver is a loopback or unicast address, a multicast group, whose datagrams leave by the
+/// interface that it names or where the routing table says, or 255.255.255.255 if that is given
+/// explicitly; the kernel refuses the broadcast addresses of single networks. Each receiver is sent
+/// to from a port of its own.
 class UdpSender {
  public:
   /// @param position_port Port of every receiver for datagrams that are DatagramPort::kPosition.
-  /// @param has_offload Whether runs of datagrams may be handed over in one call, to be cut by the
-  ///   kernel or the network card. A capture on the sending machine then holds runs instead of
-  ///   single datagrams.
   /// @throws InputError if a receiver cannot be sent to.
-  UdpSender(std::vector<Endpoint> to, std::uint16_t position_port, bool has_offload = true);
-  ~UdpSender();
-  UdpSender(const UdpSender&) = delete;
-  UdpSender& operator=(const UdpSender&) = delete;
+  UdpSender(const std::vector<Endpoint>& to,
+            std::uint16_t position_port,
+            const SendOptions& options = {});
 
   /// Sends these datagrams to every receiver. With offload, and where the kernel has UDP GSO (Linux
   /// 4.18), each run of equal size goes out in one call; otherwise datagrams go out one by one.
@@ -87,11 +95,17 @@ class UdpSender {
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
-  void SendRun(const char* bytes, std::size_t size, std::size_t segment_size, const Endpoint& to);
+  struct Target {
+    UdpSocket socket;
+    Endpoint to;
+  };
+  void SendRun(std::span<const char> run,
+               std::size_t segment_size,
+               const UdpSocket& socket,
+               SocketAddress to);
 
-  std::vector<Endpoint> to_;
+  std::vector<Target> targets_;
   std::uint16_t position_port_;
-  int socket_ = -1;
   bool has_gso_;
   Counts counts_;
 };

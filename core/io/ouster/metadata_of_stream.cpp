@@ -45,22 +45,29 @@ void CompleteDataFormat(const OusterMetadata& metadata, Json& format) {
   format["udp_profile_imu"] = "LEGACY";
 }
 
-void CompleteConfig(const OusterMetadata& metadata, const std::string& receiver, Json& config) {
-  const std::size_t colon = receiver.rfind(':');
-  config["udp_dest"] = receiver.substr(0, colon);
-  config["udp_port_lidar"] = std::stoi(receiver.substr(colon + 1));
+void CompleteConfig(const OusterMetadata& metadata,
+                    const Endpoint& receiver,
+                    const std::optional<std::string>& timestamp_mode,
+                    Json& config) {
+  const std::string host = AddressText(receiver.address);
+  // The interface is one of this machine, not of the sensor.
+  config["udp_dest"] = host.substr(0, host.find('%'));
+  config["udp_port_lidar"] = receiver.port;
   config["udp_port_imu"] = kOusterImuPort;
   config["udp_profile_imu"] = "LEGACY";
   AddMissing(config, "udp_profile_lidar", NameOf(metadata.profile));
   AddMissing(config, "operating_mode", "NORMAL");
   AddMissing(config, "timestamp_mode", "TIME_FROM_INTERNAL_OSC");
+  if (timestamp_mode) config["timestamp_mode"] = *timestamp_mode;
   // Of firmware 1: the older name of udp_dest.
   if (config.contains("udp_ip")) config["udp_ip"] = config["udp_dest"];
 }
 
 }  // namespace
 
-Json MetadataOfStream(const std::string& text, const std::string& receiver) {
+Json MetadataOfStream(const std::string& text,
+                      const Endpoint& receiver,
+                      const std::optional<std::string>& timestamp_mode) {
   const OusterMetadata metadata = ParseOusterMetadata(text);
   Json sections = SectionsOfOusterMetadata(text);
   for (const char* const name :
@@ -78,7 +85,7 @@ Json MetadataOfStream(const std::string& text, const std::string& receiver) {
   AddMissing(sections["lidar_intrinsics"], "lidar_to_sensor_transform",
              NumbersOf(metadata.sensor_from_lidar));
   CompleteDataFormat(metadata, sections["lidar_data_format"]);
-  CompleteConfig(metadata, receiver, sections["config_params"]);
+  CompleteConfig(metadata, receiver, timestamp_mode, sections["config_params"]);
   sections.erase("imu_data_format");
   return sections;
 }

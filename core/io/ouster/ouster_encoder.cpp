@@ -20,11 +20,6 @@ namespace {
 constexpr std::int64_t kImuPeriod_ns = 10'000'000;
 constexpr std::uint32_t kEncoderTicksPerTurn = 90'112;
 
-/// The sensor's clock at a simulation time.
-std::uint64_t ClockAt(std::int64_t time_ns) {
-  return static_cast<std::uint64_t>(kSimulationEpoch_s * kNsPerS + time_ns);
-}
-
 class OusterEncoder final : public FrameEncoder {
  public:
   OusterEncoder(const OusterMetadata& metadata, const SpinningSpec& pattern)
@@ -60,6 +55,11 @@ class OusterEncoder final : public FrameEncoder {
   }
 
  private:
+  /// The sensor's clock at a simulation time.
+  [[nodiscard]] std::uint64_t ClockAt(std::int64_t time_ns) const {
+    return static_cast<std::uint64_t>(kSimulationEpoch_s * kNsPerS + clock_ahead_ns() + time_ns);
+  }
+
   /// The turn, counted from that in which a frame begins, and the packet in it.
   using PacketPlace = std::pair<std::uint32_t, std::uint32_t>;
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/io/datagrams.h"
 #include "core/io/ouster/ouster_packet.h"
+#include "railcast/io/endpoint.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -13,9 +15,9 @@ namespace railcast {
 /// metadata the scenario names, with a packet of motion (DatagramPort::kPosition) every 10 ms.
 ///
 /// A packet holds columns of one turn; those outside of the window are marked as not measured. The
-/// number of a frame is that of its turn. Times are simulation time since 1970. Ranges beyond what
-/// the profile can state are no return. Signals are the received power in multiples of the
-/// detection threshold, where a real sensor counts photons, and the light of the background is 0.
+/// number of a frame is that of its turn. Times count from 1970. Ranges beyond what the profile can
+/// state are no return. Signals are the received power in multiples of the detection threshold,
+/// where a real sensor counts photons, and the light of the background is 0.
 /// Motion is that between the poses of the frame, which are at most 20 ms apart, without errors.
 /// @throws InputError "--protocol ouster: /lidar/...: rule (got value)" if the sensor is not made
 /// of
@@ -25,8 +27,11 @@ namespace railcast {
 
 /// The metadata of the stream, with all sections that drivers expect.
 /// @param text The sensor's own metadata; what they leave to later firmware is filled in.
-/// @param receiver Where the lidar packets go, host:port; packets of motion go to the same host.
+/// @param receiver Where the lidar packets go; packets of motion go to the same host.
+/// @param timestamp_mode Where the sensor has its time from; absent: as the text says.
 /// @pre ParseOusterMetadata(text) succeeds.
-[[nodiscard]] Json MetadataOfStream(const std::string& text, const std::string& receiver);
+[[nodiscard]] Json MetadataOfStream(const std::string& text,
+                                    const Endpoint& receiver,
+                                    const std::optional<std::string>& timestamp_mode = {});
 
 }  // namespace railcast

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/pcap/packet_headers.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -24,10 +25,8 @@ std::string SpanOf(std::size_t begin, std::size_t end) {
   return NumberText(begin) + " to " + NumberText(end);
 }
 
-constexpr std::size_t kEthernetSize = 14;
 constexpr std::size_t kVlanTagSize = 4;
 constexpr std::size_t kMaxVlanTags = 2;
-constexpr std::size_t kUdpHeaderSize = 8;
 
 std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
   return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[place]) << 8U |
@@ -35,51 +34,118 @@ std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
 }
 
 constexpr std::size_t kUdpProtocolPlace = 9;  // In the IPv4 header.
-constexpr char kUdpProtocol = 17;
 
-// Returns what follows the Ethernet header and its VLAN tags if that is IPv4. The result is empty,
-// too, if the frame ends before its protocol can be told.
-std::optional<std::span<const char>> IpPacket(std::span<const char> frame) {
+std::uint8_t OctetAt(std::span<const char> bytes, std::size_t place) {
+  return static_cast<std::uint8_t>(bytes[place]);
+}
+
+/// What a frame carries.
+struct IpPacket {
+  bool is_ipv6{};
+  std::span<const char> bytes;
+};
+
+// Returns what follows the Ethernet header and its VLAN tags if that is IPv4 or IPv6. The result is
+// empty, too, if the frame ends before its protocol can be told.
+std::optional<IpPacket> PacketIn(std::span<const char> frame) {
   std::size_t type_place = kEthernetSize - 2;
   for (std::size_t tags = 0; tags <= kMaxVlanTags; ++tags, type_place += kVlanTagSize) {
-    if (frame.size() < type_place + 2) return frame.subspan(frame.size());
+    if (frame.size() < type_place + 2) return IpPacket{};
     const std::uint16_t type = BigAt(frame, type_place);
-    if (type == 0x0800) return frame.subspan(type_place + 2);
+    if (type == 0x0800 || type == 0x86DD)
+      return IpPacket{type == 0x86DD, frame.subspan(type_place + 2)};
     if (type != 0x8100 && type != 0x88A8) return std::nullopt;
   }
   return std::nullopt;
 }
 
+/// What follows the headers of an IPv6 packet, as far as these are there.
+struct Ipv6Content {
+  std::uint8_t protocol{};
+  std::size_t place{};
+  bool is_cut{};           ///< The headers go on behind the end.
+  std::size_t fragment{};  ///< Place of the fragment header; 0 = none.
+};
+
+// Walks over the extension headers that may stand before UDP (RFC 8200, 4).
+Ipv6Content ContentOf(std::span<const char> ip) {
+  constexpr std::uint8_t kFragment = 44;
+  constexpr auto kOptions =
+      std::to_array<std::uint8_t>({0, 43, 60});  // Hop by hop, routing, destination.
+  if (ip.size() < kIpv6HeaderSize) return {.is_cut = true};
+  Ipv6Content content{.protocol = OctetAt(ip, 6), .place = kIpv6HeaderSize};
+  while (content.protocol == kFragment ||
+         std::ranges::find(kOptions, content.protocol) != kOptions.end()) {
+    const bool is_fragment = content.protocol == kFragment;
+    if (content.place + 8 > ip.size()) {
+      content.is_cut = true;
+      return content;
+    }
+    if (is_fragment) content.fragment = content.place;
+    content.protocol = OctetAt(ip, content.place);
+    content.place += is_fragment ? 8 : 8 * (std::size_t{1} + OctetAt(ip, content.place + 1));
+    // What follows the fragment header of a fragment is a piece of the packet.
+    constexpr std::uint16_t kOffsetAndMore = 0xFFF9;
+    if (is_fragment && (BigAt(ip, content.fragment + 2) & kOffsetAndMore) != 0) break;
+  }
+  return content;
+}
+
 // Whether the captured part of a frame may be the beginning of a UDP datagram. Frames of other
 // protocols are not wanted and may be truncated anywhere.
 bool MayBeginDatagram(std::span<const char> frame) {
-  const auto ip = IpPacket(frame);
+  const auto ip = PacketIn(frame);
   if (!ip) return false;
-  if (ip->size() <= kUdpProtocolPlace) return true;
-  return static_cast<unsigned char>((*ip)[0]) >> 4U == 4 &&
-         (*ip)[kUdpProtocolPlace] == kUdpProtocol;
+  if (ip->is_ipv6) {
+    const Ipv6Content content = ContentOf(ip->bytes);
+    return content.is_cut || content.protocol == kUdpProtocol;
+  }
+  if (ip->bytes.size() <= kUdpProtocolPlace) return true;
+  return OctetAt(ip->bytes, 0) >> 4U == 4 && OctetAt(ip->bytes, kUdpProtocolPlace) == kUdpProtocol;
 }
-
-constexpr std::size_t kLeastIpHeaderSize = 20;
 
 // Returns what an IPv4 packet carries for UDP: a datagram or a fragment of one.
 std::optional<IpFragment> UdpFragment(std::span<const char> ip) {
-  if (ip.size() < kLeastIpHeaderSize) return std::nullopt;
-  const auto version_and_words = static_cast<unsigned char>(ip[0]);
+  if (ip.size() < kIpv4HeaderSize) return std::nullopt;
+  const std::uint8_t version_and_words = OctetAt(ip, 0);
   const std::size_t header_size = std::size_t{version_and_words & 0xFU} * 4;
   // The packet's own length counts, since Ethernet may pad the frame behind it.
   const std::size_t size = BigAt(ip, 2);
-  if (version_and_words >> 4U != 4 || header_size < kLeastIpHeaderSize || size < header_size ||
-      size > ip.size() || ip[kUdpProtocolPlace] != kUdpProtocol) {
+  if (version_and_words >> 4U != 4 || header_size < kIpv4HeaderSize || size < header_size ||
+      size > ip.size() || OctetAt(ip, kUdpProtocolPlace) != kUdpProtocol) {
     return std::nullopt;
   }
   constexpr std::uint16_t kMoreFragments = 0x2000U;
   const std::uint16_t flags_and_offset = BigAt(ip, 6);
-  IpFragment fragment{.offset = (flags_and_offset & 0x1FFFU) * std::size_t{8},
+  IpFragment fragment{.source = IpAddress(std::uint32_t{BigAt(ip, 12)} << 16U | BigAt(ip, 14)),
+                      .offset = (flags_and_offset & 0x1FFFU) * std::size_t{8},
                       .is_last = (flags_and_offset & kMoreFragments) == 0,
                       .bytes = ip.subspan(header_size, size - header_size)};
   const auto addresses = ip.subspan(12, 8);
   const auto identification = ip.subspan(4, 2);
+  std::ranges::copy(identification, std::ranges::copy(addresses, fragment.packet.begin()).out);
+  return fragment;
+}
+
+// As UdpFragment(), of an IPv6 packet.
+std::optional<IpFragment> UdpFragmentOfIpv6(std::span<const char> ip) {
+  if (ip.size() < kIpv6HeaderSize || OctetAt(ip, 0) >> 4U != 6) return std::nullopt;
+  const std::size_t size = kIpv6HeaderSize + BigAt(ip, 4);
+  if (size > ip.size()) return std::nullopt;
+  ip = ip.first(size);
+  const Ipv6Content content = ContentOf(ip);
+  if (content.is_cut || content.protocol != kUdpProtocol || content.place > size) {
+    return std::nullopt;
+  }
+  IpFragment fragment{.offset = 0, .is_last = true, .bytes = ip.subspan(content.place)};
+  std::ranges::transform(ip.subspan(8, 16), fragment.source.bytes.begin(),
+                         [](char octet) { return static_cast<std::uint8_t>(octet); });
+  if (content.fragment == 0) return fragment;
+  const std::uint16_t offset_and_flag = BigAt(ip, content.fragment + 2);
+  fragment.offset = offset_and_flag & 0xFFF8U;
+  fragment.is_last = (offset_and_flag & 1U) == 0;
+  const auto addresses = ip.subspan(8, 32);
+  const auto identification = ip.subspan(content.fragment + 4, 4);
   std::ranges::copy(identification, std::ranges::copy(addresses, fragment.packet.begin()).out);
   return fragment;
 }
@@ -98,13 +164,9 @@ std::optional<CapturedDatagram> DatagramIn(std::span<const char> udp) {
 }
 
 std::optional<IpFragment> FindFragment(std::span<const char> frame) {
-  const auto ip = IpPacket(frame);
-  return ip ? UdpFragment(*ip) : std::nullopt;
-}
-
-std::uint32_t SourceOf(const IpFragment& fragment) {
-  const std::span<const char> packet = fragment.packet;
-  return std::uint32_t{BigAt(packet, 0)} << 16U | BigAt(packet, 2);
+  const auto ip = PacketIn(frame);
+  if (!ip) return std::nullopt;
+  return ip->is_ipv6 ? UdpFragmentOfIpv6(ip->bytes) : UdpFragment(ip->bytes);
 }
 
 // The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
@@ -185,7 +247,7 @@ std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
   const auto fragment = FindFragment(frame);
   if (!fragment || !IsWhole(*fragment)) return std::nullopt;
   auto datagram = DatagramIn(fragment->bytes);
-  if (datagram) datagram->source_address = SourceOf(*fragment);
+  if (datagram) datagram->source_address = fragment->source;
   return datagram;
 }
 
@@ -242,7 +304,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     auto datagram =
         IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
     if (!datagram) continue;
-    datagram->source_address = SourceOf(*fragment);
+    datagram->source_address = fragment->source;
     datagram->packet = packet;
     datagram->time_ns = time_ns;
     return datagram;

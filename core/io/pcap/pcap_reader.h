@@ -13,20 +13,23 @@
 #include <string>
 #include <vector>
 
-#include "railcast/io/stream.h"
+#include "railcast/io/endpoint.h"
 
 namespace railcast {
 
-/// A piece of what an IPv4 packet carries.
+/// A piece of what a packet of IPv4 or IPv6 carries.
 struct IpFragment {
-  std::array<char, 10> packet{};  ///< Source, destination and identification, as they were sent.
-  std::size_t offset{};           ///< Place of its bytes in the packet's data.
-  bool is_last{};                 ///< Whether the data end with it.
+  /// Source, destination and identification, as they were sent; those of IPv4 fill the first 10.
+  std::array<char, 36> packet{};
+  IpAddress source{};
+  std::size_t offset{};  ///< Place of its bytes in the packet's data.
+  bool is_last{};        ///< Whether the data end with it.
   std::span<const char> bytes;
   std::int64_t time_ns{};  ///< Time of capture.
 };
 
-/// Puts together what was sent in fragments (RFC 791, 3.2), in whatever order these were captured.
+/// Puts together what was sent in fragments (RFC 791, 3.2; RFC 8200, 4.5), in whatever order these
+/// were captured.
 ///
 /// Fragments that a capture holds twice count once. A packet of which a fragment is missing is
 /// lost: it is given up when a fragment follows that was captured more than a second after its
@@ -44,7 +47,7 @@ class IpFragments {
 
  private:
   struct Packet {
-    std::array<char, 10> name{};
+    std::array<char, 36> name{};
     std::int64_t time_ns{};
     std::vector<char> bytes;
     std::map<std::size_t, std::size_t> parts;  ///< The end of each part by its begin.
@@ -64,7 +67,7 @@ class IpFragments {
 /// decoder of the protocol can tell where to cut.
 struct CapturedDatagram {
   std::span<const char> payload;  ///< Valid until the next datagram is read.
-  decltype(Endpoint::address) source_address{};
+  IpAddress source_address{};
   std::uint16_t source_port{};
   std::uint16_t destination_port{};
   /// Time of capture since 1970-01-01 00:00:00 UTC; of a datagram in fragments, the last one's.
@@ -72,8 +75,9 @@ struct CapturedDatagram {
   std::size_t packet{};  ///< Index among all packets of the file, from 0; as `time_ns`.
 };
 
-/// Returns the UDP datagram in an Ethernet frame: IPv4 with any options, behind up to two VLAN
-/// tags. Returns nothing if the frame holds none, or only a fragment of one.
+/// Returns the UDP datagram in an Ethernet frame: IPv4 with any options or IPv6 with its extension
+/// headers, behind up to two VLAN tags. Returns nothing if the frame holds none, or only a fragment
+/// of one.
 [[nodiscard]] std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame);
 
 /// Reads the UDP datagrams of a capture file, classic pcap or pcapng. Those sent in IP fragments

@@ -14,15 +14,13 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/io/pcap/packet_headers.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::size_t kHeaderSize = 42;  // Ethernet 14, IPv4 20, UDP 8.
-constexpr std::size_t kIpPlace = 14;
-constexpr std::size_t kUdpPlace = 34;
 constexpr std::size_t kMaxDatagramSize = 65507;
 
 /// Writes a number in network byte order.
@@ -31,32 +29,62 @@ void StoreBigAt(char* place, std::uint16_t number) {
   place[1] = static_cast<char>(number & 0xFFU);
 }
 
-// The checksum of RFC 1071 over an IPv4 header whose checksum field is still 0.
-std::uint16_t IpChecksum(const char* header) {
-  std::uint32_t sum = 0;
-  for (std::size_t i = 0; i < 20; i += 2) {
-    sum += static_cast<std::uint32_t>(static_cast<unsigned char>(header[i]) << 8U) +
-           static_cast<unsigned char>(header[i + 1]);
+/// Adds 16-bit words, the last of which may lack its second byte, to the sum of RFC 1071.
+std::uint64_t AddWords(std::span<const char> bytes, std::uint64_t sum) {
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[i]);
+    sum += i % 2 == 0 ? std::uint64_t{byte} << 8U : byte;
   }
+  return sum;
+}
+
+/// The checksum of RFC 1071.
+std::uint16_t ChecksumOf(std::uint64_t sum) {
   while (sum >> 16U != 0) sum = (sum & 0xFFFFU) + (sum >> 16U);
   return static_cast<std::uint16_t>(~sum);
 }
 
-void StoreHeaders(std::uint16_t payload_size, std::uint16_t port, char* frame) {
+/// Stores the headers of Ethernet and IPv4 and returns where UDP's begins.
+char* StoreIpv4Headers(std::uint16_t udp_size, char* frame) {
   // Ethernet broadcast from an address of Velodyne's range; IPv4 without options, don't fragment,
   // 64 hops, UDP; from 192.168.1.201 to 255.255.255.255.
-  constexpr std::array<unsigned char, kUdpPlace> kStart = {
-      0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x60, 0x76, 0x88, 0,   0, 0,   0x08, 0x00, 0x45, 0,  0, 0,
-      0,    0,    0x40, 0,    64,   17,   0,    0,    192,  168, 1, 201, 255,  255,  255,  255};
+  constexpr std::array<unsigned char, kEthernetSize + kIpv4HeaderSize> kStart = {
+      0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x60, 0x76, 0x88, 0,  0,  0,
+      0x08, 0x00, 0x45, 0,    0,    0,    0,    0,    0x40, 0,  64, kUdpProtocol,
+      0,    0,    192,  168,  1,    201,  255,  255,  255,  255};
   std::memcpy(frame, kStart.data(), kStart.size());
-  const auto udp_size = static_cast<std::uint16_t>(payload_size + 8);
-  StoreBigAt(frame + kIpPlace + 2, static_cast<std::uint16_t>(udp_size + 20));
-  StoreBigAt(frame + kIpPlace + 10, IpChecksum(frame + kIpPlace));
-  StoreBigAt(frame + kUdpPlace, port);
-  StoreBigAt(frame + kUdpPlace + 2, port);
-  StoreBigAt(frame + kUdpPlace + 4, udp_size);
-  // No checksum: IPv4 allows that, and the sensors send none.
-  StoreBigAt(frame + kUdpPlace + 6, 0);
+  char* const ip = frame + kEthernetSize;
+  StoreBigAt(ip + 2, static_cast<std::uint16_t>(udp_size + kIpv4HeaderSize));
+  StoreBigAt(ip + 10, ChecksumOf(AddWords({ip, kIpv4HeaderSize}, 0)));
+  return ip + kIpv4HeaderSize;
+}
+
+/// As StoreIpv4Headers(), of IPv6 (RFC 8200, 3).
+char* StoreIpv6Headers(std::uint16_t udp_size, char* frame) {
+  // To the Ethernet address of ff02::1 (RFC 2464, 7) from the same card; UDP, 64 hops; from the
+  // card's address of the link (RFC 4291, 2.5.6).
+  constexpr std::array<unsigned char, kEthernetSize + kIpv6HeaderSize> kStart = {
+      0x33, 0x33, 0,    0,    0,    1,    0x60,
+      0x76, 0x88, 0,    0,    0,    0x86, 0xDD,
+      0x60, 0,    0,    0,    0,    0,    kUdpProtocol,
+      64,   0xFE, 0x80, 0,    0,    0,    0,
+      0,    0,    0x62, 0x76, 0x88, 0xFF, 0xFE,
+      0,    0,    0,    0xFF, 0x02, 0,    0,
+      0,    0,    0,    0,    0,    0,    0,
+      0,    0,    0,    0,    1};
+  std::memcpy(frame, kStart.data(), kStart.size());
+  StoreBigAt(frame + kEthernetSize + 4, udp_size);
+  return frame + kEthernetSize + kIpv6HeaderSize;
+}
+
+/// The checksum of UDP over IPv6: over both addresses, the length, the protocol and the datagram,
+/// whose checksum field is still 0 (RFC 8200, 8.1).
+std::uint16_t UdpChecksum(const char* udp, std::uint16_t udp_size) {
+  const std::uint64_t pseudo_header =
+      AddWords({udp - 32, 32}, std::uint64_t{udp_size} + kUdpProtocol);
+  const std::uint16_t sum = ChecksumOf(AddWords({udp, udp_size}, pseudo_header));
+  // 0 would mean that there is none.
+  return sum == 0 ? 0xFFFF : sum;
 }
 
 }  // namespace
@@ -76,11 +104,13 @@ struct PcapWriter::Dump {
 
 PcapWriter::PcapWriter(std::filesystem::path file,
                        std::uint16_t data_port,
-                       std::uint16_t position_port)
+                       std::uint16_t position_port,
+                       bool is_ipv6)
     : file_(std::move(file)),
       target_(FileToReplace(file_)),
       data_port_(data_port),
       position_port_(position_port),
+      is_ipv6_(is_ipv6),
       dump_(std::make_unique<Dump>()) {
   std::FILE* const stream = std::fopen(unfinished().c_str(), "wbe");
   if (stream == nullptr) throw FileError(file_, errno);
@@ -100,18 +130,26 @@ PcapWriter::PcapWriter(std::filesystem::path file,
 PcapWriter::~PcapWriter() = default;
 
 void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
-  std::array<char, kHeaderSize + kMaxDatagramSize> frame;
+  std::array<char, kEthernetSize + kIpv6HeaderSize + kUdpHeaderSize + kMaxDatagramSize> frame;
   for (const Datagrams::Item& item : items) {
     Check(item.size <= kMaxDatagramSize, "a datagram fits a UDP packet");
     const std::span<const char> payload = datagrams.BytesOf(item);
-    const bool is_data = item.port == DatagramPort::kData;
-    StoreHeaders(static_cast<std::uint16_t>(item.size), is_data ? data_port_ : position_port_, frame.data());
-    std::memcpy(frame.data() + kHeaderSize, payload.data(), payload.size());
+    const std::uint16_t port = item.port == DatagramPort::kData ? data_port_ : position_port_;
+    const auto udp_size = static_cast<std::uint16_t>(kUdpHeaderSize + item.size);
+    char* const udp = is_ipv6_ ? StoreIpv6Headers(udp_size, frame.data())
+                               : StoreIpv4Headers(udp_size, frame.data());
+    StoreBigAt(udp, port);
+    StoreBigAt(udp + 2, port);
+    StoreBigAt(udp + 4, udp_size);
+    StoreBigAt(udp + 6, 0);
+    std::memcpy(udp + kUdpHeaderSize, payload.data(), payload.size());
+    // IPv4 allows that there is no checksum, and the sensors send none.
+    if (is_ipv6_) StoreBigAt(udp + 6, UdpChecksum(udp, udp_size));
     const std::int64_t time_us = (item.due_ns + clock_ahead_ns_) / 1000;
     pcap_pkthdr header{};
     header.ts.tv_sec = kSimulationEpoch_s + time_us / 1'000'000;
     header.ts.tv_usec = time_us % 1'000'000;
-    header.caplen = header.len = static_cast<bpf_u_int32>(kHeaderSize + payload.size());
+    header.caplen = header.len = static_cast<bpf_u_int32>(udp + udp_size - frame.data());
     // libpcap's functions take the dumper as a byte pointer.
     pcap_dump(reinterpret_cast<u_char*>(dump_->dumper), &header,
               reinterpret_cast<const u_char*>(frame.data()));

@@ -14,6 +14,9 @@ namespace railcast {
 /// headers, which many decoders skip unread, and is stamped in microseconds with the time at which
 /// it is due; simulation time 0 is 2000-01-01 00:00:00 UTC.
 ///
+/// Of IPv6 there are 62 bytes of headers, and packets go from the link-local address of the
+/// sensor's network card to all nodes of the link, ff02::1, with the checksum that UDP has there.
+///
 /// While it grows the file is named `file` + kUnfinishedSuffix; Finish() syncs and renames it. An
 /// interrupted run leaves the file under its unfinished name; it can be read up to its last whole
 /// packet.
@@ -21,7 +24,10 @@ class PcapWriter {
  public:
   /// @param data_port, position_port The ports of the two kinds of datagrams.
   /// @throws InputError if the file cannot be created, or as FileToReplace does.
-  PcapWriter(std::filesystem::path file, std::uint16_t data_port, std::uint16_t position_port);
+  PcapWriter(std::filesystem::path file,
+             std::uint16_t data_port,
+             std::uint16_t position_port,
+             bool is_ipv6 = false);
   ~PcapWriter();
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
@@ -48,6 +54,7 @@ class PcapWriter {
   std::filesystem::path target_;  ///< The file that Finish() replaces.
   std::uint16_t data_port_;
   std::uint16_t position_port_;
+  bool is_ipv6_;
   std::unique_ptr<Dump> dump_;
   std::int64_t clock_ahead_ns_{};
   std::int64_t whole_bytes_{};  ///< Size of the file after the last complete Write.

@@ -166,10 +166,6 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
             folder.path().string() + ": must be a regular file (got a directory)\n");
   EXPECT_EQ(fault(scenario + " --no-offload --pcap a --duration 1"),
             "--no-offload: must be left out where nothing is sent, as with --pcap without --to\n");
-  EXPECT_EQ(fault(scenario + " --wall-clock --pcap a --duration 1"),
-            "--wall-clock: must be left out where nothing is sent, as with --pcap without --to\n");
-  EXPECT_EQ(fault(scenario + " --wall-clock --to :1000"),
-            "--wall-clock: is for packets of real sensors (got railcast)\n");
   EXPECT_EQ(fault(scenario + " --drop-late --pcap a --duration 1"),
             "--drop-late: must be left out where frames are never late, as with --pcap without "
             "--to\n");

@@ -1,6 +1,7 @@
 // A simulated Ouster sensor: its captures, its packets on the network and its HTTP interface.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/io/ouster/ouster_decoder.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
+#include "tests/core/io/net/ipv6_loopback.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 #include "tests/support/ouster_metadata_text.h"
@@ -118,6 +120,41 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_NE(ended.said.find("HTTP at 127.0.0.1:" + port), std::string::npos) << ended.said;
+}
+
+// By PTP, as a driver finds out over HTTP, which IPv6 brings here, too.
+TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
+  const auto ipv6 = AnyIpv6LoopbackPort();
+  if (!ipv6) GTEST_SKIP() << "this machine has no IPv6 at ::1";
+  const TemporaryDirectory folder;
+  const std::string scenario = OusterScenario(folder.path(), "RNG19_RFL8_SIG16_NIR16");
+  UdpReceiver receiver(*ipv6);
+  const std::string port = FreePort();
+  Stream stream(scenario + " --duration 3 --clock tai --http '[::1]:" + port + "' --to " +
+                EndpointText(receiver.at()));
+  const auto first = receiver.Receive(kPatience_ms);
+  ASSERT_TRUE(first.has_value());
+  const std::vector<char> packet(first->bytes.begin(), first->bytes.end());
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const Ended asked = RunCommand(
+      "python3 -c \"import http.client; client = http.client.HTTPConnection('::1', " + port +
+      "); client.request('GET', '/api/v1/sensor/metadata'); "
+      "print(client.getresponse().read().decode())\"");
+  ASSERT_EQ(asked.status, 0) << asked.said;
+  const auto config = nlohmann::json::parse(asked.said)["config_params"];
+  EXPECT_EQ(config["timestamp_mode"], "TIME_FROM_PTP_1588");
+  EXPECT_EQ(config["udp_dest"], "::1");
+  EXPECT_EQ(config["udp_port_lidar"], receiver.at().port);
+  OusterDecoder decoder(ParseOusterMetadata(asked.said));
+  std::vector<SensorTurn> turns;
+  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  const double ahead_s = 1e-9 * static_cast<double>(decoder.TakeUnfinished().stamp_ns) -
+                         std::chrono::duration<double>(now).count();
+  EXPECT_LE(ahead_s, 37.0);
+  EXPECT_GT(ahead_s, 37.0 - 30.0);
+  const Ended ended = stream.Wait();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_NE(ended.said.find("HTTP at [::1]:" + port), std::string::npos) << ended.said;
 }
 
 TEST(StreamOuster, SaysWhatDoesNotGoTogether) {

@@ -10,33 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "railcast/io/endpoint.h"
 #include "railcast/transform.h"
 
 namespace railcast {
-
-/// An IPv4 address and a UDP port, both in the host's byte order.
-struct Endpoint {
-  std::uint32_t address{};
-  std::uint16_t port{};
-
-  [[nodiscard]] bool is_loopback() const { return address >> 24U == 127; }
-  /// 255.255.255.255: all hosts of the local network.
-  [[nodiscard]] bool is_broadcast() const { return address == 0xFFFFFFFF; }
-  /// Whether `other` matches this endpoint: same address and same port, where port 0 matches any.
-  [[nodiscard]] bool Covers(const Endpoint& other) const {
-    return address == other.address && (port == 0 || port == other.port);
-  }
-  bool operator==(const Endpoint&) const = default;
-};
-
-/// Parses "HOST:PORT", "HOST" or ":PORT". HOST is a dotted-decimal IPv4 address or a name that
-/// resolves to one.
-/// @param default_port Used if no port is written.
-/// @throws InputError "rule (got text)".
-[[nodiscard]] Endpoint ParseEndpoint(std::string_view text, std::uint16_t default_port);
-
-/// Formats an endpoint as "127.0.0.1:2368".
-[[nodiscard]] std::string EndpointText(const Endpoint& endpoint);
 
 /// Constants of the railcast protocol, version 1. docs/stream.md describes it byte by byte.
 

@@ -1,6 +1,10 @@
-#include "railcast/io/stream.h"
+#include "railcast/io/endpoint.h"
 
 #include <gtest/gtest.h>
+#include <net/if.h>
+
+#include <array>
+#include <string>
 
 #include "tests/core/io/message_of.h"
 
@@ -13,12 +17,40 @@ TEST(Endpoint, IsReadFromHostAndPort) {
   EXPECT_EQ(ParseEndpoint("localhost:99", 1), (Endpoint{0x7F000001, 99}));
 }
 
+TEST(Endpoint, IsReadFromAnAddressOfIpv6) {
+  const Endpoint one = ParseEndpoint("[2001:db8::1]:2368", 1);
+  const std::array<std::uint8_t, 16> expected = {0x20, 1, 0x0D, 0xB8, 0, 0, 0, 0,
+                                                 0,    0, 0,    0,    0, 0, 0, 1};
+  EXPECT_EQ(one.address.bytes, expected);
+  EXPECT_EQ(one.address.interface, 0U);
+  EXPECT_EQ(one.port, 2368);
+  EXPECT_EQ(ParseEndpoint("[2001:DB8:0::1]", 2368), one);
+  EXPECT_EQ(ParseEndpoint("2001:db8::1", 2368), one);
+  // Without brackets no port can be told from the address.
+  EXPECT_EQ(ParseEndpoint("::1:2368", 5), ParseEndpoint("[::1:2368]:5", 1));
+  // RFC 4291, 2.5.5.2: another way to write an address of IPv4.
+  EXPECT_EQ(ParseEndpoint("[::ffff:10.0.0.1]:5", 1), (Endpoint{0x0A000001, 5}));
+}
+
+TEST(Endpoint, HasTheInterfaceOfGroupsAndOfAddressesOfTheLink) {
+  const unsigned loopback = ::if_nametoindex("lo");
+  ASSERT_NE(loopback, 0U);
+  EXPECT_EQ(ParseEndpoint("[fe80::1%lo]:5", 1).address.interface, loopback);
+  EXPECT_EQ(ParseEndpoint("fe80::1%lo", 1), ParseEndpoint("[fe80::1%lo]:1", 5));
+  EXPECT_EQ(ParseEndpoint("[ff05::1%lo]:5", 1).address.interface, loopback);
+  EXPECT_EQ(ParseEndpoint("239.1.1.1%lo:5", 1).address.interface, loopback);
+  EXPECT_EQ(ParseEndpoint("[ff05::1]:5", 1).address.interface, 0U);
+  EXPECT_EQ(ParseEndpoint("239.1.1.1", 1).address.interface, 0U);
+}
+
 TEST(Endpoint, IsThisMachineWhereNoHostIsWritten) {
   EXPECT_EQ(ParseEndpoint(":2369", 1), (Endpoint{0x7F000001, 2369}));
 }
 
 TEST(Endpoint, IsReadBackFromItsText) {
-  for (const char* text : {"127.0.0.1:2368", "255.255.255.255:1", "10.0.200.3:65535"}) {
+  for (const char* text : {"127.0.0.1:2368", "255.255.255.255:1", "10.0.200.3:65535", "[::1]:2368",
+                           "[::]:1", "[2001:db8::a:0:0:7]:65535", "[ff05::123]:9", "[ff02::1%lo]:9",
+                           "[fe80::1%lo]:2368", "239.1.1.1:5", "239.1.1.1%lo:5"}) {
     EXPECT_EQ(EndpointText(ParseEndpoint(text, 7)), text);
   }
 }
@@ -26,8 +58,22 @@ TEST(Endpoint, IsReadBackFromItsText) {
 TEST(Endpoint, KnowsLoopbackAndBroadcast) {
   EXPECT_TRUE(ParseEndpoint("127.9.8.7", 1).is_loopback());
   EXPECT_FALSE(ParseEndpoint("128.0.0.1", 1).is_loopback());
+  EXPECT_TRUE(ParseEndpoint("::1", 1).is_loopback());
+  EXPECT_FALSE(ParseEndpoint("::", 1).is_loopback());
+  EXPECT_FALSE(ParseEndpoint("::101", 1).is_loopback());
   EXPECT_TRUE(ParseEndpoint("255.255.255.255", 1).is_broadcast());
   EXPECT_FALSE(ParseEndpoint("192.168.1.255", 1).is_broadcast());
+  EXPECT_FALSE(ParseEndpoint("ff02::1%lo", 1).is_broadcast());
+}
+
+TEST(Endpoint, KnowsGroups) {
+  for (const char* text : {"224.0.0.1", "239.255.255.255", "ff02::1%lo", "ff0e::7"}) {
+    EXPECT_TRUE(ParseEndpoint(text, 1).address.is_multicast()) << text;
+  }
+  for (const char* text :
+       {"223.255.255.255", "240.0.0.0", "255.255.255.255", "::1", "fe80::1%lo"}) {
+    EXPECT_FALSE(ParseEndpoint(text, 1).address.is_multicast()) << text;
+  }
 }
 
 TEST(Endpoint, CoversItselfOrEveryPortOfItsAddress) {
@@ -47,7 +93,38 @@ TEST(Endpoint, SaysWhatIsWrongWithAText) {
               "the port must be a whole number from 1 to 65535 (got 127.0.0.1:" + port + ")");
   }
   EXPECT_EQ(MessageOf([] { return ParseEndpoint("no.such.host.invalid:5", 1); }),
-            "must be HOST:PORT with an IPv4 address or a known name (got no.such.host.invalid:5)");
+            "must be HOST:PORT with an IPv4 address, an IPv6 address in brackets, or a known name "
+            "(got no.such.host.invalid:5)");
+}
+
+TEST(Endpoint, SaysWhatIsWrongWithAnAddressOfIpv6) {
+  for (const std::string text :
+       {"[::1", "[", "[]", "[]:5", "[::1]5", "[::1]]:5", "[::g]:5", "[1::2::3]:5", "a:b:c",
+        "[127.0.0.1]:5", "[localhost]:5", "[::1 ]:5", "[%lo]:5"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(text, 1); }),
+              "must be an IPv6 address, as [::1]:2368 or [fe80::1%eth0]:2368 (got " + text + ")");
+  }
+  for (const std::string text : {"[::1]:0", "[::1]:65536", "[::1]:", "[::1]:x"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(text, 1); }),
+              "the port must be a whole number from 1 to 65535 (got " + text + ")");
+  }
+}
+
+TEST(Endpoint, SaysWhatIsWrongWithAnInterface) {
+  for (const std::string text : {"[fe80::1]:5", "febf::1", "[ff02::1]:5", "ff01::1"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(text, 1); }),
+              "must name the network interface, as [fe80::1%eth0]:2368 does (got " + text + ")");
+  }
+  for (const std::string text : {"[fe80::1%no_such_one]:5", "ff02::1%", "239.1.1.1%:5"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(text, 1); }),
+              "must name a network interface of this machine behind % (got " + text + ")");
+  }
+  for (const std::string text : {"[::1%lo]:5", "2001:db8::1%lo", "10.0.0.1%lo:5", "localhost%lo"}) {
+    EXPECT_EQ(MessageOf([&] { return ParseEndpoint(text, 1); }),
+              "must name no network interface, which multicast groups and link-local addresses "
+              "alone have (got " +
+                  text + ")");
+  }
 }
 
 TEST(Endpoint, TakesNumericAddressesInDottedDecimalAlone) {

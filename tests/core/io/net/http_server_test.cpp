@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/net/ipv6_loopback.h"
 #include "tests/support/run_command.h"
 
 namespace railcast {
@@ -73,6 +74,19 @@ print(send(b"POST / HTTP/1.1\r\nContent-Length: 99999999\r\n\r\n"))
 open_ones = [socket.create_connection(("127.0.0.1", port), timeout=20) for _ in range(8)]
 print(send(b"GET /still HTTP/1.1\r\n\r\n")))"),
             "b''\nb''\nb''\nb'HTTP/1.1 200'\n");
+}
+
+TEST(HttpServer, AnswersByIpv6) {
+  const auto any = AnyIpv6LoopbackPort();
+  if (!any) GTEST_SKIP() << "this machine has no IPv6 at ::1";
+  const HttpServer server(*any, Echo);
+  EXPECT_EQ(Python(server, R"(
+client = http.client.HTTPConnection("::1", port, timeout=20)
+client.request("GET", "/a")
+print(client.getresponse().read().decode()))"),
+            "GET /a \n");
+  EXPECT_EQ(MessageOf([&] { const HttpServer other(server.at(), Echo); }),
+            "[::1]:" + std::to_string(server.at().port) + ": Address already in use");
 }
 
 TEST(HttpServer, SaysThatAPortIsTaken) {

@@ -1,18 +1,26 @@
 #include <gtest/gtest.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <netinet/in.h>
 #include <netinet/udp.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <cstring>
 #include <future>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
 
+#include "core/io/net/socket.h"
 #include "core/io/net/udp.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/net/ipv6_loopback.h"
 
 namespace railcast {
 namespace {
@@ -87,7 +95,7 @@ std::vector<std::size_t> DeliveredSizes(bool has_offload, std::size_t num_datagr
   EXPECT_EQ(::setsockopt(socket, SOL_UDP, UDP_GRO, &yes, sizeof yes), 0);
   EXPECT_EQ(::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience), 0);
   const Datagrams datagrams = MakeDatagrams(std::vector<std::uint16_t>(num_datagrams, 100));
-  UdpSender sender({{INADDR_LOOPBACK, ntohs(address.sin_port)}}, 1, has_offload);
+  UdpSender sender({{INADDR_LOOPBACK, ntohs(address.sin_port)}}, 1, {.has_offload = has_offload});
   sender.Send(datagrams, datagrams.items);
   EXPECT_EQ(sender.counts().sent, num_datagrams);
   std::vector<std::size_t> sizes;
@@ -165,6 +173,118 @@ TEST(UdpSender, BroadcastsOnlyWhereAskedByName) {
   const std::string said = said_of(Endpoint{0xFFFFFFFF, 2368});
   if (said.find("unreachable") != std::string::npos) GTEST_SKIP() << "no network: " << said;
   EXPECT_EQ(said, "no error");
+}
+
+TEST(UdpSender, SendsByIpv4AndByIpv6) {
+  const auto ipv6 = AnyIpv6LoopbackPort();
+  if (!ipv6) GTEST_SKIP() << "this machine has no IPv6 at ::1";
+  UdpReceiver first(kAnyLoopbackPort);
+  UdpReceiver second(*ipv6);
+  UdpSender sender({first.at(), second.at()}, second.at().port);
+  // Runs that the kernel cuts, and a position.
+  Datagrams datagrams = MakeDatagrams({1206, 1206, 1206, 1206, 512, 24'832});
+  datagrams.items[4].port = DatagramPort::kPosition;
+  const auto expected = ExpectedDatagrams(datagrams);
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(second, 6), expected);
+  EXPECT_EQ(ReceiveAll(first, 5).size(), 5U);
+  EXPECT_EQ(sender.counts().refused, 0U);
+}
+
+TEST(UdpReceiver, AnswersWhoAskedByIpv6) {
+  const auto ipv6 = AnyIpv6LoopbackPort();
+  if (!ipv6) GTEST_SKIP() << "this machine has no IPv6 at ::1";
+  UdpReceiver server(*ipv6);
+  UdpReceiver client(*ipv6);
+  client.Answer(std::string("?"), server.at());
+  const auto asked = server.Receive(kPatience_ms);
+  ASSERT_TRUE(asked.has_value());
+  EXPECT_EQ(asked->from, client.at());
+  EXPECT_TRUE(asked->from.is_loopback());
+  server.Answer(std::string("!"), asked->from);
+  EXPECT_EQ(ReceiveAll(client, 1), std::vector<std::string>{"!"});
+}
+
+// [::] and 0.0.0.0 may be listened to side by side.
+TEST(UdpReceiver, HearsOneFamilyAlone) {
+  if (!AnyIpv6LoopbackPort()) GTEST_SKIP() << "this machine has no IPv6 at ::1";
+  UdpReceiver ipv6({ParseEndpoint("::", 1).address, 0});
+  const std::uint16_t port = ipv6.at().port;
+  UdpReceiver ipv4({0, port});
+  UdpSender sender({{0x7F000001, port}}, 1);
+  const Datagrams datagrams = MakeDatagrams({3});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(ipv4, 1), ExpectedDatagrams(datagrams));
+  EXPECT_FALSE(ipv6.Receive(50));
+}
+
+/// The hop limit with which a datagram to a group arrived; nothing if it did not.
+std::optional<int> ReceivedHops(const UdpReceiver& group, int multicast_hops) {
+  const UdpSocket member(group.at().address);
+  const int yes = 1;
+  const SocketAddress at = SocketAddressOf(group.at());
+  const bool is_ready =
+      member.Set(SOL_SOCKET, SO_REUSEADDR, yes) && member.Set(IPPROTO_IP, IP_RECVTTL, yes) &&
+      ::bind(member.get(), at.get(), at.size) == 0 && JoinGroup(member, group.at().address);
+  EXPECT_TRUE(is_ready);
+  UdpSender sender({group.at()}, 1, {.multicast_hops = multicast_hops});
+  const Datagrams datagrams = MakeDatagrams({8});
+  sender.Send(datagrams, datagrams.items);
+  std::array<char, 100> bytes{};
+  alignas(cmsghdr) char control[CMSG_SPACE(sizeof(int))] = {};
+  iovec data{bytes.data(), bytes.size()};
+  msghdr message{};
+  message.msg_iov = &data;
+  message.msg_iovlen = 1;
+  message.msg_control = control;
+  message.msg_controllen = sizeof control;
+  pollfd wait{member.get(), POLLIN, 0};
+  if (::poll(&wait, 1, kPatience_ms) != 1 || ::recvmsg(member.get(), &message, 0) != 8) return {};
+  int hops = 0;
+  std::memcpy(&hops, CMSG_DATA(CMSG_FIRSTHDR(&message)), sizeof hops);
+  return hops;
+}
+
+// On loopback, which no routing table has for groups.
+TEST(UdpSender, ReachesAGroupByTheInterfaceThatIsNamed) {
+  const IpAddress group = ParseEndpoint("239.255.23.69%lo", 1).address;
+  UdpReceiver first({group, 0});
+  UdpReceiver second(first.at());
+  EXPECT_EQ(EndpointText(first.at()).substr(0, 17), "239.255.23.69%lo:");
+  UdpSender sender({first.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({8, 8, 3});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(first, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(second, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceivedHops(first, 1), 1);
+  EXPECT_EQ(ReceivedHops(first, 7), 7);
+}
+
+/// A network interface other than loopback that has groups, and IPv6.
+std::optional<std::string> InterfaceWithGroups() {
+  ifaddrs* all = nullptr;
+  if (::getifaddrs(&all) != 0) return {};
+  std::optional<std::string> name;
+  for (const ifaddrs* each = all; each != nullptr && !name; each = each->ifa_next) {
+    constexpr unsigned kWanted = IFF_UP | IFF_RUNNING | IFF_MULTICAST;
+    const bool has_groups = (each->ifa_flags & (kWanted | IFF_LOOPBACK)) == kWanted;
+    if (has_groups && each->ifa_addr != nullptr && each->ifa_addr->sa_family == AF_INET6) {
+      name = each->ifa_name;
+    }
+  }
+  ::freeifaddrs(all);
+  return name;
+}
+
+// What is sent to ff01::/16 stays on this machine (RFC 4291, 2.7).
+TEST(UdpSender, ReachesAGroupOfIpv6) {
+  const auto name = InterfaceWithGroups();
+  if (!name) GTEST_SKIP() << "no network interface has groups of IPv6";
+  UdpReceiver member({ParseEndpoint("ff01::4a%" + *name, 1).address, 0});
+  UdpSender sender({member.at()}, 1);
+  const Datagrams datagrams = MakeDatagrams({8, 8, 3});
+  sender.Send(datagrams, datagrams.items);
+  EXPECT_EQ(ReceiveAll(member, 3), ExpectedDatagrams(datagrams));
 }
 
 /// A socket that hears a multicast group on this machine.

@@ -106,6 +106,22 @@ INSTANTIATE_TEST_SUITE_P(OusterEncoder,
                                          "FUSA_RNG15_RFL8_NIR8_DUAL"),
                          [](const auto& test) { return std::string(test.param); });
 
+TEST(OusterEncoder, StatesTheTimeOfItsClock) {
+  const MadeOuster sensor(MadeOusterMetadataText("RNG15_RFL8_NIR8"));
+  const Frame frame = sensor.MakeFrame(0);
+  const auto encoder = MakeOusterEncoder(sensor.lidar());
+  constexpr std::int64_t kAhead_ns = 123'456'789'000;
+  encoder->SetClockAhead(kAhead_ns);
+  Datagrams datagrams;
+  encoder->Encode(frame, datagrams);
+  constexpr std::int64_t kTime0_ns = kSimulationEpoch_s * kNsPerS + kAhead_ns;
+  EXPECT_EQ(sensor.Decode(datagrams).at(0).stamp_ns, kTime0_ns + frame.stamp_ns);
+  const auto motion =
+      std::ranges::find(datagrams.items, DatagramPort::kPosition, &Datagrams::Item::port);
+  ASSERT_NE(motion, datagrams.items.end());
+  EXPECT_EQ(LoadAt<std::int64_t>(datagrams.BytesOf(*motion).data()), kTime0_ns + motion->due_ns);
+}
+
 TEST(OusterEncoder, LeavesOutRangesThatTheProfileCannotState) {
   const MadeOuster sensor(MadeOusterMetadataText("RNG15_RFL8_NIR8"));
   Frame frame = sensor.MakeFrame(0);

@@ -18,7 +18,7 @@ class OusterHttp : public testing::Test {
                                       .target = "/api/v1/sensor/config?staging=true&reinit=false",
                                       .body = body});
   }
-  Json metadata_ = MetadataOfStream(MadeOusterMetadataText(), "127.0.0.1:7600");
+  Json metadata_ = MetadataOfStream(MadeOusterMetadataText(), {0x7F000001, 7600});
 };
 
 TEST_F(OusterHttp, GivesTheMetadataAsAWholeAndSectionBySection) {
@@ -84,7 +84,7 @@ TEST(MetadataOfStream, HasAllSectionsThatDriversExpect) {
                                  {"lidar_mode", "1024x10"},
                                  {"beam_altitude_angles", {10.5, 0.25, -3.0}},
                                  {"beam_azimuth_angles", {3.1, 0.9, -3.2}}};
-  const Json metadata = MetadataOfStream(flat.dump(), "10.0.0.1:7502");
+  const Json metadata = MetadataOfStream(flat.dump(), {0x0A000001, 7502});
   EXPECT_EQ(metadata["sensor_info"]["prod_line"], "OS-1-64");
   EXPECT_EQ(metadata["sensor_info"]["status"], "RUNNING");
   EXPECT_EQ(metadata["lidar_data_format"]["pixels_per_column"], 3);

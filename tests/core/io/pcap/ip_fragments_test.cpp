@@ -48,6 +48,21 @@ std::string Piece(const std::string& udp,
   return std::string(12, '\xAA') + std::string("\x08\0", 2) + header + bytes;
 }
 
+/// The same after RFC 8200 (4.5), with options that are in every piece before the fragment header.
+std::string PieceOfIpv6(const std::string& udp,
+                        std::size_t begin,
+                        std::size_t size,
+                        std::size_t identification = 7) {
+  const bool is_last = begin + size >= udp.size();
+  const std::string bytes = begin < udp.size() ? udp.substr(begin, size) : std::string();
+  const std::string headers = std::string("\x2C\0\1\4\0\0\0\0\x11\0", 10) +
+                              Big16(begin + (is_last ? 0U : 1U)) + Big16(0) + Big16(identification);
+  const std::string ip = std::string("\x60\0\0\0", 4) + Big16(headers.size() + bytes.size()) +
+                         std::string("\0\x40", 2) + std::string(16, '\x20') +
+                         std::string(16, '\x21');
+  return std::string(12, '\xAA') + std::string("\x86\xDD", 2) + ip + headers + bytes;
+}
+
 struct CapturedFrame {
   std::string bytes;
   std::size_t time_us{};
@@ -104,6 +119,22 @@ TEST(IpFragments, ArePutTogetherInWhateverOrderTheyCome) {
     EXPECT_THAT(read.packets, testing::ElementsAre(2U)) << "that of the last to come";
     EXPECT_EQ(read.num_torn, 0U);
   } while (std::ranges::next_permutation(order).found);
+}
+
+TEST(IpFragments, OfIpv6ArePutTogetherInWhateverOrderTheyCome) {
+  const std::string payload = Counted(3000, 3);
+  const std::string udp = Udp(payload);
+  // Those of another packet of the same addresses, and of IPv4, between them.
+  const std::string other = Udp(Counted(100, 1));
+  const ReadCapture read = ReadFragments({{PieceOfIpv6(udp, 2880, 1440)},
+                                          {PieceOfIpv6(other, 0, 64, 8)},
+                                          {PieceOfIpv6(udp, 0, 1440)},
+                                          {Piece(other, 0, 64)},
+                                          {PieceOfIpv6(udp, 1440, 1440)},
+                                          {PieceOfIpv6(other, 64, 64, 8)}});
+  EXPECT_THAT(read.payloads, testing::ElementsAre(payload, Counted(100, 1)));
+  EXPECT_THAT(read.packets, testing::ElementsAre(4U, 5U));
+  EXPECT_EQ(read.num_torn, 1U);
 }
 
 TEST(IpFragments, OfSeveralDatagramsMayAlternateAndBeCapturedTwice) {

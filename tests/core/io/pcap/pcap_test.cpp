@@ -3,6 +3,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -14,6 +16,7 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/run_command.h"
 
 namespace railcast {
 namespace {
@@ -90,6 +93,63 @@ TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
   unsigned sum = 0;
   for (std::size_t i = 0; i < 20; i += 2) sum += 256U * byte(kIp + i) + byte(kIp + i + 1);
   EXPECT_EQ((sum & 0xFFFFU) + (sum >> 16U), 0xFFFFU);
+}
+
+/// Writes a capture of IPv6 with datagrams of these payloads.
+void WriteIpv6(const std::filesystem::path& file, const std::vector<std::string>& payloads) {
+  Datagrams datagrams;
+  for (const std::string& payload : payloads) {
+    datagrams.items.push_back(
+        {.offset = datagrams.bytes.size(), .size = static_cast<std::uint32_t>(payload.size())});
+    datagrams.bytes.insert(datagrams.bytes.end(), payload.begin(), payload.end());
+  }
+  PcapWriter writer(file, 2368, 8308, /*is_ipv6=*/true);
+  writer.Write(datagrams, datagrams.items);
+  writer.Finish();
+}
+
+// Made by hand after RFC 8200 (3; 8.1) and RFC 768: the sum of fe80::6276:88ff:fe00:0, ff02::1, 11,
+// 17, 0x0940, 0x0940, 11, 0x6162 and 0x6300 is 0xBE05, of which 0x41FA is the complement.
+constexpr std::array<unsigned char, 65> kIpv6Frame = {
+    0x33, 0x33, 0,    0,    0,    1,    0x60, 0x76, 0x88, 0,    0,    0,   0x86,
+    0xDD, 0x60, 0,    0,    0,    0,    11,   17,   64,   0xFE, 0x80, 0,   0,
+    0,    0,    0,    0,    0x62, 0x76, 0x88, 0xFF, 0xFE, 0,    0,    0,   0xFF,
+    0x02, 0,    0,    0,    0,    0,    0,    0,    0,    0,    0,    0,   0,
+    0,    1,    0x09, 0x40, 0x09, 0x40, 0,    11,   0x41, 0xFA, 'a',  'b', 'c'};
+
+TEST(PcapWriter, WritesPacketsOfIpv6WithTheirChecksum) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  // The sum of the second is 0, which UDP writes as 0xFFFF.
+  WriteIpv6(file, {"abc", "\x06\x5F"});
+  const std::string bytes = ReadFileWhole(file);
+  constexpr std::size_t kFirst = 24 + 16;
+  ASSERT_EQ(bytes.size(), kFirst + kIpv6Frame.size() + 16 + 64);
+  const std::string expected(kIpv6Frame.begin(), kIpv6Frame.end());
+  EXPECT_EQ(bytes.substr(kFirst, expected.size()), expected);
+  EXPECT_EQ(bytes.substr(bytes.size() - 4), "\xFF\xFF\x06\x5F");
+  PcapReader reader(file);
+  const auto first = reader.Next();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(std::string(first->payload.begin(), first->payload.end()), "abc");
+  EXPECT_EQ(first->source_port, 2368);
+  EXPECT_EQ(first->destination_port, 2368);
+}
+
+TEST(PcapWriter, WritesIpv6ThatTsharkFindsSound) {
+  if (std::system("command -v tshark >/dev/null") != 0) GTEST_SKIP() << "tshark is missing";
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  WriteIpv6(file, {"abc", "\x06\x5F", std::string(1206, 'v'), std::string(24'832, 'o')});
+  const Ended run = RunCommand("tshark -r " + file.string() +
+                               " -o udp.check_checksum:TRUE -T fields -E separator=, -e ipv6.src "
+                               "-e ipv6.dst -e udp.dstport -e udp.length -e udp.checksum.status "
+                               "2>/dev/null");
+  std::string expected;
+  for (const char* length : {"11", "10", "1214", "24840"}) {
+    expected += "fe80::6276:88ff:fe00:0,ff02::1,2368," + std::string(length) + ",1\n";
+  }
+  EXPECT_EQ(run.said, expected);
 }
 
 TEST(PcapWriter, LeavesWholePacketsWhereItIsInterrupted) {
@@ -210,6 +270,80 @@ TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
   EXPECT_EQ(with(23, 6), "nothing");     // TCP.
   EXPECT_EQ(with(39, 7), "nothing");     // Shorter than UDP's header.
   EXPECT_EQ(with(39, 12), "nothing");    // Longer than the packet.
+}
+
+/// The frame of kIpv6Frame with ports 1 and 2, and headers between IPv6's and UDP's.
+/// @param next The number of the first of them.
+std::vector<char> MadeIpv6Frame(const std::string& extensions = {}, char next = 17) {
+  std::string frame(kIpv6Frame.begin(), kIpv6Frame.end());
+  frame.replace(54, 4, std::string("\0\1\0\2", 4));
+  frame[19] = static_cast<char>(11 + extensions.size());
+  frame[20] = next;
+  frame.insert(54, extensions);
+  frame += "padding";
+  return {frame.begin(), frame.end()};
+}
+
+TEST(FindDatagram, SkipsExtensionHeadersOfIpv6) {
+  EXPECT_EQ(PayloadOf(MadeIpv6Frame()), "abc");
+  // RFC 8200, 4.3 and 4.6: options of 16 and of 8 bytes, here but padding.
+  const std::string hop_by_hop("\x3C\1\1\x0C\0\0\0\0\0\0\0\0\0\0\0\0", 16);
+  const std::string destination("\x11\0\1\4\0\0\0\0", 8);
+  EXPECT_EQ(PayloadOf(MadeIpv6Frame(hop_by_hop + destination, 0)), "abc");
+  // 4.4: a routing header without segments left; 4.5: a fragment that is the whole.
+  const std::string routing("\x2C\0\0\0\0\0\0\0", 8);
+  const std::string fragment("\x11\0\0\0\0\0\0\7", 8);
+  EXPECT_EQ(PayloadOf(MadeIpv6Frame(routing + fragment, 43)), "abc");
+}
+
+TEST(FindDatagram, FindsNothingInIpv6ThatIsNoWholeDatagram) {
+  const std::string options("\x11\0\1\4\0\0\0\0", 8);
+  const std::vector<char> sound = MadeIpv6Frame(options, 60);
+  EXPECT_EQ(PayloadOf(sound), "abc");
+  for (std::size_t size = 0; size + 7 < sound.size(); ++size) {
+    EXPECT_EQ(PayloadOf({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size)}),
+              "nothing")
+        << size;
+  }
+  const auto with = [&](std::size_t place, int value) {
+    std::vector<char> frame = sound;
+    frame[place] = static_cast<char>(value);
+    return PayloadOf(frame);
+  };
+  EXPECT_EQ(with(13, 0xDE), "nothing");  // Another protocol.
+  EXPECT_EQ(with(14, 0x45), "nothing");  // IP version 4.
+  EXPECT_EQ(with(18, 0x7F), "nothing");  // Longer than the frame.
+  EXPECT_EQ(with(19, 18), "nothing");    // UDP is longer than the packet.
+  EXPECT_EQ(with(20, 6), "nothing");     // TCP.
+  EXPECT_EQ(with(20, 59), "nothing");    // Nothing follows.
+  EXPECT_EQ(with(54, 6), "nothing");     // TCP behind the options.
+  EXPECT_EQ(with(55, 1), "nothing");     // Options that take part of UDP's header.
+  EXPECT_EQ(with(55, 2), "nothing");     // Options that end behind the packet.
+  EXPECT_EQ(with(55, 255), "nothing");
+  for (const char more : {'\1', '\x08'}) {  // The first of several fragments, and a later one.
+    const std::string fragment({17, 0, 0, more, 0, 0, 0, 7});
+    EXPECT_EQ(PayloadOf(MadeIpv6Frame(fragment, 44)), "nothing");
+  }
+}
+
+TEST(PcapReader, SaysThatIpv6IsNotCapturedWhole) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  WriteIpv6(file, {"abc"});
+  const std::string sound = ReadFileWhole(file);
+  const auto said = [&](std::size_t kept, char protocol) {
+    std::string cut = sound.substr(0, 24 + 16 + kept);
+    cut[24 + 8] = static_cast<char>(kept);
+    if (kept > 20) cut[24 + 16 + 20] = protocol;
+    WriteFileWhole(file, cut);
+    const std::string text = ReadAll(file);
+    return text == "no error" ? text : text.substr(file.string().size() + 2);
+  };
+  for (const std::size_t kept : {20U, 50U, 60U, 64U}) {
+    EXPECT_EQ(said(kept, 17),
+              "packet 0: must be captured whole (got " + std::to_string(kept) + " of 65 bytes)");
+  }
+  EXPECT_EQ(said(60, 6), "no error") << "TCP";
 }
 
 TEST(PcapReader, SaysWhereAFileIsDamaged) {
