@@ -19,7 +19,7 @@ namespace railcast {
 namespace {
 
 /// All turns of a recording.
-std::vector<std::deque<RecordedDatagram>> TurnsOf(PacketRecording& recording) {
+std::vector<std::deque<RecordedDatagram>> AllTurnsOf(PacketRecording& recording) {
   std::vector<std::deque<RecordedDatagram>> turns;
   for (auto turn = recording.NextTurn(); !turn.empty(); turn = recording.NextTurn()) {
     turns.push_back(std::move(turn));
@@ -38,7 +38,7 @@ TEST_P(RealPackets, AreReturnedByteForByteInTheirOrder) {
   const auto file = std::filesystem::path(RAILCAST_SHARED_DATA_DIR) / GetParam();
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   PacketRecording recording(*FindCapture(file));
-  const auto turns = TurnsOf(recording);
+  const auto turns = AllTurnsOf(recording);
   PcapReader reader(file);
   for (const auto& turn : turns) {
     for (const RecordedDatagram& datagram : turn) {
@@ -71,7 +71,7 @@ TEST(PacketRecording, OfABagGoesToThePortOfItsSensor) {
   PacketRecording recording(*FindBagPackets(HesaiBag("xt32"), ""));
   EXPECT_EQ(recording.name(), "XT32");
   const auto packets = OpenBagPackets(HesaiBag("xt32"));
-  for (const auto& turn : TurnsOf(recording)) {
+  for (const auto& turn : AllTurnsOf(recording)) {
     for (const RecordedDatagram& datagram : turn) {
       const auto expected = packets->Next();
       ASSERT_TRUE(expected);
