@@ -32,10 +32,11 @@ struct StreamOptions {
   std::optional<std::uint16_t> commands_port;
   std::optional<std::string> commands_from;  ///< HOST or HOST:PORT; absent = this machine.
   std::optional<std::filesystem::path> commands_log;
-  std::optional<std::uint32_t> domain;           ///< For protocol ros2, as the next three.
+  std::optional<std::uint32_t> domain;           ///< For protocol ros2, as the next four.
   std::optional<std::string> interface;          ///< Name or address; absent: the scenario's.
   std::optional<std::string> receive_buffers;    ///< Name of a ReceiveBuffers.
   std::optional<std::string> commands_topic;     ///< On which ROS 2's nodes give commands.
+  std::optional<std::string> step_topic;         ///< On which one of them gives steps.
   std::optional<std::filesystem::path> summary;  ///< JSON file on the run.
   std::optional<double> duration_s;              ///< Simulation time; absent = until stopped.
   std::optional<std::uint64_t> seed;             ///< Overrides the scenario's.
