@@ -82,6 +82,7 @@ class Train:
         self.controls = socket.socket(socket.AF_INET6 if ":" in self.to[0] else socket.AF_INET,
                                       socket.SOCK_DGRAM)
         self.is_lockstep = options.lockstep
+        self.deceleration = options.deceleration
         self.session = f"brake_client {random.randrange(1 << 64):016x}"
         self.next_id = 0
         self.coming = None  # The frame whose datagrams are arriving.
@@ -101,6 +102,9 @@ class Train:
                 if self.receive(RETRY_S):
                     return
         sys.exit(f"no answer from {self.to[0]}:{self.to[1]}")
+
+    def brake(self):
+        self.tell({"command": "brake", "deceleration_mps2": self.deceleration})
 
     def frames(self):
         """Yields each frame once it is complete; incomplete ones are counted as lost."""
@@ -248,7 +252,7 @@ class Drive:
             return
         self.obstacle_at_m = place_m
         if self.braked_at_m is None:
-            self.train.tell({"command": "brake", "deceleration_mps2": self.options.deceleration})
+            self.train.brake()
             self.detected_m = place_m - self.travelled_m
             self.braked_at_m = self.travelled_m
             self.braked_speed_mps = self.speed_mps
@@ -281,6 +285,11 @@ def parse():
     parser.add_argument("--weather", type=weather, metavar="FILE",
                         help="a weather section to set first")
     parser.add_argument("--deceleration", type=float, default=1.0, help="m/s2 (default: 1)")
+    add_lookout_options(parser)
+    return parser.parse_args()
+
+
+def add_lookout_options(parser):
     parser.add_argument("--front", type=float, default=2.0,
                         help="m from the vehicle's origin to its front (default: 2)")
     parser.add_argument("--resolution", type=float, default=0.25,
@@ -291,7 +300,6 @@ def parse():
                         help="consecutive frames that confirm it (default: 3)")
     parser.add_argument("--max-travel", type=float, default=1000.0,
                         help="m after which the drive ends without an obstacle (default: 1000)")
-    return parser.parse_args()
 
 
 def main():
@@ -299,6 +307,11 @@ def main():
     train = Train(options)
     if options.weather is not None:
         train.tell({"command": "set_weather", "weather": options.weather})
+    return drive_on_sight(train, options)
+
+
+def drive_on_sight(train, options):
+    """Drives, prints what came of it, and returns the exit status."""
     drive = Drive(train, options)
     if not drive.run():
         print(f"no obstacle within {drive.travelled_m:.0f} m")

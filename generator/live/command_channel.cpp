@@ -215,23 +215,37 @@ CommandLoop::CommandLoop(FrameMaker& maker,
 
 std::optional<CommandLoop::Waiting> CommandLoop::NextOf(int timeout_ms) {
   for (CommandSource* source : sources_) {
-    auto request = source->Next(source == sources_.front() ? timeout_ms : 0);
+    if (step_ && step_->source == source) continue;
+    auto request = source->Next(0);
     if (request) return Waiting{source, std::move(*request)};
   }
-  return std::nullopt;
+  if (timeout_ms == 0) return std::nullopt;
+  auto request = sources_.front()->Next(timeout_ms);
+  if (!request) return std::nullopt;
+  return Waiting{sources_.front(), std::move(*request)};
+}
+
+bool CommandLoop::IsStep(const Waiting& waiting) const {
+  return lockstep_ && waiting.source == sources_.front() &&
+         std::holds_alternative<Step>(waiting.request.command);
 }
 
 NextFrames CommandLoop::BeginFrames(std::int64_t stamp_ns,
                                     const std::function<bool()>& is_stopped) {
-  for (int i = 0; lockstep_ || i < kMaxPerFrame; ++i) {
+  while (lockstep_ && !step_) {
     if (is_stopped()) return NextFrames::kStop;
-    auto waiting = NextOf(lockstep_ ? kPatience_ms : 0);
-    if (!waiting && !lockstep_) break;
+    auto waiting = NextOf(kPatience_ms);
     if (!waiting) continue;
-    if (lockstep_ && std::holds_alternative<Step>(waiting->request.command)) {
+    if (IsStep(*waiting)) {
       step_ = std::move(waiting);
-      break;
+    } else if (Handle(*waiting, stamp_ns)) {
+      return NextFrames::kReset;
     }
+  }
+  for (int i = 0; i < kMaxPerFrame; ++i) {
+    if (is_stopped()) return NextFrames::kStop;
+    const auto waiting = NextOf(0);
+    if (!waiting) break;
     if (Handle(*waiting, stamp_ns)) return NextFrames::kReset;
   }
   return NextFrames::kMake;
@@ -247,7 +261,11 @@ void CommandLoop::End(const std::string& reason) {
 bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
   const auto& [source, request] = waiting;
   if (std::holds_alternative<Step>(request.command)) {
-    source->Refuse(request, {"command: step needs --lockstep; this run does not wait for steps"});
+    source->Refuse(request,
+                   {lockstep_ ? "command: step must come on the topic of --step-topic, for "
+                                "which this run waits"
+                              : "command: step needs --lockstep; this run does not wait for "
+                                "steps"});
     return false;
   }
   const bool is_reset = std::holds_alternative<Reset>(request.command);

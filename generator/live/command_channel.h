@@ -96,8 +96,9 @@ class CommandLoop {
  public:
   static constexpr int kMaxPerFrame = 16;
 
-  /// @param sources Asked in this order; of the first one, a run in lockstep waits for commands.
-  /// @param lockstep Whether frames wait for the command `step`.
+  /// @param sources Asked in this order.
+  /// @param lockstep Whether frames wait for a `step` of the first source; what the others said
+  ///   before it holds for the frames that it lets come.
   /// @param log_file File for the log that `sequence --commands` replays, if any.
   /// @param scenario_xxh3 Hash of the scenario that the log is for.
   /// @throws InputError if the log already exists or cannot be written.
@@ -121,7 +122,10 @@ class CommandLoop {
     CommandSource* source;
     CommandRequest request;
   };
+  /// Returns the next request; waits for one of the first source if there is none. While a step is
+  /// under way, its source is not asked.
   [[nodiscard]] std::optional<Waiting> NextOf(int timeout_ms);
+  [[nodiscard]] bool IsStep(const Waiting& waiting) const;
   /// @return Whether the command was a reset.
   [[nodiscard]] bool Handle(const Waiting& waiting, std::int64_t stamp_ns);
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/io/ros/sensor_messages.h"
 #include "core/scenario/sensors.h"
 #include "generator/run/run_topics.h"
 
@@ -98,6 +99,15 @@ std::vector<LiveSensor> RosOutput::Sensors() {
          .sends = "messages"});
   }
   return sensors;
+}
+
+bool RosOutput::HasReaders() const {
+  const std::string& clouds = ros::TypeOf<ros::PointCloud2>().name;
+  for (std::size_t i = 0; i < writers_.size(); ++i) {
+    const bool is_cloud = topics_.topics()[i].type.name == clouds;
+    if (is_cloud && participant_->NumReaders(writers_[i]) > 0) return true;
+  }
+  return false;
 }
 
 void RosOutput::Finish() {

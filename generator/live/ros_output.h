@@ -40,6 +40,10 @@ class RosOutput {
   /// Sets how far the stamps of all messages are ahead of simulation time: time 0 since 1970 where
   /// they state the time of day. They are not ahead unless set.
   void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
+  [[nodiscard]] std::int64_t clock_ahead_ns() const { return clock_ahead_ns_; }
+
+  /// Whether somebody reads a sensor's clouds.
+  [[nodiscard]] bool HasReaders() const;
 
   /// Returns the sensors for RunLive(), valid as long as this object.
   [[nodiscard]] std::vector<LiveSensor> Sensors();

@@ -14,7 +14,8 @@ void CheckNoneIsForRos(const StreamOptions& options, const SensorStreamSpec& str
        {std::pair{"--domain", options.domain.has_value()},
         std::pair{"--interface", options.interface.has_value()},
         std::pair{"--receive-buffers", options.receive_buffers.has_value()},
-        std::pair{"--commands-topic", options.commands_topic.has_value()}}) {
+        std::pair{"--commands-topic", options.commands_topic.has_value()},
+        std::pair{"--step-topic", options.step_topic.has_value()}}) {
     if (!is_given) continue;
     throw InputError(std::string(option) + ": is for protocol ros2 (got " +
                      std::string(NameOf(stream.protocol)) + ")");
@@ -33,12 +34,12 @@ void CheckNoneIsForUdp(const StreamOptions& options) {
   }
 }
 
-void CheckTopic(const std::optional<std::string>& topic) {
+void CheckTopic(const std::string& option,
+                const std::optional<std::string>& topic,
+                const std::string& example) {
   if (!topic || dds::IsTopicName(*topic)) return;
-  throw InputError(
-      "--commands-topic: must be a topic of ROS 2: / and letters, digits and _, such as /brake "
-      "(got \"" +
-      ShownText(*topic) + "\")");
+  throw InputError(option + ": must be a topic of ROS 2: / and letters, digits and _, such as " +
+                   example + " (got \"" + ShownText(*topic) + "\")");
 }
 
 }  // namespace
@@ -59,7 +60,8 @@ std::optional<RosOutputSpec> PlanRos(const StreamOptions& options,
     return std::nullopt;
   }
   if (spec.sensors.size() == streams.size()) CheckNoneIsForUdp(options);
-  CheckTopic(options.commands_topic);
+  CheckTopic("--commands-topic", options.commands_topic, "/brake");
+  CheckTopic("--step-topic", options.step_topic, "/step");
   spec.clouds = options.fields ? ros::ParseCloudSpec(*options.fields)
                                : ros::CloudSpec{.fields = StreamSpec{}.fields};
   spec.participant = ParticipantOf(options, scenario.interfaces.ros2.value_or(Ros2Spec{}));

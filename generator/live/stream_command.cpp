@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <initializer_list>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -24,6 +26,7 @@
 #include "generator/live/ros_output.h"
 #include "generator/live/ros_plan.h"
 #include "generator/live/stamp_clock.h"
+#include "generator/live/step_topic.h"
 #include "generator/live/stream_options.h"
 #include "generator/live/twist_commands.h"
 #include "generator/run/run_options.h"
@@ -241,11 +244,17 @@ std::unique_ptr<TwistCommands> OpenTwists(const StreamOptions& options,
   });
 }
 
-/// Those of the two that there are.
-std::vector<CommandSource*> SourcesOf(CommandSource* channel, CommandSource* twists) {
+std::unique_ptr<StepTopic> OpenSteps(const StreamOptions& options, RosOutput* ros) {
+  if (!options.step_topic) return nullptr;
+  return AtPlace("--step-topic: ",
+                 [&] { return std::make_unique<StepTopic>(*ros, *options.step_topic); });
+}
+
+/// Those that there are.
+std::vector<CommandSource*> SourcesOf(std::initializer_list<CommandSource*> all) {
   std::vector<CommandSource*> sources;
-  if (channel != nullptr) sources.push_back(channel);
-  if (twists != nullptr) sources.push_back(twists);
+  std::ranges::copy_if(all, std::back_inserter(sources),
+                       [](auto* each) { return each != nullptr; });
   return sources;
 }
 
@@ -334,6 +343,12 @@ class RunSurroundings {
   std::size_t num_faults_said_ = 0;
 };
 
+void ReportSteps(const StepTopic* steps) {
+  if (steps == nullptr || steps->faults().count == 0) return;
+  std::cout << "steps on " << steps->topic() << ": " << steps->faults().count
+            << " refused; the last one: " << ShownLines(steps->faults().last) << "\n";
+}
+
 void ReportCommands(const CommandChannel* channel, const TwistCommands* twists) {
   if (channel != nullptr && channel->num_strangers() > 0) {
     std::cout << "commands from others than the peer: " << channel->num_strangers()
@@ -400,12 +415,13 @@ int RunStream(const StreamOptions& options) {
   const auto channel = OpenChannel(options, scenario.models);
   const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
   const auto twists = OpenTwists(options, scenario, ros.get());
+  const auto steps = OpenSteps(options, ros.get());
   streams.Publish(ros.get());
   BeginRos(options, ros.get());
   std::optional<CommandLoop> commands;
   if (HearsCommands(options)) {
-    commands.emplace(streams.maker(), SourcesOf(channel.get(), twists.get()), options.lockstep,
-                     options.commands_log, IdentityOf(scenario).scenario_hash);
+    commands.emplace(streams.maker(), SourcesOf({steps.get(), channel.get(), twists.get()}),
+                     options.lockstep, options.commands_log, IdentityOf(scenario).scenario_hash);
   }
   CatchStopSignals();
   streams.WarmUp(StopRequested);
@@ -418,6 +434,7 @@ int RunStream(const StreamOptions& options) {
   streams.Finish();
   surroundings.End();
   ReportCommands(channel.get(), twists.get());
+  ReportSteps(steps.get());
   return ReportRun(result, streams, options);
 }
 

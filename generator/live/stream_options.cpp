@@ -85,6 +85,10 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
   stream.add_option("--commands-topic", options.commands_topic,
                     "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
                     "receive commands, such as /brake; default: none");
+  stream.add_option("--step-topic", options.step_topic,
+                    "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
+                    "which to receive the stamp of each frame that is done with, such as /step; "
+                    "the next frame waits for it");
   stream
       .add_option("--duration", options.duration_s,
                   "Seconds of simulation time after which to end; default: run until stopped")
@@ -109,7 +113,7 @@ bool StatesTimeOfDay(const StreamOptions& options) {
 }
 
 bool HearsCommands(const StreamOptions& options) {
-  return options.commands_port || options.commands_topic;
+  return options.commands_port || options.commands_topic || options.step_topic;
 }
 
 void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors) {
@@ -126,7 +130,13 @@ void CheckOptionsTogether(const StreamOptions& options, std::size_t num_sensors)
       throw InputError(option + ": needs --commands-port, where commands are heard (got none)");
     }
   };
-  needs_commands_port("--lockstep", options.lockstep);
+  if (options.lockstep && !options.commands_port && !options.step_topic) {
+    throw InputError(
+        "--lockstep: needs --commands-port or --step-topic, where steps are heard (got none)");
+  }
+  if (options.step_topic && !options.lockstep) {
+    throw InputError("--step-topic: needs --lockstep, with which frames wait for steps (got none)");
+  }
   needs_commands_port("--commands-log", options.commands_log && !options.commands_topic);
   needs_commands_port("--commands-from", options.commands_from.has_value());
   for (const auto& [option, is_given] : {std::pair{"--drop-late", options.drops_late},

@@ -33,6 +33,7 @@ struct StreamOptions : CommandOptions, RosOptions {
   std::optional<std::filesystem::path> commands_log;
   /// On which ROS 2's nodes give commands, for protocol ros2.
   std::optional<std::string> commands_topic;
+  std::optional<std::string> step_topic;         ///< On which one of them gives steps.
   std::optional<std::filesystem::path> summary;  ///< JSON file on the run.
   std::optional<double> duration_s;              ///< Simulation time; absent = until stopped.
   std::optional<std::uint64_t> seed;             ///< Overrides the scenario's.

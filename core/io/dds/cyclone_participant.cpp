@@ -162,6 +162,14 @@ class CycloneParticipant final : public Participant {
     }
   }
 
+  void WaitForMessage(std::size_t reader, int timeout_ms) override {
+    const std::string doing = "waiting for a message";
+    const Entity waits(::dds_create_waitset(participant_.get()), doing);
+    const Entity has_any(::dds_create_readcondition(readers_.at(reader), DDS_ANY_STATE), doing);
+    Made(::dds_waitset_attach(waits.get(), has_any.get(), 0), doing);
+    ::dds_waitset_wait(waits.get(), nullptr, 0, DDS_MSECS(timeout_ms));
+  }
+
   std::size_t NumReaders(std::size_t writer) const override {
     dds_publication_matched_status_t status{};
     Made(::dds_get_publication_matched_status(writers_.at(writer).entity, &status),

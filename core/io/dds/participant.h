@@ -67,6 +67,8 @@ class Participant {
   [[nodiscard]] virtual bool Write(std::size_t writer, std::span<const std::byte> cdr) = 0;
   /// Returns the next message that has arrived, if any, of the last kDepth.
   [[nodiscard]] virtual std::optional<std::vector<std::byte>> Take(std::size_t reader) = 0;
+  /// Waits until a message has arrived that was not taken, at most this long.
+  virtual void WaitForMessage(std::size_t reader, int timeout_ms) = 0;
   /// Returns how many readers a writer has at present.
   [[nodiscard]] virtual std::size_t NumReaders(std::size_t writer) const = 0;
 

@@ -1,12 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/io/ros/cdr.h"
@@ -217,6 +219,120 @@ TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   EXPECT_LT(gap_m, ahead_m - 24.0);
 }
 
+MessageBytes StepAt(std::int32_t sec, std::uint32_t nanosec = 0) {
+  return ros::ToCdr(ros::Time{sec, nanosec});
+}
+
+TEST(Ros2Stream, WaitsForTheStampOfEachFrameOnAStepTopic) {
+  const TemporaryDirectory folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  const std::uint32_t domain = FreeDomain();
+  const std::string commands_port = FreePort();
+  Stream stream(RosArguments(scenario, domain) +
+                " --lockstep --step-topic /step --pacing burst --duration 0.3 --commands-port " +
+                commands_port);
+  FastParticipant node(domain);
+  auto& steps = node.Write("rt/step", ros::TypeOf<ros::Time>().dds_name);
+  const auto say = [&](MessageBytes message) { EXPECT_TRUE(steps.write(&message)); };
+  constexpr int kWhile_ms = 300;
+  // Nothing comes before somebody reads, and then once, however often it is asked for.
+  std::this_thread::sleep_for(std::chrono::milliseconds(kWhile_ms));
+  say(StepAt(-1));
+  FastReader& clouds = node.Read(kPoints, kCloudType);
+  while (clouds.WaitFor(1, kWhile_ms).empty()) say(StepAt(-1));
+  say(StepAt(-1));
+  EXPECT_EQ(clouds.WaitFor(2, kWhile_ms).size(), 1U);
+  // The stamps of 20 Hz.
+  say(StepAt(0));
+  EXPECT_EQ(clouds.WaitFor(2).size(), 2U);
+  say(StepAt(0));
+  say(StepAt(0, 49'999'999));
+  say(MessageBytes(7, std::byte{1}));
+  EXPECT_EQ(clouds.WaitFor(3, kWhile_ms).size(), 2U);
+  EXPECT_THAT(Controller(commands_port).Say(R"({"command":"step"})"),
+              testing::HasSubstr("command: step must come on the topic of --step-topic, for which "
+                                 "this run waits"));
+  say(StepAt(0, 50'000'000));
+  EXPECT_EQ(clouds.WaitFor(4, kWhile_ms).size(), 3U);
+  // All that are left.
+  say(StepAt(10));
+  const Ended ended = stream.Wait();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_EQ(clouds.WaitFor(6).size(), 6U);
+  EXPECT_THAT(ended.said, testing::HasSubstr("coarse: 6 frames, 0 late; "));
+  EXPECT_THAT(
+      ended.said,
+      testing::HasSubstr("steps on /step: 1 refused; the last one: builtin_interfaces/msg/Time: "));
+}
+
+// The example is run as it is, where rclpy is not: what stands in for it speaks by Fast DDS, too.
+TEST(Ros2Stream, IsDrivenByTheNodeThatBrakesAsByTheClient) {
+  const TemporaryDirectory folder;
+  const std::string scenario = FirmBrakes(folder.path());
+  const std::string domain = std::to_string(FreeDomain());
+  const std::string frames_port = FreePort();
+  const std::string commands_port = FreePort();
+  const auto report_of = [&](const std::string& stream, const std::string& driver) {
+    const Ended ended =
+        Generate("stream " + scenario + " --lockstep --pacing burst --duration 20 " + stream +
+                 " >/dev/null & pid=$!; " + driver + " --front 0 --resolution 0.5; status=$?; " +
+                 "kill -INT $pid; wait $pid; exit $status");
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    return ended.said;
+  };
+  const std::string by_node = report_of(
+      "--protocol ros2 --domain " + domain + " --step-topic /step --commands-topic /brake",
+      "PYTHONPATH=" RAILCAST_SOURCE_DIR "/tests/generator/live/ros_stand_in ROS_DOMAIN_ID=" +
+          domain +
+          " RAILCAST_FAST_BRIDGE=" RAILCAST_FAST_BRIDGE " " RAILCAST_SOURCE_DIR
+          "/examples/brake_node.py --points /coarse/points --step /step");
+  EXPECT_THAT(by_node, testing::HasSubstr("with 10.00 m/s, braking distance 25.5 m, gap left "));
+  EXPECT_EQ(by_node,
+            report_of("--fields x,y,z --to :" + frames_port + " --commands-port " + commands_port,
+                      RAILCAST_SOURCE_DIR "/examples/brake_client.py --lockstep "
+                                          "--deceleration 2 --stream 127.0.0.1:" +
+                          frames_port + " --commands 127.0.0.1:" + commands_port));
+}
+
+double SecondsOf(const ros::Time& time) {
+  return time.sec + 1e-9 * time.nanosec;
+}
+
+TEST(Ros2Stream, StampsMessagesWithTheTimeOfDayIfAskedTo) {
+  const TemporaryDirectory folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  const std::uint32_t domain = FreeDomain();
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const double begin_s = std::chrono::duration<double>(now).count();
+  Stream stream(RosArguments(scenario, domain) +
+                " --clock utc --lockstep --step-topic /step --pacing burst --duration 0.15");
+  FastParticipant node(domain);
+  FastReader& motion = node.Read("rt/odometry", kOdometryType);
+  FastReader& clock = node.Read("rt/clock", ros::TypeOf<ros::Clock>().dds_name);
+  FastReader& statics = node.Read("rt/tf_static", ros::TypeOf<ros::TfMessage>().dds_name, true);
+  // The last: who knows of it knows of all, and no frame comes before.
+  FastReader& clouds = node.Read(kPoints, kCloudType);
+  auto& steps = node.Write("rt/step", ros::TypeOf<ros::Time>().dds_name);
+  MessageBytes step = StepAt(0);
+  while (clouds.WaitFor(1, 100).empty()) steps.write(&step);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_GT(clouds.WaitFor(i + 1).size(), i);
+    const auto cloud = ros::FromCdr<ros::PointCloud2>(clouds.WaitFor(i + 1)[i]);
+    const double stamp_s = SecondsOf(cloud.header.stamp);
+    EXPECT_NEAR(stamp_s, begin_s, 60.0);
+    EXPECT_EQ(ros::FromCdr<ros::Odometry>(motion.WaitFor(i + 1).at(i)).header.stamp,
+              cloud.header.stamp);
+    EXPECT_EQ(ros::FromCdr<ros::Clock>(clock.WaitFor(i + 1).at(i)).clock, cloud.header.stamp);
+    // Steps are by the same clock.
+    step = ros::ToCdr(cloud.header.stamp);
+    EXPECT_TRUE(steps.write(&step));
+  }
+  const auto transforms = ros::FromCdr<ros::TfMessage>(statics.WaitFor(1).at(0));
+  EXPECT_NEAR(SecondsOf(transforms.transforms.at(0).header.stamp), begin_s, 60.0);
+  const Ended ended = stream.Wait();
+  EXPECT_EQ(ended.status, 0) << ended.said;
+}
+
 TEST(Ros2Stream, TakesItsDomainFromTheEnvironmentUnlessToldOtherwise) {
   const TemporaryDirectory folder;
   const std::string scenario = CoarseScenario(folder.path());
@@ -250,6 +366,12 @@ TEST(Ros2Stream, RefusesOptionsThatDoNotGoTogether) {
   EXPECT_EQ(fault_of(" --protocol ros2 --to :9"),
             "--to: must be left out with protocol ros2, which sends messages to whoever reads "
             "their topics\n");
+  EXPECT_EQ(fault_of(" --protocol ros2 --lockstep --step-topic /2"),
+            "--step-topic: must be a topic of ROS 2: / and letters, digits and _, such as /step "
+            "(got \"/2\")\n");
+  EXPECT_EQ(fault_of(" --protocol ros2 --clock tai"),
+            "--clock: tai is for packets of sensors that PTP synchronises, Hesai's and Ouster's "
+            "(got ros2)\n");
   EXPECT_EQ(fault_of(" --protocol ros2 --commands-topic brake"),
             "--commands-topic: must be a topic of ROS 2: / and letters, digits and _, such as "
             "/brake (got \"brake\")\n");

@@ -151,8 +151,13 @@ TEST(Stream, SaysWhichOptionsDoNotGoTogether) {
     EXPECT_EQ(ended.status, 1);
     return ended.said;
   };
-  EXPECT_EQ(fault(scenario + " --lockstep"),
-            "--lockstep: needs --commands-port, where commands are heard (got none)\n");
+  EXPECT_EQ(
+      fault(scenario + " --lockstep"),
+      "--lockstep: needs --commands-port or --step-topic, where steps are heard (got none)\n");
+  EXPECT_EQ(fault(scenario + " --step-topic /step"),
+            "--step-topic: needs --lockstep, with which frames wait for steps (got none)\n");
+  EXPECT_EQ(fault(scenario + " --lockstep --step-topic /step"),
+            "--step-topic: is for protocol ros2 (got railcast)\n");
   EXPECT_EQ(fault(scenario + " --commands-log a"),
             "--commands-log: needs --commands-port, where commands are heard (got none)\n");
   EXPECT_EQ(fault(scenario + " --pcap a"),
