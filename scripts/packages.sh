@@ -28,6 +28,7 @@ build_packages=(
   libpcl-dev
   libpng-dev
   libproj-dev
+  libprotobuf-dev
   librandom123-dev
   libsqlite3-dev
   libssl-dev  # SHA-256 of the types of messages.
@@ -40,6 +41,7 @@ build_packages=(
   ninja-build
   nlohmann-json3-dev
   pkg-config
+  protobuf-compiler
   pybind11-dev
   python3-dev
   zlib1g-dev

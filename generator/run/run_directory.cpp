@@ -189,6 +189,11 @@ std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
   return record;
 }
 
+// Whether a trace has the message of the run's i-th frame.
+bool HasMessage(const osi::TraceContent& trace, std::uint32_t i, const FrameRecord& record) {
+  return i < trace.messages.size() && trace.messages[i].hash == record.clouds_hash;
+}
+
 /// The names of a run's files.
 class OwnNames {
  public:
@@ -201,6 +206,7 @@ class OwnNames {
 
   [[nodiscard]] bool Have(std::string_view name) const {
     if (names_.contains(name) || (!spec_.bag.empty() && IsOfBag(name))) return true;
+    if (!spec_.trace.empty() && name == spec_.trace) return true;
     const std::optional<std::uint32_t> number = FrameNumber(name);
     const bool is_counted = spec_.files.format->dataset.has_value();
     const std::uint32_t first = is_counted ? 0 : spec_.start_frame;
@@ -259,8 +265,9 @@ void RunDirectory::RemoveUnfinished() const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
     const std::optional<std::string_view> finished = FinishedName(name);
-    // A mesh may have a name that ends so, too. An unfinished bag is gone on with.
-    if (finished && !own.Have(name) && !IsOfBag(*finished)) fs::remove(spec_.directory / name);
+    // A mesh may have a name that ends so, too. An unfinished bag or trace is gone on with.
+    const bool is_kept = finished && (IsOfBag(*finished) || *finished == spec_.trace);
+    if (finished && !own.Have(name) && !is_kept) fs::remove(spec_.directory / name);
   }
 }
 
@@ -269,7 +276,7 @@ void RunDirectory::Resume() {
     WriteFixedFiles();
     RemoveUnfinished();
   }
-  const std::vector<std::uint64_t> line_sizes = CountFrames();
+  const std::vector<std::uint64_t> line_sizes = CountFramesAndOpenTrace();
   if (is_complete_) return CheckUnchanged(line_sizes);
   const std::vector<LineFileName> names = LineFileNames(spec_);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -278,14 +285,29 @@ void RunDirectory::Resume() {
   }
 }
 
-std::vector<std::uint64_t> RunDirectory::CountFrames() {
+std::vector<std::uint64_t> RunDirectory::CountFramesAndOpenTrace() {
+  if (spec_.trace.empty()) return CountFrames({});
+  const fs::path file = spec_.directory / spec_.trace;
+  const osi::TraceContent found = RunTrace::Find(file);
+  std::vector<std::uint64_t> line_sizes = CountFrames(found);
+  if (is_complete_) return line_sizes;
+  trace_.emplace(file, spec_.trace_topic, found, num_done_);
+  if (trace_->num_messages() == num_done_) return line_sizes;
+  // The end of the last message is missing: its frame is made anew.
+  most_done_ = static_cast<std::uint32_t>(trace_->num_messages());
+  return CountFrames(found);
+}
+
+std::vector<std::uint64_t> RunDirectory::CountFrames(const osi::TraceContent& found) {
+  num_done_ = 0;
+  counts_ = {};
   std::vector<LineWalk> walks;
   for (const LineFileName& file : LineFileNames(spec_)) {
     walks.emplace_back(spec_.directory / file.name, file.header);
   }
   for (; num_done_ < most_done_; ++num_done_) {
     const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
-    if (!record) break;
+    if (!record || (!spec_.trace.empty() && !HasMessage(found, num_done_, *record))) break;
     if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());
     counts_.Add(record->counts);
     for (std::size_t i = 0; i < walks.size(); ++i) {
@@ -387,6 +409,10 @@ void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
                     .records_hash = {},
                     .motion_lines = {},
                     .counts = CountFrame(frame, spec_.files.labels)};
+  if (spec_.sensor_view) {
+    encoded.sensor_view = spec_.sensor_view(made);
+    encoded.record.clouds_hash = ContentHash(encoded.sensor_view);
+  }
   for (const FrameFile& file : encoded.files) {
     encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
   }
@@ -405,6 +431,7 @@ void RunDirectory::Write(const EncodedFrame& frame) {
   for (const FrameFile& file : frame.files) {
     WriteFileWhole(spec_.directory / file.name, file.bytes);
   }
+  if (trace_) trace_->Append(record.stamp_ns, frame.sensor_view);
   const std::vector<std::string> lines = RecordLines(frame);
   std::string all_lines;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -420,6 +447,7 @@ void RunDirectory::Write(const EncodedFrame& frame) {
 void RunDirectory::Finish() {
   Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
   for (LineFile& file : line_files_) file.Sync();
+  if (trace_) trace_->Close();
   WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
   is_complete_ = true;
 }

@@ -11,6 +11,7 @@
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_folder.h"
 #include "generator/run/run_plan.h"
+#include "generator/run/run_trace.h"
 #include "railcast/frame.h"
 
 namespace railcast {
@@ -28,6 +29,7 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is
 struct EncodedFrame {
   std::vector<FrameFile> files;
   std::vector<ros::TopicMessage> messages;  ///< For the run's bag, if there is one.
+  std::string sensor_view;                  ///< For the sequence's trace, if there is one.
   FrameRecord record;                       ///< Without records_hash.
   PoseRecord pose;
   std::string objects_line;
@@ -40,12 +42,13 @@ struct EncodedFrame {
 /// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
 /// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
 /// `materials.json`, `camera/NAME/...` (if there is a camera), `motion/NAME.csv` (for each motion
-/// sensor), `commands.jsonl` (if the run replays
-/// any), `run.json` (identifies the run) and, once complete, `manifest.json`.
+/// sensor), `commands.jsonl` (if the run replays any), the OSI trace (if the format is one),
+/// `run.json` (identifies the run) and, once complete, `manifest.json`.
 ///
-/// A frame counts as done when its line in frames.jsonl is whole and its files and lines have the
-/// hashes that this line states. All other remains of an interrupted run are dropped on opening, so
-/// that a resumed run gives the same bytes as one that was never interrupted.
+/// A frame counts as done when its line in frames.jsonl is whole and its files, its lines and its
+/// message in the trace have the hashes that this line states. All other remains of an interrupted
+/// run are dropped on opening, so that a resumed run gives the same bytes as one that was never
+/// interrupted.
 class RunDirectory {
  public:
   /// Creates the directory, or opens it and finds out how far its run has got.
@@ -88,7 +91,10 @@ class RunDirectory {
   // Counts the leading frames that are complete: whose files and lines have the hashes that their
   // line of frames.jsonl states.
   // @return For each line file, the size of the header and the lines of these frames.
-  [[nodiscard]] std::vector<std::uint64_t> CountFrames();
+  // @param found What there is of the trace.
+  [[nodiscard]] std::vector<std::uint64_t> CountFrames(const osi::TraceContent& found);
+  // As CountFrames(). Opens the trace after these frames, unless the run is complete.
+  [[nodiscard]] std::vector<std::uint64_t> CountFramesAndOpenTrace();
   // Returns the files that are known before the first frame, except run.json.
   [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();
@@ -104,6 +110,7 @@ class RunDirectory {
   std::optional<PoseRecord> first_pose_;
   /// frames.jsonl is last: its line makes the frame count as done.
   std::vector<LineFile> line_files_;
+  std::optional<RunTrace> trace_;
 };
 
 }  // namespace railcast

@@ -33,6 +33,8 @@ Json RunObject(const SequenceSpec& spec) {
   if (!spec.bag.empty()) {
     run["fields"] = ros::TextOf(spec.clouds);
     run["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
+  } else if (!spec.trace.empty()) {
+    run["trace"] = spec.trace;
   } else if (!spec.files.format->dataset) {
     run["fields"] = spec.files.fields.Text();
   }

@@ -22,7 +22,8 @@ void AddIsa(CLI::App& command, std::string& isa) {
 void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_bags) {
   std::vector<std::string> formats;
   for (const FrameFormat& format : FrameFormats()) {
-    if (has_bags || format.bag.empty()) formats.emplace_back(format.name);
+    const bool is_one_file_a_run = !format.bag.empty() || !format.trace.empty();
+    if (has_bags || !is_one_file_a_run) formats.emplace_back(format.name);
   }
   command.add_option("--format", choices.format, "File format of the frames")
       ->check(CLI::IsMember(formats))

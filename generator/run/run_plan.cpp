@@ -5,9 +5,11 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/osi/sensor_view.h"
 #include "core/io/ros/frame_topics.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/trace_name.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"
@@ -47,6 +49,25 @@ void NameBag(const SensorPlan& sensor, const std::filesystem::path& run, Sequenc
   }
 }
 
+// Checks that this program writes traces, and only then that all else is right for them.
+void CheckTrace(const RunChoices& choices) {
+  const std::string option = "--format " + choices.format + ": ";
+  AtPlace(option, [] { static_cast<void>(osi::ProtobufVersion()); });
+  if (choices.fields == "all") return;
+  throw InputError("--fields: OSI's are fixed, so it must be left out with --format " +
+                   choices.format + " (got " + choices.fields + ")");
+}
+
+// Names the trace of a sensor, of which the number of frames is known, and says what it holds.
+void PlanTrace(const FrameMaker& maker, std::size_t index, SensorPlan& sensor) {
+  SequenceSpec& spec = sensor.spec;
+  const std::string_view extension = spec.files.format->trace;
+  if (extension.empty()) return;
+  spec.trace = TraceName({osi::ProtobufVersion(), spec.num_frames, sensor.name, extension});
+  spec.trace_topic = (sensor.name.empty() ? "lidar" : sensor.name) + ".SensorView";
+  spec.sensor_view = MakeSensorViews(maker, sensor.scenario, index);
+}
+
 // The sequence of a scenario with one sensor.
 SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
                             const RunChoices& choices,
@@ -59,6 +80,7 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
   spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = &ParseFrameFormat(choices.format);
+  if (!spec.files.format->trace.empty()) CheckTrace(choices);
   ChooseFields(choices.fields, spec);
   const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
   const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
@@ -196,8 +218,9 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
   for (std::size_t i = 1; i < plan.sensors.size(); ++i) {
     ChooseFrames(first, begin_ns, end_ns, maker.pattern(i), plan.sensors[i]);
   }
-  for (const SensorPlan& sensor : plan.sensors) {
-    CheckSameFiles(sensor.scenario, sensor.spec.identity);
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    CheckSameFiles(plan.sensors[i].scenario, plan.sensors[i].spec.identity);
+    PlanTrace(maker, i, plan.sensors[i]);
   }
 }
 

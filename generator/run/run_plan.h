@@ -10,6 +10,7 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/scenario/command_log.h"
 #include "generator/run/frame_maker.h"
+#include "generator/run/sensor_views.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/material.h"
 #include "railcast/scenario.h"
@@ -47,6 +48,11 @@ struct SequenceSpec {
   /// unless the format is one.
   std::string bag;
   std::vector<std::string> cloud_topics;
+  /// The OSI trace, relative to the directory, the topic of its messages, and what makes them;
+  /// empty unless the format is one.
+  std::string trace{};
+  std::string trace_topic{};
+  SensorViewMaker sensor_view{};
   std::string camera;            ///< Name of the scenario's camera; empty = it has none.
   std::string calibration_json;  ///< CalibrationJson() of the camera.
   /// Those whose samples belong to the frames; absent = none.
@@ -108,6 +114,7 @@ void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, Ru
 
 /// Completes a plan by what the simulators tell: the choices of frames are those of the first
 /// sensor, and the others make those of their frames that begin while its frames last.
+/// @param maker Must outlive the plan if its format is an OSI trace.
 /// @throws InputError if a file of the scenario has changed since it was read, a sensor has no such
 ///   frame, or a frame's stamp does not fit into 64 bits.
 void SetFrames(const FrameMaker& maker, RunPlan& plan);

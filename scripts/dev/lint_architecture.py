@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag dds stream recording verify".split(),
+    "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag osi dds stream recording verify".split(),
     "generator": ". record run check sequence live replay trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
@@ -59,6 +59,7 @@ LIBRARY_OWNERS = {
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
     "Cyclone DDS": (r"dds/", ("core/io/dds",)),
+    "protobuf": (r"google/protobuf/|osi_sensor_view\.pb\.h", ("core/io/osi",)),
     "SQLite": (r"sqlite3\.h$", ("core/io/bag", "generator/dataset")),
     "zstd": (r"zstd\.h$", ("core/io/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),

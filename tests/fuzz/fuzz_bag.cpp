@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/io/bag/bag.h"
+#include "core/io/osi/trace_file.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
@@ -50,6 +51,18 @@ void ReadCloud(std::span<const std::byte> bytes) {
   static_cast<void>(MakeCloudFrame(table, "fuzz"));
 }
 
+void ReadOsiTrace(const std::filesystem::path& path) {
+  const osi::TraceContent trace = osi::ReadTrace(path);
+  std::uint64_t end = 0;
+  for (const osi::TraceMessage& message : trace.messages) {
+    Check(message.end >= end + sizeof(std::uint32_t), "messages stand behind each other");
+    end = message.end;
+  }
+  Check(end <= std::filesystem::file_size(path), "messages lie within their file");
+  Check(!trace.fault.empty() || end == std::filesystem::file_size(path), "all of it is read");
+  if (!trace.fault.empty()) CheckFaultLines(trace.fault);
+}
+
 void ReadInput(char kind, std::string_view text) {
   const auto bytes = std::as_bytes(std::span(text));
   switch (kind) {
@@ -61,6 +74,8 @@ void ReadInput(char kind, std::string_view text) {
       return ReadFrames(InputFiles::Write("input.mcap", text));
     case 'D':
       return ReadFrames(InputFiles::Write("input.db3", text));
+    case 'o':
+      return ReadOsiTrace(InputFiles::Write("input.osi", text));
     case 'c':
       return ReadCloud(bytes);
     case 'p':
@@ -76,8 +91,8 @@ void ReadInput(char kind, std::string_view text) {
 }  // namespace railcast
 
 /// Entry point for libFuzzer. The first byte selects what the rest is: m or d, an MCAP file or a
-/// database of rosbag2, of which M and D read the frames; or a message: c PointCloud2,
-/// p PandarScan, n NebulaPackets.
+/// database of rosbag2, of which M and D read the frames; o, an OSI trace; or a message:
+/// c PointCloud2, p PandarScan, n NebulaPackets.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const railcast::InputFiles nothing_of_the_last("");

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -73,20 +74,33 @@ class BagWriter {
 
 using mcap::McapCompression;
 
-/// Creates an MCAP file of profile ros2, with a chunk for each commit. It is named `file` +
-/// kUnfinishedSuffix until it is closed.
+/// What an MCAP file says of itself that is no bag of ROS 2 but a trace: its messages are
+/// serialized by protobuf, and the definition of a topic is a FileDescriptorSet.
+struct McapTrace {
+  std::string name;  ///< Of its record of metadata.
+  std::map<std::string, std::string> metadata;
+  std::map<std::string, std::string> channel_metadata;  ///< Of each channel.
+};
+
+/// Creates an MCAP file, with a chunk for each commit. It is named `file` + kUnfinishedSuffix until
+/// it is closed.
+/// @param trace Absent: the file has the profile ros2.
 /// @throws InputError if the file cannot be created, or as FileToReplace() does.
 [[nodiscard]] std::unique_ptr<BagWriter> CreateMcap(
-    const std::filesystem::path& file, McapCompression compression = McapCompression::kZstd);
+    const std::filesystem::path& file,
+    McapCompression compression = McapCompression::kZstd,
+    const std::optional<McapTrace>& trace = std::nullopt);
 
 /// Goes on with a file that CreateMcap() began and nobody closed, after its last complete commit.
 /// What follows that is dropped, so that the bytes become those of an uninterrupted run.
 /// Attachments made before that commit are kept. Without a complete commit the file begins anew.
 /// @param max_commits Commits beyond these are dropped, too.
 /// @throws InputError "file: rule" if the file is no unfinished MCAP file of ours.
-[[nodiscard]] std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
-                                                      McapCompression compression,
-                                                      std::size_t max_commits);
+[[nodiscard]] std::unique_ptr<BagWriter> ContinueMcap(
+    const std::filesystem::path& file,
+    McapCompression compression,
+    std::size_t max_commits,
+    const std::optional<McapTrace>& trace = std::nullopt);
 
 /// Creates a rosbag2 directory `directory`, as ROS 2 Jazzy makes it: NAME_0.db3 (SQLite) and, once
 /// closed, metadata.yaml. NAME is the directory's.

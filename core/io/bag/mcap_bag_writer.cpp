@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -79,15 +80,21 @@ class GrowingFile {
 
 class McapBagWriter : public BagWriter {
  public:
-  McapBagWriter(const std::filesystem::path& file, McapCompression compression)
-      : file_(file, 0), writer_(Sink(), {"ros2", kLibrary}, compression, {}) {
+  McapBagWriter(const std::filesystem::path& file,
+                McapCompression compression,
+                const std::optional<McapTrace>& trace)
+      : file_(file, 0),
+        trace_(trace),
+        writer_(Sink(), {trace ? "" : "ros2", kLibrary}, compression, {}) {
     // As recorders of ROS 2 do, so that also an interrupted bag says in which form its QoS are.
     WriteMetadata();
   }
   McapBagWriter(const std::filesystem::path& file,
                 mcap::ScannedFile kept,
-                McapCompression compression)
+                McapCompression compression,
+                const std::optional<McapTrace>& trace)
       : file_(file, kept.size),
+        trace_(trace),
         num_commits_(kept.index.chunks.size()),
         writer_(Sink(), std::move(kept.index), compression, kept.size, kept.crc) {
     for (const auto& [id, schema] : writer_.index().schemas) schema_ids_.emplace(schema.name, id);
@@ -99,16 +106,23 @@ class McapBagWriter : public BagWriter {
     if (known != topics_.end()) return static_cast<std::size_t>(known - topics_.begin());
     const auto [schema, is_new] =
         schema_ids_.emplace(topic.type, static_cast<std::uint16_t>(schema_ids_.size() + 1));
-    if (is_new)
-      writer_.Write(mcap::McapSchema{schema->second, topic.type, "ros2msg", topic.definition});
+    if (is_new) {
+      writer_.Write(mcap::McapSchema{schema->second, topic.type, trace_ ? "protobuf" : "ros2msg",
+                                     topic.definition});
+    }
     topics_.push_back(topic);
-    writer_.Write(
-        mcap::McapChannel{.id = static_cast<std::uint16_t>(topics_.size()),
-                          .schema_id = schema->second,
-                          .topic = topic.name,
-                          .message_encoding = topic.encoding,
-                          .metadata = {{kQosKey, QosText(topic.is_latched, MetadataVersion::kIron)},
-                                       {kHashKey, topic.hash}}});
+    mcap::McapChannel channel{.id = static_cast<std::uint16_t>(topics_.size()),
+                              .schema_id = schema->second,
+                              .topic = topic.name,
+                              .message_encoding = topic.encoding,
+                              .metadata = {}};
+    if (trace_) {
+      channel.metadata = trace_->channel_metadata;
+    } else {
+      channel.metadata = {{kQosKey, QosText(topic.is_latched, MetadataVersion::kIron)},
+                          {kHashKey, topic.hash}};
+    }
+    writer_.Write(channel);
     return topics_.size() - 1;
   }
 
@@ -146,7 +160,8 @@ class McapBagWriter : public BagWriter {
   void Close() override {
     Commit();
     writer_.EndChunk();
-    WriteMetadata();
+    // That of a trace does not change.
+    if (!trace_) WriteMetadata();
     writer_.Finish();
     file_.Finish();
   }
@@ -160,15 +175,20 @@ class McapBagWriter : public BagWriter {
 
   [[nodiscard]] BagTopic TopicOf(const mcap::McapChannel& channel) const {
     const mcap::McapSchema& schema = writer_.index().schemas.at(channel.schema_id);
-    return {.name = channel.topic,
-            .type = schema.name,
-            .definition = schema.data,
-            .hash = channel.metadata.at(kHashKey),
-            .is_latched = IsLatchedQos(channel.metadata.at(kQosKey)),
-            .encoding = channel.message_encoding};
+    BagTopic topic{.name = channel.topic,
+                   .type = schema.name,
+                   .definition = schema.data,
+                   .hash = {},
+                   .is_latched = false,
+                   .encoding = channel.message_encoding};
+    if (trace_) return topic;
+    topic.hash = channel.metadata.at(kHashKey);
+    topic.is_latched = IsLatchedQos(channel.metadata.at(kQosKey));
+    return topic;
   }
 
   void WriteMetadata() {
+    if (trace_) return writer_.Write(mcap::McapMetadata{trace_->name, trace_->metadata});
     const mcap::McapStatistics& statistics = writer_.index().statistics;
     BagMetadata metadata{.storage = "mcap", .file = file_.final_name(), .topics = {}};
     if (statistics.message_count > 0) {
@@ -186,6 +206,7 @@ class McapBagWriter : public BagWriter {
   }
 
   GrowingFile file_;
+  std::optional<McapTrace> trace_;
   std::size_t num_commits_{};
   mcap::McapWriter writer_;
   std::vector<BagTopic> topics_;
@@ -209,16 +230,18 @@ std::uint64_t EndOfCommits(const mcap::McapIndex& index, std::size_t max_commits
 }  // namespace
 
 std::unique_ptr<BagWriter> CreateMcap(const std::filesystem::path& file,
-                                      McapCompression compression) {
-  return std::make_unique<McapBagWriter>(file, compression);
+                                      McapCompression compression,
+                                      const std::optional<McapTrace>& trace) {
+  return std::make_unique<McapBagWriter>(file, compression, trace);
 }
 
 std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
                                         McapCompression compression,
-                                        std::size_t max_commits) {
+                                        std::size_t max_commits,
+                                        const std::optional<McapTrace>& trace) {
   const std::filesystem::path unfinished = UnfinishedMcap(FileToReplace(file));
   const mcap::ByteFile content(unfinished, ShownPath(unfinished));
-  if (content.size() < mcap::kMagic.size()) return CreateMcap(file, compression);
+  if (content.size() < mcap::kMagic.size()) return CreateMcap(file, compression, trace);
   const mcap::ScannedFile found = mcap::ScanUndamaged(content);
   const std::string& library = found.index.header.library;
   if (!mcap::BeginsAsMcap(content) || (!library.empty() && library != kLibrary)) {
@@ -226,9 +249,9 @@ std::unique_ptr<BagWriter> ContinueMcap(const std::filesystem::path& file,
                      (library.empty() ? "" : " (got " + Quoted(library) + ")"));
   }
   const std::uint64_t end = EndOfCommits(found.index, max_commits);
-  if (end == 0) return CreateMcap(file, compression);
+  if (end == 0) return CreateMcap(file, compression, trace);
   mcap::ScannedFile kept = mcap::ScanWhole(content, end);
-  return std::make_unique<McapBagWriter>(file, std::move(kept), compression);
+  return std::make_unique<McapBagWriter>(file, std::move(kept), compression, trace);
 }
 
 }  // namespace railcast::bag

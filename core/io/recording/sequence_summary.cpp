@@ -10,6 +10,7 @@
 #include "core/io/run/motion_files.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/trace_name.h"
 #include "core/io/strict_json.h"
 #include "railcast/io/cloud_files.h"
 
@@ -58,7 +59,7 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     RefuseUnknownKeys(
         json,
         {"version", "embree", "isa", "seed", "inputs", "scenario_xxh3", "commands_xxh3", "format",
-         "fields", "bag", "motion_sensors", "start_frame", "num_frames", "stride"},
+         "fields", "bag", "trace", "motion_sensors", "start_frame", "num_frames", "stride"},
         place);
     if (json.contains("motion_sensors")) json.at("motion_sensors").get_to(run.motion_sensors);
     for (const std::string& sensor : run.motion_sensors) {
@@ -68,6 +69,11 @@ RunSummary ReadRunSummary(const std::string& text, const std::string& place) {
     }
     if (json.contains("fields")) json.at("fields").get_to(run.fields);
     if (json.contains("bag")) ReadBag(json.at("bag"), place, run);
+    run.trace = json.value("trace", "");
+    if (!run.trace.empty() && !IsTraceName(run.trace)) {
+      throw InputError(place + ": trace: must be the name of an OSI trace (got " +
+                       ShownText(run.trace) + ")");
+    }
     if (!json.contains("isa")) return run;
     run.embree = json.at("embree");
     run.isa = json.at("isa");

@@ -29,6 +29,7 @@ struct RunSummary {
   /// The bag that holds the clouds, relative to the directory, and their topics; empty = none.
   std::string bag{};
   std::vector<std::string> cloud_topics{};
+  std::string trace{};  ///< The OSI trace that has a message for each frame; empty = none.
   /// The scenario, its inputs and the commands. Empty in directories of older programs, whose
   /// scenarios referred to files outside the directory.
   std::vector<KnownFile> files;

@@ -93,9 +93,11 @@ const std::vector<FrameFormat>& FrameFormats() {
                                 .fixed_files = &KittiFixedFiles}},
       // For studies of what can be seen: boxes, visibility and counts without clouds.
       {.name = "objects", .files = {}, .encode = &EncodeNothing},
-      // What is written of each frame beside the bag is that of format objects.
+      // What is written of each frame beside the bag or the trace is that of format objects.
       {.name = "mcap", .files = {}, .encode = &EncodeNothing, .bag = "frames.mcap"},
       {.name = "rosbag2", .files = {}, .encode = &EncodeNothing, .bag = "rosbag2"},
+      {.name = "osi", .files = {}, .encode = &EncodeNothing, .trace = ".osi"},
+      {.name = "osi-mcap", .files = {}, .encode = &EncodeNothing, .trace = ".mcap"},
   };
   return formats;
 }

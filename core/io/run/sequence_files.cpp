@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/io/run/motion_files.h"
+#include "core/io/run/trace_name.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "railcast/camera.h"
@@ -132,7 +133,7 @@ bool IsSequenceFile(std::string_view name) {
       if (Take(number, file.folder) && IsNumbered(number, file.extension)) return true;
     }
   }
-  if (IsCameraFile(name) || IsMotionFile(name) || IsOfBag(name)) return true;
+  if (IsCameraFile(name) || IsMotionFile(name) || IsOfBag(name) || IsTraceName(name)) return true;
   return Take(name, kInputsFolder) && Take(name, "/") && IsInput(name);
 }
 

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
 #include "core/io/content_hash.h"
+#include "core/io/osi/trace_file.h"
 
 namespace railcast {
 namespace {
@@ -77,6 +78,30 @@ void CompareWithBag(const std::filesystem::path& bag,
   }
   if (clouds) {
     faults.Add({ShownPath(bag), "has a cloud of no frame at " + SecondsText(clouds->time_ns), ""});
+  }
+}
+
+void CompareWithTrace(const std::filesystem::path& trace,
+                      const std::vector<CloudsOfFrame>& frames,
+                      bool is_finished,
+                      ErrorList& faults) {
+  const auto [messages, fault] = osi::ReadTrace(trace);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i >= messages.size()) {
+      faults.Add({frames[i].place, "must have its message in " + ShownPath(trace), "none"});
+    } else if (messages[i].hash != frames[i].hash) {
+      faults.Add(
+          {ShownPath(trace) + ": message " + NumberText(i + 1),
+           "must have the hash " + ShownText(frames[i].hash) + ", as " + frames[i].place + " says",
+           messages[i].hash});
+    }
+  }
+  if (!is_finished) return;
+  if (!fault.empty()) faults.AddLine(fault);
+  if (messages.size() > frames.size()) {
+    faults.Add({ShownPath(trace),
+                "must have a message for each of " + NumberText(frames.size()) + " frames",
+                NumberText(messages.size())});
   }
 }
 

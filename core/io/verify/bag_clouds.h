@@ -9,7 +9,8 @@
 
 namespace railcast {
 
-/// What a line of frames.jsonl says of the clouds that a bag holds of the frame.
+/// What a line of frames.jsonl says of the clouds or the message that a bag or a trace holds of the
+/// frame.
 struct CloudsOfFrame {
   std::int64_t stamp_ns{};
   std::string hash;   ///< ContentHash() of its messages, one after another.
@@ -25,5 +26,16 @@ void CompareWithBag(const std::filesystem::path& bag,
                     const std::vector<std::string>& topics,
                     const std::vector<CloudsOfFrame>& frames,
                     ErrorList& faults);
+
+/// Compares the messages of an OSI trace with a sequence's frames.
+/// @param is_finished Whether the run is: otherwise the trace may hold a frame more, and end within
+///   a message.
+/// @param faults Gets a line for each frame whose message is missing or another, and for what
+///   belongs to no frame.
+/// @throws InputError if the trace cannot be opened.
+void CompareWithTrace(const std::filesystem::path& trace,
+                      const std::vector<CloudsOfFrame>& frames,
+                      bool is_finished,
+                      ErrorList& faults);
 
 }  // namespace railcast

@@ -52,6 +52,7 @@ class Verifier : private Findings {
     ReadLabels();
     are_frames_known_ = Try([&] { CheckFrames(); });
     if (!summary_.run.bag.empty()) Try([&] { CheckBag(); });
+    if (!summary_.run.trace.empty()) Try([&] { CheckTrace(); });
     Try([&] { FindOthers(); });
     return Take();
   }
@@ -77,6 +78,7 @@ class Verifier : private Findings {
                     const FrameFormat& format);
   void CheckFrames();
   void CheckBag();
+  void CheckTrace();
   bool HasAllLines(std::string_view name);
   void CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records);
   void CheckNames(const FrameLine& line, const std::string& place);
@@ -89,7 +91,7 @@ class Verifier : private Findings {
   CountTotals totals_;
   NameSet known_;
   bool are_frames_known_ = false;
-  std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag.
+  std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag or a trace.
 };
 
 void Verifier::ReadTheManifest() {
@@ -251,7 +253,7 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
     const PlacedLine& objects = lines.records.at(1);
     Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
   }
-  if (!summary_.run.bag.empty()) {
+  if (!summary_.run.bag.empty() || !summary_.run.trace.empty()) {
     clouds_.push_back({line.stamp_ns, line.clouds_hash, lines.frame.place});
   }
   const std::string hash_fault = LineHashFault(lines.frame.text);
@@ -277,6 +279,15 @@ void Verifier::CheckBag() {
   CompareWithBag(bag, summary_.run.cloud_topics, clouds_, faults_);
   ++result_.num_files;
   if (fs::is_regular_file(bag)) result_.num_bytes += fs::file_size(bag);
+}
+
+void Verifier::CheckTrace() {
+  known_.insert(summary_.run.trace);
+  fs::path trace = summary_.directory / summary_.run.trace;
+  if (!fs::exists(trace) && !summary_.manifest) trace += kUnfinishedSuffix;
+  CompareWithTrace(trace, clouds_, summary_.manifest.has_value(), faults_);
+  ++result_.num_files;
+  result_.num_bytes += fs::file_size(trace);
 }
 
 // Files are named by the number of their frame; those of a dataset count from 0.

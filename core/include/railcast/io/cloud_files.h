@@ -129,6 +129,9 @@ struct FrameFormat {
   /// Name of the bag of ROS 2 messages that holds the frames of all sensors of a run, in the run's
   /// directory: a file with the extension .mcap or the directory of a rosbag2. Empty = none.
   std::string_view bag{};
+  /// Extension of the trace of OSI messages (core/io/run/trace_name.h) that holds the frames of a
+  /// sensor, in its directory. Empty = none.
+  std::string_view trace{};
 };
 
 /// The table of all formats.

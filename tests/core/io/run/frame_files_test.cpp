@@ -51,7 +51,7 @@ TEST(FrameFormat, NamesReadBack) {
   }
   EXPECT_EQ(MessageOf([] { (void)ParseFrameFormat("las"); }),
             "--format: unknown format \"las\" (valid: pcd, pcd-compressed, pcd-ascii, ply, "
-            "ply-cloudcompare, kitti, objects, mcap, rosbag2)");
+            "ply-cloudcompare, kitti, objects, mcap, rosbag2, osi, osi-mcap)");
 }
 
 TEST(FrameFormat, ReadsBackAsManyPointsAsItHolds) {
