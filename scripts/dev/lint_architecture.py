@@ -59,7 +59,7 @@ LIBRARY_OWNERS = {
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
     "Cyclone DDS": (r"dds/", ("core/io/dds",)),
-    "SQLite": (r"sqlite3\.h$", ("core/io/bag", "generator/dataset")),
+    "SQLite": (r"sqlite3\.h$", ("core/io/bag",)),
     "zstd": (r"zstd\.h$", ("core/io/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),
     "Expat": (r"expat\.h$", ("generator/import",)),
