@@ -176,7 +176,7 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
   dataset->add_flag("--scenarios-only", options->has_scenarios_only,
                     "Write the scenarios without frames, to a new or an empty folder, and report "
                     "their parts, bases, weathers, draws and objects");
-  AddRunChoices(*dataset, options->choices, false);
+  AddRunChoices(*dataset, options->choices);
   dataset->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
