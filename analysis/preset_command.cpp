@@ -31,9 +31,9 @@ int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
   const auto recording = OpenRecording(WithTopic({options.source}, options.topic).front());
-  const RecordingInfo info = recording->info();
   const PresetComparison comparison =
       ComparePreset(*recording, scenario, SectorsOf(options.sectors));
+  const RecordingInfo& info = recording->info();
   Report report = MakePresetReport(comparison, info, scenario, command_line);
   AddProvenance({info}, ProgramVersion(), report);
   EmitReport(report, options.output, "preset");

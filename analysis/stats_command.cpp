@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -160,7 +161,9 @@ void AddDatasetSections(const std::vector<MeasuredSource>& sources, Report& repo
   report.sections.insert(report.sections.begin(), sections.begin(), sections.end());
 }
 
-Statistics MeasureAll(const std::vector<MeasuredSource>& sources, std::size_t num_frames) {
+Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
+                      std::size_t num_frames,
+                      std::vector<RecordingInfo>& infos) {
   Statistics all;
   const ProgressLine progress;
   for (const MeasuredSource& source : sources) {
@@ -175,6 +178,9 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources, std::size_t nu
           progress.Show(std::to_string(done) + " frames");
         }
       }));
+      // Known only now.
+      const auto info = std::ranges::find(infos, recording->info().source, &RecordingInfo::source);
+      if (info != infos.end()) info->left_out = recording->info().left_out;
     }
   }
   progress.End();
@@ -193,8 +199,8 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::vector<MeasuredSource> sources =
       LookAtSources(WithTopic(options.sources, options.topic));
-  const SourcesAtFirstSight seen = LookAtRecordings(sources);
-  Statistics all = MeasureAll(sources, seen.num_frames);
+  SourcesAtFirstSight seen = LookAtRecordings(sources);
+  Statistics all = MeasureAll(sources, seen.num_frames, seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");

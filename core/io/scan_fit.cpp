@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scan/spinning_pattern.h"
 
 namespace railcast {
 
@@ -69,6 +70,13 @@ void ScanFit::CheckColumns(const SpinningSpec& pattern,
   if (pattern.columns == most) return;
   Fail("/scan/pattern/columns", "must be " + NumberText(most) + ", a whole turn",
        NumberText(pattern.columns));
+}
+
+std::vector<std::uint32_t> ColumnsOfCycles(const SpinningSpec& pattern, double rate_hz) {
+  std::vector<std::uint32_t> columns(pattern.columns, kNotFired);
+  std::uint32_t column = 0;
+  for (const std::uint32_t cycle : FiredCycles(pattern, rate_hz)) columns[cycle] = column++;
+  return columns;
 }
 
 std::uint16_t RotorAzimuth(double start_azimuth_deg, double turns) {

@@ -58,6 +58,14 @@ class ScanFit {
   std::string prefix_;
 };
 
+/// What ColumnsOfCycles() has for a cycle that does not fire.
+inline constexpr std::uint32_t kNotFired = 0xFFFFFFFF;
+
+/// The column of a frame that holds each firing cycle of a turn, or kNotFired outside of the
+/// azimuth window.
+[[nodiscard]] std::vector<std::uint32_t> ColumnsOfCycles(const SpinningSpec& pattern,
+                                                         double rate_hz);
+
 /// The unit of the packets' azimuths.
 inline constexpr double kAzimuthUnit_deg = 0.01;
 inline constexpr std::int64_t kAzimuthUnitsPerTurn = 36'000;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace railcast {
@@ -26,6 +27,9 @@ struct TurnPoint {
 /// fill the memory even where it sees nothing. Real turns have at most 4340 cycles (HDL-32E at 5
 /// Hz).
 inline constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
+
+/// Why decoders refuse a packet one of whose checksums is wrong: it was damaged on its way.
+inline constexpr std::string_view kWrongChecksum = "the checksum must be that of its bytes";
 
 /// What a sensor measures of each point besides its place and intensity.
 struct TurnField {

@@ -57,8 +57,38 @@ void CheckBeamOrigin(const SpinningSpec& spec, ErrorList& errors) {
   }
 }
 
+void CheckWindow(const SpinningSpec& spec, ErrorList& errors) {
+  if (!spec.azimuth_window_deg) return;
+  const auto& [begin_deg, end_deg] = *spec.azimuth_window_deg;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double end_of_window_deg = (*spec.azimuth_window_deg)[i];
+    if (end_of_window_deg >= 0.0 && end_of_window_deg <= kFullTurn_deg) continue;
+    errors.Add(FaultOf("/pattern/azimuth_window_deg/" + std::to_string(i),
+                       "must be >= 0 and <= 360", end_of_window_deg));
+  }
+  if (begin_deg == end_deg) {
+    errors.Add(
+        FaultOf("/pattern/azimuth_window_deg", "must begin and end at two azimuths", begin_deg));
+  }
+}
+
+double RotorDeg(const SpinningSpec& spec, double rate_hz, double time_us) {
+  return spec.start_azimuth_deg + kFullTurn_deg * rate_hz * time_us / kUsPerS;
+}
+
+bool IsInWindow(const SpinningSpec& spec, double rotor_deg) {
+  if (!spec.azimuth_window_deg) return true;
+  const auto [begin_deg, end_deg] = *spec.azimuth_window_deg;
+  const double width_deg = end_deg - begin_deg + (end_deg > begin_deg ? 0.0 : kFullTurn_deg);
+  // So that a cycle that begins where the window does is in it, and one at its end is not.
+  constexpr double kRounding_deg = 1e-6;
+  const double past_deg = rotor_deg - begin_deg + kRounding_deg;
+  return past_deg - kFullTurn_deg * std::floor(past_deg / kFullTurn_deg) < width_deg;
+}
+
 void CheckSpec(const SpinningSpec& spec, double rate_hz, ErrorList& errors) {
   CheckBeamOrigin(spec, errors);
+  CheckWindow(spec, errors);
   if (!(std::abs(spec.start_azimuth_deg) <= kFullTurn_deg)) {
     errors.Add(FaultOf("/pattern/start_azimuth_deg", "must be >= -360 and <= 360",
                        spec.start_azimuth_deg));
@@ -98,6 +128,14 @@ std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& chann
   return rows;
 }
 
+std::vector<std::uint32_t> FiredCycles(const SpinningSpec& spec, double rate_hz) {
+  std::vector<std::uint32_t> cycles;
+  for (std::uint32_t cycle = 0; cycle < spec.columns; ++cycle) {
+    if (IsInWindow(spec, RotorDeg(spec, rate_hz, cycle * spec.cycle_us))) cycles.push_back(cycle);
+  }
+  return cycles;
+}
+
 void AddBeamOrigins(const SpinningSpec& spec, ScanPattern& pattern) {
   const auto [out_m, up_m] = spec.beam_origin_m.value();
   const double left_positive = spec.rotation == Rotation::kClockwise ? -1.0 : 1.0;
@@ -116,15 +154,21 @@ FiringGrid SpinningFirings(const SpinningSpec& spec, double rate_hz, ErrorList& 
   if (!errors.empty()) return {};
 
   const std::vector<std::uint16_t> rows = RowsByElevation(spec.channels);
+  const std::vector<std::uint32_t> cycles = FiredCycles(spec, rate_hz);
+  if (cycles.empty()) {
+    errors.Add({"/pattern/azimuth_window_deg", "must have the begin of a firing cycle", ""});
+    return {};
+  }
   const double left_positive = spec.rotation == Rotation::kClockwise ? -1.0 : 1.0;
-  FiringGrid grid{
-      .rows = static_cast<std::uint32_t>(rows.size()), .columns = spec.columns, .firings = {}};
-  grid.firings.reserve(rows.size() * spec.columns);
-  for (std::uint32_t column = 0; column < spec.columns; ++column) {
+  FiringGrid grid{.rows = static_cast<std::uint32_t>(rows.size()),
+                  .columns = static_cast<std::uint32_t>(cycles.size()),
+                  .firings = {}};
+  grid.firings.reserve(rows.size() * cycles.size());
+  for (std::uint32_t column = 0; column < grid.columns; ++column) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const ChannelSpec& channel = spec.channels[i];
-      const double time_us = column * spec.cycle_us + channel.time_us;
-      const double rotor_deg = spec.start_azimuth_deg + kFullTurn_deg * rate_hz * time_us / kUsPerS;
+      const double time_us = cycles[column] * spec.cycle_us + channel.time_us;
+      const double rotor_deg = RotorDeg(spec, rate_hz, time_us);
       grid.firings.push_back(
           {.azimuth_rad = RadFromDeg(left_positive * (rotor_deg + channel.azimuth_deg)),
            .elevation_rad = RadFromDeg(channel.elevation_deg),

@@ -22,6 +22,10 @@ void CheckCycles(const FiringCycles& cycles, double rate_hz, ErrorList& errors);
 /// elevation keep their order.
 [[nodiscard]] std::vector<std::uint16_t> RowsByElevation(const std::vector<ChannelSpec>& channels);
 
+/// The numbers of the firing cycles of a turn that fire: those that begin in the azimuth window.
+/// They are the columns of a frame.
+[[nodiscard]] std::vector<std::uint32_t> FiredCycles(const SpinningSpec& spec, double rate_hz);
+
 /// Fills the origins of the beams, which turn with the rotor.
 /// @pre The pattern's firings are those of the spec, which has a beam_origin_m.
 void AddBeamOrigins(const SpinningSpec& spec, ScanPattern& pattern);

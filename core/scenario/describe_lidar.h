@@ -47,6 +47,10 @@ void Describe(Archive& a, SpinningSpec& s) {
   a.Optional("beam_origin_m", s.beam_origin_m,
              "Where the beams leave off the axis: outwards at the rotor's azimuth, up.",
              Within(-1, 1));
+  a.Optional("azimuth_window_deg", s.azimuth_window_deg,
+             "From which to which azimuth of the rotor firing cycles begin, in the sense of "
+             "rotation; over 0 where the first is the greater. All others are not fired.",
+             Within(0, 360));
 }
 
 template <class Archive>

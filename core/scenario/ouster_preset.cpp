@@ -10,7 +10,7 @@
 namespace railcast {
 namespace {
 
-/// What the data sheets say of a product line.
+/// What is known of a product line.
 struct ProductLine {
   std::string_view prefix;
   double range_min_m{};
@@ -19,16 +19,20 @@ struct ProductLine {
   double divergence_deg{};  ///< Full width at half maximum.
 };
 
-// Data sheets of Ouster OS0, OS1 and OS2, revision 6: ranges at 10 % and 100 klx with a detection
-// probability above 90 %; the greatest ranges at 80 %.
-constexpr std::array<ProductLine, 3> kProductLines = {{{"OS-0-", 0.3, 100.0, 15.0, 0.35},
-                                                       {"OS-1-", 0.3, 240.0, 45.0, 0.18},
-                                                       {"OS-2-", 1.0, 400.0, 80.0, 0.09}}};
+// Least ranges and ranges at 10 % are those of the data sheets of OS0 and OS1, revision 6 (version
+// 2.4, as NVIDIA's Isaac Sim quotes them), and of OS2's: where half of the pulses are detected at
+// 100 klx, as our threshold means it. The greatest ranges are those of real captures, rounded up to
+// 10 m: sensors also report what lies beyond the sheets' ranges at 80 %, 50, 120 and 240 m. The
+// divergence of OS1 is in its sheet of 2019.
+constexpr std::array<ProductLine, 3> kProductLines = {{{"OS-0-", 0.3, 230.0, 20.0, 0.35},
+                                                       {"OS-1-", 0.3, 250.0, 55.0, 0.18},
+                                                       {"OS-2-", 1.0, 340.0, 100.0, 0.09}}};
 
 void UseProductLine(const ProductLine& line, LidarSpec& lidar) {
   lidar.range_min_m = line.range_min_m;
   lidar.range_max_m = line.range_max_m;
   lidar.receiver.range_at_10_percent_m = line.range_at_10_percent_m;
+  lidar.plausibility.reference_range_m = line.range_at_10_percent_m;
   // A Gaussian is 1.699 = sqrt(2 / ln 2) times as wide between its 1/e^2 points as at half maximum.
   const double width_mrad = 1e3 * std::sqrt(2.0 / std::log(2.0)) * RadFromDeg(line.divergence_deg);
   lidar.beam.divergence_mrad = {width_mrad, width_mrad};

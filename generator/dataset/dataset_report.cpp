@@ -146,7 +146,7 @@ void DatasetReport::AddFrame(const IndexedFrame& frame, PerSplit& split) {
   split.points += counts.points;
   counts_.Add(counts);
   for (const auto& [label, points] : counts.points_per_label) ++frames_with_label_[label];
-  std::string hashes;
+  std::string hashes = frame.record.clouds_hash;
   for (const WrittenFile& file : frame.record.files) hashes += file.hash;
   // Frames of objects alone have no files that could be compared.
   if (!hashes.empty()) frame_hashes_.push_back(ContentHashNumber(hashes));

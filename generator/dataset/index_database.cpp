@@ -1,10 +1,10 @@
 #include "generator/dataset/index_database.h"
 
 #include <fcntl.h>
-#include <sqlite3.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -42,104 +42,54 @@ CREATE INDEX objects_by_type ON objects (type);
 CREATE INDEX labels_by_frame ON labels (frame_id);
 )";
 
+bag::SqliteStatement InsertInto(bag::SqliteDatabase& database,
+                                const std::string& table,
+                                int num_columns) {
+  std::string sql = "INSERT INTO " + table + " VALUES (?";
+  for (int i = 1; i < num_columns; ++i) sql += ",?";
+  return {database, sql + ")"};
+}
+
 }  // namespace
 
-/// A prepared INSERT.
-class IndexDatabase::Insert {
- public:
-  Insert(sqlite3* database, const std::string& table, int num_columns) : database_(database) {
-    std::string sql = "INSERT INTO " + table + " VALUES (?";
-    for (int i = 1; i < num_columns; ++i) sql += ",?";
-    sql += ")";
-    const int status = sqlite3_prepare_v2(database, sql.c_str(), static_cast<int>(sql.size()),
-                                          &statement_, nullptr);
-    Check(status == SQLITE_OK, "the tables of the index have these columns");
-  }
-  ~Insert() { sqlite3_finalize(statement_); }
-  Insert(const Insert&) = delete;
-  Insert& operator=(const Insert&) = delete;
-
-  /// Adds a row.
-  template <class... Values>
-  void operator()(const Values&... values) {
-    int column = 0;
-    (Bind(++column, values), ...);
-    const int status = sqlite3_step(statement_);
-    sqlite3_reset(statement_);
-    if (status != SQLITE_DONE) throw InputError(sqlite3_errmsg(database_));
-  }
-
- private:
-  void Bind(int column, std::int64_t value) { sqlite3_bind_int64(statement_, column, value); }
-  void Bind(int column, double value) { sqlite3_bind_double(statement_, column, value); }
-  void Bind(int column, const std::optional<double>& value) {
-    if (value) {
-      Bind(column, *value);
-    } else {
-      sqlite3_bind_null(statement_, column);
-    }
-  }
-  void Bind(int column, const std::string& value) {
-    sqlite3_bind_text(statement_, column, value.data(), static_cast<int>(value.size()),
-                      SQLITE_TRANSIENT);
-  }
-
-  sqlite3* database_;
-  sqlite3_stmt* statement_ = nullptr;
-};
+IndexDatabase::Inserts::Inserts(bag::SqliteDatabase& database)
+    : scenarios(InsertInto(database, "scenarios", 8)),
+      sequences(InsertInto(database, "sequences", 6)),
+      frames(InsertInto(database, "frames", 7)),
+      files(InsertInto(database, "files", 4)),
+      objects(InsertInto(database, "objects", 10)),
+      labels(InsertInto(database, "labels", 3)) {}
 
 IndexDatabase::IndexDatabase(std::filesystem::path file)
     : file_(std::move(file)), unfinished_(file_.string() + std::string(kUnfinishedSuffix)) {
   std::filesystem::remove(unfinished_);
-  if (sqlite3_open(unfinished_.c_str(), &database_) != SQLITE_OK) {
-    const std::string reason = sqlite3_errmsg(database_);
-    sqlite3_close(database_);
-    throw InputError(ShownPath(unfinished_) + ": " + reason);
-  }
+  database_.emplace(unfinished_, bag::SqliteAccess::kCreate, ShownPath(unfinished_));
   // The file is dropped if the run is interrupted, so that it needs no journal.
-  Run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
-  Run("BEGIN;");
-  Run(kTables);
-  scenarios_ = std::make_unique<Insert>(database_, "scenarios", 8);
-  sequences_ = std::make_unique<Insert>(database_, "sequences", 6);
-  frames_ = std::make_unique<Insert>(database_, "frames", 7);
-  files_ = std::make_unique<Insert>(database_, "files", 4);
-  objects_ = std::make_unique<Insert>(database_, "objects", 10);
-  labels_ = std::make_unique<Insert>(database_, "labels", 3);
-}
-
-void IndexDatabase::ForgetInserts() {
-  for (auto* const insert : {&scenarios_, &sequences_, &frames_, &files_, &objects_, &labels_}) {
-    insert->reset();
-  }
-}
-
-IndexDatabase::~IndexDatabase() {
-  ForgetInserts();
-  sqlite3_close(database_);
-}
-
-void IndexDatabase::Run(const std::string& sql) {
-  if (sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) return;
-  throw InputError(ShownPath(unfinished_) + ": " + sqlite3_errmsg(database_));
+  database_->Run("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;");
+  database_->Run("BEGIN;");
+  database_->Run(kTables);
+  inserts_.emplace(*database_);
 }
 
 void IndexDatabase::Add(const IndexedScenario& scenario) {
   const Json& record = scenario.record;
   const auto text = [&](const char* key) { return record.at(key).get<std::string>(); };
   const auto number = record.at("scenario").get<std::int64_t>();
-  (*scenarios_)(number, text("base"), text("split"), text("line"),
-                record.at("start_s_m").get<double>(), record.at("drawn").dump(),
-                record.at("placed").dump(), record.at("weather").dump());
+  inserts_->scenarios
+      .With(number, text("base"), text("split"), text("line"), record.at("start_s_m").get<double>(),
+            record.at("drawn").dump(), record.at("placed").dump(), record.at("weather").dump())
+      .Step();
   for (const IndexedSequence& sequence : scenario.sequences) AddSequence(number, sequence);
 }
 
 void IndexDatabase::AddSequence(std::int64_t scenario, const IndexedSequence& sequence) {
   const std::int64_t id = num_sequences_++;
   const Json& record = sequence.record;
-  (*sequences_)(id, scenario, record.at("sensor").get<std::string>(),
-                record.at("folder").get<std::string>(), record.at("num_frames").get<std::int64_t>(),
-                record.at("points").get<std::int64_t>());
+  inserts_->sequences
+      .With(id, scenario, record.at("sensor").get<std::string>(),
+            record.at("folder").get<std::string>(), record.at("num_frames").get<std::int64_t>(),
+            record.at("points").get<std::int64_t>())
+      .Step();
   for (const IndexedFrame& frame : sequence.frames) AddFrame(id, frame);
 }
 
@@ -147,26 +97,31 @@ void IndexDatabase::AddFrame(std::int64_t sequence, const IndexedFrame& frame) {
   const auto whole = [](auto number) { return static_cast<std::int64_t>(number); };
   const std::int64_t id = num_frames_++;
   const FrameRecord& record = frame.record;
-  (*frames_)(id, sequence, whole(record.frame), record.stamp_ns, frame.vehicle_s_m,
-             frame.vehicle_speed_mps, whole(record.counts.points));
-  for (const WrittenFile& file : record.files)
-    (*files_)(id, file.name, whole(file.size), file.hash);
+  inserts_->frames
+      .With(id, sequence, whole(record.frame), record.stamp_ns, frame.vehicle_s_m,
+            frame.vehicle_speed_mps, whole(record.counts.points))
+      .Step();
+  for (const WrittenFile& file : record.files) {
+    inserts_->files.With(id, file.name, whole(file.size), file.hash).Step();
+  }
   for (const IndexedObject& object : frame.objects) {
-    (*objects_)(id, object.name, object.type, object.label, whole(object.instance),
-                object.distance_m, whole(object.points), whole(object.firings_visible),
-                whole(object.firings_alone), object.occlusion);
+    inserts_->objects
+        .With(id, object.name, object.type, object.label, whole(object.instance), object.distance_m,
+              whole(object.points), whole(object.firings_visible), whole(object.firings_alone),
+              object.occlusion)
+        .Step();
   }
   for (const auto& [label, points] : record.counts.points_per_label) {
-    (*labels_)(id, label, whole(points));
+    inserts_->labels.With(id, label, whole(points)).Step();
   }
 }
 
 void IndexDatabase::Finish() {
-  Run(kIndices);
-  Run("COMMIT;");
-  ForgetInserts();
-  const int status = sqlite3_close(std::exchange(database_, nullptr));
-  Check(status == SQLITE_OK, "nothing of the index is in use any more");
+  // A statement that has not run to its end would keep the tables from being changed.
+  inserts_.reset();
+  database_->Run(kIndices);
+  database_->Run("COMMIT;");
+  database_.reset();
   const int descriptor = ::open(unfinished_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) throw FileError(unfinished_, errno);
   const bool is_synced = ::fsync(descriptor) == 0;

@@ -95,6 +95,7 @@ std::string IndexLine(const Json& scenario, const Json& sequence, const IndexedF
                {"line", scenario.at("line")},
                {"vehicle_s_m", frame.vehicle_s_m},
                {"vehicle_speed_mps", frame.vehicle_speed_mps}};
+  if (sequence.contains("bag")) line["bag"] = sequence.at("bag");
   PutCounts(frame.record.counts, line);
   line["objects"] = std::move(objects);
   line["drawn"] = scenario.at("drawn");

@@ -148,15 +148,18 @@ class DatasetRun {
       s_m.push_back(world.VehicleChainage_m(stamp_ns));
       speed_mps.push_back(world.VehicleSpeed_mps(stamp_ns));
     }
-    return {{"sensor", sensor.name},
-            {"folder", spec.directory.lexically_relative(choices_.directory).generic_string()},
-            {"num_frames", spec.num_frames},
-            {"points", manifest.at("points")},
-            {"scenario_xxh3", spec.identity.scenario_hash},
-            {"data_xxh3", manifest.at("data_xxh3")},
-            {"manifest_xxh3", ContentHash(text)},
-            {"vehicle_s_m", std::move(s_m)},
-            {"vehicle_speed_mps", std::move(speed_mps)}};
+    Json record = {
+        {"sensor", sensor.name},
+        {"folder", spec.directory.lexically_relative(choices_.directory).generic_string()},
+        {"num_frames", spec.num_frames},
+        {"points", manifest.at("points")},
+        {"scenario_xxh3", spec.identity.scenario_hash},
+        {"data_xxh3", manifest.at("data_xxh3")},
+        {"manifest_xxh3", ContentHash(text)},
+        {"vehicle_s_m", std::move(s_m)},
+        {"vehicle_speed_mps", std::move(speed_mps)}};
+    if (!spec.bag.empty()) record["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
+    return record;
   }
 
   const Recipe& recipe_;

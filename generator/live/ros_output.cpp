@@ -103,9 +103,8 @@ std::vector<LiveSensor> RosOutput::Sensors() {
 
 bool RosOutput::HasReaders() const {
   const std::string& clouds = ros::TypeOf<ros::PointCloud2>().name;
-  for (std::size_t i = 0; i < writers_.size(); ++i) {
-    const bool is_cloud = topics_.topics()[i].type.name == clouds;
-    if (is_cloud && participant_->NumReaders(writers_[i]) > 0) return true;
+  for (std::size_t i = 0; i < topics_.topics().size(); ++i) {
+    if (topics_.topics()[i].type.name == clouds && writers_.HasReaders(i)) return true;
   }
   return false;
 }

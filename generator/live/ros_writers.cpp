@@ -29,6 +29,10 @@ RosWriters::RosWriters(std::unique_ptr<dds::Participant> participant,
   for (const dds::TopicSpec& topic : topics) writers_.push_back(participant_->AddWriter(topic));
 }
 
+bool RosWriters::HasReaders(std::size_t topic) const {
+  return participant_->NumReaders(writers_[topic]) > 0;
+}
+
 bool RosWriters::Write(std::size_t topic, std::span<const std::byte> cdr) {
   return participant_->Write(writers_.at(topic), cdr);
 }

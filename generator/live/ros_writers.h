@@ -28,6 +28,8 @@ class RosWriters {
              const std::vector<dds::TopicSpec>& topics);
 
   [[nodiscard]] dds::Participant& participant() { return *participant_; }
+  /// Whether a reader of the topic is known.
+  [[nodiscard]] bool HasReaders(std::size_t topic) const;
   /// Sends a message at once. Returns whether it was taken.
   bool Write(std::size_t topic, std::span<const std::byte> cdr);
   /// Sends what AppendMessage() appended, and counts it.

@@ -383,6 +383,23 @@ std::optional<RunBag> BagOf(const FrameMaker& maker, const RunPlan& plan) {
                                     begin_ns);
 }
 
+/// Completes a run's bag with the vehicle's pose at the last firing of all frames.
+void FinishBag(const FrameMaker& maker, const RunPlan& plan, RunBag& bag) {
+  std::int64_t stamp_ns = 0;
+  std::int64_t end_ns = 0;
+  for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
+    const SequenceSpec& spec = plan.sensors[i].spec;
+    const ScanPattern& pattern = maker.pattern(i);
+    const std::int64_t begin_ns = pattern.StampNs(spec.FrameAt(spec.num_frames - 1));
+    if (begin_ns + pattern.time_ns.back() < end_ns) continue;
+    stamp_ns = begin_ns;
+    end_ns = begin_ns + pattern.time_ns.back();
+  }
+  // A command takes effect with the next frame.
+  const RailWorld& world = *maker.StateAt(stamp_ns).world;
+  bag.Finish(plan, end_ns, world.VehicleMotion(end_ns).world_from_body);
+}
+
 /// A thread other than the one that waits for a window may be the first to see that the run is
 /// stopped; then the deadline is still set, which would cut off frames that are being finished.
 struct NoDeadlineAfterwards {
@@ -442,7 +459,7 @@ std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
   std::vector<SequenceResult> results =
       RunSequences(sequences, bag ? &*bag : nullptr, hooks, at_once);
   const bool is_complete = std::ranges::all_of(results, &SequenceResult::is_complete);
-  if (bag && is_complete && !bag->is_complete()) bag->Finish(plan);
+  if (bag && is_complete && !bag->is_complete()) FinishBag(maker, plan, *bag);
   return results;
 }
 

@@ -131,7 +131,8 @@ void RunBag::Put(const std::vector<ros::TopicMessage>& messages) {
   writer_->Commit();
 }
 
-void RunBag::Finish(const RunPlan& plan) {
+void RunBag::Finish(const RunPlan& plan, std::int64_t end_ns, const Transform& world_from_vehicle) {
+  Put({topics_.PoseAt(end_ns, world_from_vehicle)});
   for (const auto& [name, scenario, spec] : plan.sensors) {
     const std::string prefix = plan.is_in_folders() ? name + "." : "";
     AttachFile(*writer_, prefix + std::string(kManifestFile),

@@ -39,9 +39,10 @@ class RunBag {
   /// Writes and commits them.
   void Write(const EncodedFrame& encoded);
 
-  /// Attaches the sensors' manifests, and completes the bag.
+  /// Adds where the vehicle is at the end of the last frame, attaches the sensors' manifests, and
+  /// completes the bag.
   /// @pre All frames and manifests are written.
-  void Finish(const RunPlan& plan);
+  void Finish(const RunPlan& plan, std::int64_t end_ns, const Transform& world_from_vehicle);
 
  private:
   void Put(const std::vector<ros::TopicMessage>& messages);

@@ -19,21 +19,19 @@ void AddIsa(CLI::App& command, std::string& isa) {
       ->check(CLI::IsMember(IsaNames()));
 }
 
-void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_bags) {
+void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_traces) {
   std::vector<std::string> formats;
   for (const FrameFormat& format : FrameFormats()) {
-    const bool is_one_file_a_run = !format.bag.empty() || !format.trace.empty();
-    if (has_bags || !is_one_file_a_run) formats.emplace_back(format.name);
+    if (has_traces || format.trace.empty()) formats.emplace_back(format.name);
   }
   command.add_option("--format", choices.format, "File format of the frames")
       ->check(CLI::IsMember(formats))
       ->capture_default_str();
   command
-      .add_option("--fields", choices.fields,
-                  std::string("Fields to write, separated by commas, or all") +
-                      (has_bags ? "; for mcap and rosbag2 also a layout of points: railcast, "
-                                  "velodyne, ouster, hesai or livox"
-                                : ""))
+      .add_option(
+          "--fields", choices.fields,
+          "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
+          "of points: railcast, velodyne, ouster, hesai or livox")
       ->capture_default_str();
   command.add_flag("--merged", choices.is_merged,
                    "Also write the clouds of all sensors together, in the vehicle's axes, with "

@@ -60,7 +60,7 @@ LIBRARY_OWNERS = {
     "spdlog": (r"spdlog/", PROGRAMS),
     "Cyclone DDS": (r"dds/", ("core/io/dds",)),
     "protobuf": (r"google/protobuf/|osi_sensor_view\.pb\.h", ("core/io/osi",)),
-    "SQLite": (r"sqlite3\.h$", ("core/io/bag", "generator/dataset")),
+    "SQLite": (r"sqlite3\.h$", ("core/io/bag",)),
     "zstd": (r"zstd\.h$", ("core/io/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),
     "Expat": (r"expat\.h$", ("generator/import",)),

@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/io/hesai/at128_decoder.h"
 #include "core/io/hesai/hesai_decoder.h"
+#include "core/io/hesai/hesai_packet.h"
 #include "core/io/recording/packet_recording.h"
 #include "core/io/recording/recording_kinds.h"
 
@@ -44,6 +45,15 @@ void DecodeAll(Decoder decoder,
   }
   turns.push_back(decoder.TakeUnfinished());
   for (const SensorTurn& turn : turns) CheckTurn(turn, num_rings);
+}
+
+// With the right checksums of all packets, which an input does not have by chance.
+std::vector<char> WithChecksums(const HesaiLayout& layout, std::span<const char> bytes) {
+  std::vector<char> checked(bytes.begin(), bytes.end());
+  for (std::size_t end = layout.packet_size; end <= checked.size(); end += layout.packet_size) {
+    StoreHesaiChecksums(layout, std::span(checked).first(end).last(layout.packet_size));
+  }
+  return checked;
 }
 
 // A correction file whose fields start at 20, 140 and 260 deg; its angles are 0 but for what the
@@ -134,7 +144,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (model < railcast::HesaiModels().size()) {
     const railcast::HesaiModel& hesai = railcast::HesaiModels()[model];
     railcast::DecodeAll(railcast::HesaiDecoder(hesai), hesai.layout.packet_size,
-                        hesai.channels.size(), bytes);
+                        hesai.channels.size(), railcast::WithChecksums(hesai.layout, bytes));
   } else if (data[0] == 'a') {
     const auto correction =
         std::make_shared<const railcast::At128Correction>(railcast::CorrectionFile({}));

@@ -62,12 +62,16 @@ struct ChannelSpec {
 struct SpinningSpec {
   std::vector<ChannelSpec> channels;  ///< In the vendor's laser order.
   double cycle_us{};                  ///< Duration of a firing cycle.
-  std::uint32_t columns{};            ///< Firing cycles per frame.
+  std::uint32_t columns{};            ///< Firing cycles per frame, in the window or not.
   Rotation rotation = Rotation::kClockwise;
   double start_azimuth_deg{};  ///< Azimuth of the rotor at the stamp; 0 = forward (+x).
   /// Where the beams leave if they do not leave on the axis at the sensor's origin: outwards, at
   /// the rotor's azimuth, and up. Ranges count from there.
   std::optional<std::array<double, 2>> beam_origin_m{};
+  /// The rotor's azimuths from which to which the sensor fires, 0 to 360, in the sense of rotation;
+  /// over 0 if the second is the smaller one. Cycles that begin elsewhere are not fired, and the
+  /// columns of a frame are the others. Absent: all fire.
+  std::optional<std::array<double, 2>> azimuth_window_deg{};
 
   bool operator==(const SpinningSpec&) const = default;
 };

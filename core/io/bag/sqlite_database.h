@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -83,6 +84,9 @@ class SqliteStatement {
 
   void Reset();
   void Bind(int number, std::int64_t value);
+  void Bind(int number, double value);
+  /// Null if there is none.
+  void Bind(int number, const std::optional<double>& value);
   void Bind(int number, std::string_view value);
   void Bind(int number, std::span<const std::byte> value);
 

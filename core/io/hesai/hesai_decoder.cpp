@@ -134,6 +134,7 @@ std::optional<std::string> RefuseBlock(const HesaiModel& model,
 // Returns why the payload is not a data packet of this sensor, or nothing if it is one.
 std::optional<std::string> RefuseHesai(const HesaiModel& model, std::span<const char> payload) {
   if (auto refusal = RefuseHeader(model.layout, payload)) return refusal;
+  if (!HasRightHesaiChecksums(model.layout, payload)) return std::string(kWrongChecksum);
   if (auto refusal = RefuseTail(model, payload)) return refusal;
   for (std::size_t i = 0; i < model.layout.blocks; ++i) {
     if (auto refusal = RefuseBlock(model, payload, i)) return refusal;

@@ -16,9 +16,9 @@ namespace railcast {
 /// A laser's azimuth is that of its block, plus the laser's own offset, plus the rotation of the
 /// rotor until the laser fires (at the speed that the packet states), unless the sensor has already
 /// accounted for that. A cycle that lacks a loop is left out. A turn ends where the azimuth falls.
-/// Raw distances that say why there is no point, as those of 128E4X below 4 do, give none.
-/// The stamp of a turn counts from 1970-01-01 by the sensor's own clock, or from the start of the
-/// day if that clock has no date.
+/// A packet one of whose checksums is wrong is refused. Raw distances that say why there is no
+/// point, as those of 128E4X below 4 do, give none. The stamp of a turn counts from 1970-01-01 by
+/// the sensor's own clock, or from the start of the day if that clock has no date.
 class HesaiDecoder {
  public:
   /// @param model Must outlive the decoder.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -54,9 +55,9 @@ struct LoopFiring {
 
 struct EncodedLoop {
   std::vector<LoopFiring> firings;
-  double begin_us{};       ///< Since the start of the cycle.
-  double azimuth_us{};     ///< When the rotor is at the block's azimuth, likewise.
-  std::size_t last_row{};  ///< The row that fires last.
+  double begin_us{};    ///< Since the start of the cycle.
+  double azimuth_us{};  ///< When the rotor is at the block's azimuth, likewise.
+  double last_us{};     ///< When the last laser fires, likewise.
 };
 
 /// From the azimuth of a block to the begin of its loop.
@@ -75,7 +76,6 @@ std::vector<EncodedLoop> LoopsOf(const HesaiModel& model, const SpinningSpec& pa
     loop.begin_us =
         1e-3 * static_cast<double>(model.loop_ns) * static_cast<double>(loops.size() - 1);
     loop.azimuth_us = loop.begin_us - turned_us;
-    double last_us = -1.0;
     for (const std::uint8_t laser : lasers) {
       LoopFiring firing{.laser = laser, .row = rows[channel]};
       if (model.near_limits) {
@@ -83,15 +83,45 @@ std::vector<EncodedLoop> LoopsOf(const HesaiModel& model, const SpinningSpec& pa
         firing.sees_near = std::ranges::binary_search(limits.near_lasers, laser);
         firing.near_m = firing.sees_near ? limits.near_m : limits.far_m;
       }
-      if (const double time_us = pattern.channels[channel++].time_us; time_us > last_us) {
-        last_us = time_us;
-        loop.last_row = firing.row;
-      }
+      loop.last_us = std::max(loop.last_us, pattern.channels[channel++].time_us);
       loop.firings.push_back(firing);
     }
   }
   return loops;
 }
+
+/// Which packets are sent: those with a block in which lasers fire. Blocks go on through all turns,
+/// so that the packets of a turn begin where those before it have ended.
+class SentPackets {
+ public:
+  /// @param columns As ColumnsOfCycles() has them.
+  SentPackets(const std::vector<std::uint32_t>& columns,
+              std::size_t blocks_per_cycle,
+              std::size_t blocks_per_packet) {
+    const std::size_t per_turn = columns.size() * blocks_per_cycle;
+    const std::size_t period = per_turn / std::gcd(per_turn, blocks_per_packet);
+    for (std::size_t packet = 0; packet < period; ++packet) {
+      bool fires = false;
+      for (std::size_t i = 0; i < blocks_per_packet; ++i) {
+        const std::size_t block = (packet * blocks_per_packet + i) % per_turn;
+        fires = fires || columns[block / blocks_per_cycle] != kNotFired;
+      }
+      num_before_.push_back(num_before_.back() + (fires ? 1 : 0));
+    }
+  }
+
+  /// Number of packets sent before this one, counted from the first.
+  [[nodiscard]] std::uint64_t NumBefore(std::uint64_t packet) const {
+    const std::uint64_t period = num_before_.size() - 1;
+    return packet / period * num_before_.back() + num_before_[packet % period];
+  }
+  [[nodiscard]] bool IsSent(std::uint64_t packet) const {
+    return NumBefore(packet + 1) > NumBefore(packet);
+  }
+
+ private:
+  std::vector<std::uint64_t> num_before_ = {0};  ///< Of the packets after which all repeats.
+};
 
 class HesaiEncoder final : public FrameEncoder {
  public:
@@ -104,36 +134,42 @@ class HesaiEncoder final : public FrameEncoder {
         rate_hz_(rate_hz),
         blocks_per_loop_(model.IsDual(mode) ? 2 : 1),
         loops_(LoopsOf(model, pattern)),
+        columns_(ColumnsOfCycles(pattern, rate_hz)),
+        num_columns_(FiredCycles(pattern, rate_hz).size()),
+        sent_(columns_, loops_.size() * blocks_per_loop_, model.layout.blocks),
         packet_(model, mode),
         fill_(model.layout.blocks) {}
 
   void Encode(const Frame& frame, Datagrams& datagrams) override {
-    Check(frame.rows == pattern_.channels.size() && frame.columns == pattern_.columns,
+    Check(frame.rows == pattern_.channels.size() && frame.columns == num_columns_,
           "the frame is the scan's");
     Check(frame.returns <= blocks_per_loop_, "frames have the mode's returns");
-    fill_.BeginFrame(frame.index, frame.columns * loops_.size() * blocks_per_loop_);
-    for (std::uint32_t column = 0; column < frame.columns; ++column) {
+    fill_.BeginFrame(frame.index, columns_.size() * loops_.size() * blocks_per_loop_);
+    for (std::uint32_t cycle = 0; cycle < columns_.size(); ++cycle) {
       for (std::size_t loop = 0; loop < loops_.size(); ++loop) {
-        EncodeLoop(frame, column, loop);
-        const std::uint64_t sequence = fill_.num_packets();
-        if (fill_.Add(blocks_per_loop_)) AppendPacket(sequence, datagrams);
+        EncodeLoop(frame, cycle, loop);
+        const std::uint64_t packet = fill_.num_packets();
+        const bool is_whole = fill_.Add(blocks_per_loop_);
+        if (is_whole && sent_.IsSent(packet)) AppendPacket(sent_.NumBefore(packet), datagrams);
       }
     }
   }
 
  private:
-  void EncodeLoop(const Frame& frame, std::uint32_t column, std::size_t index) {
+  // Lasers outside of the azimuth window do not fire, which distance 0 says.
+  void EncodeLoop(const Frame& frame, std::uint32_t cycle, std::size_t index) {
     const EncodedLoop& loop = loops_[index];
-    const double cycle_us = column * pattern_.cycle_us;
+    const double cycle_us = cycle * pattern_.cycle_us;
     const std::int64_t begin_ns = frame.stamp_ns + std::llround(1e3 * (cycle_us + loop.begin_us));
     const std::size_t block = fill_.num_blocks();
     if (block == 0 || !model_.states_first) stated_ns_ = begin_ns - model_.stated_loop_ns;
-    const std::size_t first_slot = std::size_t{column} * frame.returns;
-    last_ns_ = frame.stamp_ns + frame.time_ns[loop.last_row * frame.width() + first_slot];
+    last_ns_ = frame.stamp_ns + std::llround(1e3 * (cycle_us + loop.last_us));
     const double turns = rate_hz_ * (cycle_us + loop.azimuth_us) * 1e-6;
     for (std::size_t i = 0; i < blocks_per_loop_; ++i) {
       packet_.BeginBlock(block + i, index, RotorAzimuth(pattern_.start_azimuth_deg, turns));
     }
+    if (columns_[cycle] == kNotFired) return;
+    const std::size_t first_slot = std::size_t{columns_[cycle]} * frame.returns;
     for (const LoopFiring& firing : loop.firings) {
       StoreFiring(frame, firing.row * frame.width() + first_slot, firing, block);
     }
@@ -205,6 +241,9 @@ class HesaiEncoder final : public FrameEncoder {
   double rate_hz_;
   std::size_t blocks_per_loop_;
   std::vector<EncodedLoop> loops_;
+  std::vector<std::uint32_t> columns_;  ///< As ColumnsOfCycles() has them.
+  std::size_t num_columns_;             ///< Of a frame.
+  SentPackets sent_;
 
   // The packet under construction.
   HesaiPacket packet_;

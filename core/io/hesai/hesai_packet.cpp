@@ -12,8 +12,21 @@ namespace {
 
 constexpr char kFactory = 0x42;
 
-void StoreCrc(std::span<const char> checked, char* place) {
-  StoreAt<std::uint32_t>(place, HesaiCrc(checked));
+/// Bytes of a packet, from begin to end, behind which the checksum of them stands.
+struct CheckedBytes {
+  std::size_t begin{};
+  std::size_t end{};
+};
+
+std::vector<CheckedBytes> CheckedBytesOf(const HesaiLayout& layout) {
+  constexpr std::size_t kCrcSize = 4;
+  if (!layout.checked_size) return {};
+  const std::size_t blocks_end = layout.BlockPlace(layout.blocks);
+  const std::size_t safety = blocks_end + kCrcSize;
+  const std::size_t tail = safety + kHesaiSafetySize;
+  return {{layout.header_size(), blocks_end},
+          {safety + 1, tail - kCrcSize},
+          {tail, *layout.checked_size - kCrcSize}};
 }
 
 }  // namespace
@@ -22,6 +35,19 @@ std::uint32_t HesaiCrc(std::span<const char> bytes) {
   boost::crc_optimal<32, 0x04C11DB7, 0xFFFFFFFF, 0, false, false> crc;
   crc.process_bytes(bytes.data(), bytes.size());
   return crc.checksum();
+}
+
+void StoreHesaiChecksums(const HesaiLayout& layout, std::span<char> packet) {
+  for (const auto [begin, end] : CheckedBytesOf(layout)) {
+    StoreAt<std::uint32_t>(packet.data() + end, HesaiCrc(packet.subspan(begin, end - begin)));
+  }
+}
+
+bool HasRightHesaiChecksums(const HesaiLayout& layout, std::span<const char> packet) {
+  return std::ranges::all_of(CheckedBytesOf(layout), [&](const CheckedBytes& bytes) {
+    const std::span<const char> checked = packet.subspan(bytes.begin, bytes.end - bytes.begin);
+    return LoadAt<std::uint32_t>(packet.data() + bytes.end) == HesaiCrc(checked);
+  });
 }
 
 std::int64_t HesaiStatedNs(const HesaiTail& tail, int year_zero, std::span<const char> packet) {
@@ -95,7 +121,8 @@ std::span<const char> HesaiPacket::Close(const HesaiEnd& end) {
     StoreAt<std::uint32_t>(bytes_.data() + *tail.sequence_place, end.sequence);
   }
   WriteTime(end.time_ns);
-  if (model_->layout.checked_size) WriteChecks(end.time_ns);
+  if (model_->layout.checked_size) WriteSafety(end.time_ns);
+  StoreHesaiChecksums(model_->layout, bytes_);
   return bytes_;
 }
 
@@ -117,25 +144,16 @@ void HesaiPacket::WriteTime(std::int64_t time_ns) {
   StoreAt<std::uint32_t>(bytes_.data() + model_->layout.tail.time_place, us.count());
 }
 
-void HesaiPacket::WriteChecks(std::int64_t time_ns) {
+void HesaiPacket::WriteSafety(std::int64_t time_ns) {
   constexpr std::size_t kCrcSize = 4;
   // "Normal", with a counter that a real sensor raises every 5 ms.
   constexpr std::uint8_t kVersion = 1;
   constexpr std::uint8_t kNormal = 1U << 5U;
   constexpr std::int64_t kCount_ns = 5'000'000;
   const HesaiLayout& layout = model_->layout;
-  char* const start = bytes_.data();
-  const std::size_t blocks_end = layout.BlockPlace(layout.blocks);
-  const std::size_t safety = blocks_end + kCrcSize;
-  const std::size_t tail = safety + kHesaiSafetySize;
-  const std::size_t tail_end = *layout.checked_size - kCrcSize;
-  const std::span<const char> all(bytes_);
-  StoreCrc(all.subspan(layout.header_size(), blocks_end - layout.header_size()),
-           start + blocks_end);
-  StoreAt<std::uint8_t>(start + safety, kVersion);
-  StoreAt<std::uint8_t>(start + safety + 1, kNormal | (time_ns / kCount_ns & 7));
-  StoreCrc(all.subspan(safety + 1, kHesaiSafetySize - 1 - kCrcSize), start + tail - kCrcSize);
-  StoreCrc(all.subspan(tail, tail_end - tail), start + tail_end);
+  char* const safety = bytes_.data() + layout.BlockPlace(layout.blocks) + kCrcSize;
+  StoreAt<std::uint8_t>(safety, kVersion);
+  StoreAt<std::uint8_t>(safety + 1, kNormal | (time_ns / kCount_ns & 7));
 }
 
 }  // namespace railcast

@@ -20,6 +20,14 @@ struct HesaiEnd {
 /// The CRC of Hesai's packets, CRC-32/MPEG-2.
 [[nodiscard]] std::uint32_t HesaiCrc(std::span<const char> bytes);
 
+/// Writes the checksums of the bytes that a packet has, if its layout has any.
+/// @pre The packet has the layout's size.
+void StoreHesaiChecksums(const HesaiLayout& layout, std::span<char> packet);
+
+/// Whether the checksums that a packet states are those of its bytes; true if it has none.
+/// @pre The packet has the layout's size.
+[[nodiscard]] bool HasRightHesaiChecksums(const HesaiLayout& layout, std::span<const char> packet);
+
 /// Returns the time that a packet states, since 1970-01-01, or since the start of the day if it has
 /// no date.
 /// @param year_zero As HesaiModel::year_zero.
@@ -49,7 +57,7 @@ class HesaiPacket {
  private:
   void WriteHeader(std::uint8_t mode);
   void WriteTime(std::int64_t time_ns);
-  void WriteChecks(std::int64_t time_ns);
+  void WriteSafety(std::int64_t time_ns);
 
   const HesaiModel* model_;
   std::vector<char> bytes_;

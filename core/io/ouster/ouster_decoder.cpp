@@ -60,7 +60,7 @@ std::optional<std::string> OusterDecoder::Refuse(std::span<const char> payload) 
     if (refusal) return refusal;
   }
   if (layout_.may_have_checksum() && !HasRightChecksum(payload)) {
-    return "the checksum must be that of its bytes";
+    return std::string(kWrongChecksum);
   }
   return std::nullopt;
 }

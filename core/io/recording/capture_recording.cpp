@@ -67,9 +67,22 @@ class CaptureRecording : public Recording {
         },
         decoder_);
     is_at_end_ = !datagram;
+    if (is_at_end_) info_.left_out = LeftOut();
     for (SensorTurn& turn : turns) {
       if (turn.num_columns() > 0) turns_.push_back(std::move(turn));
     }
+  }
+
+  [[nodiscard]] std::string LeftOut() const {
+    std::string text;
+    const auto add = [&text](std::size_t num, const char* one, const char* several) {
+      if (num == 0) return;
+      text += (text.empty() ? "" : ", ") + NumberText(num) + (num == 1 ? one : several);
+    };
+    add(num_damaged_, " packet with a wrong checksum", " packets with a wrong checksum");
+    add(datagrams_->num_torn(), " datagram that lacks IP fragments",
+        " datagrams that lack IP fragments");
+    return text;
   }
 
   // The payload holds one packet, or several that were captured as one datagram. A packet that the
@@ -77,13 +90,15 @@ class CaptureRecording : public Recording {
   template <typename Decoder>
   void TakePackets(const CapturedDatagram& datagram,
                    Decoder& decoder,
-                   std::vector<SensorTurn>& turns) const {
+                   std::vector<SensorTurn>& turns) {
     std::span<const char> rest = datagram.payload;
     while (!rest.empty()) {
       const std::size_t size = std::min(rest.size(), packet_size_);
       const auto refusal = decoder.Decode(rest.first(size), turns);
+      const bool is_damaged = refusal == kWrongChecksum;
+      num_damaged_ += is_damaged ? 1 : 0;
       const bool is_first = rest.size() == datagram.payload.size();
-      if (refusal && is_first) return;
+      if (refusal && is_first && !is_damaged) return;
       if (size < packet_size_) {
         throw InputError(ShownPath(info_.source) + ": packet " + NumberText(datagram.packet) +
                          ": must hold whole packets of " + name_ + ", of " +
@@ -102,6 +117,7 @@ class CaptureRecording : public Recording {
   std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder> decoder_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
+  std::size_t num_damaged_{};  ///< Packets whose checksum is wrong.
   bool is_at_end_ = false;
 };
 

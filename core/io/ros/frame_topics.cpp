@@ -195,6 +195,12 @@ void FrameTopics::AddClouds(const FrameContent& content,
   }
 }
 
+TopicMessage FrameTopics::PoseAt(std::int64_t time_ns, const Transform& world_from_vehicle) const {
+  const TfMessage pose = {
+      {StampedTransform(time_ns, kMapFrame, kVehicleFrame, MapFromWorld() * world_from_vehicle)}};
+  return {places_.tf, time_ns, ToCdr(pose)};
+}
+
 void FrameTopics::AddMotion(const FrameContent& content,
                             std::vector<TopicMessage>& messages) const {
   const std::int64_t time_ns = content.frame.stamp_ns;
@@ -202,8 +208,7 @@ void FrameTopics::AddMotion(const FrameContent& content,
   const Transform map_from_vehicle = MapFromWorld() * vehicle.world_from_body;
   const Eigen::Matrix3d vehicle_from_world = vehicle.world_from_body.linear().transpose();
   messages.push_back({places_.clock, time_ns, ToCdr(Clock{TimeOf(time_ns)})});
-  const TfMessage pose = {{StampedTransform(time_ns, kMapFrame, kVehicleFrame, map_from_vehicle)}};
-  messages.push_back({places_.tf, time_ns, ToCdr(pose)});
+  messages.push_back(PoseAt(time_ns, vehicle.world_from_body));
   Odometry odometry;
   odometry.header = HeaderAt(time_ns, kMapFrame);
   odometry.child_frame_id = kVehicleFrame;

@@ -98,6 +98,7 @@ struct FrameContent {
 /// | `/SENSOR/points` | PointCloud2 | each frame |
 /// | `/tf_static` | TFMessage | once: from `base_link` to all sensors and the camera |
 /// | `/tf`, `/odometry`, `/clock` | TFMessage, Odometry, Clock | each frame of the first sensor |
+/// | `/tf` | TFMessage | in bags once more, at the end of the last frame |
 /// | `/objects` | SceneUpdate (Foxglove) | each frame: the objects' boxes with their labels |
 /// | `/track` | SceneUpdate (Foxglove) | once: the rails |
 /// | `/CAMERA/image`, `/CAMERA/camera_info` | Image, CameraInfo | each image |
@@ -119,6 +120,10 @@ class FrameTopics {
   /// The messages of a frame.
   /// @throws InputError as MakeCloud() does.
   [[nodiscard]] std::vector<TopicMessage> Of(const FrameContent& content) const;
+  /// The message on `/tf` that says where the vehicle is. Frames have one for their stamps; whoever
+  /// records them adds one for the end of the last, without which that frame's motion is not known.
+  [[nodiscard]] TopicMessage PoseAt(std::int64_t time_ns,
+                                    const Transform& world_from_vehicle) const;
 
  private:
   /// Indices of topics.

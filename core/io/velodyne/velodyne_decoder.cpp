@@ -1,7 +1,6 @@
 #include "core/io/velodyne/velodyne_decoder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,19 +76,24 @@ std::optional<std::string> RefuseVelodyne(const VelodyneModel& model,
   return std::nullopt;
 }
 
-// Takes the rotor's speed from the median step between groups of blocks, so that a gap between two
-// scans does not affect it.
-double SpeedDegPerUs(std::span<const char> payload, std::size_t in_group, double group_us) {
-  std::array<std::int64_t, kBlocksPerPacket> steps{};
-  std::size_t num_steps = 0;
+// From one azimuth to the next, in units; past 0, too.
+std::int64_t StepTo(std::uint16_t azimuth, std::uint16_t before) {
+  const std::int64_t step = std::int64_t{azimuth} - before;
+  return step < 0 ? step + kAzimuthUnitsPerTurn : step;
+}
+
+// Returns the median step between groups of blocks, so that a gap between two turns or the end of
+// an azimuth window does not affect it: of two steps, one of which is such a gap, the other.
+std::int64_t UsualStep(std::span<const char> payload, std::size_t in_group) {
+  std::vector<std::int64_t> steps;
   for (std::size_t i = in_group; i < kBlocksPerPacket; i += in_group) {
-    const std::int64_t step = AzimuthOf(payload.data() + i * kBlockSize) -
-                              AzimuthOf(payload.data() + (i - in_group) * kBlockSize);
-    steps[num_steps++] = step < 0 ? step + kAzimuthUnitsPerTurn : step;
+    steps.push_back(StepTo(AzimuthOf(payload.data() + i * kBlockSize),
+                           AzimuthOf(payload.data() + (i - in_group) * kBlockSize)));
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(num_steps / 2);
-  std::nth_element(steps.begin(), middle, steps.begin() + static_cast<std::ptrdiff_t>(num_steps));
-  return static_cast<double>(*middle) * kAzimuthUnit_deg / group_us;
+  std::ranges::sort(steps);
+  const std::int64_t lower = steps[(steps.size() - 1) / 2];
+  const std::int64_t upper = steps[steps.size() / 2];
+  return lower > 0 && upper > 2 * lower ? lower : upper;
 }
 
 std::vector<LaserCalibration> CalibrationOf(const VelodyneModel& model) {
@@ -146,11 +150,13 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
   const bool is_dual = IsDualPacket(model_, payload);
   const std::size_t in_group = model_.blocks_per_cycle() * (is_dual ? 2U : 1U);
   const double group_us = static_cast<double>(model_.cycles_per_block()) * model_.cycle_us;
-  const double speed_deg_per_us = SpeedDegPerUs(payload, in_group, group_us);
+  const std::int64_t usual_step = UsualStep(payload, in_group);
+  const double speed_deg_per_us = static_cast<double>(usual_step) * kAzimuthUnit_deg / group_us;
   const std::int64_t packet_ns = PacketNs(LoadAt<std::uint32_t>(payload.data() + kTimePlace));
+  std::int64_t group_index = 0;
   for (std::size_t i = 0; i < kBlocksPerPacket; i += in_group) {
     const char* const blocks = payload.data() + i * kBlockSize;
-    const std::size_t group_index = i / in_group;
+    if (i > 0) group_index += GroupsTo(AzimuthOf(blocks), usual_step, 1e3 * group_us);
     const double since_packet_us = static_cast<double>(group_index) * group_us;
     const Group group{.blocks = blocks,
                       .azimuth = AzimuthOf(blocks),
@@ -162,14 +168,37 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
       turns.push_back(TakeUnfinished());
     }
     if (!last_azimuth_) turn_.stamp_ns = group.time_ns;
+    // Only a packet's first group has a time of its own.
+    if (i == 0 && !stated_) stated_ = {group.azimuth, group.time_ns};
     last_azimuth_ = group.azimuth;
+    last_group_ns_ = group.time_ns;
     DecodeGroup(group, speed_deg_per_us);
   }
   return std::nullopt;
 }
 
+std::int64_t VelodyneDecoder::GroupsTo(std::uint16_t azimuth,
+                                       std::int64_t usual_step,
+                                       double group_ns) const {
+  const std::int64_t step = StepTo(azimuth, *last_azimuth_);
+  // A rotor that trembles may seem to step back.
+  constexpr std::int64_t kMostBack = 100;
+  if (2 * step <= 3 * usual_step || step >= kAzimuthUnitsPerTurn - kMostBack) return 1;
+  if (usual_step == 0) return 1;
+  // The speed since the turn began is known better than that of a packet.
+  const auto usual = static_cast<double>(usual_step);
+  double units_per_group = usual;
+  if (stated_ && last_group_ns_ > stated_->time_ns) {
+    units_per_group = group_ns * (*last_azimuth_ - stated_->azimuth) /
+                      static_cast<double>(last_group_ns_ - stated_->time_ns);
+  }
+  return std::llround(static_cast<double>(step) /
+                      std::clamp(units_per_group, 0.5 * usual, 2.0 * usual));
+}
+
 SensorTurn VelodyneDecoder::TakeUnfinished() {
   last_azimuth_.reset();
+  stated_.reset();
   return std::exchange(turn_, {});
 }
 

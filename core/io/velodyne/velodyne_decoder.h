@@ -16,8 +16,10 @@ namespace railcast {
 ///
 /// Each laser has its own azimuth: that of the block, plus the rotation of the rotor until the
 /// laser fires (at the median speed over the packet), plus the laser's own offset. A turn ends
-/// where the azimuth falls. Its stamp counts from the start of the hour in which the first packet
-/// was sent; after 10,000 hours that count starts anew.
+/// where the azimuth falls. Within a packet, the blocks after the gap of an azimuth window are
+/// timed by how far the rotor has turned, to within a firing cycle. The turn's stamp counts from
+/// the start of the hour in which the first packet was sent; after 10,000 hours that count starts
+/// anew.
 class VelodyneDecoder {
  public:
   /// For sensors whose angles are in the data sheet.
@@ -51,8 +53,19 @@ class VelodyneDecoder {
     std::int64_t time_ns{};
     bool is_dual{};
   };
+  /// A group of which a packet states the time: its first.
+  struct StatedGroup {
+    std::uint16_t azimuth{};
+    std::int64_t time_ns{};
+  };
 
   [[nodiscard]] std::int64_t PacketNs(std::uint32_t us_past_hour);
+  /// How many groups the rotor needs to turn from the last one to this azimuth: one, or more where
+  /// a sensor that fires in a window of azimuths has not fired.
+  /// @param usual_step Between groups, in 0.01 deg.
+  [[nodiscard]] std::int64_t GroupsTo(std::uint16_t azimuth,
+                                      std::int64_t usual_step,
+                                      double group_ns) const;
   void DecodeGroup(const Group& group, double speed_deg_per_us);
   void AddPoint(const char* place, TurnPoint point, double azimuth_deg);
 
@@ -60,6 +73,8 @@ class VelodyneDecoder {
   std::vector<Laser> lasers_;
   std::optional<std::int64_t> last_packet_us_;  ///< Continues counting across hours.
   std::optional<std::uint16_t> last_azimuth_;
+  std::optional<StatedGroup> stated_;  ///< The first one of the turn.
+  std::int64_t last_group_ns_{};
   SensorTurn turn_;
 };
 

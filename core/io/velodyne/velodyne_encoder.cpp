@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,12 +27,24 @@ void Store(const CodedReturn& coded, char* place) {
   StoreAt<std::uint8_t>(place + sizeof(std::uint16_t), coded.reflectivity);
 }
 
-/// Returns the azimuth of every column in the units of the packets.
-std::vector<std::uint16_t> ColumnAzimuths(const SpinningSpec& pattern, double rate_hz) {
-  std::vector<std::uint16_t> azimuths;
-  for (std::uint32_t column = 0; column < pattern.columns; ++column) {
-    const double turns = rate_hz * column * pattern.cycle_us * 1e-6;
-    azimuths.push_back(RotorAzimuth(pattern.start_azimuth_deg, turns));
+/// The firing cycles of one azimuth, of which at least one fires: one cycle, or two that share a
+/// block.
+struct CyclesOfAzimuth {
+  std::uint16_t azimuth{};             ///< Where the first of them begins, in the packets' units.
+  std::vector<std::uint32_t> columns;  ///< As ColumnsOfCycles() has them.
+};
+
+std::vector<CyclesOfAzimuth> FiredAzimuths(const SpinningSpec& pattern,
+                                           double rate_hz,
+                                           std::size_t cycles_per_block) {
+  const std::vector<std::uint32_t> columns = ColumnsOfCycles(pattern, rate_hz);
+  const auto step = static_cast<std::uint32_t>(cycles_per_block);
+  std::vector<CyclesOfAzimuth> azimuths;
+  for (std::uint32_t cycle = 0; cycle < columns.size(); cycle += step) {
+    const auto begin = columns.begin() + cycle;
+    if (std::count(begin, begin + step, kNotFired) == step) continue;
+    const double turns = rate_hz * cycle * pattern.cycle_us * 1e-6;
+    azimuths.push_back({RotorAzimuth(pattern.start_azimuth_deg, turns), {begin, begin + step}});
   }
   return azimuths;
 }
@@ -45,7 +58,8 @@ class VelodyneEncoder final : public FrameEncoder {
       : model_(*format.model),
         is_dual_(format.is_dual),
         rows_(RowsByElevation(pattern.channels)),
-        azimuths_(ColumnAzimuths(pattern, rate_hz)) {
+        num_columns_(FiredCycles(pattern, rate_hz).size()),
+        azimuths_(FiredAzimuths(pattern, rate_hz, model_.cycles_per_block())) {
     const auto [first, last] =
         std::ranges::minmax_element(pattern.channels, {}, &ChannelSpec::time_us);
     first_row_ = rows_[static_cast<std::size_t>(first - pattern.channels.begin())];
@@ -57,17 +71,15 @@ class VelodyneEncoder final : public FrameEncoder {
   }
 
   void Encode(const Frame& frame, Datagrams& datagrams) override {
-    Check(frame.rows == rows_.size() && frame.columns == azimuths_.size(),
-          "the frame is the scan's");
+    Check(frame.rows == rows_.size() && frame.columns == num_columns_, "the frame is the scan's");
     Check(frame.returns == 1 || (is_dual_ && frame.returns == 2), "frames have the mode's returns");
     if (!next_position_ns_) {
       const std::int64_t clock_ns = frame.stamp_ns + clock_ahead_ns();
       next_position_ns_ = (clock_ns + kNsPerS - 1) / kNsPerS * kNsPerS - clock_ahead_ns();
     }
-    const auto step = static_cast<std::uint32_t>(model_.cycles_per_block());
-    fill_.BeginFrame(frame.index, azimuths_.size() / step * BlocksPerAzimuth());
-    for (std::uint32_t column = 0; column < frame.columns; column += step) {
-      EncodeCycles(frame, column, column + step);
+    fill_.BeginFrame(frame.index, azimuths_.size() * BlocksPerAzimuth());
+    for (const CyclesOfAzimuth& cycles : azimuths_) {
+      EncodeCycles(frame, cycles);
       if (fill_.Add(BlocksPerAzimuth())) AppendPacket(datagrams);
     }
   }
@@ -83,28 +95,35 @@ class VelodyneEncoder final : public FrameEncoder {
     return model_.blocks_per_cycle() * (is_dual_ ? 2U : 1U);
   }
 
-  // Encodes the blocks of one azimuth: those of one firing cycle, or one block with two cycles.
-  void EncodeCycles(const Frame& frame, std::uint32_t column, std::uint32_t end) {
+  // Encodes the blocks of one azimuth: those of one firing cycle, or one block with two cycles, one
+  // of which may not have fired.
+  void EncodeCycles(const Frame& frame, const CyclesOfAzimuth& cycles) {
+    const std::vector<std::uint32_t>& columns = cycles.columns;
+    if (fill_.num_blocks() == 0) first_ns_ = BeginNs(frame, columns);
     const std::size_t num_blocks = BlocksPerAzimuth();
-    if (fill_.num_blocks() == 0) first_ns_ = FiringNs(frame, first_row_, column);
-    last_ns_ = FiringNs(frame, last_row_, end - 1);
     char* const blocks = packet_.data() + fill_.num_blocks() * kBlockSize;
     for (std::size_t i = 0; i < num_blocks; ++i) {
       const bool is_upper = i % model_.blocks_per_cycle() == 1;
       StoreAt<std::uint16_t>(blocks + i * kBlockSize, is_upper ? kUpperBlockFlag : kLowerBlockFlag);
-      StoreAt<std::uint16_t>(blocks + i * kBlockSize + kAzimuthPlace, azimuths_[column]);
+      StoreAt<std::uint16_t>(blocks + i * kBlockSize + kAzimuthPlace, cycles.azimuth);
     }
     std::size_t place_in_block = 0;
-    for (std::uint32_t c = column; c < end; ++c) {
+    for (const std::uint32_t column : columns) {
+      if (column != kNotFired) last_ns_ = FiringNs(frame, last_row_, column);
       for (std::size_t laser = 0; laser < rows_.size(); ++laser, ++place_in_block) {
         const std::size_t block = place_in_block / kLasersPerBlock;
         char* const place = blocks + block * kBlockSize + kReturnsPlace +
                             place_in_block % kLasersPerBlock * kReturnSize;
-        StoreFiring(frame,
-                    rows_[laser] * std::size_t{frame.width()} + std::size_t{c} * frame.returns,
-                    place);
+        StoreFiring(frame, rows_[laser], column, place);
       }
     }
+  }
+
+  // When the first of these cycles begins, or would.
+  [[nodiscard]] std::int64_t BeginNs(const Frame& frame,
+                                     const std::vector<std::uint32_t>& columns) const {
+    if (columns.front() != kNotFired) return FiringNs(frame, first_row_, columns.front());
+    return FiringNs(frame, first_row_, columns.back()) - std::llround(1e3 * model_.cycle_us);
   }
 
   [[nodiscard]] CodedReturn CodeReturn(const Frame& frame, std::size_t slot) const {
@@ -113,13 +132,18 @@ class VelodyneEncoder final : public FrameEncoder {
     return {distance, ReflectivityByte(frame.intensity[slot])};
   }
 
-  void StoreFiring(const Frame& frame, std::size_t slot, char* place) const {
-    const CodedReturn strongest = CodeReturn(frame, slot);
+  void StoreFiring(const Frame& frame, std::size_t row, std::uint32_t column, char* place) const {
+    CodedReturn strongest;
+    CodedReturn other;
+    if (column != kNotFired) {
+      const std::size_t slot = row * frame.width() + std::size_t{column} * frame.returns;
+      strongest = CodeReturn(frame, slot);
+      if (frame.returns == 2) other = CodeReturn(frame, slot + 1);
+    }
     if (!is_dual_) {
       Store(strongest, place);
       return;
     }
-    const CodedReturn other = frame.returns == 2 ? CodeReturn(frame, slot + 1) : CodedReturn{};
     const CodedPair pair = LastAndOther(strongest, other, 1);
     Store(pair.last, place);
     Store(pair.other, place + kBlockSize);
@@ -141,7 +165,8 @@ class VelodyneEncoder final : public FrameEncoder {
   const VelodyneModel& model_;
   bool is_dual_;
   std::vector<std::uint16_t> rows_;  // Row of each laser.
-  std::vector<std::uint16_t> azimuths_;
+  std::size_t num_columns_;
+  std::vector<CyclesOfAzimuth> azimuths_;
   std::size_t first_row_{};  // The row that fires first in a cycle.
   std::size_t last_row_{};
 

@@ -82,6 +82,7 @@ struct SequenceOfLine {
   std::string scenario_hash;
   std::uint64_t points{};
   std::uint32_t num_frames{};
+  std::string bag{};  ///< That holds its clouds, relative to the folder; empty = none.
 };
 
 /// A line of scenarios.jsonl.
@@ -98,6 +99,7 @@ ScenarioLine ReadScenarioLine(const PlacedLine& line) {
       read.sequences.push_back({sequence.at("folder"), sequence.at("manifest_xxh3"),
                                 sequence.at("data_xxh3"), sequence.at("scenario_xxh3"),
                                 sequence.at("points"), sequence.at("num_frames")});
+      if (sequence.contains("bag")) read.sequences.back().bag = sequence.at("bag").at("path");
     }
     if (json.contains("sensors_xxh3")) {
       read.sensors_hash = json.at("sensors_xxh3").get<std::string>();
@@ -136,6 +138,11 @@ class ScenarioVerifier : private Findings {
     }
     for (const SequenceOfLine& sequence : line.sequences) CheckSequence(sequence);
     if (!line.sensors_hash) return;
+    // That of all sensors stands beside their folders.
+    for (const SequenceOfLine& sequence : line.sequences) {
+      if (sequence.bag.empty()) continue;
+      bag_ = (fs::path(sequence.folder) / sequence.bag).lexically_normal().generic_string();
+    }
     CheckHash(dataset_ / folder_ / kSensorsFile, *line.sensors_hash, line_.place);
     Try([&] {
       const auto merged = MergedFolderIn(dataset_ / folder_);
@@ -181,6 +188,7 @@ class ScenarioVerifier : private Findings {
   void FindOthers() {
     ForEachFileBelow(dataset_ / folder_, dataset_, sequences_, [&](const std::string& name) {
       if (name == folder_ + "/" + std::string(kSensorsFile)) return;
+      if (!bag_.empty() && (name == bag_ || name.starts_with(bag_ + "/"))) return;
       faults_.Add({ShownPath(dataset_ / name), "belongs to no sequence of the scenario", ""});
     });
   }
@@ -190,6 +198,7 @@ class ScenarioVerifier : private Findings {
   std::string folder_;
   const PlacedLine& line_;
   NameSet sequences_;
+  std::string bag_;  ///< Of the scenario's sensors, if there is one, relative to the data set.
 };
 
 }  // namespace

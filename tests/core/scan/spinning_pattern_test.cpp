@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "tests/core/scan/pattern_angles.h"
 
@@ -64,6 +66,59 @@ TEST(SpinningPattern, TurnsLeftFromItsStartWhereAskedTo) {
   EXPECT_NEAR(AzimuthInDegrees(pattern, 0), 30.0, kFloatAngle_deg);
   EXPECT_NEAR(AzimuthInDegrees(pattern, 1), 30.0 + 0.09 + 1.5, kFloatAngle_deg);
   EXPECT_NEAR(AzimuthInDegrees(pattern, 3), 30.36, kFloatAngle_deg);
+}
+
+/// What a pattern does at each of its firings.
+std::vector<std::array<float, 4>> FiringsOf(const ScanPattern& pattern) {
+  std::vector<std::array<float, 4>> firings;
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    firings.push_back({pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i],
+                       static_cast<float>(pattern.time_ns[i])});
+  }
+  return firings;
+}
+
+TEST(SpinningPattern, FiresInItsWindowAsItWouldWithoutOne) {
+  const ScanPattern whole = BuildScanPattern({.rate_hz = 10.0, .pattern = ThreeChannels()});
+  SpinningSpec spec = ThreeChannels();
+  spec.azimuth_window_deg = {{36.0, 72.0}};
+  const ScanPattern window = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
+  // 0.36 deg a cycle: the window begins with cycle 100, and cycle 200 begins where it ends.
+  EXPECT_EQ(window.columns, 100U);
+  ASSERT_EQ(window.num_firings(), 300U);
+  const auto all = FiringsOf(whole);
+  EXPECT_EQ(FiringsOf(window), std::vector(all.begin() + 300, all.begin() + 600));
+  EXPECT_EQ(window.column.back(), 99U);
+}
+
+TEST(SpinningPattern, FiresOnBothSidesOfZeroIfItsWindowBeginsBefore) {
+  const ScanPattern whole = BuildScanPattern({.rate_hz = 10.0, .pattern = ThreeChannels()});
+  SpinningSpec spec = ThreeChannels();
+  spec.azimuth_window_deg = {{324.0, 36.0}};
+  const ScanPattern window = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
+  auto expected = FiringsOf(whole);
+  expected.erase(expected.begin() + 300, expected.begin() + 2700);
+  EXPECT_EQ(FiringsOf(window), expected);
+  // Begun where the window does, the frame is of one piece.
+  spec.start_azimuth_deg = 324.0;
+  const ScanPattern piece = BuildScanPattern({.rate_hz = 10.0, .pattern = spec});
+  EXPECT_EQ(piece.columns, 200U);
+  EXPECT_EQ(piece.time_ns.back(), 19'925'000U);
+}
+
+TEST(SpinningPattern, RefusesWindowsThatCannotBe) {
+  const auto faults_of = [](double begin_deg, double end_deg) {
+    SpinningSpec spec = ThreeChannels();
+    spec.azimuth_window_deg = {{begin_deg, end_deg}};
+    return FaultsOf(spec);
+  };
+  EXPECT_EQ(faults_of(-1.0, 370.0),
+            "/pattern/azimuth_window_deg/0: must be >= 0 and <= 360 (got -1)\n"
+            "/pattern/azimuth_window_deg/1: must be >= 0 and <= 360 (got 370)");
+  EXPECT_EQ(faults_of(90.0, 90.0),
+            "/pattern/azimuth_window_deg: must begin and end at two azimuths (got 90)");
+  EXPECT_EQ(faults_of(0.1, 0.3),
+            "/pattern/azimuth_window_deg: must have the begin of a firing cycle");
 }
 
 TEST(SpinningPattern, RefusesChannelsThatCannotBe) {

@@ -169,7 +169,7 @@ TEST(OusterScan, BringsTheRangeAndBeamOfItsProductLine) {
   UseOusterMetadata(MadeOusterMetadataText("RNG19_RFL8_SIG16_NIR16_DUAL"), lidar);
   EXPECT_EQ(lidar.name, "OS-1-4");
   EXPECT_EQ(lidar.receiver.return_mode, ReturnMode::kDual);
-  EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 45.0);
+  EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 55.0);
   // 0.18 deg at half maximum; between 1/e^2 points 2 / 1.1774 as wide.
   EXPECT_NEAR(lidar.beam.divergence_mrad[0], 1e3 * RadFromDeg(0.18) * 2.0 / 1.17741, 1e-4);
   nlohmann::ordered_json unknown = MadeOusterMetadata();

@@ -48,7 +48,8 @@ TEST_F(OusterPreset, HasTheScanOfTheMetadataAndWhatTheScenarioSays) {
   EXPECT_EQ(lidar.scan.phase_s, 0.02);
   EXPECT_EQ(std::get<SpinningSpec>(lidar.scan.pattern).channels.size(), 4U);
   EXPECT_EQ(lidar.range_max_m, 77.0);
-  EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 45.0);
+  EXPECT_EQ(lidar.receiver.range_at_10_percent_m, 55.0);
+  EXPECT_EQ(lidar.plausibility.reference_range_m, 55.0);
   EXPECT_EQ(lidar.name, "OS-1-4");
 }
 

@@ -158,7 +158,9 @@ TEST_F(Bags, HaveTheTopicsOfTheRun) {
   const ReadBag bag = Read(Make("bag", "--format mcap " + frames_) / "frames.mcap");
   EXPECT_THAT(TopicsOf(bag), ElementsAre("/beams/points", "/clock", "/objects", "/odometry", "/tf",
                                          "/tf_static", "/track"));
-  EXPECT_EQ(bag.messages.at("/tf").size(), kNumFrames);
+  // One more at the end of the last frame.
+  EXPECT_EQ(bag.messages.at("/tf").size(), kNumFrames + 1);
+  EXPECT_EQ(bag.times_ns.at("/tf").back(), 500'030'000);
   EXPECT_EQ(bag.messages.at("/tf_static").size(), 1U);
   EXPECT_THAT(bag.attachments,
               ElementsAre("scenario.resolved.json", "labels.json", "manifest.json"));
@@ -169,6 +171,30 @@ TEST_F(Bags, HaveTheTopicsOfTheRun) {
   // Two rails of 1 km, with a point every 5 m.
   ASSERT_EQ(track.entities.at(0).lines.size(), 2U);
   EXPECT_EQ(track.entities[0].lines[0].points.size(), 201U);
+}
+
+// Of two sensors, of which the second's last frame ends later; the poses are those of poses.csv.
+TEST_F(Bags, HaveThePosesOfAllFrames) {
+  AddSensor();
+  auto scenario = nlohmann::ordered_json::parse(ReadFileWhole(scenario_));
+  scenario["vehicle"]["motion"] = {{"profile", {{{"time_s", 0}, {"speed_mps", 30}}}}};
+  WriteFileWhole(scenario_, scenario.dump());
+  for (const std::string name : {"mcap", "rosbag2"}) {
+    const fs::path run = Make(name, "--format " + name + " " + frames_);
+    const fs::path bag = run / (name == "mcap" ? "frames.mcap" : "rosbag2");
+    for (const std::string sensor : {"front", "rear"}) {
+      const auto frames = ReadAll(bag.string() + ":/" + sensor + "/points");
+      const auto expected = ReadAll(run / sensor);
+      ASSERT_EQ(frames.size(), expected.size());
+      for (std::size_t i = 0; i < frames.size(); ++i) {
+        EXPECT_TRUE(frames[i].has_pose) << sensor << " " << i;
+        const Frame& frame = frames[i].frame;
+        const Frame& other = expected[i].frame;
+        EXPECT_TRUE(frame.world_from_sensor.isApprox(other.world_from_sensor, 1e-11));
+        EXPECT_TRUE(frame.world_from_sensor_end.isApprox(other.world_from_sensor_end, 1e-11));
+      }
+    }
+  }
 }
 
 TEST_F(Bags, HoldTheSameMessagesInEitherFormat) {
@@ -322,8 +348,8 @@ TEST_F(Bags, AreReadByFoxglovesMcapLibrary) {
   if (found.is_null()) GTEST_SKIP() << "node or npm's @mcap/core and others are missing";
   ExpectTheRun(found, out / "manifest.json");
   EXPECT_EQ(found["profile"], "ros2");
-  // One for what is said once, one for each frame.
-  EXPECT_EQ(found["chunks"], 7);
+  // One for what is said once, one for each frame, and one for the pose at the end.
+  EXPECT_EQ(found["chunks"], 8);
   EXPECT_EQ(found["attachments"],
             nlohmann::json({"scenario.resolved.json", "labels.json", "manifest.json"}));
 }

@@ -106,6 +106,9 @@ struct RecordingInfo {
   std::optional<ScenarioSpec> scenario;  ///< railcast sequences only, as resolved.
   /// railcast sequences only, including those in KITTI's format.
   std::optional<SequenceOrigin> origin;
+  /// What of a capture was left out because it was damaged: "3 packets with a wrong checksum".
+  /// Known once Next() has returned nothing; empty until then, and if nothing was left out.
+  std::string left_out{};
 };
 
 /// Reads frames one after another from a sequence directory, cloud files or a capture.

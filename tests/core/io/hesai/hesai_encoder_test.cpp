@@ -16,6 +16,7 @@
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/hesai/hesai_packet.h"
 #include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/io/hesai/sent_turns.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
@@ -24,42 +25,6 @@ namespace railcast {
 namespace {
 
 constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
-
-std::string FileOf(const HesaiModel& model) {
-  std::string name(model.protocol);
-  std::ranges::replace(name, '-', '_');
-  return name;
-}
-
-Datagrams Encoded(const HesaiModel& model,
-                  const MadeScan& scan,
-                  const std::vector<Frame>& frames,
-                  ReturnMode mode = ReturnMode::kStrongest) {
-  const auto encoder = MakeHesaiEncoder(model, scan.spec(), mode);
-  Datagrams datagrams;
-  for (const Frame& frame : frames) encoder->Encode(frame, datagrams);
-  return datagrams;
-}
-
-/// Returns the turns in these datagrams, the last of which may be unfinished.
-std::vector<SensorTurn> TurnsIn(const HesaiModel& model, const Datagrams& datagrams) {
-  HesaiDecoder decoder(model);
-  std::vector<SensorTurn> turns;
-  for (const Datagrams::Item& item : datagrams.items) {
-    EXPECT_EQ(decoder.Decode(datagrams.BytesOf(item), turns), std::nullopt);
-  }
-  turns.push_back(decoder.TakeUnfinished());
-  return turns;
-}
-
-struct SentAs {
-  std::string protocol;
-  ReturnMode mode{};
-};
-
-void PrintTo(const SentAs& sending, std::ostream* out) {
-  *out << sending.protocol << " " << NameOf(sending.mode);
-}
 
 class HesaiRoundTrip : public testing::TestWithParam<SentAs> {
  protected:
@@ -172,19 +137,6 @@ TEST_P(HesaiRoundTrip, GivesThePointsOfTheFrames) {
     }
   }
   EXPECT_EQ(num_points, num_expected);
-}
-
-std::vector<SentAs> Sendings() {
-  std::vector<SentAs> sendings;
-  std::string last;
-  for (const HesaiModel& model : HesaiModels()) {
-    if (model.protocol == last) continue;
-    last = model.protocol;
-    for (const ReturnMode mode : {ReturnMode::kStrongest, ReturnMode::kDual}) {
-      sendings.push_back({last, mode});
-    }
-  }
-  return sendings;
 }
 
 INSTANTIATE_TEST_SUITE_P(

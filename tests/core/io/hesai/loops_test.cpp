@@ -76,11 +76,26 @@ std::vector<char> LoopPacket(std::size_t loop, std::uint16_t azimuth, std::uint3
 SensorTurn TurnOf(const std::vector<std::vector<char>>& packets) {
   HesaiDecoder decoder(Qt128Model());
   std::vector<SensorTurn> turns;
-  for (const std::vector<char>& packet : packets) {
+  for (std::vector<char> packet : packets) {
+    StoreHesaiChecksums(Qt128Model().layout, packet);
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   }
   EXPECT_TRUE(turns.empty());
   return decoder.TakeUnfinished();
+}
+
+TEST(Qt128Decoder, RefusesAPacketWithAWrongChecksum) {
+  const std::vector<char> packet = MadePacket(Qt128Model());
+  HesaiDecoder decoder(Qt128Model());
+  std::vector<SensorTurn> turns;
+  EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  // A byte that no checksum covers, and one that each of the three does, or is one.
+  for (const std::size_t place : {1044U, 12U, 1039U, 1040U, 1045U, 1060U, 1061U, 1090U, 1094U}) {
+    std::vector<char> damaged = packet;
+    damaged[place] ^= 1;
+    EXPECT_EQ(decoder.Decode(damaged, turns).value_or(""), place == 1044 ? "" : kWrongChecksum)
+        << place;
+  }
 }
 
 // Laser 65 of the manual fires 1.456 us after loop 1 began and 0.6 us after loop 2 did.

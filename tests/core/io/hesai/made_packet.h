@@ -8,6 +8,7 @@
 
 #include "core/io/field_layout.h"
 #include "core/io/hesai/hesai_model.h"
+#include "core/io/hesai/hesai_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
@@ -58,6 +59,7 @@ inline std::vector<char> MadePacket(const HesaiModel& model = Pandar64Model(),
   packet[layout.tail.mode_place] = static_cast<char>(mode);
   const std::array<std::uint8_t, 6> date = {100, 1, 2, 0, 0, 3};
   std::ranges::copy(date, packet.begin() + static_cast<std::ptrdiff_t>(layout.tail.date_place));
+  StoreHesaiChecksums(layout, packet);
   return packet;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/io/hesai/hesai_encoder.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -177,6 +178,7 @@ TEST(CaptureRecording, OfARealQt128HasTwoTurnsInDualMode) {
   EXPECT_EQ(frames[1].frame.rows, 192U);
   EXPECT_EQ(frames[1].frame.returns, 2U);
   EXPECT_EQ(NumPoints(frames[1].frame), 88'495U);
+  EXPECT_EQ(recording->info().left_out, "") << "all 1,800 packets have their three checksums";
 }
 
 TEST(CaptureRecording, OfARealVls128HasThreeWholeTurns) {
@@ -245,6 +247,29 @@ TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
             "(got datagrams of protocol railcast, which railcast-analyze receive records)");
   EXPECT_EQ(MessageOfCapture({"\xEE\xFF" + std::string(1078, '\1')}),
             "(got packets of 1080 bytes of a Hesai sensor)");
+}
+
+TEST(CaptureRecording, LeavesOutPacketsWithAWrongChecksumAndCountsThem) {
+  const ScanSpec scan = ReadSensor("qt128");
+  const auto encoder = MakeHesaiEncoder(*FindHesaiModel("qt128"), scan, ReturnMode::kStrongest);
+  Datagrams datagrams;
+  encoder->Encode(MadeScan(scan).MakeFrame(0), datagrams);
+  ASSERT_EQ(datagrams.items.size(), 450U);
+  const TemporaryDirectory directory;
+  const auto capture = [&](const std::string& name) {
+    WriteCapture(directory.path() / name, datagrams);
+    return OpenRecording(directory.path() / name);
+  };
+  const auto sound = capture("sound.pcap");
+  EXPECT_EQ(ReadAll(*sound).at(0).frame.columns, 450U);
+  EXPECT_EQ(sound->info().left_out, "");
+  // A byte of the blocks, one of the functional safety, and one of the tail.
+  for (const std::size_t place : {500U, 1050U, 1080U}) {
+    datagrams.bytes[datagrams.items[place / 5].offset + place] ^= 1;
+  }
+  const auto damaged = capture("damaged.pcap");
+  EXPECT_EQ(ReadAll(*damaged).at(0).frame.columns, 447U);
+  EXPECT_EQ(damaged->info().left_out, "3 packets with a wrong checksum");
 }
 
 TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {

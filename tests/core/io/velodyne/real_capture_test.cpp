@@ -178,18 +178,41 @@ TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   pcl::PointCloud<pcl::PointXYZ> theirs;
   ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp32c_single_decoded.pcd").string(), theirs), 0);
   ASSERT_EQ(theirs.size(), 26'216U);
-  // The sensor scanned from 270 to 93 deg; the published cloud is the first such sector, in which
-  // the azimuth passes 0.
+  // The sensor scanned from 270 to 91 deg; the published cloud is the first such sector, in which
+  // the azimuth passes 0. It ends with a packet, of which four blocks are of the next sector.
   constexpr std::int64_t kHalfTurn_ns = 50'000'000;
+  const auto num_columns =
+      4 + std::ranges::count_if(turns[1].column_time_ns,
+                                [](std::int64_t time_ns) { return time_ns < kHalfTurn_ns; });
   std::vector<TurnPoint> sector = turns[0].points;
   std::ranges::copy_if(turns[1].points, std::back_inserter(sector),
-                       [](const TurnPoint& point) { return point.time_ns < kHalfTurn_ns; });
+                       [&](const TurnPoint& point) { return point.column < num_columns; });
   const Comparison comparison = Compare(theirs, sector, model);
   EXPECT_EQ(comparison.matched_share, 1.0) << comparison;
   EXPECT_LT(comparison.last_block_share, 1.0 / 12.0) << comparison;
   EXPECT_LT(comparison.median_deg, 0.005) << comparison;
   // Nebula's firing times turn the median laser of this sensor by a further 0.07 deg, at 5 m.
   EXPECT_LT(comparison.median_mm, 6.0) << comparison;
+}
+
+// Four of its packets hold blocks before and behind the gap of the window, in which the rotor turns
+// on for 900 firing cycles. The packet after each says when it begins, and so when these blocks
+// were.
+TEST(RealCapture, HasTheTimesOfTheBlocksBehindTheGapOfItsWindow) {
+  const auto file = VelodyneCapture("vlp32c_single.pcap");
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  std::size_t num_gaps = 0;
+  for (const SensorTurn& turn : DecodeCapture(file, *FindVelodyneFormat("vlp32c").model)) {
+    for (std::size_t i = 1; i < turn.num_columns(); ++i) {
+      const double cycles =
+          static_cast<double>(turn.column_time_ns[i] - turn.column_time_ns[i - 1]) / 55'296.0;
+      const bool is_gap = cycles > 100.0;
+      num_gaps += is_gap ? 1 : 0;
+      // To within a cycle, and the microsecond that packets state.
+      ASSERT_NEAR(cycles, is_gap ? 900.0 : 1.0, 1.05) << i;
+    }
+  }
+  EXPECT_EQ(num_gaps, 5U);
 }
 
 // The published cloud is the second turn, the first whole one. Nebula derives the speed from the

@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
+#include <string>
+#include <tuple>
 
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
@@ -70,11 +74,19 @@ std::vector<Expected> PointsOf(const Frame& frame,
   return points;
 }
 
-class DecodedFormat : public testing::TestWithParam<const char*> {};
+using Window = std::optional<std::array<double, 2>>;
+
+ScanSpec InWindow(ScanSpec scan, const Window& window_deg) {
+  std::get<SpinningSpec>(scan.pattern).azimuth_window_deg = window_deg;
+  return scan;
+}
+
+class DecodedFormat : public testing::TestWithParam<std::tuple<const char*, Window>> {};
 
 TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
-  const std::string_view format = GetParam();
-  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  const std::string_view format = std::get<0>(GetParam());
+  const Window& window_deg = std::get<1>(GetParam());
+  const MadeScan scan(InWindow(ReadSensor(std::string(SensorOf(format))), window_deg));
   const VelodyneModel& model = *FindVelodyneFormat(format).model;
   const std::uint32_t returns = format == "vlp16-dual" ? 2 : 1;
   std::vector<Frame> frames;
@@ -86,7 +98,9 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
   // between the frames.
   const double gap_us =
       1e6 / scan.spec().rate_hz - scan.spinning().columns * scan.spinning().cycle_us;
-  const std::int64_t time_tolerance_ns = 1001 + std::lround(1e3 * gap_us);
+  // After the gap of a window it is taken from the rotor's azimuth.
+  const double window_us = window_deg ? scan.spinning().cycle_us : 0.0;
+  const std::int64_t time_tolerance_ns = 1001 + std::lround(1e3 * (gap_us + window_us));
   // Azimuths and the steps between blocks are rounded to 0.01 deg.
   constexpr double kAzimuthTolerance_deg = 0.02;
   for (std::size_t t = 0; t < turns.size(); ++t) {
@@ -94,7 +108,8 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
     const auto expected = PointsOf(frame, scan, model);
     const auto& points = turns[t].points;
     ASSERT_EQ(points.size(), expected.size());
-    EXPECT_LT(std::abs(turns[t].stamp_ns - frame.stamp_ns), time_tolerance_ns);
+    const std::int64_t begin_ns = frame.stamp_ns + *std::ranges::min_element(frame.time_ns);
+    EXPECT_LT(std::abs(turns[t].stamp_ns - begin_ns), time_tolerance_ns);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const std::size_t slot = expected[i].slot;
       ASSERT_EQ(points[i].laser, expected[i].laser);
@@ -102,7 +117,8 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
       ASSERT_EQ(points[i].return_index, expected[i].return_index);
       ASSERT_EQ(points[i].intensity, ReflectivityByte(frame.intensity[slot]));
       ASSERT_NEAR(points[i].range_m, frame.range_m[slot], 0.5 * model.distance_unit_m + 2e-5);
-      ASSERT_LT(std::abs(points[i].time_ns - frame.time_ns[slot]), time_tolerance_ns);
+      const std::int64_t fired_ns = turns[t].stamp_ns + points[i].time_ns - frame.stamp_ns;
+      ASSERT_LT(std::abs(fired_ns - frame.time_ns[slot]), time_tolerance_ns);
       const double azimuth_deg = DegFromRad(static_cast<double>(points[i].azimuth_rad));
       ASSERT_LT(std::abs(std::remainder(azimuth_deg - MadeScan::AzimuthOf(frame, slot), 360.0)),
                 kAzimuthTolerance_deg);
@@ -115,14 +131,35 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(VelodyneDecoder,
-                         DecodedFormat,
-                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
+// A window that begins within a block of VLP-16, and one over 0.
+INSTANTIATE_TEST_SUITE_P(
+    VelodyneDecoder,
+    DecodedFormat,
+    testing::Combine(testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"),
+                     testing::Values(Window{}, Window{{100.3, 200.0}}, Window{{300.0, 60.0}})),
+    [](const auto& test) {
+      std::string name = std::get<0>(test.param);
+      std::erase(name, '-');
+      const Window& window_deg = std::get<1>(test.param);
+      return window_deg ? name + "From" + std::to_string(std::lround((*window_deg)[0])) : name;
+    });
+
+TEST(VelodynePackets, OfAWindowAreAsManyAsItsBlocksFill) {
+  const MadeScan scan(InWindow(ReadSensor("vlp16"), {{90.0, 180.0}}));
+  const Datagrams datagrams =
+      EncodeAll("vlp16", scan, {scan.MakeFrame(0), scan.MakeFrame(1), scan.MakeFrame(2)});
+  const auto packets = DataPackets(datagrams);
+  // The cycles 453 to 904 of 0.199066 deg each begin in the window. They take the blocks of two
+  // cycles from 226 to 452, of which both ends have a cycle that has not fired.
+  EXPECT_EQ(packets.size(), std::size_t{3 * 227 / 12});
+  for (const auto& packet : packets) {
+    for (std::size_t block = 0; block < kBlocksPerPacket; ++block) {
+      const auto azimuth =
+          LoadAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace);
+      ASSERT_TRUE(azimuth >= 8'998 && azimuth <= 17'996) << azimuth;
+    }
+  }
+}
 
 /// Returns a valid VLP-16 packet.
 std::vector<char> SoundPacket(std::string_view format = "vlp16") {

@@ -1,0 +1,113 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "core/io/verify/dataset_verification.h"
+#include "generator/dataset/merge_shards.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/dataset/recipe_project.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// Data sets of two sensors, or of one, whose clouds are in bags of ROS 2.
+class DatasetOfBags : public testing::TestWithParam<const char*> {
+ protected:
+  [[nodiscard]] fs::path Path(const std::string& name) const { return directory_.path() / name; }
+  [[nodiscard]] DatasetChoices Choices(const std::string& name, const Shard& shard = {}) const {
+    DatasetChoices choices = OnOneThread(Path(name), shard);
+    choices.format = GetParam();
+    return choices;
+  }
+  void Make(const std::string& name, const Shard& shard = {}) const {
+    EXPECT_TRUE(RunDataset(recipe_, Choices(name, shard), NoDatasetHooks()).is_complete);
+  }
+  [[nodiscard]] std::vector<std::string> FaultsOf(const std::string& name) const {
+    return VerifyDataset(Path(name), [](double) {}).faults;
+  }
+  [[nodiscard]] std::string BagName() const {
+    return GetParam() == std::string("mcap") ? "frames.mcap" : "rosbag2";
+  }
+
+  const TemporaryDirectory directory_;
+  Recipe recipe_ = ReadProjectRecipe(directory_.path() / "project", RecipeOfTwoSensors());
+};
+
+INSTANTIATE_TEST_SUITE_P(Formats, DatasetOfBags, testing::Values("mcap", "rosbag2"));
+
+TEST_P(DatasetOfBags, SaysInItsIndexWhereTheCloudsAre) {
+  Make("set");
+  std::istringstream lines(ReadFileWhole(Path("set/index.jsonl")));
+  std::size_t num_lines = 0;
+  for (std::string line; std::getline(lines, line); ++num_lines) {
+    const Json frame = Json::parse(line);
+    const std::string sensor = frame.at("sensor");
+    EXPECT_EQ(frame.at("files"), Json::array());
+    EXPECT_EQ(frame.at("bag"),
+              Json({{"path", "../" + BagName()}, {"topics", {"/" + sensor + "/points"}}}));
+    const fs::path bag = Path("set") / frame.at("folder").get<std::string>() / "..";
+    EXPECT_TRUE(fs::exists(bag / BagName()));
+  }
+  EXPECT_EQ(num_lines, 3U * (2 + 4));
+  EXPECT_THAT(FaultsOf("set"), IsEmpty());
+}
+
+TEST_P(DatasetOfBags, IsTheSameOfShardsAndIsWholeThen) {
+  Make("whole");
+  Make("a", {1, 2});
+  Make("b", {2, 2});
+  EXPECT_EQ(MergeShards({Path("a"), Path("b")}, Path("merged"), [](auto, auto) {}), 3U);
+  EXPECT_EQ(FilesOfDataset(Path("merged")), FilesOfDataset(Path("whole")));
+  EXPECT_THAT(FaultsOf("merged"), IsEmpty());
+}
+
+TEST_P(DatasetOfBags, HasTheSameBytesAfterAnInterruption) {
+  Make("whole");
+  for (const int after : {2, 7, 11}) {
+    const std::string name = "stopped_" + std::to_string(after);
+    std::atomic<int> num_asked = 0;
+    const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > after; }};
+    (void)RunDataset(recipe_, Choices(name), hooks);
+    Make(name);
+    EXPECT_EQ(FilesOfDataset(Path(name)), FilesOfDataset(Path("whole"))) << after;
+  }
+}
+
+TEST_P(DatasetOfBags, HasThePointsOfOneOfFiles) {
+  recipe_ = ReadProjectRecipe(directory_.path() / "other", ProjectRecipe());
+  Make("bags");
+  (void)MakeDataset(recipe_, Path("files"));
+  const DatasetContent content = ReadDatasetContent(Path("bags"));
+  const auto sequences = FinishedSequences(Path("bags"), content);
+  ASSERT_EQ(sequences.size(), 6U);
+  for (const fs::path& sequence : sequences) {
+    const auto frames = ReadAll(sequence);
+    const auto expected = ReadAll(Path("files") / sequence.lexically_relative(Path("bags")));
+    ASSERT_EQ(frames.size(), expected.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      EXPECT_EQ(frames[i].frame.label, expected[i].frame.label);
+      EXPECT_EQ(frames[i].frame.time_ns, expected[i].frame.time_ns);
+    }
+  }
+  EXPECT_THAT(FaultsOf("bags"), IsEmpty());
+}
+
+TEST_P(DatasetOfBags, IsNotWholeWithAStrangerBesideABag) {
+  Make("set");
+  WriteFileWhole(Path("set/sequences/000/000001/frames.mcap.old"), "x");
+  EXPECT_THAT(FaultsOf("set"),
+              ElementsAre(Path("set/sequences/000/000001/frames.mcap.old").string() +
+                          ": belongs to no sequence of the scenario"));
+}
+
+}  // namespace
+}  // namespace railcast
