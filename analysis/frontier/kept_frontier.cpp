@@ -76,6 +76,7 @@ std::string BytesOf(const Frame& frame) {
   writing.Visit(&frame.rows, 1);
   writing.Visit(&frame.columns, 1);
   writing.Visit(&frame.returns, 1);
+  writing.Visit(&frame.has_velocity, 1);
   VisitFrame(writing, frame);
   return std::move(writing.bytes);
 }
@@ -89,6 +90,7 @@ Frame FrameOfBytes(const std::string& bytes) {
   reading.Visit(&columns, 1);
   reading.Visit(&returns, 1);
   Frame frame;
+  reading.Visit(&frame.has_velocity, 1);
   frame.Resize(rows, columns, returns);
   VisitFrame(reading, frame);
   Check(reading.is_whole && reading.bytes.empty(), "a kept frame is whole");

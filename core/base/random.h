@@ -25,6 +25,7 @@ enum class RandomUse : std::uint32_t {
   kSpray = 15,
   kSensorKey = 16,
   kFogPatches = 17,
+  kVelocity = 18,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

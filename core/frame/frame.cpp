@@ -13,6 +13,9 @@ void Frame::Resize(std::uint32_t new_rows, std::uint32_t new_columns, std::uint3
   ForEachField(*this, [this](std::string_view, std::string_view, auto& values) {
     values.resize(num_slots());
   });
+  if (has_velocity) return;
+  radial_velocity_mps.clear();
+  true_radial_velocity_mps.clear();
 }
 
 const Label* LabelTable::Find(std::string_view name) const {

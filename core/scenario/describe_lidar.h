@@ -182,6 +182,16 @@ void Describe(Archive& a, CoverSpec& s) {
   a.Optional("snow_diameter_mm", s.snow_diameter_mm, "Diameter of a spot of snow.", SpotLimits());
 }
 
+template <class Archive>
+void Describe(Archive& a, VelocitySpec& s) {
+  a.Required("sigma_mps", s.sigma_mps,
+             "Standard deviation; none on rung geometry, as of the range.", Within(0, 100));
+  a.Required("max_mps", s.max_mps,
+             "The unambiguous velocity; faster ones are folded into -max_mps to max_mps.",
+             PositiveUpTo(1000));
+  a.Optional("step_mps", s.step_mps, "Velocities are multiples of it; 0 = any.", Within(0, 10));
+}
+
 /// The range gate, of a sensor or of a detector.
 template <class Archive, class Spec>
 void DescribeRange(Archive& a, Spec& s) {
@@ -221,6 +231,8 @@ void Describe(Archive& a, LidarSpec& s) {
   a.Optional("beam", s.beam, "The laser beam of the physical rungs.");
   a.Optional("receiver", s.receiver, "The receiver of the physical rungs.");
   a.Optional("cover", s.cover, "What lies on the sensor's window, on the physical rungs.");
+  a.Optional("velocity", s.velocity,
+             "The sensor measures velocities along its beams (FMCW). Left out: it does not.");
   a.Ensure({"phase_s", "scan"}, s.scan.phase_s * s.scan.rate_hz < 1.0, "must be < 1 / rate_hz");
 }
 

@@ -182,6 +182,7 @@ void CheckDetectorSpec(const DetectorSpec& spec) {
   checker.Required("beam", copy.beam, "");
   checker.Required("receiver", copy.receiver, "");
   checker.Required("cover", copy.cover, "");
+  checker.Required("velocity", copy.velocity, "");
   checker.Required("weather", copy.weather, "");
   errors.ThrowIfAny();
 }
@@ -224,6 +225,7 @@ DetectorSpec DetectorSpecOf(const ScenarioSpec& spec,
           .beam = lidar.beam,
           .receiver = lidar.receiver,
           .cover = lidar.cover,
+          .velocity = lidar.velocity,
           .weather = spec.weather};
 }
 

@@ -12,6 +12,7 @@
 #include "core/detect/detector/detector.h"
 #include "core/detect/effects/spray.h"
 #include "core/simulate/firing_tiles.h"
+#include "core/simulate/frame_motion.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/ray_caster.h"
 #include "railcast/simulator.h"
@@ -31,6 +32,7 @@ struct CastFrame {
   std::optional<MirrorScene> mirrors{};  ///< Absent unless effect `mirror_paths` has any.
   /// Whether the caster takes rays that are shorter than 0, which hit nothing.
   bool takes_no_rays = false;
+  const FrameMotion* motion{};  ///< Null unless velocities are measured and it is known.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -124,25 +125,75 @@ std::unique_ptr<const FrameScene> FrameScenes::MakeScene(const BegunFrame& begun
   const std::int64_t stamp_ns = begun.stamp_ns;
   auto made = std::make_unique<FrameScene>();
   FrameScene& scene = *made;
-  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window, scene.moving_objects);
-  if (wind_.blows()) {
-    SwayedThings swayed = Swayed(stamp_ns, *window);
-    std::ranges::move(swayed.placements, std::back_inserter(moving));
-    scene.swayed_wires = std::move(swayed.wires);
-  }
-  if (!moving.empty()) {
-    scene.moving = std::make_shared<const TraceScene>(store_->device(), moving);
-  }
   scene.index = begun.index;
   scene.stamp_ns = stamp_ns;
-  scene.poses = PosesIn(window->window_from_world, stamp_ns);
+  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window, scene.moving_objects);
+  if (has_motion_) scene.motion = MotionOf(scene, *window);
   if (!more_surfaces_.empty()) {
     scene.more_surfaces = window->surfaces;
     scene.more_surfaces.insert(scene.more_surfaces.end(), more_surfaces_.begin(),
                                more_surfaces_.end());
   }
+  if (wind_.blows()) AddSwayed(scene, *window, moving);
+  if (!moving.empty()) {
+    scene.moving = std::make_shared<const TraceScene>(store_->device(), moving);
+  }
+  scene.poses = PosesIn(window->window_from_world, stamp_ns);
   scene.window = window;
   return made;
+}
+
+void FrameScenes::AddSwayed(FrameScene& scene,
+                            const Window& window,
+                            std::vector<TracePlacement>& placements) const {
+  SwayedThings swayed = Swayed(scene.stamp_ns, window);
+  std::ranges::move(swayed.placements, std::back_inserter(placements));
+  scene.swayed_wires = std::move(swayed.wires);
+  if (!scene.motion || swayed.own_surfaces.empty()) return;
+  if (scene.more_surfaces.empty()) scene.more_surfaces = window.surfaces;
+  for (const std::uint32_t copied : swayed.own_surfaces) {
+    scene.more_surfaces.push_back(window.surfaces[copied]);
+  }
+  scene.motion->surfaces.Add(std::move(swayed.motions));
+}
+
+FrameMotion FrameScenes::MotionOf(const FrameScene& scene, const Window& window) const {
+  // As FramePoses, whose knots are as far apart.
+  constexpr std::int64_t kKnotSpacing_ns = 10'000'000;
+  FrameMotion motion;
+  motion.sensor =
+      VelocityFieldsOf(
+          [&](std::int64_t since_stamp_ns) {
+            const Transform window_from_sensor =
+                window.window_from_world * WorldFromSensor(scene.stamp_ns + since_stamp_ns);
+            return std::vector<Eigen::Affine3d>{Eigen::Affine3d(window_from_sensor.matrix())};
+          },
+          spec_.duration_ns, (spec_.duration_ns + kKnotSpacing_ns - 1) / kKnotSpacing_ns)
+          .front();
+  std::vector<std::size_t> objects = scene.moving_objects;
+  objects.erase(std::unique(objects.begin(), objects.end()), objects.end());
+  std::erase_if(objects, [&](std::size_t object) { return !world_->objects()[object].moves; });
+  std::vector<std::vector<VelocityFields>> fields(objects.size());
+  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    fields[i] = VelocityFieldsOf(
+        [&](std::int64_t since_stamp_ns) {
+          return PiecesAt(objects[i], scene.stamp_ns + since_stamp_ns, window);
+        },
+        spec_.duration_ns, NumPoseIntervals(objects[i]));
+  });
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Object& object = objects_[objects[i]];
+    const std::uint32_t first_surface = FirstSurface(object, window);
+    auto end = static_cast<std::uint32_t>(object.stored.surfaces.size());
+    for (std::size_t piece = fields[i].size(); piece-- > 0;) {
+      const std::uint32_t begin = object.stored.pieces[piece].first_surface;
+      motion.surfaces.Add({.first_surface = first_surface + begin,
+                           .num_surfaces = end - begin,
+                           .fields = std::move(fields[i][piece])});
+      end = begin;
+    }
+  }
+  return motion;
 }
 
 FramePoses FrameScenes::PosesIn(const Transform& window_from_world, std::int64_t stamp_ns) const {
@@ -160,20 +211,32 @@ std::vector<TracePlacement> FrameScenes::Place(std::size_t object,
     placements.push_back({piece.model, {}, first_surface + piece.first_surface});
   }
   const std::int64_t duration_ns = spec_.duration_ns;
-  const bool moves = world_->objects()[object].moves;
-  const std::int64_t step_ns = world_->objects()[object].pose_step_ns;
-  const std::int64_t num_intervals =
-      moves ? std::max<std::int64_t>(1, (duration_ns + step_ns - 1) / step_ns) : 0;
+  const std::int64_t num_intervals = NumPoseIntervals(object);
   for (std::int64_t step = 0; step <= num_intervals; ++step) {
-    const std::int64_t since_stamp_ns = moves ? duration_ns * step / num_intervals : 0;
-    const std::vector<Transform> world_from_pieces =
-        world_->WorldFromPieces(object, stamp_ns + since_stamp_ns);
+    const std::int64_t since_stamp_ns = num_intervals > 0 ? duration_ns * step / num_intervals : 0;
+    const std::vector<Eigen::Affine3d> places = PiecesAt(object, stamp_ns + since_stamp_ns, window);
     for (std::size_t i = 0; i < placements.size(); ++i) {
-      const Transform window_from_piece = window.window_from_world * world_from_pieces[i];
-      placements[i].window_from_model.emplace_back(window_from_piece.matrix());
+      placements[i].window_from_model.push_back(places[i]);
     }
   }
   return placements;
+}
+
+std::vector<Eigen::Affine3d> FrameScenes::PiecesAt(std::size_t object,
+                                                   std::int64_t time_ns,
+                                                   const Window& window) const {
+  std::vector<Eigen::Affine3d> places;
+  for (const Transform& world_from_piece : world_->WorldFromPieces(object, time_ns)) {
+    const Transform window_from_piece = window.window_from_world * world_from_piece;
+    places.emplace_back(window_from_piece.matrix());
+  }
+  return places;
+}
+
+std::int64_t FrameScenes::NumPoseIntervals(std::size_t object) const {
+  const SceneObject& its = world_->objects()[object];
+  if (!its.moves) return 0;
+  return std::max<std::int64_t>(1, (spec_.duration_ns + its.pose_step_ns - 1) / its.pose_step_ns);
 }
 
 bool FrameScenes::IsInReach(const TracePlacement& placement,
@@ -217,7 +280,8 @@ SwayedThings FrameScenes::Swayed(std::int64_t stamp_ns, const Window& window) co
                .duration_s = duration_s,
                .window_from_world = window.window_from_world,
                .sensor_window_m = SensorInWindow(stamp_ns, window),
-               .reach_m = spec_.range_max_m + kSpeedMax_mps * duration_s});
+               .reach_m = spec_.range_max_m + kSpeedMax_mps * duration_s,
+               .first_own_surface = FirstOwnSurface(window)});
 }
 
 std::vector<LoneObjects> FrameScenes::ObjectsAlone(const FrameScene& frame) const {

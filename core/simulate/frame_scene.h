@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/simulate/frame_motion.h"
 #include "core/simulate/frame_poses.h"
 #include "core/simulate/window.h"
 #include "core/trace/trace_scene.h"
@@ -46,9 +47,10 @@ struct FrameScene final : public RayCaster {
   /// which are their pieces.
   std::vector<std::size_t> moving_objects;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
-  /// Surfaces of the window and of objects that windows do not know; empty if there are no such
-  /// objects.
+  /// Surfaces of the window, of objects that windows do not know, and of what sways if it has its
+  /// own; empty if there are none of these.
   std::vector<Surface> more_surfaces;
+  std::optional<FrameMotion> motion;    ///< If velocities are measured.
   std::optional<WireSet> swayed_wires;  ///< If there is wind.
 
   /// The wires that the casters also see as tubes.
@@ -103,6 +105,9 @@ class FrameScenes {
   /// Sets the wind from now on; at first, there is none.
   void UseWind(const Wind& wind);
 
+  /// Sets whether scenes have their `motion` from now on; at first, they have not.
+  void UseMotion(bool has_motion) { has_motion_ = has_motion; }
+
   /// Has windows prepared for casting beams.
   void UseBeams() { store_->UseBeams(); }
 
@@ -141,7 +146,22 @@ class FrameScenes {
   [[nodiscard]] std::vector<TracePlacement> MovingObjects(std::int64_t stamp_ns,
                                                           const Window& window,
                                                           std::vector<std::size_t>& objects) const;
+  /// The places of an object's pieces, which are not those of `window` alone, in its frame.
+  [[nodiscard]] std::vector<Eigen::Affine3d> PiecesAt(std::size_t object,
+                                                      std::int64_t time_ns,
+                                                      const Window& window) const;
+  /// Into how many equal parts a frame is divided, between which an object moves linearly.
+  [[nodiscard]] std::int64_t NumPoseIntervals(std::size_t object) const;
+  [[nodiscard]] FrameMotion MotionOf(const FrameScene& scene, const Window& window) const;
   [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
+  /// Of what sways, where scenes have their motion: after those of all else.
+  [[nodiscard]] std::optional<std::uint32_t> FirstOwnSurface(const Window& window) const {
+    if (!has_motion_) return std::nullopt;
+    return static_cast<std::uint32_t>(window.surfaces.size() + more_surfaces_.size());
+  }
+  void AddSwayed(FrameScene& scene,
+                 const Window& window,
+                 std::vector<TracePlacement>& placements) const;
   [[nodiscard]] std::unique_ptr<const FrameScene> MakeScene(const BegunFrame& begun) const;
   void PrepareNextWindow(std::int64_t stamp_ns, int home_chunk);
 
@@ -163,6 +183,7 @@ class FrameScenes {
   FrameSceneSpec spec_;
   WindowSource windows_;
   Wind wind_;
+  bool has_motion_ = false;
   std::shared_ptr<const World> world_;
   std::vector<Object> objects_;  // In the order of world_->objects().
   /// Index in world_->objects() of each object in the windows, by its index in the store's world.

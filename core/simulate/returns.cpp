@@ -68,6 +68,9 @@ void StoreNothing(std::size_t slot, Frame& frame) {
         &frame.true_range_m, &frame.incidence_rad, &frame.footprint_share}) {
     (*values)[slot] = kNaN;
   }
+  if (frame.has_velocity) {
+    frame.radial_velocity_mps[slot] = frame.true_radial_velocity_mps[slot] = kNaN;
+  }
   frame.outcome[slot] = Outcome::kNoFurtherEcho;
   frame.label[slot] = 0;
   frame.instance[slot] = 0;
@@ -245,12 +248,14 @@ void ReturnStore::StoreOnlyEcho(const EchoTiles::Place& echo,
 void ReturnStore::Store(EchoTiles& echoes,
                         const std::vector<Surface>& surfaces,
                         const SlotRange& slots,
-                        Frame& frame) const {
+                        Frame& frame,
+                        const StoredEcho& stored) const {
   const std::uint32_t num_returns = frame.returns;
   if (has_shares_) StoreMixedShares(echoes, slots, frame);
   if (echoes.num_more() == 0 && num_returns == 1) {
     for (std::size_t i = 0; i < slots.num_firings; ++i) {
       StoreOnlyEcho({echoes.first, i}, surfaces, slots.slots[i], frame);
+      if (stored) stored({echoes.first, i}, i, slots.slots[i]);
     }
     return;
   }
@@ -267,6 +272,7 @@ void ReturnStore::Store(EchoTiles& echoes,
   for (std::size_t i = 0; i < slots.num_firings; ++i) {
     if (head[i] == kNone && num_returns == 1) {
       StoreOnlyEcho({echoes.first, i}, surfaces, slots.slots[i], frame);
+      if (stored) stored({echoes.first, i}, i, slots.slots[i]);
       continue;
     }
     all.assign(1, {&echoes.first, i});
@@ -285,13 +291,13 @@ void ReturnStore::Store(EchoTiles& echoes,
     for (std::size_t r = 0; r < num_returns; ++r) {
       const std::size_t slot = first_slot + r;
       frame.return_count[slot] = static_cast<std::uint8_t>(count);
-      if (r < count) {
-        StoreEcho(detected[r].place(), surfaces, has_shares_, slot, frame);
-      } else if (r == 0) {
-        StoreEcho(Missed(all), surfaces, has_shares_, slot, frame);
-      } else {
+      if (r > 0 && r >= count) {
         StoreNothing(slot, frame);
+        continue;
       }
+      const TilePlace echo = r < count ? detected[r].place() : Missed(all);
+      StoreEcho(echo, surfaces, has_shares_, slot, frame);
+      if (stored) stored(echo, i, slot);
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/detect/base/echo_tiles.h"
@@ -46,6 +47,11 @@ struct SlotRange {
   std::size_t num_firings{};
 };
 
+/// Callback for each echo that is stored in a slot.
+/// @param beam A lane of `echoes.first`.
+using StoredEcho =
+    std::function<void(const EchoTiles::Place& echo, std::size_t beam, std::size_t slot)>;
+
 /// Writes the returns of a tile's firings, both measurement and ground truth, into the frame. The
 /// first slot of a firing without returns describes the strongest surface echo that was below the
 /// threshold or, if there is none, the result of the central ray.
@@ -55,10 +61,12 @@ class ReturnStore {
   ///   written.
   ReturnStore(const ReturnRule& rule, bool has_shares) : rule_(rule), has_shares_(has_shares) {}
 
+  /// @param stored Called after each echo is stored; may be empty.
   void Store(EchoTiles& echoes,
              const std::vector<Surface>& surfaces,
              const SlotRange& slots,
-             Frame& frame) const;
+             Frame& frame,
+             const StoredEcho& stored = {}) const;
 
  private:
   void StoreOnlyEcho(const EchoTiles::Place& echo,

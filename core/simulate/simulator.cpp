@@ -27,6 +27,7 @@
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
+#include "core/simulate/velocity_meter.h"
 #include "core/simulate/view_counter.h"
 
 namespace railcast {
@@ -45,6 +46,7 @@ CastFrame CastOf(const FrameScene& scene,
   }
   cast.mirrors = tracer.MirrorsAmong(cast.surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
+  if (scene.motion) cast.motion = &*scene.motion;
   return cast;
 }
 
@@ -226,6 +228,7 @@ void Simulator::Parts::UseSpec() {
   if (tracer->casts_beams()) scenes.UseBeams();
   const DetectorSpec& detector = spec.detector;
   scenes.UseWind(Wind(WindVelocity_mps(detector.weather), detector.air_seed));
+  scenes.UseMotion(detector.velocity.has_value());
   halo.reset();
   if (EffectBetweenBeams(detector) != nullptr) halo.emplace(detector);
 }
@@ -294,6 +297,8 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
     return ReportedPose(frame.stamp_ns + time_ns);
   });
   const ReturnRule rule = return_rule();
+  // A host does not say how its things move.
+  frame.has_velocity = cast.motion != nullptr;
   frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
   const OutputAxes axes(spec.output, spec.origin_place,
                         {spec.vehicle_from_sensor, spec.nominal_from_true.inverse()},
@@ -301,12 +306,21 @@ void Simulator::Parts::Scan(const CastFrame& cast, Frame& frame) {
   const ReturnStore store(rule, tracer->has_beams());
   const Transform world_from_window = cast.window_from_world.inverse();
   const double time_s = SecondsFromNs(frame.stamp_ns);
+  std::optional<VelocityMeter> velocities;
+  if (frame.has_velocity) velocities.emplace(spec.detector, cast);
 
   ForAllEchoes(cast, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
     tiles.MoveToOrigins(tile, mine.echoes);
     axes.Apply(cast.poses, tiles.times_ns(tile), mine.echoes);
-    store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame);
+    StoredEcho measure;
+    if (velocities) {
+      measure = [&](const EchoTiles::Place& echo, std::size_t beam, std::size_t slot) {
+        velocities->Store(echo, beam, mine, slot, frame);
+      };
+    }
+    store.Store(mine.echoes, cast.surfaces, {tiles.slots(tile), tiles.num_firings(tile)}, frame,
+                measure);
   });
   tiles.StoreConstants(frame);
   if (!tracer->has_beams()) {

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/detect/beam/wire_set.h"
+#include "core/simulate/frame_motion.h"
 #include "core/simulate/wind.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/scene.h"
@@ -19,6 +21,7 @@ namespace railcast {
 struct SwayingThings {
   struct Tree {
     TracePlacement at_rest;
+    std::uint32_t num_surfaces{};
     TreeInWind in_wind;
   };
   struct Wire {
@@ -56,12 +59,17 @@ struct SwayView {
   Transform window_from_world;
   Vector3 sensor_window_m = Vector3::Zero();  ///< At the stamp.
   double reach_m{};                           ///< Nothing farther from there is hit.
+  /// Where velocities are measured: from here on, every tree and span gets surfaces of its own, by
+  /// which motions are told apart. Otherwise they share those of the window.
+  std::optional<std::uint32_t> first_own_surface{};
 };
 
 /// What sways, as one frame sees it.
 struct SwayedThings {
-  std::vector<TracePlacement> placements;  ///< Trees, and wires as tubes, within reach.
-  WireSet wires;                           ///< All wires of the window.
+  std::vector<TracePlacement> placements;   ///< Trees, and wires as tubes, within reach.
+  WireSet wires;                            ///< All wires of the window.
+  std::vector<std::uint32_t> own_surfaces;  ///< The window's surface that each own one copies.
+  SurfaceMotions motions;                   ///< Of the own surfaces.
 };
 
 /// Moves everything to where it is during a frame. Between the time steps, all moves linearly:

@@ -180,6 +180,7 @@ void WindowSource::AddChunks(int home_chunk,
       if (wind_blows && placement.sway_height_m > 0.0) {
         window.swaying.trees.push_back(
             {std::move(placed),
+             static_cast<std::uint32_t>(placement.model->parts.size()),
              {.foot_world_m = world_from_chunk * placement.chunk_from_model.translation(),
               .height_m = placement.sway_height_m,
               .chunk = static_cast<std::uint32_t>(index),

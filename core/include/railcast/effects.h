@@ -200,6 +200,18 @@ struct ReceiverSpec {
   bool operator==(const ReceiverSpec&) const = default;
 };
 
+/// How a sensor measures velocities along its beams (FMCW): what sends an echo shifts the frequency
+/// of the light by -2 v / wavelength.
+struct VelocitySpec {
+  double sigma_mps{};  ///< Standard deviation; without an effect of noise there is none.
+  /// The unambiguous velocity: what is faster is measured as if it were slower by whole multiples
+  /// of 2 max_mps.
+  double max_mps{};
+  double step_mps = 0.0;  ///< Velocities are reported as multiples of it; 0 = any.
+
+  bool operator==(const VelocitySpec&) const = default;
+};
+
 /// The sun as seen from the sensor.
 struct SunSpec {
   double illuminance_klx = 0.0;  ///< 100 = full sun.
@@ -290,6 +302,7 @@ struct DetectorSpec {
   BeamSpec beam{};
   ReceiverSpec receiver{};
   CoverSpec cover{};
+  std::optional<VelocitySpec> velocity{};  ///< Absent: the sensor measures none.
   WeatherSpec weather{};
   ClutterLabels clutter_labels{};
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "railcast/enum_names.h"
@@ -105,6 +106,9 @@ struct Frame {
   std::uint32_t rows{};         ///< Channels.
   std::uint32_t columns{};      ///< Azimuth steps.
   std::uint32_t returns{1};     ///< Slots per firing.
+  /// Whether the sensor measures velocities (VelocitySpec). If not, the two fields of velocity are
+  /// empty, and ForEachField() leaves them out.
+  bool has_velocity = false;
 
   // The measurement.
   std::vector<float> x, y, z;    ///< m
@@ -134,16 +138,23 @@ struct Frame {
   /// nearer or farther, or into the sky. Marks mixed pixels. NaN as for footprint_share.
   std::vector<float> mixed_share;
 
+  /// Measured velocity of what sent the echo relative to the sensor, along the beam: positive =
+  /// receding. m/s.
+  std::vector<float> radial_velocity_mps;
+  /// The same from the exact motion of sensor and things. NaN for echoes that nothing sent.
+  std::vector<float> true_radial_velocity_mps;
+
   [[nodiscard]] std::uint32_t width() const { return columns * returns; }
   [[nodiscard]] std::size_t num_slots() const { return std::size_t{rows} * width(); }
 
-  /// Resizes every field to num_slots() elements; reuses the memory if the shape is unchanged.
+  /// Resizes every field to num_slots() elements, those of velocity to none unless has_velocity;
+  /// reuses the memory if the shape is unchanged.
   void Resize(std::uint32_t new_rows, std::uint32_t new_columns, std::uint32_t new_returns);
 };
 
-/// Calls `visit(name, unit, values)` for every per-slot field, in the order in which files store
-/// them. All file formats, the viewer and the documentation use this one table. `F` is Frame or
-/// const Frame.
+/// Calls `visit(name, unit, values)` for every per-slot field that the frame has, in the order in
+/// which files store them. All file formats, the viewer and the documentation use this one table.
+/// `F` is Frame or const Frame.
 template <typename F, typename Visitor>
 void ForEachField(F& frame, Visitor&& visit) {
   visit("x", "m", frame.x);
@@ -165,6 +176,17 @@ void ForEachField(F& frame, Visitor&& visit) {
   visit("material", "", frame.material);
   visit("footprint_share", "", frame.footprint_share);
   visit("mixed_share", "", frame.mixed_share);
+  if (!frame.has_velocity) return;
+  visit("radial_velocity_mps", "m/s", frame.radial_velocity_mps);
+  visit("true_radial_velocity_mps", "m/s", frame.true_radial_velocity_mps);
+}
+
+/// Calls `visit(name, unit, values)` with every field that a frame may have, and no values.
+template <typename Visitor>
+void ForEachPossibleField(Visitor&& visit) {
+  Frame frame;
+  frame.has_velocity = true;
+  ForEachField(std::as_const(frame), visit);
 }
 
 }  // namespace railcast

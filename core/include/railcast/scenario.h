@@ -88,6 +88,7 @@ struct LidarSpec {
   BeamSpec beam{};
   ReceiverSpec receiver{};
   CoverSpec cover{};
+  std::optional<VelocitySpec> velocity{};
   MountErrorSpec mount_error{};
   /// File of an Ouster sensor's metadata, if `scan` is made from it.
   std::optional<std::string> ouster_metadata{};

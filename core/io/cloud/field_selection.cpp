@@ -10,13 +10,18 @@
 namespace railcast {
 namespace {
 
-std::vector<std::string> TableNames() {
-  const Frame frame;
+std::vector<std::string> TableNames(bool has_velocity) {
+  Frame frame;
+  frame.has_velocity = has_velocity;
   std::vector<std::string> names;
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto&) {
     names.emplace_back(name);
   });
   return names;
+}
+
+bool IsAmong(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 std::string Join(const std::vector<std::string>& names, std::string_view separator) {
@@ -30,10 +35,10 @@ std::string Join(const std::vector<std::string>& names, std::string_view separat
 
 }  // namespace
 
-FieldSelection::FieldSelection() : names_(TableNames()) {}
+FieldSelection::FieldSelection() : names_(TableNames(false)) {}
 
-FieldSelection::FieldSelection(std::string_view list) {
-  const std::vector<std::string> valid = TableNames();
+FieldSelection::FieldSelection(std::string_view list, bool has_velocity) {
+  const std::vector<std::string> valid = TableNames(has_velocity);
   if (list == "all") {
     names_ = valid;
     return;
@@ -43,7 +48,10 @@ FieldSelection::FieldSelection(std::string_view list) {
   while (true) {
     const std::size_t comma = list.find(',');
     const std::string name(list.substr(0, comma));
-    if (std::find(valid.begin(), valid.end(), name) == valid.end()) {
+    if (!IsAmong(valid, name) && IsAmong(TableNames(true), name)) {
+      errors.Add(
+          {"--fields", "must be a field of a sensor without lidar.velocity", '"' + name + '"'});
+    } else if (!IsAmong(valid, name)) {
       errors.Add({"--fields", Unknown("field", name, valid), '"' + name + '"'});
     } else if (!asked.insert(name).second) {
       errors.Add({"--fields", "field \"" + name + "\" comes twice", ""});
@@ -57,7 +65,7 @@ FieldSelection::FieldSelection(std::string_view list) {
 }
 
 bool FieldSelection::Has(std::string_view name) const {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
+  return IsAmong(names_, name);
 }
 
 std::string FieldSelection::Text() const {

@@ -50,7 +50,7 @@ struct Alias {
   std::string_view ours;
   std::string_view theirs;
 };
-constexpr std::array<Alias, 7> kAliases = {{
+constexpr std::array<Alias, 11> kAliases = {{
     {"intensity", "reflectivity"},
     {"intensity", "remission"},
     {"intensity", "Intensity"},
@@ -58,6 +58,11 @@ constexpr std::array<Alias, 7> kAliases = {{
     {"ring", "laser"},
     {"ring", "line"},
     {"label", "Label"},
+    // Aeva's sensors, as their recordings and Nebula name them.
+    {"radial_velocity_mps", "velocity"},
+    {"radial_velocity_mps", "range_rate"},
+    {"time_ns", "time_offset_ns"},
+    {"ring", "line_index"},
 }};
 
 /// Columns that are not kept: colours, whose packed numbers mean nothing, and PCD's padding.
@@ -274,6 +279,8 @@ std::vector<float> LoadFloats(const PointTable& table, const PointColumn& column
 void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, recorded.name);
   Frame& frame = recorded.frame;
+  frame.has_velocity = FindFieldOf(table, "radial_velocity_mps") != nullptr ||
+                       FindFieldOf(table, "true_radial_velocity_mps") != nullptr;
   frame.Resize(plan.rows, plan.columns, plan.returns);
   recorded.is_grid = plan.is_grid;
   ForEachField(frame, [&](std::string_view name, std::string_view, auto& values) {

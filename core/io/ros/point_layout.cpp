@@ -122,7 +122,22 @@ constexpr auto kLivoxFields = std::to_array<LayoutField>({
     {"timestamp", 18, PointField::kFloat64,
      [](const PointSource& point, char* place) { StoreAt<double>(place, point.time_ns()); }},
 });
-constexpr std::uint32_t kMostLivoxLines = 256;
+
+constexpr auto kAevaFields = std::to_array<LayoutField>({
+    kX,
+    kY,
+    kZ,
+    {"reflectivity", 12, PointField::kFloat32, &StoreReflectivity},
+    {"velocity", 16, PointField::kFloat32, &StoreMember<&Frame::radial_velocity_mps>},
+    {"time_offset_ns", 20, PointField::kUint32,
+     [](const PointSource& point, char* place) {
+       StoreAt<std::uint32_t>(place, point.frame.time_ns[point.slot]);
+     }},
+    {"line_index", 24, PointField::kUint8,
+     [](const PointSource& point, char* place) { StoreAt<std::uint8_t>(place, point.channel); }},
+});
+// Lines have 8 bits.
+constexpr std::uint32_t kMostLines = 256;
 
 /// A cloud of slots of a frame, in the order in which a vendor's driver sends them.
 struct SlotCloud {
@@ -187,6 +202,8 @@ VendorLayout LayoutOf(PointLayout layout, const Frame& frame, std::uint32_t clou
       return {kHesaiFields, 26, PointsOnly(frame, false)};
     case PointLayout::kLivox:
       return {kLivoxFields, 26, PointsOnly(frame, true)};
+    case PointLayout::kAeva:
+      return {kAevaFields, 25, PointsOnly(frame, true)};
     case PointLayout::kRailcast:
       break;
   }
@@ -201,7 +218,8 @@ std::vector<std::uint16_t> ChannelsInRows(PointLayout layout,
   if (layout == PointLayout::kHesai && channel_of_row.size() == rows) return channel_of_row;
   std::vector<std::uint16_t> channels(rows);
   for (std::uint32_t row = 0; row < rows; ++row) {
-    const bool is_from_above = layout == PointLayout::kOuster || layout == PointLayout::kHesai;
+    const bool is_from_above = layout == PointLayout::kOuster || layout == PointLayout::kHesai ||
+                               layout == PointLayout::kAeva;
     channels[row] = static_cast<std::uint16_t>(is_from_above ? rows - 1 - row : row);
   }
   return channels;
@@ -242,9 +260,9 @@ void PutOwnPoints(const Frame& frame, const FieldSelection& fields, PointCloud2&
 
 }  // namespace
 
-CloudSpec ParseCloudSpec(std::string_view text) {
+CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity) {
   if (const auto layout = ValueNamed<PointLayout>(text)) return {*layout, {}};
-  CloudSpec spec{PointLayout::kRailcast, FieldSelection(text)};
+  CloudSpec spec{PointLayout::kRailcast, FieldSelection(text, has_velocity)};
   for (const std::string_view name : {"x", "y", "z"}) {
     if (spec.fields.Has(name)) continue;
     throw InputError("--fields: must contain x, y and z for messages of ROS 2 (got " +
@@ -267,8 +285,12 @@ PointCloud2 MakeCloud(const Frame& frame,
                       std::string frame_id,
                       const std::vector<std::uint16_t>& channel_of_row,
                       std::uint32_t cloud) {
-  if (spec.layout == PointLayout::kLivox && frame.rows > kMostLivoxLines) {
-    throw InputError("--fields livox: needs at most 256 channels" + Got(frame.rows));
+  const bool is_aeva = spec.layout == PointLayout::kAeva;
+  if ((is_aeva || spec.layout == PointLayout::kLivox) && frame.rows > kMostLines) {
+    throw InputError("--fields " + TextOf(spec) + ": needs at most 256 channels" + Got(frame.rows));
+  }
+  if (is_aeva && !frame.has_velocity) {
+    throw InputError("--fields aeva: needs a sensor with lidar.velocity");
   }
   PointCloud2 message;
   message.header = {TimeOf(frame.stamp_ns), std::move(frame_id)};

@@ -19,13 +19,14 @@ namespace railcast::ros {
 ///
 /// Sources: ros-drivers/velodyne (velodyne_pointcloud, organize_cloud), ouster-lidar/ouster-ros
 /// (point_type original), HesaiTechnology/HesaiLidar_ROS_2.0, Livox-SDK/livox_ros_driver2
-/// (xfer_format 0).
+/// (xfer_format 0); recordings of Aeva's Aeries II in HeLiPR and HeRCULES.
 enum class PointLayout {
   kRailcast,  ///< A frame's own fields, packed; organised, NaN where there is no point.
   kVelodyne,  ///< 22 bytes; a row for each firing of all channels, NaN where there is no point.
   kOuster,    ///< 48 bytes; organised from the highest channel down, a cloud for each return.
   kHesai,     ///< 26 bytes; points only; `timestamp` in seconds.
   kLivox,     ///< 26 bytes; points only; `timestamp` in nanoseconds.
+  kAeva,      ///< 25 bytes; points only; `velocity`, positive = receding.
 };
 
 }  // namespace railcast::ros
@@ -38,7 +39,8 @@ inline constexpr auto kEnumNames<ros::PointLayout> =
                                                {ros::PointLayout::kVelodyne, "velodyne"},
                                                {ros::PointLayout::kOuster, "ouster"},
                                                {ros::PointLayout::kHesai, "hesai"},
-                                               {ros::PointLayout::kLivox, "livox"}});
+                                               {ros::PointLayout::kLivox, "livox"},
+                                               {ros::PointLayout::kAeva, "aeva"}});
 
 }  // namespace railcast
 
@@ -54,8 +56,9 @@ struct CloudSpec {
 
 /// Parses what `--fields` says for messages: the name of a layout, "all", or a list of railcast's
 /// fields.
+/// @param has_velocity As FieldSelection takes it; frames without leave these fields out.
 /// @throws InputError as FieldSelection does, or "--fields: must contain x, y and z ...".
-[[nodiscard]] CloudSpec ParseCloudSpec(std::string_view text);
+[[nodiscard]] CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity = false);
 
 /// The text that ParseCloudSpec() reads as this.
 [[nodiscard]] std::string TextOf(const CloudSpec& spec);
@@ -68,7 +71,8 @@ struct CloudSpec {
 /// @param channel_of_row The vendor's number, from 0, of each row's channel, which the layout
 ///   `hesai` stores; empty = counted from the highest.
 /// @param cloud Less than NumClouds().
-/// @throws InputError if the layout cannot hold the frame: Livox's has at most 256 lines.
+/// @throws InputError if the layout cannot hold the frame: Livox's and Aeva's have at most 256
+///   lines, Aeva's needs velocities.
 [[nodiscard]] PointCloud2 MakeCloud(const Frame& frame,
                                     const CloudSpec& spec,
                                     std::string frame_id,

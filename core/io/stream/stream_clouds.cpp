@@ -98,6 +98,8 @@ std::optional<Frame> MakeFrame(const ReceivedFrame& received) {
   frame.world_from_sensor_end = header.world_from_sensor_end;
   frame.duration_ns = header.duration_ns;
   // Every slot arrived, so this takes no more memory than the datagrams did.
+  frame.has_velocity = header.Find("radial_velocity_mps") != nullptr ||
+                       header.Find("true_radial_velocity_mps") != nullptr;
   frame.Resize(header.rows, header.columns, header.returns);
   const auto slots = SlotsOf(received, frame);
   if (!slots) return std::nullopt;

@@ -120,8 +120,7 @@ StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
     cells_.push_back(std::uint32_t{pattern.row[i]} * columns_ + pattern.column[i]);
   }
   header_.resize(kFieldsAt);
-  const Frame no_frame;
-  ForEachField(no_frame, [&](std::string_view name, std::string_view, const auto& values) {
+  ForEachPossibleField([&](std::string_view name, std::string_view, const auto& values) {
     if (!spec_.fields.Has(name)) return;
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
     static_assert(sizeof(Stored) == sizeof(ElementOf<decltype(values)>));
@@ -150,6 +149,7 @@ void StreamEncoder::FindSources(const Frame& frame) {
     sources_.push_back({reinterpret_cast<const char*>(values.data()), size, offset});
     offset += size;
   });
+  Check(sources_.size() == spec_.fields.names().size(), "frames have the fields that are sent");
 }
 
 void StreamEncoder::ChooseSlots(const Frame& frame) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/io/datagrams.h"
@@ -11,9 +12,16 @@
 
 namespace railcast {
 
+/// What is sent of each point unless told otherwise: of sensors without, and with velocities.
+inline constexpr const char* kUsualFields = "x,y,z,intensity,ring,time_ns,label,instance";
+[[nodiscard]] inline FieldSelection UsualFields(bool has_velocity) {
+  return has_velocity ? FieldSelection(std::string(kUsualFields) + ",radial_velocity_mps", true)
+                      : FieldSelection(kUsualFields);
+}
+
 /// The content of a stream in the railcast protocol.
 struct StreamSpec {
-  FieldSelection fields{"x,y,z,intensity,ring,time_ns,label,instance"};
+  FieldSelection fields = FieldSelection(kUsualFields);
   bool has_all_slots = false;  ///< If not set, only the returned points are sent.
   OutputSpec output{};         ///< The axes of the frames' points.
   std::uint16_t sensor{};      ///< Number of the sensor on the vehicle.

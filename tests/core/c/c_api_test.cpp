@@ -118,6 +118,23 @@ TEST(CApi, RefusesNullAndWrongArguments) {
   railcast_destroy(nullptr);
 }
 
+TEST(CApi, VelocitiesAreFieldsOfSensorsThatMeasureThem) {
+  ScenarioText scenario = ScenarioText::Of("minimal.json");
+  railcast_field field{};
+  const Sim without = CreateSim(scenario.Config());
+  ASSERT_EQ(railcast_step(without.get(), 0), RAILCAST_OK);
+  EXPECT_EQ(railcast_get_field(without.get(), "radial_velocity_mps", &field),
+            RAILCAST_BAD_ARGUMENT);
+  scenario.Replace(R"("sensors/vir2rail.json")",
+                   R"({"file": "sensors/vir2rail.json",
+                       "velocity": {"sigma_mps": 0.03, "max_mps": 50}})");
+  const Sim with = CreateSim(scenario.Config());
+  ASSERT_EQ(railcast_step(with.get(), 0), RAILCAST_OK);
+  ASSERT_EQ(railcast_get_field(with.get(), "radial_velocity_mps", &field), RAILCAST_OK);
+  EXPECT_EQ(field.type, RAILCAST_FLOAT32);
+  EXPECT_EQ(field.num_values, 28800U);
+}
+
 TEST(CApi, SteppingOffTheTrackFailsAndTheNextStepWorks) {
   ScenarioText moving = ScenarioText::Of("minimal.json");
   moving.Replace("400", R"(400, "motion": {"profile": [{"time_s": 0, "speed_mps": 20}]})");

@@ -59,4 +59,18 @@ inline Frame ExampleFrame(std::uint32_t index, std::uint32_t rows = 6, std::uint
   return frame;
 }
 
+/// The frame as a sensor gives it that measures velocities, too.
+inline Frame WithVelocities(Frame frame) {
+  frame.has_velocity = true;
+  frame.Resize(frame.rows, frame.columns, frame.returns);
+  for (std::uint32_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const auto words = RandomWords(8, RandomUse::kNoise, frame.index, slot);
+    frame.true_radial_velocity_mps[slot] = 50.0F * UnitFloat(words[0]) - 25.0F;
+    frame.radial_velocity_mps[slot] = HasPoint(frame.outcome[slot])
+                                          ? 50.0F * UnitFloat(words[1]) - 25.0F
+                                          : std::numeric_limits<float>::quiet_NaN();
+  }
+  return frame;
+}
+
 }  // namespace railcast

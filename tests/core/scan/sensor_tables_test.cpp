@@ -102,6 +102,33 @@ TEST(RosetteTable, IsThatOfTwoTurningPrisms) {
   EXPECT_NEAR(widest_deg, 19.2, 0.01);
 }
 
+// Aeva's own simulation (ScanPatterns.yaml, "64-19.2-Uniform") moves four beams in 16 steps, with
+// lines 0.25 to 0.3 deg apart; the raster's are 0.3 deg apart.
+TEST(Aeries2Raster, HasAsManyLinesAsItsMakersSimulation) {
+  std::ifstream file(RAILCAST_SOURCE_DIR "/scenarios/sensors/aeries2.json");
+  const nlohmann::json pattern = nlohmann::json::parse(file).at("scan").at("pattern");
+  const ScanPattern raster = BuildScanPattern(
+      {.rate_hz = 10.0,
+       .pattern = RasterSpec{.horizontal_fov_deg = pattern.at("horizontal_fov_deg"),
+                             .vertical_fov_deg = pattern.at("vertical_fov_deg"),
+                             .angular_resolution_deg = pattern.at("angular_resolution_deg"),
+                             .order = RasterOrder::kRows}});
+  std::vector<double> lines_deg;
+  for (const double beam_deg : {0.5729578, -1.718873, 1.718873, -0.5729578}) {
+    for (const double step_deg :
+         {-7.8, -7.5, -7.2, -6.9, -3.0, -2.7, -2.4, -2.1, 1.8, 2.1, 2.4, 2.7, 6.6, 6.9, 7.2, 7.5}) {
+      lines_deg.push_back(beam_deg + step_deg);
+    }
+  }
+  std::ranges::sort(lines_deg);
+  ASSERT_EQ(raster.rows, lines_deg.size());
+  for (std::size_t row = 0; row < lines_deg.size(); ++row) {
+    EXPECT_NEAR(-9.45 + 0.3 * static_cast<double>(row), lines_deg[row], 0.25) << row;
+  }
+  // Line by line.
+  EXPECT_TRUE(std::ranges::is_sorted(raster.row));
+}
+
 TEST(PandarTable, AgreesWithThePublishedCalibration) {
   std::ifstream file(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/calibration/Pandar64.csv");
   if (!file) GTEST_SKIP() << "Pandar64.csv is not there";

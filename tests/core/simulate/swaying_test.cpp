@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -150,12 +151,16 @@ struct SwayedWindow {
     windows.UseWind(true);
     window = windows.Get(0);
   }
-  [[nodiscard]] SwayedThings At(const Wind& wind, double stamp_s, double duration_s = 0.1) const {
+  [[nodiscard]] SwayedThings At(const Wind& wind,
+                                double stamp_s,
+                                double duration_s = 0.1,
+                                std::optional<std::uint32_t> first_own_surface = {}) const {
     return Sway(window->swaying, wind,
                 {.stamp_s = stamp_s,
                  .duration_s = duration_s,
                  .window_from_world = window->window_from_world,
-                 .reach_m = 300.0});
+                 .reach_m = 300.0,
+                 .first_own_surface = first_own_surface});
   }
 
   std::shared_ptr<SceneStore> store;
@@ -188,6 +193,34 @@ TEST(Swaying, WiresAreBlownOffByTheirParabolaAndSupportsStay) {
   const WireSegment& dropper = now.wires.segments[12];
   EXPECT_NEAR(static_cast<double>(dropper.begin_m.x()), 15.0 + middle_m, 2e-6);
   EXPECT_EQ(dropper.end_m.x(), dropper.begin_m.x());
+}
+
+TEST(Swaying, WiresHaveTheVelocityOfTheirBlowOffWhereItIsAskedFor) {
+  const SwayedWindow swayed(WorldWithSpan());
+  const Wind wind = WindOf(InWind(15.0, 180.0));
+  const SwayedThings now = swayed.At(wind, 12.3, 0.1, 1000U);
+  const SwayedThings shared = swayed.At(wind, 12.3);
+  EXPECT_TRUE(shared.own_surfaces.empty());
+  const WireSpan& span = swayed.window->swaying.spans.front();
+  // Both wires are of one part and one span.
+  ASSERT_EQ(now.own_surfaces.size(), 1U);
+  EXPECT_EQ(now.own_surfaces[0], shared.wires.segments[0].surface);
+  for (const WireSegment& wire : now.wires.segments) {
+    ASSERT_EQ(wire.surface, 1000U);
+    for (const float shutter : {0.0F, 1.0F}) {
+      const double time_s = 12.3 + 0.1 * static_cast<double>(shutter);
+      const double rate_mps =
+          (SpanBlowOff_m(wind, span, time_s + 1e-4) - SpanBlowOff_m(wind, span, time_s - 1e-4)) /
+          2e-4;
+      const Vector3 place_m = SegmentAt(wire, shutter).begin_m.cast<double>();
+      const double share = 4.0 * (place_m.y() + 30.0) * (30.0 - place_m.y()) / 3600.0;
+      // Its left is -x.
+      EXPECT_LT((now.motions.VelocityOf_mps(wire.surface, static_cast<double>(shutter), place_m) -
+                 Vector3(-share * rate_mps, 0.0, 0.0))
+                    .norm(),
+                1e-4 * std::abs(rate_mps) + 1e-9);
+    }
+  }
 }
 
 TEST(Swaying, AWireThatIsPartOfNoSpanHangsStillBesideOthers) {

@@ -18,12 +18,13 @@ namespace railcast {
 /// They are always stored in the table's order.
 class FieldSelection {
  public:
-  /// Selects every field.
+  /// Selects every field that frames of all sensors have.
   FieldSelection();
   /// @param list Names separated by commas, in any order; "all" selects every field.
+  /// @param has_velocity Whether it is for frames with velocities (Frame::has_velocity).
   /// @throws InputError if a name is unknown (the message names the closest and all valid ones) or
   ///   is given twice.
-  explicit FieldSelection(std::string_view list);
+  explicit FieldSelection(std::string_view list, bool has_velocity = false);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool Has(std::string_view name) const;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/core/io/message_of.h"
 
 namespace railcast {
@@ -34,6 +36,15 @@ TEST(FieldSelection, NamesAllFieldsForWhatIsNearToNone) {
       "\"footprint_share\" or \"mixed_share\" (got ";
   EXPECT_EQ(MessageOf([] { FieldSelection("foo"); }), rule + "\"foo\")");
   EXPECT_EQ(MessageOf([] { FieldSelection("x,,y"); }), rule + "\"\")");
+}
+
+TEST(FieldSelection, HasVelocitiesOfSensorsThatMeasureThem) {
+  EXPECT_EQ(FieldSelection("all", true).Text(),
+            std::string(kAll) + ",radial_velocity_mps,true_radial_velocity_mps");
+  EXPECT_EQ(FieldSelection("radial_velocity_mps,x", true).Text(), "x,radial_velocity_mps");
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,radial_velocity_mps"); }),
+            "--fields: must be a field of a sensor without lidar.velocity (got "
+            "\"radial_velocity_mps\")");
 }
 
 TEST(FieldSelection, RefusesAFieldTwice) {

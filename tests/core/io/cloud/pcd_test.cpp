@@ -62,6 +62,21 @@ TEST_P(PcdRoundTrip, KeepsEveryBitOfEveryFieldThroughPclsReader) {
   ExpectSame(frame, ReadPcd(file));
 }
 
+TEST_P(PcdRoundTrip, KeepsVelocitiesThroughPclsReader) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "frame.pcd";
+  const Frame frame = WithVelocities(ExampleFrame(3));
+  std::string bytes;
+  EncodePcd(frame, FieldSelection("all", true), GetParam(), bytes);
+  WriteFileWhole(file, bytes);
+
+  pcl::PCLPointCloud2 by_pcl;
+  ASSERT_EQ(pcl::io::loadPCDFile(file.string(), by_pcl), 0);
+  EXPECT_EQ(by_pcl.fields.size(), 21U);
+  ExpectSame(frame, by_pcl);
+  ExpectSame(frame, ReadPcd(file));
+}
+
 TEST_P(PcdRoundTrip, GivesPclsPointXyzlItsLabels) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "frame.pcd";

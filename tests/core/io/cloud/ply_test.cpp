@@ -45,6 +45,22 @@ std::vector<T> Picked(const Frame& frame, const Values& values) {
   return picked;
 }
 
+TEST(EncodePly, GivesPclsReaderItsVelocities) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "frame.ply";
+  const Frame frame = WithVelocities(ExampleFrame(2));
+  std::string bytes;
+  EncodePly(frame, FieldSelection("all", true), PlyFlavour::kPcl, bytes);
+  WriteFileWhole(file, bytes);
+
+  pcl::PCLPointCloud2 by_pcl;
+  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
+  EXPECT_EQ(Column<float>(by_pcl, "radial_velocity_mps"),
+            Picked<float>(frame, frame.radial_velocity_mps));
+  EXPECT_EQ(Column<float>(by_pcl, "true_radial_velocity_mps"),
+            Picked<float>(frame, frame.true_radial_velocity_mps));
+}
+
 TEST(EncodePly, GivesPclsReaderItsPointsAndLabels) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "frame.ply";

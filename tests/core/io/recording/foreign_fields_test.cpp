@@ -99,6 +99,19 @@ TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {
   EXPECT_THAT(ReadPly({"float reflectivity"}, {"1 2 3 0.25"}).foreign, IsEmpty());
 }
 
+TEST(ForeignFields, AreNotThoseOfAevasSensors) {
+  const RecordedFrame recorded =
+      ReadPly({"float reflectivity", "float velocity", "uint time_offset_ns", "uchar line_index"},
+              {"1 2 3 50 -12.5 1000 2", "2 2 3 60 0.25 2000 3"});
+  EXPECT_THAT(recorded.foreign, IsEmpty());
+  ASSERT_TRUE(recorded.frame.has_velocity);
+  EXPECT_TRUE(recorded.Has("radial_velocity_mps"));
+  EXPECT_FALSE(recorded.Has("true_radial_velocity_mps"));
+  EXPECT_THAT(recorded.frame.radial_velocity_mps, testing::Contains(-12.5F));
+  EXPECT_THAT(recorded.frame.radial_velocity_mps, testing::Contains(0.25F));
+  EXPECT_FALSE(ReadPly({"float reflectivity"}, {"1 2 3 50"}).frame.has_velocity);
+}
+
 TEST(ForeignFields, HoldATimeOnlyWhereItsUnitIsUncertain) {
   // A span of 0.05 is a scan's duration in seconds; a span of 50 has no certain unit.
   const RecordedFrame certain = ReadPly({"float time"}, {"1 2 3 0", "1 2 4 0.05"});

@@ -19,6 +19,7 @@ struct MadeSequenceSpec {
   std::string output = R"({"frame": "sensor"})";
   std::string sensor = "vir2rail";
   std::string return_mode = "strongest";
+  bool has_velocity = false;
   std::string object = R"({"name": "wagon", "type": "open_wagon", "s_m": 300})";
   Vector3 wagon_velocity_mps = Vector3::Zero();
   std::uint32_t start_frame = 0;
@@ -36,8 +37,9 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
   const std::string folder = RAILCAST_SOURCE_DIR "/scenarios/";
   return R"({"version": 1, "fidelity": ")" + spec.fidelity + R"(", "lidar": {"file": ")" + folder +
          "sensors/" + spec.sensor + R"(.json", "mount": {"position_m": [2.2, 0.1, 2.5], )" +
-         R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("}}, )" +
-         R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
+         R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("})" +
+         (spec.has_velocity ? R"(, "velocity": {"sigma_mps": 0.03, "max_mps": 50})" : "") +
+         R"(}, )" + R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
          R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" + R"("objects": [)" +
          spec.object + "]}, " +
          R"("vehicle": {"start_s_m": 250, "motion": {"profile": [{"time_s": 0, )" +
@@ -59,7 +61,7 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   spec.embree_version = "3.13.5";
   spec.isa = "avx2";
   spec.identity = IdentityOf(result.scenario);
-  spec.files = {&ParseFrameFormat(made.format), FieldSelection(made.fields),
+  spec.files = {&ParseFrameFormat(made.format), FieldSelection(made.fields, made.has_velocity),
                 LabelTable(result.scenario.labels)};
   spec.materials = MaterialLibrary(result.scenario.materials);
   spec.start_frame = made.start_frame;

@@ -80,6 +80,20 @@ TEST_P(OrganisedFormat, GivesBackEveryFieldOfEverySlot) {
   }
 }
 
+TEST_P(OrganisedFormat, GivesBackVelocities) {
+  const TemporaryDirectory directory;
+  const auto made =
+      MakeSequence(directory.path() / "run", {.format = GetParam(), .has_velocity = true});
+  const auto frames = ReadAll(directory.path() / "run");
+  ASSERT_EQ(frames.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_TRUE(frames[i].frame.has_velocity);
+    EXPECT_TRUE(AreSame(frames[i].frame.radial_velocity_mps, made.frames[i].radial_velocity_mps));
+    EXPECT_TRUE(
+        AreSame(frames[i].frame.true_radial_velocity_mps, made.frames[i].true_radial_velocity_mps));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(SequenceRecording,
                          OrganisedFormat,
                          testing::Values("pcd", "pcd-compressed", "pcd-ascii"));

@@ -185,6 +185,40 @@ TEST(PointLayout, LivoxHasNoMoreThan256Lines) {
             "--fields livox: needs at most 256 channels (got 257)");
 }
 
+TEST(PointLayout, AevaHoldsPointsWithTheirVelocities) {
+  const Frame frame = WithVelocities(ExampleFrame(5));
+  const PointCloud2 cloud = CloudIn(PointLayout::kAeva, frame);
+  EXPECT_EQ(FieldsOf(cloud),
+            (std::vector<std::string>{"x 0 7", "y 4 7", "z 8 7", "reflectivity 12 7",
+                                      "velocity 16 7", "time_offset_ns 20 6", "line_index 24 2"}));
+  EXPECT_EQ(cloud.point_step, 25U);
+  EXPECT_TRUE(cloud.is_dense);
+  const std::vector<std::size_t> slots = PointSlots(frame);
+  ASSERT_EQ(cloud.width, slots.size());
+  for (std::size_t point = 0; point < slots.size(); ++point) {
+    const std::size_t slot = slots[point];
+    EXPECT_EQ(ValueAt<float>(cloud, point, 12), ReflectivityByte(frame.intensity[slot]));
+    EXPECT_EQ(ValueAt<float>(cloud, point, 16), frame.radial_velocity_mps[slot]);
+    EXPECT_EQ(ValueAt<std::uint32_t>(cloud, point, 20), frame.time_ns[slot]);
+    EXPECT_EQ(ValueAt<std::uint8_t>(cloud, point, 24), frame.rows - 1 - frame.ring[slot]);
+  }
+}
+
+TEST(PointLayout, AevaNeedsVelocitiesAndNoMoreThan256Lines) {
+  EXPECT_EQ(MessageOf([] { (void)CloudIn(PointLayout::kAeva, ExampleFrame(0)); }),
+            "--fields aeva: needs a sensor with lidar.velocity");
+  EXPECT_EQ(MessageOf([] { (void)CloudIn(PointLayout::kAeva, ExampleFrame(0, 257, 1)); }),
+            "--fields aeva: needs at most 256 channels (got 257)");
+}
+
+TEST(PointLayout, RailcastLeavesVelocitiesOutWhereTheFrameHasNone) {
+  const CloudSpec spec = ParseCloudSpec("x,y,z,radial_velocity_mps", true);
+  EXPECT_EQ(FieldsOf(MakeCloud(WithVelocities(ExampleFrame(0)), spec, "lidar")),
+            (std::vector<std::string>{"x 0 7", "y 4 7", "z 8 7", "radial_velocity_mps 12 7"}));
+  EXPECT_EQ(FieldsOf(MakeCloud(ExampleFrame(0), spec, "lidar")),
+            (std::vector<std::string>{"x 0 7", "y 4 7", "z 8 7"}));
+}
+
 TEST(PointLayout, IsReadFromItsNameOrFromAListOfFields) {
   EXPECT_EQ(ParseCloudSpec("ouster").layout, PointLayout::kOuster);
   EXPECT_EQ(ParseCloudSpec("railcast"), ParseCloudSpec("all"));

@@ -54,6 +54,20 @@ TEST(MakeFrame, LeavesFieldsThatWereNotSentEmpty) {
   EXPECT_EQ(made->label[5], 0U);
 }
 
+TEST(MakeFrame, HasTheVelocitiesThatWereSent) {
+  const Frame frame = WithVelocities(StreamFrame(1));
+  StreamSpec spec = AllSlotsOf("ring,column,outcome");
+  EXPECT_FALSE(MakeFrame(ReceiveWhole(StreamFrame(1), spec))->has_velocity);
+  spec.fields = FieldSelection("all", true);
+  const auto made = MakeFrame(ReceiveWhole(frame, spec));
+  ASSERT_TRUE(made);
+  ASSERT_TRUE(made->has_velocity);
+  EXPECT_EQ(made->true_radial_velocity_mps, frame.true_radial_velocity_mps);
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    EXPECT_EQ(std::isnan(made->radial_velocity_mps[slot]), !HasPoint(frame.outcome[slot]));
+  }
+}
+
 TEST(MakeFrame, MakesNoneOfWhatIsNotAWholeFrame) {
   const Frame frame = StreamFrame(1);
   const auto makes = [&](const StreamSpec& spec) {
