@@ -31,7 +31,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_bags) {
       .add_option("--fields", choices.fields,
                   std::string("Fields to write, separated by commas, or all") +
                       (has_bags ? "; for mcap and rosbag2 also a layout of points: railcast, "
-                                  "velodyne, ouster, hesai or livox"
+                                  "velodyne, ouster, hesai, livox or aeva"
                                 : ""))
       ->capture_default_str();
   command.add_flag("--merged", choices.is_merged,
@@ -46,7 +46,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_bags) {
 void CheckFields(const std::string& fields) {
   if (ValueNamed<ros::PointLayout>(fields)) return;
   try {
-    static_cast<void>(FieldSelection(fields));
+    static_cast<void>(FieldSelection(fields, true));
   } catch (const InputError& error) {
     throw CLI::ValidationError(error.what());
   }
