@@ -1,5 +1,6 @@
 #include "generator/live/ros_plan.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/error.h"
@@ -62,8 +63,11 @@ std::optional<RosOutputSpec> PlanRos(const StreamOptions& options,
   if (spec.sensors.size() == streams.size()) CheckNoneIsForUdp(options);
   CheckTopic("--commands-topic", options.commands_topic, "/brake");
   CheckTopic("--step-topic", options.step_topic, "/step");
-  spec.clouds = options.fields ? ros::ParseCloudSpec(*options.fields)
-                               : ros::CloudSpec{.fields = StreamSpec{}.fields};
+  const bool has_velocity = std::ranges::any_of(spec.sensors, [&](std::size_t sensor) {
+    return PickSensor(scenario, streams[sensor].name).lidar.velocity.has_value();
+  });
+  spec.clouds = options.fields ? ros::ParseCloudSpec(*options.fields, has_velocity)
+                               : ros::CloudSpec{.fields = UsualFields(has_velocity)};
   spec.participant = ParticipantOf(options, scenario.interfaces.ros2.value_or(Ros2Spec{}));
   return spec;
 }

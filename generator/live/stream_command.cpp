@@ -134,7 +134,9 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                                           const ScenarioSpec& scenario) {
   std::vector<SensorStreamSpec> streams;
   for (const std::string& name : SensorNames(scenario)) {
-    const InterfacesSpec interfaces = PickSensor(scenario, name).interfaces;
+    const ScenarioSpec sensor = PickSensor(scenario, name);
+    const InterfacesSpec& interfaces = sensor.interfaces;
+    const bool has_velocity = sensor.lidar.velocity.has_value();
     const Protocol protocol =
         options.protocol ? ValueNamed<Protocol>(*options.protocol).value() : interfaces.protocol;
     streams.push_back({.name = name,
@@ -147,8 +149,8 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                        .clock = ClockOf(options, protocol),
                        .pcap = options.pcap,
                        .fields = options.fields && protocol != Protocol::kRos2
-                                     ? FieldSelection(*options.fields)
-                                     : StreamSpec{}.fields,
+                                     ? FieldSelection(*options.fields, has_velocity)
+                                     : UsualFields(has_velocity),
                        .has_all_slots = options.has_all_slots});
   }
   CheckPortsDiffer(streams, scenario);

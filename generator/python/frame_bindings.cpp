@@ -149,12 +149,11 @@ py::object ScanPoses(const RecordedFrame& recorded) {
 // The table of fields for the docstring, so that it stands in one place, ForEachField.
 std::string FieldTable() {
   std::string table;
-  const Frame frame;
-  ForEachField(frame, [&](const std::string& name, const std::string& unit, const auto& values) {
+  ForEachPossibleField([&](const std::string& name, const std::string& unit, const auto& values) {
     using T = typename std::decay_t<decltype(values)>::value_type;
     const std::string type =
         std::is_floating_point_v<T> ? "float32" : "uint" + std::to_string(8 * sizeof(T));
-    table += "    " + name + std::string(18 - name.size(), ' ') + type +
+    table += "    " + name + std::string(26 - name.size(), ' ') + type +
              (unit.empty() ? "" : std::string(9 - type.size(), ' ') + unit) + "\n";
   });
   return table;

@@ -28,9 +28,8 @@ void CheckLength(const char* name, double length_m) {
   throw InputError({{name, "must be finite and >= 0", NumberText(length_m)}});
 }
 
-std::set<std::string, std::less<>> AllFields() {
+std::set<std::string, std::less<>> NamesOfFields(const Frame& frame) {
   std::set<std::string, std::less<>> names;
-  const Frame frame;
   ForEachField(frame, [&](const char* name, const auto&...) { names.emplace(name); });
   return names;
 }
@@ -184,8 +183,7 @@ void HeldSimulation::Make(std::uint32_t frame,
     }
   }
   if (!made.fields.empty()) return;
-  static const auto all_fields = AllFields();
-  made.fields = all_fields;
+  made.fields = NamesOfFields(made.frame);
   const OutputSpec& output = simulator.spec().output;
   const bool is_in_sensor_axes =
       output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;

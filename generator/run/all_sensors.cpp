@@ -339,6 +339,9 @@ void CheckCanMerge(const FrameMaker& maker, const RunPlan& plan) {
   for (const auto& [plan_of_sensor, pattern] : sensors) {
     const std::string& name = plan_of_sensor.name;
     if (name == kMergedFolder) fail("sensors of other names", Quoted(name));
+    if (plan_of_sensor.spec.files.fields != files.fields) {
+      fail("--fields that all sensors have", plan_of_sensor.spec.files.fields.Text());
+    }
     longest_ns = std::max(longest_ns, pattern.time_ns.back());
   }
   // The times of points are counted from the first sensor's stamp, in 32 bits.

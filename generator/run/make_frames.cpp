@@ -377,9 +377,14 @@ std::optional<RunBag> BagOf(const FrameMaker& maker, const RunPlan& plan) {
   const SequenceSpec& first = plan.sensors.front().spec;
   if (first.bag.empty()) return std::nullopt;
   const std::int64_t begin_ns = maker.pattern(0).StampNs(first.start_frame);
+  // Those of the sensor with most fields; frames leave out what they lack.
+  const auto num_fields = [](const SensorPlan& sensor) {
+    return sensor.spec.clouds.fields.names().size();
+  };
+  const SensorPlan& richest = *std::ranges::max_element(plan.sensors, {}, num_fields);
   return std::make_optional<RunBag>(plan,
                                     TopicsSpecOf(plan.scenario, *maker.StateAt(begin_ns).world,
-                                                 first.clouds, ros::ImageEncoding::kPng),
+                                                 richest.spec.clouds, ros::ImageEncoding::kPng),
                                     begin_ns);
 }
 

@@ -31,7 +31,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_traces) {
       .add_option(
           "--fields", choices.fields,
           "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
-          "of points: railcast, velodyne, ouster, hesai or livox")
+          "of points: railcast, velodyne, ouster, hesai, livox or aeva")
       ->capture_default_str();
   command.add_flag("--merged", choices.is_merged,
                    "Also write the clouds of all sensors together, in the vehicle's axes, with "
@@ -45,7 +45,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_traces) {
 void CheckFields(const std::string& fields) {
   if (ValueNamed<ros::PointLayout>(fields)) return;
   try {
-    static_cast<void>(FieldSelection(fields));
+    static_cast<void>(FieldSelection(fields, true));
   } catch (const InputError& error) {
     throw CLI::ValidationError(error.what());
   }

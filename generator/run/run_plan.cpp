@@ -26,15 +26,15 @@ bool IsNameOfAFolder(const std::string& name) {
 }
 
 // Chooses what is stored of each point.
-void ChooseFields(const std::string& fields, SequenceSpec& spec) {
+void ChooseFields(const std::string& fields, bool has_velocity, SequenceSpec& spec) {
   const FrameFormat& format = *spec.files.format;
   if (!format.bag.empty()) {
-    spec.clouds = ros::ParseCloudSpec(fields);
+    spec.clouds = ros::ParseCloudSpec(fields, has_velocity);
   } else if (ValueNamed<ros::PointLayout>(fields)) {
     throw InputError("--fields " + fields + ": must be with --format mcap or rosbag2 (got " +
                      std::string(format.name) + ")");
   } else {
-    spec.files.fields = FieldSelection(fields);
+    spec.files.fields = FieldSelection(fields, has_velocity);
   }
 }
 
@@ -81,7 +81,7 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
   spec.seed = scenario.seed;
   spec.files.format = &ParseFrameFormat(choices.format);
   if (!spec.files.format->trace.empty()) CheckTrace(choices);
-  ChooseFields(choices.fields, spec);
+  ChooseFields(choices.fields, scenario.lidar.velocity.has_value(), spec);
   const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
   const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
                                scenario.output.handedness == Handedness::kRight;

@@ -90,6 +90,24 @@ class SameFramesAsASequence(unittest.TestCase):
                 self.assertEqual(made[name].dtype, written.dtype[name])
                 self.assertEqual(made[name].tobytes(), written[name].tobytes(), name)
 
+    def test_velocities_are_fields_of_sensors_that_measure_them(self):
+        scenario = {"version": 1, "file": str(SCENARIO), "fidelity": "geometry",
+                    "lidar": {"file": str(ROOT / "scenarios" / "sensors" / "vir2rail.json"),
+                              "mount": {"position_m": [2.2, 0, 2.5]},
+                              "velocity": {"sigma_mps": 0.03, "max_mps": 100}}}
+        simulator = railcast.Simulator(scenario, file=ROOT / "scenarios" / "other.json")
+        frame = simulator.scan(30)
+        self.assertEqual(frame.fields, self.simulator.scan(30).fields +
+                         ["radial_velocity_mps", "true_radial_velocity_mps"])
+        ground = frame.has_point & (frame["instance"] == 0)
+        forward = frame["x"][ground] / frame["range_m"][ground]
+        # What stands comes nearer at the speed of the train, which brakes from 40 km/h.
+        speed = -frame["true_radial_velocity_mps"][ground] / forward
+        self.assertTrue(0 < np.median(speed) <= 40 / 3.6)
+        self.assertLess(np.ptp(speed), 0.5)
+        np.testing.assert_array_equal(frame["radial_velocity_mps"][ground],
+                                      frame["true_radial_velocity_mps"][ground])
+
     def test_poses_and_objects_are_those_of_the_records(self):
         lines = (self.run_folder / "objects.jsonl").read_text("utf-8").splitlines()
         poses = np.genfromtxt(self.run_folder / "poses.csv", delimiter=",", names=True)

@@ -75,6 +75,8 @@ class Facts {
     AddField("range_m", "range", [&] { return QuantityText(At(frame_.range_m), 4, "m"); });
     AddField("intensity", "intensity", [&] { return ValueText(frame_.intensity[slot_]); });
     AddField("power_ratio", "power ratio", [&] { return ValueText(frame_.power_ratio[slot_]); });
+    AddField("radial_velocity_mps", "velocity",
+             [&] { return QuantityText(At(frame_.radial_velocity_mps), 2, "m/s"); });
     AddField("time_ns", "time",
              [&] { return QuantityText(frame_.time_ns[slot_] / kNsPerUs, 3, "us"); });
     AddField("ring", "ring", [&] { return std::to_string(frame_.ring[slot_]); });
@@ -105,6 +107,8 @@ class Facts {
     AddField("footprint_share", "footprint share",
              [&] { return FixedText(At(frame_.footprint_share), 3); });
     AddField("mixed_share", "mixed share", [&] { return FixedText(At(frame_.mixed_share), 3); });
+    AddField("true_radial_velocity_mps", "true velocity",
+             [&] { return QuantityText(At(frame_.true_radial_velocity_mps), 2, "m/s"); });
     if (lines_.size() == num_measured + 1) lines_.pop_back();
   }
 

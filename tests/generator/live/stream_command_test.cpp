@@ -45,6 +45,29 @@ TEST(Stream, SendsTheFramesThatSequenceWrites) {
   }
 }
 
+TEST(Stream, SendsVelocitiesOfASensorThatMeasuresThem) {
+  const TemporaryDirectory folder;
+  const std::string scenario = CoarseScenario(folder.path());
+  std::string text = ReadFileWhole(scenario);
+  const std::string name = R"("name": "coarse",)";
+  text.insert(text.find(name), R"("velocity": {"sigma_mps": 0, "max_mps": 50}, )");
+  WriteFileWhole(scenario, text);
+  StreamReceiver receiver(kAnyLoopbackPort);
+  Stream stream(scenario + " --duration 0.05 --to " + EndpointText(receiver.at()));
+  const auto frame = receiver.Next(kPatience_ms);
+  ASSERT_TRUE(frame.has_value());
+  const StreamField* const field = frame->header.Find("radial_velocity_mps");
+  ASSERT_NE(field, nullptr);
+  EXPECT_EQ(frame->header.Find("true_radial_velocity_mps"), nullptr);
+  ASSERT_GT(frame->num_points(), 100U);
+  // All stands but the vehicle, at 10 m/s.
+  for (std::size_t i = 0; i < frame->num_points(); ++i) {
+    EXPECT_LT(frame->At<float>(*field, i), -9.0F);
+    EXPECT_GE(frame->At<float>(*field, i), -10.001F);
+  }
+  EXPECT_EQ(stream.Wait().status, 0);
+}
+
 TEST(Stream, WritesTheSameCaptureEachTimeAtAnyThreadCount) {
   const TemporaryDirectory folder;
   const std::string scenario = CoarseScenario(folder.path());

@@ -13,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/io/run/sequence_files.h"
+#include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
@@ -58,16 +59,18 @@ Points OfSensor(const Points& all, int sensor_index) {
 class MergedClouds : public testing::Test {
  protected:
   /// Makes a run of two_sensors.json: `front` of 20 Hz and, `roof_phase_s` later, `roof` of 10 Hz.
+  /// @param of_roof Further keys of the roof's sensor.
   [[nodiscard]] Ended Make(const std::string& out,
                            const std::string& options,
-                           double roof_phase_s = 0.0) const {
+                           double roof_phase_s = 0.0,
+                           const std::string& of_roof = "") const {
     std::ofstream(folder_.path() / "scenario.json")
         << R"({"version": 1, "file": ")" << (kScenarios / "two_sensors.json").string()
         << R"(", "lidars": [{"file": ")" << (kScenarios / "sensors/vlp16_20hz.json").string()
         << R"(", "name": "front", "mount": {"position_m": [2.2, 0, 2.5], "yaw_deg": 90}},)"
         << R"({"file": ")" << (kScenarios / "sensors/vlp16.json").string()
         << R"(", "name": "roof", "mount": {"position_m": [1.5, 0, 4.1]}, "phase_s": )"
-        << roof_phase_s << "}]}";
+        << roof_phase_s << of_roof << "}]}";
     return Generate("sequence " + (folder_.path() / "scenario.json").string() + " --out " +
                     Out(out).string() + " " + options);
   }
@@ -221,6 +224,19 @@ TEST_F(MergedClouds, NeedSeveralSensorsAndCoordinates) {
   EXPECT_EQ(Make("run", "--merged --fields x,y,label").said,
             "--merged: must be with --fields x, y and z (got x,y,label)\n");
   EXPECT_FALSE(fs::exists(Out("run")));
+}
+
+TEST_F(MergedClouds, NeedTheFieldsThatAllSensorsHave) {
+  const std::string velocity = R"(, "velocity": {"sigma_mps": 0.03, "max_mps": 50})";
+  EXPECT_EQ(Make("run", "--merged", 0.0, velocity).said,
+            "--merged: must be with --fields that all sensors have (got " +
+                FieldSelection("all", true).Text() + ")\n");
+  EXPECT_EQ(Make("run", "--fields x,y,z,radial_velocity_mps", 0.0, velocity).said,
+            "--fields: must be a field of a sensor without lidar.velocity (got "
+            "\"radial_velocity_mps\")\n");
+  EXPECT_FALSE(fs::exists(Out("run")));
+  // Sequences of their own may differ.
+  EXPECT_EQ(Make("run", "--frames 1", 0.0, velocity).status, 0);
 }
 
 TEST(MergedFrames, HoldWhatBeginsDuringAFrameOfTheFirstSensor) {

@@ -70,6 +70,12 @@ const std::map<std::string, Expected>& AllExpected() {
         [](const Frame& frame, std::size_t i) {
           return static_cast<double>(frame.incidence_rad[i]) / std::numbers::pi * 180.0;
         }}},
+      {"velocity",
+       {"velocity along the beam [m/s]", Kind::kDifference, "radial_velocity_mps",
+        Plain(&Frame::radial_velocity_mps)}},
+      {"true_velocity",
+       {"true velocity along the beam [m/s]", Kind::kDifference, "true_radial_velocity_mps",
+        Plain(&Frame::true_radial_velocity_mps)}},
       {"material", {"material", Kind::kCategory, "material", Plain(&Frame::material)}},
       {"footprint_share",
        {"share of the beam", Kind::kAmount, "footprint_share", Plain(&Frame::footprint_share)}},
@@ -81,7 +87,7 @@ const std::map<std::string, Expected>& AllExpected() {
 }
 
 ShownFrame FullFrame() {
-  return MakeShownFrame(Record(ExampleFrame(3)));
+  return MakeShownFrame(Record(WithVelocities(ExampleFrame(3))));
 }
 
 RecordedFrame ForeignCloud() {
