@@ -35,9 +35,6 @@ inline constexpr std::uint16_t kOusterImuPort = 7503;
 /// The port of position packets; absent if sensors of this protocol send none.
 [[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);
 
-/// The port of position packets; absent if sensors of this protocol send none.
-[[nodiscard]] std::optional<std::uint16_t> PositionPort(Protocol protocol);
-
 /// Whether each receiver is named once.
 [[nodiscard]] bool AreDifferent(const std::vector<std::string>& receivers);
 /// The first receiver of frames that gets position packets, too; a rule that it breaks. Empty if

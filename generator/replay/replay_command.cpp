@@ -82,7 +82,7 @@ FrameSource OpenFrames(const ReplayOptions& options) {
 std::unique_ptr<ReplayFeed> OpenTopics(const ReplayOptions& options) {
   FrameSource source = OpenFrames(options);
   ros::CloudSpec clouds;
-  if (options.fields) clouds = ros::ParseCloudSpec(*options.fields);
+  if (options.fields) clouds = ros::ParseCloudSpec(*options.fields, true);
   if (clouds.layout == ros::PointLayout::kRailcast) {
     const auto wanted = options.fields ? std::optional(clouds.fields) : std::nullopt;
     clouds.fields = FieldsOf(source.first(), wanted);

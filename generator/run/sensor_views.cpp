@@ -134,7 +134,13 @@ SensorViewMaker MakeSensorViews(const FrameMaker& maker,
     std::vector<osi::ObjectOfView> objects = {HostOf(*state.world, vehicle, made.vehicle)};
     AddRestOfTrain(*state.world, made.frame, objects);
     AddSurveyed(*state.world, made.objects, objects);
-    return osi::SensorViewOf(lidar, {made.frame, objects, state.weather});
+    const osi::FrameOfView view{made.frame, objects, state.weather};
+    if (lidar.pattern->repeats()) return osi::SensorViewOf(lidar, view);
+    const ScanPattern of_frame = PatternOfFrame(*lidar.pattern, made.frame.index);
+    osi::LidarOfView in_frame = lidar;
+    in_frame.pattern = &of_frame;
+    in_frame.firings = osi::FiringsByRay(of_frame);
+    return osi::SensorViewOf(in_frame, view);
   };
 }
 

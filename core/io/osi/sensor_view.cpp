@@ -17,6 +17,7 @@ namespace railcast::osi {
 namespace {
 
 constexpr double kLightSpeed_mps = 299'792'458.0;
+constexpr double kNmPerM = 1e9;
 /// As OSI says that there is no object.
 constexpr std::uint64_t kNoObject = std::numeric_limits<std::uint64_t>::max();
 
@@ -69,7 +70,6 @@ void SetRays(const LidarOfView& lidar,
 void SetConfiguration(const LidarOfView& lidar,
                       const Frame& frame,
                       osi3::LidarSensorViewConfiguration& message) {
-  constexpr double kNmPerM = 1e9;
   message.mutable_sensor_id()->set_value(lidar.detector_id);
   SetMount(lidar.rear_from_sensor, *message.mutable_mounting_position());
   SetFieldOfView(*lidar.pattern, message);
@@ -87,6 +87,10 @@ void SetReflection(const LidarOfView& lidar,
                    osi3::LidarSensorView::Reflection& message) {
   constexpr double kDbPerDecade = 10.0;
   message.set_time_of_flight(2.0 * static_cast<double>(frame.range_m[slot]) / kLightSpeed_mps);
+  if (frame.has_velocity && !std::isnan(frame.radial_velocity_mps[slot])) {
+    message.set_doppler_shift(-2.0 * static_cast<double>(frame.radial_velocity_mps[slot]) *
+                              kNmPerM / lidar.wavelength_nm);
+  }
   // Also false where no power is computed.
   if (frame.power_ratio[slot] > 0.0F) {
     message.set_signal_strength(

@@ -123,6 +123,8 @@ constexpr auto kLivoxFields = std::to_array<LayoutField>({
      [](const PointSource& point, char* place) { StoreAt<double>(place, point.time_ns()); }},
 });
 
+constexpr const char* kNeedsVelocity = "--fields aeva: needs a sensor with lidar.velocity";
+
 constexpr auto kAevaFields = std::to_array<LayoutField>({
     kX,
     kY,
@@ -261,7 +263,10 @@ void PutOwnPoints(const Frame& frame, const FieldSelection& fields, PointCloud2&
 }  // namespace
 
 CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity) {
-  if (const auto layout = ValueNamed<PointLayout>(text)) return {*layout, {}};
+  if (const auto layout = ValueNamed<PointLayout>(text)) {
+    if (*layout == PointLayout::kAeva && !has_velocity) throw InputError(kNeedsVelocity);
+    return {*layout, {}};
+  }
   CloudSpec spec{PointLayout::kRailcast, FieldSelection(text, has_velocity)};
   for (const std::string_view name : {"x", "y", "z"}) {
     if (spec.fields.Has(name)) continue;
@@ -290,7 +295,7 @@ PointCloud2 MakeCloud(const Frame& frame,
     throw InputError("--fields " + TextOf(spec) + ": needs at most 256 channels" + Got(frame.rows));
   }
   if (is_aeva && !frame.has_velocity) {
-    throw InputError("--fields aeva: needs a sensor with lidar.velocity");
+    throw InputError(kNeedsVelocity);
   }
   PointCloud2 message;
   message.header = {TimeOf(frame.stamp_ns), std::move(frame_id)};

@@ -137,6 +137,24 @@ TEST(SensorView, HasThePowerOverTheEmittedOneInDecibels) {
   EXPECT_TRUE(lidar.reflection(1).has_time_of_flight());
 }
 
+TEST(SensorView, HasTheDopplerShiftOfVelocitiesAlongTheBeams) {
+  Frame frame = EmptyFrame();
+  EXPECT_FALSE(
+      ReadView(ExampleLidar(), frame).lidar_sensor_view(0).reflection(0).has_doppler_shift());
+  frame.has_velocity = true;
+  frame.Resize(frame.rows, frame.columns, 1);
+  PutPoint(8, 30.0F, 0, frame);
+  PutPoint(9, 30.0F, 0, frame);
+  frame.radial_velocity_mps[8] = -20.0F;
+  frame.radial_velocity_mps[9] = std::numeric_limits<float>::quiet_NaN();
+  LidarOfView lidar = ExampleLidar();
+  lidar.wavelength_nm = 1550;
+  const auto view = ReadView(lidar, frame).lidar_sensor_view(0);
+  // What comes nearer returns at a higher frequency.
+  EXPECT_NEAR(view.reflection(0).doppler_shift(), 2.0 * 20.0 / 1550e-9, 1.0);
+  EXPECT_FALSE(view.reflection(1).has_doppler_shift());
+}
+
 TEST(SensorView, NamesTheObjectsThatTheTruthHolds) {
   Frame frame = EmptyFrame();
   PutPoint(8, 30.0F, 12, frame);

@@ -224,6 +224,9 @@ TEST(PointLayout, IsReadFromItsNameOrFromAListOfFields) {
   EXPECT_EQ(ParseCloudSpec("railcast"), ParseCloudSpec("all"));
   EXPECT_EQ(TextOf(ParseCloudSpec("hesai")), "hesai");
   EXPECT_EQ(TextOf(ParseCloudSpec("z,label,x,y")), "x,y,z,label");
+  EXPECT_EQ(ParseCloudSpec("aeva", true).layout, PointLayout::kAeva);
+  EXPECT_EQ(MessageOf([] { (void)ParseCloudSpec("aeva"); }),
+            "--fields aeva: needs a sensor with lidar.velocity");
   EXPECT_EQ(MessageOf([] { (void)ParseCloudSpec("x,y,label"); }),
             "--fields: must contain x, y and z for messages of ROS 2 (got x,y,label)");
 }
