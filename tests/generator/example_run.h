@@ -49,13 +49,13 @@ inline void MakeExampleFrame(std::uint32_t index,
   objects.push_back(wagon);
 }
 
-using FrameSource =
+using ExampleFrames =
     std::function<void(std::uint32_t index, Frame& frame, std::vector<ObjectInFrame>& objects)>;
 using ImageSource = std::function<bool(std::uint32_t index, CameraImage& image)>;
 
 /// Makes each frame with one call.
 inline SequenceResult RunSequence(const SequenceSpec& spec,
-                                  const FrameSource& make_frame,
+                                  const ExampleFrames& make_frame,
                                   const SequenceHooks& hooks,
                                   const ImageSource& make_image = {},
                                   const FramesAtOnce& at_once = {}) {

@@ -91,7 +91,7 @@ TEST_P(InterruptedRun, ContinuesAfterAStopBetweenFrames) {
   EXPECT_EQ(first.num_done, 6U);  // The frame under way was still written.
   EXPECT_FALSE(fs::exists(directory.path() / "manifest.json"));
   std::uint32_t num_made = 0;
-  const FrameSource counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
     ++num_made;
     MakeExampleFrame(index, frame, objects);
   };
@@ -136,7 +136,7 @@ TEST_P(InterruptedRun, DropsWhateverIsNotWhole) {
 
 TEST_P(InterruptedRun, KeepsWhatWasWrittenWhenAFrameCannotBeMade) {
   const TemporaryDirectory directory;
-  const FrameSource failing = [](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames failing = [](std::uint32_t index, Frame& frame, auto& objects) {
     if (index == 8) throw std::runtime_error("no frame 8");
     MakeExampleFrame(index, frame, objects);
   };
@@ -171,7 +171,7 @@ TEST_P(InterruptedRun, KeepsWhatWasBegunBeforeAFrameThatCannotBeMadeOfSeveralAtO
 TEST_P(InterruptedRun, EndsAfterTheFramesUnderWayWhenItIsStopped) {
   const TemporaryDirectory directory;
   std::atomic<std::uint32_t> num_made = 0;
-  const FrameSource counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames counting = [&](std::uint32_t index, Frame& frame, auto& objects) {
     MakeUnevenFrame(index, frame, objects);
     ++num_made;
   };
@@ -187,7 +187,7 @@ TEST_P(InterruptedRun, EndsAfterTheFramesUnderWayWhenItIsStopped) {
 
 TEST_P(InterruptedRun, ContinuesAfterAStopInTheMiddleOfAFrame) {
   const TemporaryDirectory directory;
-  const FrameSource stopped = [](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames stopped = [](std::uint32_t index, Frame& frame, auto& objects) {
     if (index == 8) throw RunStopped();
     MakeExampleFrame(index, frame, objects);
   };

@@ -69,7 +69,7 @@ TEST(RunSequence, HoldsTwiceAsManyFramesAsItMakesAtOnce) {
   std::atomic<std::size_t> num_begun = 0;
   std::atomic<std::size_t> num_written = 0;
   std::size_t most_ahead = 0;
-  const FrameSource make = [&](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames make = [&](std::uint32_t index, Frame& frame, auto& objects) {
     const std::size_t ahead = ++num_begun - num_written;
     MakeUnevenFrame(index, frame, objects);
     const std::lock_guard lock(mutex);
@@ -159,7 +159,7 @@ TEST(RunSequence, WritesKittisLayoutNumberedFromZero) {
 
 TEST(RunSequence, GivesKittiTheIdsOfWhatMovesWhileItMoves) {
   const TemporaryDirectory directory;
-  const FrameSource stopping = [](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames stopping = [](std::uint32_t index, Frame& frame, auto& objects) {
     MakeExampleFrame(index, frame, objects);
     if (index == 3) objects.front().velocity_world_mps = Vector3(0, 0.5, 0);
   };
@@ -449,7 +449,7 @@ TEST(RunSequence, LeavesStrangersFilesInARunAlone) {
 TEST(RunSequence, RefusesADirectoryThatIsBeingWritten) {
   const TemporaryDirectory directory;
   std::string said;
-  const FrameSource starts_another = [&](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames starts_another = [&](std::uint32_t index, Frame& frame, auto& objects) {
     if (said.empty()) said = RunMessage(ExampleRun(directory.path()));
     MakeExampleFrame(index, frame, objects);
   };

@@ -23,7 +23,7 @@ SequenceSpec SparseRun(const std::filesystem::path& directory, const std::string
 TEST(Stride, ChoosesTheFramesAndNamesTheirFilesByTheirNumbers) {
   const TemporaryDirectory directory;
   std::vector<std::uint32_t> made;
-  const FrameSource make = [&](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames make = [&](std::uint32_t index, Frame& frame, auto& objects) {
     made.push_back(index);
     MakeExampleFrame(index, frame, objects);
   };

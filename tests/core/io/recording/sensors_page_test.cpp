@@ -100,7 +100,7 @@ TEST(SensorsPage, HasARowForEachPreset) {
 
 TEST(SensorsPage, SaysAsWhichPacketsAPresetCanBeSent) {
   Names protocols;
-  for (const std::string& name : NamesOf<Protocol>()) protocols.insert(name);
+  for (const std::string& name : railcast::NamesOf<Protocol>()) protocols.insert(name);
   // These send any scan.
   for (const char* name : {"railcast", "ros2"}) EXPECT_EQ(protocols.erase(name), 1U);
   Names named;

@@ -237,7 +237,7 @@ TEST_P(Verify, GoesAsFarAsAnUnfinishedRunDoes) {
 TEST_P(Verify, FindsOcclusionsThatAreNone) {
   const auto out = path() / "older";
   SequenceSpec spec = ExampleRun(out, GetParam(), 2);
-  const FrameSource make = [](std::uint32_t index, Frame& frame, auto& objects) {
+  const ExampleFrames make = [](std::uint32_t index, Frame& frame, auto& objects) {
     MakeExampleFrame(index, frame, objects);
     if (index == 4) objects[0].view = {6, 6, 6, 30};
   };
