@@ -135,7 +135,8 @@ TEST(SensorSeeds, AreNotThoseOfTheAir) {
   }
 }
 
-// Haze of 2 km and more has no echo of fog on any sensor that is shipped, fog of 50 m has.
+// Haze of 2 km and more has no echo of fog on any sensor that is shipped, fog of 50 m has: fewest
+// where the range cell is short, since a cell's fog scatters in proportion to its length.
 TEST(ShippedSensors, SeeNoFogInHaze) {
   for (const auto& file : JsonFilesIn(ScenariosDir() / "sensors")) {
     const TemporaryFolder folder;
@@ -151,7 +152,7 @@ TEST(ShippedSensors, SeeNoFogInHaze) {
         for (const std::uint32_t label : frame.label) num_fog += label == fog ? 1U : 0U;
       }
       if (visibility_m < 100.0) {
-        EXPECT_GT(num_fog, 1000U) << file;
+        EXPECT_GT(num_fog, 100U) << file;
       } else {
         EXPECT_EQ(num_fog, 0U) << file << " " << visibility_m;
       }
