@@ -10,7 +10,8 @@ namespace railcast {
 
 /// An address of IPv4 or IPv6.
 struct IpAddress {
-  /// In network order; an IPv4 address a.b.c.d as ::ffff:a.b.c.d (RFC 4291, 2.5.5.2).
+  /// In network order; one of IPv4 after ten bytes of 0 and two of 0xFF (RFC 4291,
+  /// 2.5.5.2).
   std::array<std::uint8_t, 16> bytes{};
   /// Index of the network interface of this machine through which a multicast group or a link-local
   /// address is reached; 0 = none is named, routes decide.
