@@ -22,6 +22,13 @@ bool IsOfRos(const bag::BagTopic& topic) {
          dds::IsTopicName('/' + topic.type) && std::ranges::count(topic.type, '/') == 2;
 }
 
+/// Whether a time is more than a frame's longest after another. Hostile bags have any time.
+bool IsTooLate(std::int64_t time_ns, std::int64_t begin_ns) {
+  std::int64_t since_ns = 0;
+  return __builtin_sub_overflow(time_ns, begin_ns, &since_ns) ||
+         since_ns > MessageFeed::kLongest_ns;
+}
+
 }  // namespace
 
 MessageFeed::MessageFeed(const std::filesystem::path& bag,
@@ -76,29 +83,56 @@ std::string MessageFeed::Description() const {
          (topics_.size() == 1 ? " topic in " : " topics in ") + place_;
 }
 
+std::optional<MessageFeed::PendingMessage> MessageFeed::FromBag() {
+  const auto message = bag_->Next();
+  if (!message) return std::nullopt;
+  return PendingMessage{
+      topic_of_[message->topic], message->time_ns, {message->data.begin(), message->data.end()}};
+}
+
 void MessageFeed::Read() {
   next_.reset();
-  const auto message = bag_->Next();
-  if (!message) return;
-  next_ = PendingMessage{
-      topic_of_[message->topic], message->time_ns, {message->data.begin(), message->data.end()}};
+  if (!ahead_.empty()) {
+    next_ = std::move(ahead_.front());
+    ahead_.pop_front();
+  } else if (fault_ahead_) {
+    std::rethrow_exception(fault_ahead_);
+  } else {
+    next_ = FromBag();
+  }
+}
+
+bool MessageFeed::IsTail() {
+  if (!points_ || next_->topic == *points_ || !ahead_.empty()) return false;
+  try {
+    while (auto message = FromBag()) {
+      ahead_.push_back(std::move(*message));
+      if (ahead_.back().topic == *points_ || IsTooLate(ahead_.back().time_ns, next_->time_ns)) {
+        return false;
+      }
+    }
+  } catch (...) {
+    // What was read before is sent first.
+    fault_ahead_ = std::current_exception();
+    return false;
+  }
+  return true;
 }
 
 template <typename Use>
 void MessageFeed::TakeFrame(const Use& use) {
   const std::int64_t begin_ns = next_->time_ns;
   bool has_points = false;
+  bool is_tail = false;
   while (next_) {
     const std::int64_t time_ns = next_->time_ns;
     use(*next_);
     has_points = has_points || !points_ || next_->topic == *points_;
     Read();
-    if (!next_ || (has_points && next_->time_ns != time_ns)) return;
-    std::int64_t since_ns = 0;
-    // Hostile bags have any time.
-    if (__builtin_sub_overflow(next_->time_ns, begin_ns, &since_ns) || since_ns > kLongest_ns) {
-      return;
-    }
+    if (!next_) return;
+    const bool is_over = has_points && next_->time_ns != time_ns;
+    is_tail = is_tail || (is_over && IsTail());
+    if (!is_tail && (is_over || IsTooLate(next_->time_ns, begin_ns))) return;
   }
 }
 

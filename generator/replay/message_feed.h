@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,8 +19,10 @@
 namespace railcast {
 
 /// Sends the messages of a bag of ROS 2 as they are. A frame ends with each message of the first
-/// topic that holds points and with what has the same time, or a second after it began. Where no
-/// topic holds points, each message is a frame, with those of the same time.
+/// topic that holds points and with what has the same time, or a second after it began. What
+/// follows the last points within a second belongs to their frame, such as the transform that ends
+/// railcast's bags. Where no topic holds points, each message is a frame, with those of the same
+/// time.
 class MessageFeed final : public ReplayFeed {
  public:
   static constexpr std::int64_t kLongest_ns = 1'000'000'000;
@@ -55,7 +59,10 @@ class MessageFeed final : public ReplayFeed {
   };
 
   void ChooseTopics(const std::string& wanted);
+  [[nodiscard]] std::optional<PendingMessage> FromBag();
   void Read();
+  /// Whether nothing but a second's messages without points is left, from next_ on.
+  [[nodiscard]] bool IsTail();
   /// Calls `use` for each message of the next frame.
   /// @pre next_
   template <typename Use>
@@ -71,6 +78,8 @@ class MessageFeed final : public ReplayFeed {
   ReplayTimes times_;
   ReplayedFrames frames_;
   std::optional<PendingMessage> next_;  ///< Absent at the end.
+  std::deque<PendingMessage> ahead_;    ///< Read after next_.
+  std::exception_ptr fault_ahead_;      ///< What reading threw after these.
   Datagrams loaded_;
   std::int64_t begin_ns_{};
   std::unique_ptr<RosWriters> writers_;
