@@ -102,14 +102,15 @@ void MessageFeed::Read() {
   }
 }
 
-bool MessageFeed::IsTail() {
-  if (!points_ || next_->topic == *points_ || !ahead_.empty()) return false;
+bool MessageFeed::IsTail(std::int64_t after_ns) {
+  const auto belongs = [&](const PendingMessage& message) {
+    return message.topic != *points_ && !IsTooLate(message.time_ns, after_ns);
+  };
+  if (!points_ || !ahead_.empty() || !belongs(*next_)) return false;
   try {
     while (auto message = FromBag()) {
       ahead_.push_back(std::move(*message));
-      if (ahead_.back().topic == *points_ || IsTooLate(ahead_.back().time_ns, next_->time_ns)) {
-        return false;
-      }
+      if (!belongs(ahead_.back())) return false;
     }
   } catch (...) {
     // What was read before is sent first.
@@ -131,7 +132,7 @@ void MessageFeed::TakeFrame(const Use& use) {
     Read();
     if (!next_) return;
     const bool is_over = has_points && next_->time_ns != time_ns;
-    is_tail = is_tail || (is_over && IsTail());
+    is_tail = is_tail || (is_over && IsTail(time_ns));
     if (!is_tail && (is_over || IsTooLate(next_->time_ns, begin_ns))) return;
   }
 }

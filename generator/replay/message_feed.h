@@ -61,8 +61,8 @@ class MessageFeed final : public ReplayFeed {
   void ChooseTopics(const std::string& wanted);
   [[nodiscard]] std::optional<PendingMessage> FromBag();
   void Read();
-  /// Whether nothing but a second's messages without points is left, from next_ on.
-  [[nodiscard]] bool IsTail();
+  /// Whether from next_ on nothing but messages without points is left, of the second after a time.
+  [[nodiscard]] bool IsTail(std::int64_t after_ns);
   /// Calls `use` for each message of the next frame.
   /// @pre next_
   template <typename Use>

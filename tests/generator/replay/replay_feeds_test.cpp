@@ -95,7 +95,8 @@ TEST(PacketFeed, SaysWhereThePacketsGo) {
 /// A bag with messages of a latched topic, of clouds and of something that is not of ROS.
 class MadeMessages {
  public:
-  MadeMessages() : writer_(bag::CreateMcap(file())) {
+  /// @param last_ms Time of the last message, which holds no points.
+  explicit MadeMessages(std::int64_t last_ms = 5'000) : writer_(bag::CreateMcap(file())) {
     bag::BagTopic other = bag::TopicNamed("/other");
     other.encoding = "json";
     topics_ = {writer_->Add(bag::TopicNamed("/map", true)), writer_->Add(bag::TopicNamed("said")),
@@ -110,7 +111,7 @@ class MadeMessages {
     Write(3, 25, "j");
     Write(1, 30, "b");
     Write(2, 40, "Q");
-    Write(1, 5'000, "c");
+    Write(1, last_ms, "c");
     writer_->Close();
   }
   [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "run.mcap"; }
@@ -143,6 +144,15 @@ TEST(MessageFeed, SendsTheBytesOfAllTopicsUpToEachCloud) {
   EXPECT_EQ(feed.LeftOut(), "topics that are not of ROS 2: /other");
   MessageFeed again(bag.file(), "", 2.0, {});
   EXPECT_EQ(DueMsOf(again), (Frames{{0, 5, 10}, {15, 20}, {2'500}}));
+}
+
+TEST(MessageFeed, SendsWhatFollowsTheLastCloudWithinASecondWithItsFrame) {
+  const MadeMessages bag(1'040);
+  MessageFeed feed(bag.file(), "", 1.0, {});
+  EXPECT_EQ(TextsOf(feed), (std::vector<std::string>{"maP", "bQc"}));
+  const MadeMessages later(1'041);
+  MessageFeed other(later.file(), "", 1.0, {});
+  EXPECT_EQ(TextsOf(other), (std::vector<std::string>{"maP", "bQ", "c"}));
 }
 
 TEST(MessageFeed, SendsWhatIsLatchedOfFramesThatAreLeftOut) {
