@@ -47,7 +47,7 @@ sensor() {
   count "$1"
 }
 
-for rung in geometry plausibility surface reference; do instructions "$rung" "$rung"; done
+for rung in geometry plausibility surface; do instructions "$rung" "$rung"; done
 all="$(instructions footprint footprint)"
 echo "$all"
 for effect in surface_response surface_condition extinction pulse_stretch detection \
