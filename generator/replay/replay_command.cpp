@@ -35,7 +35,7 @@ std::vector<Endpoint> ReplayReceivers(const ReplayOptions& options, std::uint16_
   return receivers;
 }
 
-PacketRecording::Address SensorAddress(const std::string& sensor) {
+IpAddress SensorAddress(const std::string& sensor) {
   const Endpoint sender = AtPlace("--sensor: ", [&] { return ParseEndpoint(sensor, 0); });
   if (sender.port == 0) return sender.address;
   throw InputError("--sensor: must be an address without a port (got " + ShownText(sensor) + ")");
@@ -57,7 +57,7 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
 }
 
 std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {
-  std::optional<PacketRecording::Address> sender;
+  std::optional<IpAddress> sender;
   if (options.sensor) sender = SensorAddress(*options.sensor);
   constexpr std::uint16_t kAsRecorded = 0;
   return std::make_unique<PacketFeed>(PacketRecording(FindPackets(options), sender),

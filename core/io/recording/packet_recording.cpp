@@ -13,7 +13,7 @@ namespace {
 /// The datagrams of one sender.
 class DatagramsOfSender final : public DatagramSource {
  public:
-  DatagramsOfSender(std::unique_ptr<DatagramSource> all, const PacketRecording::Address& sender)
+  DatagramsOfSender(std::unique_ptr<DatagramSource> all, const IpAddress& sender)
       : all_(std::move(all)), sender_(sender) {}
 
   [[nodiscard]] std::optional<CapturedDatagram> Next() override {
@@ -26,10 +26,10 @@ class DatagramsOfSender final : public DatagramSource {
 
  private:
   std::unique_ptr<DatagramSource> all_;
-  PacketRecording::Address sender_;
+  IpAddress sender_;
 };
 
-DatagramPlace OfSender(DatagramPlace place, const std::optional<PacketRecording::Address>& sender) {
+DatagramPlace OfSender(DatagramPlace place, const std::optional<IpAddress>& sender) {
   if (!sender) return place;
   place.open = [all = place.open, sender = *sender] {
     return std::make_unique<DatagramsOfSender>(all(), sender);
@@ -45,7 +45,7 @@ std::uint16_t PortOf(const CapturedDatagram& datagram, const CaptureSensor& sens
 
 }  // namespace
 
-PacketRecording::PacketRecording(DatagramPlace place, const std::optional<Address>& sender)
+PacketRecording::PacketRecording(DatagramPlace place, const std::optional<IpAddress>& sender)
     : place_(OfSender(std::move(place), sender)),
       first_(FindSensor(place_)),
       source_(place_.open()),

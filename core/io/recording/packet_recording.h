@@ -12,7 +12,7 @@
 #include "core/base/text.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
-#include "railcast/io/stream.h"
+#include "railcast/io/endpoint.h"
 
 namespace railcast {
 
@@ -37,12 +37,10 @@ class PacketRecording {
   /// A turn with more datagrams is returned in parts, so that memory is bounded.
   static constexpr std::size_t kMostDatagrams = 65'536;
 
-  using Address = decltype(Endpoint::address);
-
   /// @param sender Address of the only sensor that is wanted; absent = all sensors.
   /// @throws InputError as OpenDatagrams().
   explicit PacketRecording(DatagramPlace place,
-                           const std::optional<Address>& sender = std::nullopt);
+                           const std::optional<IpAddress>& sender = std::nullopt);
 
   /// As messages name it.
   [[nodiscard]] std::string source() const { return ShownPath(place_.source); }
@@ -73,7 +71,7 @@ class PacketRecording {
   std::unique_ptr<DatagramSource> source_;
   SensorFinder finder_;
   struct Sender {
-    Address address{};
+    IpAddress address{};
     std::size_t packet_size{};
   };
   std::vector<Sender> senders_;  ///< The sensors so far.

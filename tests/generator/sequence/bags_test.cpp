@@ -15,16 +15,12 @@
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/scene_messages.h"
 #include "core/io/ros/sensor_messages.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/run/all_sensors.h"
-#include "generator/run/make_frames.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
-#include "tests/core/io/temporary_directory.h"
-#include "tests/generator/project_folder.h"
-#include "tests/generator/run_command.h"
+#include "tests/generator/sequence/sequence_runs.h"
 
 namespace railcast {
 namespace {
@@ -60,36 +56,12 @@ std::vector<std::string> TopicsOf(const ReadBag& bag) {
   return topics;
 }
 
-std::vector<std::string> FaultsOf(const fs::path& directory) {
-  return VerifySequence(directory, [](double) {}).faults;
-}
-
-class Bags : public testing::Test {
+class Bags : public SequenceRuns {
  protected:
-  // Runs the program and returns what it said.
-  std::string Run(const std::string& options, int status = 0) const {
-    const Ended run = Generate("sequence " + scenario_.string() + " " + options);
-    EXPECT_EQ(run.status, status) << run.said;
-    return run.said;
-  }
-  [[nodiscard]] fs::path Out(const std::string& name) const { return folder_.path() / name; }
-  [[nodiscard]] fs::path Make(const std::string& name, const std::string& options) const {
-    Run(options + " --out " + Out(name).string());
-    return Out(name);
-  }
-  // Makes the first frames of a run, as if it were interrupted after them.
+  Bags() : SequenceRuns(kNumFrames) {}
+
   void MakeFirst(const std::string& name, const std::string& format, std::uint32_t num_frames) {
-    RunChoices choices;
-    choices.directory = Out(name);
-    choices.format = format;
-    choices.num_frames = kNumFrames;
-    RunPlan plan = PlanRun(ReadScenario(scenario_), choices, scenario_.string());
-    FrameMaker maker(plan.scenario, 2, plan.sensors.front().spec.isa);
-    SetFrames(maker, plan);
-    std::uint32_t num_begun = 0;
-    const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {},
-                                 [&] { return num_begun++ >= num_frames; }};
-    for (const SequenceResult& result : MakeFrames(maker, plan, hooks)) {
+    for (const SequenceResult& result : SequenceRuns::MakeFirst(name, format, num_frames)) {
       EXPECT_FALSE(result.is_complete);
     }
   }
@@ -107,9 +79,6 @@ class Bags : public testing::Test {
   }
 
   static constexpr std::uint32_t kNumFrames = 6;
-  const std::string frames_ = "--frames " + std::to_string(kNumFrames);
-  const TemporaryDirectory folder_;
-  const fs::path scenario_ = MakeProject(folder_.path() / "project");
 };
 
 TEST_F(Bags, HoldTheCloudsOfTheFilesBitByBit) {

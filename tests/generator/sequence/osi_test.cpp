@@ -18,16 +18,12 @@
 #include "core/io/mcap/record_scan.h"
 #include "core/io/osi/sensor_view.h"
 #include "core/io/osi/trace_file.h"
-#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
-#include "generator/run/make_frames.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/osi/example_view.h"
 #include "tests/core/io/osi/true_messages.h"
 #include "tests/core/io/recording/read_all.h"
-#include "tests/core/io/temporary_directory.h"
-#include "tests/generator/project_folder.h"
-#include "tests/generator/run_command.h"
+#include "tests/generator/sequence/sequence_runs.h"
 
 namespace railcast {
 namespace {
@@ -89,22 +85,10 @@ std::vector<osi3::SensorView> ViewsIn(const fs::path& trace) {
   return views;
 }
 
-std::vector<std::string> FaultsOf(const fs::path& directory) {
-  return VerifySequence(directory, [](double) {}).faults;
-}
-
-class OsiTraces : public testing::Test {
+class OsiTraces : public SequenceRuns {
  protected:
-  std::string Run(const std::string& options, int status = 0) const {
-    const Ended run = Generate("sequence " + scenario_.string() + " " + options);
-    EXPECT_EQ(run.status, status) << run.said;
-    return run.said;
-  }
-  [[nodiscard]] fs::path Out(const std::string& name) const { return folder_.path() / name; }
-  [[nodiscard]] fs::path Make(const std::string& name, const std::string& options) const {
-    Run(options + " --out " + Out(name).string());
-    return Out(name);
-  }
+  OsiTraces() : SequenceRuns(5) {}
+
   // The name of the trace of the project's sensor.
   [[nodiscard]] static std::string Trace(const std::string& extension,
                                          const std::string& sensor = "beams",
@@ -114,25 +98,7 @@ class OsiTraces : public testing::Test {
     return "19700101T000000Z_sv_380_" + version + "_" + std::to_string(num_frames) + "_" + sensor +
            extension;
   }
-  // Makes the first frames of a run, as if it were interrupted after them.
-  void MakeFirst(const std::string& name, const std::string& format, std::uint32_t num_frames) {
-    RunChoices choices;
-    choices.directory = Out(name);
-    choices.format = format;
-    choices.num_frames = 5;
-    RunPlan plan = PlanRun(ReadScenario(scenario_), choices, scenario_.string());
-    FrameMaker maker(plan.scenario, 2, plan.sensors.front().spec.isa);
-    SetFrames(maker, plan);
-    std::uint32_t num_begun = 0;
-    const SequenceHooks hooks = {[](std::uint32_t, std::uint32_t) {},
-                                 [&] { return num_begun++ >= num_frames; }};
-    (void)MakeFrames(maker, plan, hooks);
-  }
   void UseTraffic() const { WriteFileWhole(scenario_, Traffic()); }
-
-  const std::string frames_ = "--frames 5";
-  const TemporaryDirectory folder_;
-  const fs::path scenario_ = MakeProject(folder_.path() / "project");
 };
 
 TEST_F(OsiTraces, HaveAMessageForEachFrameInEitherFormat) {

@@ -247,19 +247,24 @@ TEST(FindDatagram, SkipsTagsOptionsAndPadding) {
   EXPECT_EQ(PayloadOf(MadeEthernetFrame("", "optionsoptionsoptionsoptions")), "abc");
 }
 
-TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
-  const std::vector<char> sound = MadeEthernetFrame();
-  // The frame is cut anywhere before its padding.
+// The frame is cut anywhere before its padding.
+void ExpectNothingWhereCut(const std::vector<char>& sound) {
   for (std::size_t size = 0; size + 7 < sound.size(); ++size) {
     EXPECT_EQ(PayloadOf({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size)}),
               "nothing")
         << size;
   }
-  const auto with = [&](std::size_t place, int value) {
-    std::vector<char> frame = sound;
-    frame[place] = static_cast<char>(value);
-    return PayloadOf(frame);
-  };
+}
+
+std::string PayloadWith(std::vector<char> frame, std::size_t place, int value) {
+  frame[place] = static_cast<char>(value);
+  return PayloadOf(frame);
+}
+
+TEST(FindDatagram, FindsNothingInWhatIsNoWholeDatagram) {
+  const std::vector<char> sound = MadeEthernetFrame();
+  ExpectNothingWhereCut(sound);
+  const auto with = [&](std::size_t place, int value) { return PayloadWith(sound, place, value); };
   EXPECT_EQ(with(13, 0x06), "nothing");  // ARP.
   EXPECT_EQ(with(14, 0x65), "nothing");  // IP version 6.
   EXPECT_EQ(with(14, 0x44), "nothing");  // Header of 16 bytes.
@@ -300,16 +305,8 @@ TEST(FindDatagram, FindsNothingInIpv6ThatIsNoWholeDatagram) {
   const std::string options("\x11\0\1\4\0\0\0\0", 8);
   const std::vector<char> sound = MadeIpv6Frame(options, 60);
   EXPECT_EQ(PayloadOf(sound), "abc");
-  for (std::size_t size = 0; size + 7 < sound.size(); ++size) {
-    EXPECT_EQ(PayloadOf({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size)}),
-              "nothing")
-        << size;
-  }
-  const auto with = [&](std::size_t place, int value) {
-    std::vector<char> frame = sound;
-    frame[place] = static_cast<char>(value);
-    return PayloadOf(frame);
-  };
+  ExpectNothingWhereCut(sound);
+  const auto with = [&](std::size_t place, int value) { return PayloadWith(sound, place, value); };
   EXPECT_EQ(with(13, 0xDE), "nothing");  // Another protocol.
   EXPECT_EQ(with(14, 0x45), "nothing");  // IP version 4.
   EXPECT_EQ(with(18, 0x7F), "nothing");  // Longer than the frame.
