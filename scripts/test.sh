@@ -22,7 +22,6 @@ if command -v npm >/dev/null; then
 fi
 rm -rf "$results"
 status=0
-# A test of ctest may be a program of many tests.
-GTEST_OUTPUT="xml:$results/" ctest --preset "$preset" --parallel "$(nproc)" "$@" || status=$?
+ctest --preset "$preset" --parallel "$(nproc)" "$@" || status=$?
 scripts/dev/summarize_tests.py "$results"
 exit "$status"

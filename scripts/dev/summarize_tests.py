@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Says how many tests of the test programs ran, which were skipped and why, and which took longest.
 
-Usage: summarize_tests.py FOLDER        FOLDER: what the programs wrote with GTEST_OUTPUT=xml:FOLDER/
+Usage: summarize_tests.py FOLDER        FOLDER: Testing/results of a build
 """
 
 import collections
@@ -14,7 +14,7 @@ NUM_SLOWEST = 10
 
 def read_tests(folder):
     """(name, seconds, why it was skipped or None) of every test that ran."""
-    for path in sorted(folder.glob("*.xml")):
+    for path in sorted(folder.rglob("*.xml")):
         for case in ET.parse(path).getroot().iter("testcase"):
             if case.get("status") != "run":
                 continue
