@@ -20,7 +20,7 @@ ROOM_ORDERS = {
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag osi dds stream recording verify".split(),
-    "generator": ". record run check sequence live replay trace world dataset import python".split(),
+    "generator": ". record run check sequence insert live replay trace world dataset import python".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
     "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),

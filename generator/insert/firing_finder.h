@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "generator/insert/recorded_firings.h"
+#include "railcast/io/recording.h"
+#include "railcast/lidar.h"
+
+namespace railcast {
+
+/// Finds the firings of a recording's frames.
+class FiringFinder {
+ public:
+  /// @param scan The sensor's, as the plan names it or as it was found.
+  /// @param may_use_points_alone Whether frames whose firings cannot be found are taken point by
+  ///   point.
+  FiringFinder(const RecordingInfo& info, const ScanSpec& scan, bool may_use_points_alone);
+  ~FiringFinder();
+
+  /// Thread-safe.
+  /// @throws InputError with one line that says why the firings of this frame cannot be found.
+  [[nodiscard]] RecordedFirings Find(RecordedFrame recorded) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace railcast
