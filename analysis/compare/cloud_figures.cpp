@@ -41,8 +41,9 @@ void ForEachBin(const Histogram& a, const Histogram& b, Visitor&& visit) {
 // Points beyond this, as a faulty foreign file may hold, share the last bin.
 constexpr float kFarthest_m = 1e6F;
 
-std::int64_t CellOf(float at_m) {
-  return static_cast<std::int64_t>(std::floor(std::clamp(at_m, -kFarthest_m, kFarthest_m)));
+/// Of metres, or of metres per second.
+std::int64_t CellOf(float value) {
+  return static_cast<std::int64_t>(std::floor(std::clamp(value, -kFarthest_m, kFarthest_m)));
 }
 
 // One direction: from each point of one cloud to the nearest point of the other.
@@ -105,6 +106,8 @@ void AddTo(BinnedCloud& sum, const BinnedCloud& cloud) {
     sum.bins[i].num_points += cloud.bins[i].num_points;
     sum.bins[i].num_intensities += cloud.bins[i].num_intensities;
     sum.bins[i].intensity_sum += cloud.bins[i].intensity_sum;
+    sum.bins[i].num_velocities += cloud.bins[i].num_velocities;
+    sum.bins[i].velocity_sum_mps += cloud.bins[i].velocity_sum_mps;
   }
 }
 
@@ -164,17 +167,21 @@ void CloudHistograms::Add(const CloudHistograms& other) {
   range.Add(other.range);
   intensity.Add(other.intensity);
   ring.Add(other.ring);
+  velocity.Add(other.velocity);
   occupancy.Add(other.occupancy);
 }
 
 CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
-  std::vector<std::int64_t> ranges, intensities, cells;
+  std::vector<std::int64_t> ranges, intensities, velocities, cells;
   for (const float range_m : cloud.range_m) {
     ranges.push_back(static_cast<std::int64_t>(std::min(range_m, kFarthest_m)));
   }
   for (const float intensity : cloud.intensity) {
     if (std::isfinite(intensity))
       intensities.push_back(BinOfIntensity(static_cast<double>(intensity)));
+  }
+  for (const float velocity_mps : cloud.velocity_mps) {
+    if (std::isfinite(velocity_mps)) velocities.push_back(CellOf(velocity_mps));
   }
   for (const pcl::PointXYZ& point : *cloud.points) {
     constexpr std::int64_t kCellsARow = 10'000'000;
@@ -184,7 +191,7 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   return {Histogram(std::move(ranges)), Histogram(std::move(intensities)),
           Histogram(std::vector<std::int64_t>(cloud.rings.begin(), cloud.rings.end())),
-          Histogram(std::move(cells))};
+          Histogram(std::move(velocities)), Histogram(std::move(cells))};
 }
 
 double IntensityOfBin(std::int64_t bin) {
@@ -228,6 +235,11 @@ double BinnedCloud::Bin::MeanIntensity() const {
   return intensity_sum / static_cast<double>(num_intensities);
 }
 
+double BinnedCloud::Bin::MeanVelocity_mps() const {
+  if (num_velocities < kMinSamples) return std::numeric_limits<double>::quiet_NaN();
+  return velocity_sum_mps / static_cast<double>(num_velocities);
+}
+
 BinnedCloud BinnedByRange(const ComparedCloud& cloud) {
   BinnedCloud binned = EmptyBins();
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -235,21 +247,27 @@ BinnedCloud BinnedByRange(const ComparedCloud& cloud) {
     if (!found) continue;
     BinnedCloud::Bin& bin = binned.bins[*found];
     ++bin.num_points;
-    if (cloud.intensity.empty() || !std::isfinite(cloud.intensity[i])) continue;
-    ++bin.num_intensities;
-    bin.intensity_sum += static_cast<double>(cloud.intensity[i]);
+    if (!cloud.intensity.empty() && std::isfinite(cloud.intensity[i])) {
+      ++bin.num_intensities;
+      bin.intensity_sum += static_cast<double>(cloud.intensity[i]);
+    }
+    if (!cloud.velocity_mps.empty() && std::isfinite(cloud.velocity_mps[i])) {
+      ++bin.num_velocities;
+      bin.velocity_sum_mps += static_cast<double>(cloud.velocity_mps[i]);
+    }
   }
   return binned;
 }
 
 BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b) {
-  Mean points, intensity;
+  Mean points, intensity, velocity_mps;
   for (std::size_t i = 0; i < a.bins.size(); ++i) {
     if (a.bins[i].num_points < kMinSamples) continue;
     points.Add(std::abs(RelativeChangeOf(PointsOf(a.bins[i]), PointsOf(b.bins[i]))));
     intensity.Add(std::abs(RelativeChangeOf(a.bins[i].MeanIntensity(), b.bins[i].MeanIntensity())));
+    velocity_mps.Add(std::abs(b.bins[i].MeanVelocity_mps() - a.bins[i].MeanVelocity_mps()));
   }
-  return {kPercentOf * points.value(), kPercentOf * intensity.value()};
+  return {kPercentOf * points.value(), kPercentOf * intensity.value(), velocity_mps.value()};
 }
 
 BinSums::BinSums() : bins_(RangeBins().size()), sum_a_(EmptyBins()), sum_b_(EmptyBins()) {}
@@ -268,6 +286,11 @@ void BinSums::Add(const BinnedCloud& a, const BinnedCloud& b) {
       const double change = RelativeChangeOf(intensity_a, intensity_b);
       if (std::isfinite(change)) bin.intensity_change.Add(change);
     }
+    const double velocity_a_mps = a.bins[i].MeanVelocity_mps();
+    const double velocity_b_mps = b.bins[i].MeanVelocity_mps();
+    bin.velocity_a_mps.Add(velocity_a_mps);
+    bin.velocity_b_mps.Add(velocity_b_mps);
+    bin.velocity_change_mps.Add(velocity_b_mps - velocity_a_mps);
   }
   AddTo(sum_a_, a);
   AddTo(sum_b_, b);

@@ -23,6 +23,8 @@ struct ComparedCloud {
   std::vector<float> range_m;        ///< Distance from the sensor's origin.
   std::vector<float> intensity;      ///< NaN where the intensity is not finite; empty if unknown.
   std::vector<std::uint16_t> rings;  ///< Empty if unknown.
+  /// Along the beams; NaN where a point has none; empty if unknown.
+  std::vector<float> velocity_mps;
 
   [[nodiscard]] std::size_t size() const { return points->size(); }
 };
@@ -37,6 +39,9 @@ struct ComparedCloud {
     cloud.range_m.push_back(std::hypot(x, y, z));
     if (recorded.Has("intensity")) cloud.intensity.push_back(frame.intensity[slot]);
     if (recorded.Has("ring")) cloud.rings.push_back(frame.ring[slot]);
+    if (recorded.Has("radial_velocity_mps")) {
+      cloud.velocity_mps.push_back(frame.radial_velocity_mps[slot]);
+    }
   }
   return cloud;
 }
@@ -69,7 +74,8 @@ struct CloudHistograms {
   Histogram range;  ///< Bins of 1 m.
   /// Bins of an eighth octave (9 % wide); everything up to 0.001 is in one bin.
   Histogram intensity;
-  Histogram ring;  ///< One bin per ring.
+  Histogram ring;      ///< One bin per ring.
+  Histogram velocity;  ///< Bins of 1 m/s.
   /// Bird's-eye occupancy: a cell of 1 m x 1 m counts once per frame if it holds any point.
   Histogram occupancy;
 
@@ -124,15 +130,20 @@ struct CloudDistances {
                                          const NearestPoints& b_in_a,
                                          const std::vector<double>& distances_m);
 
-/// Number of points and intensities of a cloud in each of RangeBins() (analysis/stats/bins.h).
+/// Number of points, intensities and velocities of a cloud in each of RangeBins()
+/// (analysis/stats/bins.h).
 struct BinnedCloud {
   struct Bin {
     std::uint64_t num_points{};
     std::uint64_t num_intensities{};
     double intensity_sum{};
+    std::uint64_t num_velocities{};
+    double velocity_sum_mps{};
 
     /// NaN where fewer than kMinSamples points have an intensity.
     [[nodiscard]] double MeanIntensity() const;
+    /// NaN where fewer than kMinSamples points have a velocity.
+    [[nodiscard]] double MeanVelocity_mps() const;
   };
   std::vector<Bin> bins;
 };
@@ -140,11 +151,13 @@ struct BinnedCloud {
 [[nodiscard]] BinnedCloud BinnedByRange(const ComparedCloud& cloud);
 
 /// Mean absolute percentage errors of B against A: the mean over bins of |B - A| / A, in percent
-/// (Haider et al. 2022, Sensors 22(19) 7556, for a target at several distances). Bins in which A
-/// has fewer than kMinSamples points take no part; NaN if none does.
+/// (Haider et al. 2022, Sensors 22(19) 7556, for a target at several distances). Velocities, which
+/// may be 0, have the mean of |B - A| itself. Bins in which A has fewer than kMinSamples points
+/// take no part; NaN if none does.
 struct BinErrors {
   double points = std::numeric_limits<double>::quiet_NaN();
   double intensity = std::numeric_limits<double>::quiet_NaN();
+  double velocity_mps = std::numeric_limits<double>::quiet_NaN();
 };
 
 [[nodiscard]] BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b);
@@ -153,10 +166,12 @@ struct BinErrors {
 class BinSums {
  public:
   struct Bin {
-    Moments points_a, points_b;        ///< Per frame.
-    Moments intensity_a, intensity_b;  ///< Mean intensities of the frames.
-    Moments points_change;             ///< (B - A) / A, where A has enough points.
-    Moments intensity_change;          ///< (B - A) / A of the mean intensity.
+    Moments points_a, points_b;              ///< Per frame.
+    Moments intensity_a, intensity_b;        ///< Mean intensities of the frames.
+    Moments points_change;                   ///< (B - A) / A, where A has enough points.
+    Moments intensity_change;                ///< (B - A) / A of the mean intensity.
+    Moments velocity_a_mps, velocity_b_mps;  ///< Mean velocities of the frames.
+    Moments velocity_change_mps;             ///< B - A of the mean velocity.
   };
 
   BinSums();

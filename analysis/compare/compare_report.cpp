@@ -30,10 +30,16 @@ double OfAllPairs(const Comparison& comparison, const std::string& metric) {
   if (metric == "jsd_range") return JensenShannonDivergence(a.range, b.range);
   if (metric == "jsd_intensity") return JensenShannonDivergence(a.intensity, b.intensity);
   if (metric == "jsd_ring") return JensenShannonDivergence(a.ring, b.ring);
+  if (metric == "jsd_velocity") return JensenShannonDivergence(a.velocity, b.velocity);
   if (metric == "jsd_occupancy") return JensenShannonDivergence(a.occupancy, b.occupancy);
   if (metric == "mape_points_percent") return comparison.bins().Errors().points;
   if (metric == "mape_intensity_percent") return comparison.bins().Errors().intensity;
+  if (metric == "velocity_error_mps") return comparison.bins().Errors().velocity_mps;
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+bool HasVelocities(const Comparison& comparison) {
+  return comparison.histograms_a().velocity.num() + comparison.histograms_b().velocity.num() > 0;
 }
 
 // One metric of the pairs, in their order.
@@ -180,34 +186,49 @@ Section DistributionsSection(const Comparison& comparison) {
                             share,
                             {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
                              Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
+  if (HasVelocities(comparison)) {
+    section.charts.push_back({"velocities",
+                              "Velocities along the beams",
+                              "Bins of 1 m/s.",
+                              {"Velocity", "m/s", false, {}},
+                              share,
+                              {Shares(a.velocity, "A", SeriesStyle::kLine, MiddleOfMetre),
+                               Shares(b.velocity, "B", SeriesStyle::kLine, MiddleOfMetre)}});
+  }
   return section;
 }
 
 struct BinColumn {
   const char* key;
   const char* title;
+  const char* unit;
   Moments BinSums::Bin::*moments;
-  double factor;
+  double factor = 1.0;
 };
 
 constexpr BinColumn kBinColumns[] = {
-    {"points_a", "Points of A a frame", &BinSums::Bin::points_a, 1.0},
-    {"points_b", "Points of B a frame", &BinSums::Bin::points_b, 1.0},
-    {"points_change_percent", "Change of points", &BinSums::Bin::points_change, 100.0},
-    {"intensity_a", "Mean intensity of A", &BinSums::Bin::intensity_a, 1.0},
-    {"intensity_b", "Mean intensity of B", &BinSums::Bin::intensity_b, 1.0},
-    {"intensity_change_percent", "Change of mean intensity", &BinSums::Bin::intensity_change,
+    {"points_a", "Points of A a frame", "", &BinSums::Bin::points_a},
+    {"points_b", "Points of B a frame", "", &BinSums::Bin::points_b},
+    {"points_change_percent", "Change of points", "%", &BinSums::Bin::points_change, 100.0},
+    {"intensity_a", "Mean intensity of A", "", &BinSums::Bin::intensity_a},
+    {"intensity_b", "Mean intensity of B", "", &BinSums::Bin::intensity_b},
+    {"intensity_change_percent", "Change of mean intensity", "%", &BinSums::Bin::intensity_change,
      100.0},
 };
 
-Chart BinChart(const Table& table, const std::string& what, const std::string& title) {
-  return {what + "_by_range",
-          title,
+constexpr BinColumn kVelocityColumns[] = {
+    {"velocity_a_mps", "Mean velocity of A", "m/s", &BinSums::Bin::velocity_a_mps},
+    {"velocity_b_mps", "Mean velocity of B", "m/s", &BinSums::Bin::velocity_b_mps},
+    {"velocity_change_mps", "Change of mean velocity", "m/s", &BinSums::Bin::velocity_change_mps},
+};
+
+Chart BinChart(const Table& table, const BinColumn& a, const BinColumn& b, const ChartAxis& y) {
+  return {std::string(a.key).substr(0, std::string_view(a.key).find('_')) + "_by_range",
+          y.title,
           "",
           {"Range", "m", true, {}},
-          {title, "", false, {}},
-          {SeriesOf(table, {"range_m", what + "_a"}, "A"),
-           SeriesOf(table, {"range_m", what + "_b"}, "B")}};
+          y,
+          {SeriesOf(table, {"range_m", a.key}, "A"), SeriesOf(table, {"range_m", b.key}, "B")}};
 }
 
 Section BinsSection(const Comparison& comparison) {
@@ -218,20 +239,31 @@ Section BinsSection(const Comparison& comparison) {
       "Changes are (B - A) / A, as means over pairs in which A has at least 10 points in the bin. "
       "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."};
   Table table = {"by_range", "By distance", "", {{"range_m", "Range", "m"}}, {}};
-  for (const BinColumn& column : kBinColumns) {
-    table.columns.push_back({column.key, column.title, column.factor == 1.0 ? "" : "%"});
+  std::vector<BinColumn> columns(std::begin(kBinColumns), std::end(kBinColumns));
+  const bool has_velocities = HasVelocities(comparison);
+  if (has_velocities) {
+    columns.insert(columns.end(), std::begin(kVelocityColumns), std::end(kVelocityColumns));
+    section.paragraphs.emplace_back(
+        "Velocities, which may be 0, change by B - A itself, and their error is the mean of its "
+        "absolute values over bins.");
+  }
+  for (const BinColumn& column : columns) {
+    table.columns.push_back({column.key, column.title, column.unit});
   }
   for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
     const BinSums::Bin& sums = comparison.bins().bins()[bin];
     std::vector<Cell> row = {RangeBins().span(bin)};
-    for (const BinColumn& column : kBinColumns) {
+    for (const BinColumn& column : columns) {
       row.emplace_back(Scaled((sums.*(column.moments)).Mean(), column.factor));
     }
     table.rows.push_back(std::move(row));
   }
-  section.charts = {BinChart(table, "points", "Points a frame"),
-                    BinChart(table, "intensity", "Mean intensity")};
-  section.charts[0].y.is_log = true;
+  section.charts = {BinChart(table, kBinColumns[0], kBinColumns[1], {"Points a frame", "", true}),
+                    BinChart(table, kBinColumns[3], kBinColumns[4], {"Mean intensity", ""})};
+  if (has_velocities) {
+    section.charts.push_back(
+        BinChart(table, kVelocityColumns[0], kVelocityColumns[1], {"Mean velocity", "m/s"}));
+  }
   section.tables = {std::move(table)};
   return section;
 }

@@ -145,9 +145,11 @@ std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m) {
   metrics.push_back({"jsd_range", "Divergence of ranges", "bit"});
   metrics.push_back({"jsd_intensity", "Divergence of intensities", "bit"});
   metrics.push_back({"jsd_ring", "Divergence of rings", "bit"});
+  metrics.push_back({"jsd_velocity", "Divergence of velocities", "bit"});
   metrics.push_back({"jsd_occupancy", "Divergence of bird's-eye occupancy", "bit"});
   metrics.push_back({"mape_points_percent", "MAPE of points", "%"});
   metrics.push_back({"mape_intensity_percent", "MAPE of mean intensity", "%"});
+  metrics.push_back({"velocity_error_mps", "Mean absolute error of mean velocity", "m/s"});
   return metrics;
 }
 
@@ -176,8 +178,9 @@ Comparison::Part Comparison::Compare(const RecordedFrame& a, const RecordedFrame
   values.insert(values.end(), {JensenShannonDivergence(in_a.range, in_b.range),
                                JensenShannonDivergence(in_a.intensity, in_b.intensity),
                                JensenShannonDivergence(in_a.ring, in_b.ring),
+                               JensenShannonDivergence(in_a.velocity, in_b.velocity),
                                JensenShannonDivergence(in_a.occupancy, in_b.occupancy),
-                               errors.points, errors.intensity});
+                               errors.points, errors.intensity, errors.velocity_mps});
   return part;
 }
 

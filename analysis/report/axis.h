@@ -29,7 +29,9 @@ struct AxisTick {
 /// The range of x.
 [[nodiscard]] std::optional<AxisRange> RangeOfX(const Chart& chart);
 
-/// Round numbers within a range, about `num_wanted` of them.
+/// Round numbers within a range, about `num_wanted` of them. gnuplot's own have no label on a
+/// logarithmic axis but at powers of ten, none at all from 20 to 60, and say 2e+07 where these say
+/// 2×10⁷, and 1400 for 1,400.
 [[nodiscard]] std::vector<AxisTick> TicksIn(const AxisRange& range, bool is_log, int num_wanted);
 
 }  // namespace railcast

@@ -64,6 +64,7 @@ void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   coverage.Add(recorded, scan);
   classes.Add(recorded);
   objects.Add(recorded);
+  velocity.Add(recorded);
 }
 
 void Statistics::Add(const Statistics& other) {
@@ -76,6 +77,7 @@ void Statistics::Add(const Statistics& other) {
   coverage.Add(other.coverage);
   classes.Add(other.classes);
   objects.Add(other.objects);
+  velocity.Add(other.velocity);
 }
 
 void Statistics::ForgetRings() {

@@ -16,6 +16,7 @@
 #include "analysis/stats/noise.h"
 #include "analysis/stats/object_points.h"
 #include "analysis/stats/temporal_noise.h"
+#include "analysis/stats/velocity.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/io/recording.h"
 
@@ -33,6 +34,7 @@ struct Statistics {
   Coverage coverage;
   ClassBalance classes;
   ObjectPoints objects;
+  Velocity velocity;
 
   /// Adds everything except temporal noise, which needs two frames.
   /// @param scan Of the frame; null if it is not a grid.

@@ -1,5 +1,6 @@
 #include "analysis/stats/statistics.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -79,6 +80,17 @@ void AddNoiseHeadline(const Noise& noise, Report& report) {
   }
 }
 
+void AddVelocityHeadline(const Velocity& velocity, Report& report) {
+  if (!velocity.has_truth()) return;
+  const auto& sums = velocity.by_range();
+  const auto best = std::ranges::max_element(
+      sums, {}, [](const Velocity::Sum& sum) { return sum.errors_mps.num(); });
+  const auto bin = static_cast<std::size_t>(best - sums.begin());
+  report.headlines.push_back(
+      {Joined({"Noise of velocity, ", SpanText(RangeBins().span(bin)), " m"}), "m/s",
+       best->robust_errors_mps.RobustScale()});
+}
+
 // Uses the surface with the most points.
 template <typename Curves, typename Name>
 void AddDensityHeadline(const Curves& curves, Name name, Report& report) {
@@ -123,6 +135,7 @@ Report MakeStatisticsReport(const Statistics& statistics,
         "Dropout", "unknown: where the sensor fired without a return cannot be told for certain");
   }
   AddNoiseHeadline(statistics.noise, report);
+  AddVelocityHeadline(statistics.velocity, report);
   AddDensityHeadline(
       statistics.density.by_label(), [&](std::uint32_t id) { return names.OfLabel(id); }, report);
   AddDensityHeadline(
@@ -140,6 +153,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
   if (!statistics.objects.is_empty()) report.sections.push_back(statistics.objects.MakeSection());
   report.sections.push_back(statistics.noise.MakeSection());
   report.sections.push_back(statistics.temporal_noise.MakeSection());
+  if (!statistics.velocity.is_empty()) {
+    report.sections.push_back(statistics.velocity.MakeSection());
+  }
   if (!statistics.intensity.is_empty()) {
     report.sections.push_back(statistics.intensity.MakeSection(names));
   }

@@ -202,6 +202,47 @@ TEST(BinErrors, AreTheMeanOverBinsInPercent) {
   EXPECT_NEAR(errors.intensity, (20.0 + 50.0) / 2.0, 1e-4);
 }
 
+TEST(BinErrors, OfVelocitiesAreTheMeanDifferenceOfBins) {
+  std::vector<MadePoint> a, b;
+  AddPoints(a, 20, 12.0F, 0.5F);
+  AddPoints(a, 20, 35.0F, 0.5F);
+  b = a;
+  // In A all stands; in B half of the near points come, and all of the far ones recede.
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b[i].velocity_mps = i >= 20 ? 1.5F : i % 2 == 0 ? -9.0F : 0.0F;
+  }
+  const BinnedCloud bins_a = BinnedByRange(MadeCloud(a));
+  const BinnedCloud bins_b = BinnedByRange(MadeCloud(b));
+  EXPECT_DOUBLE_EQ(ErrorsOf(bins_a, bins_b).velocity_mps, (4.5 + 1.5) / 2.0);
+  BinSums sums;
+  for (int i = 0; i < 10; ++i) sums.Add(bins_a, bins_b);
+  const BinSums::Bin& near = sums.bins()[RangeBins().Find(12.0).value()];
+  EXPECT_DOUBLE_EQ(near.velocity_a_mps.PlainMean(), 0.0);
+  EXPECT_DOUBLE_EQ(near.velocity_b_mps.PlainMean(), -4.5);
+  EXPECT_DOUBLE_EQ(near.velocity_change_mps.PlainMean(), -4.5);
+}
+
+TEST(BinErrors, OfVelocitiesWantTenInABin) {
+  std::vector<MadePoint> a;
+  AddPoints(a, 20, 12.0F, 0.5F);
+  std::vector<MadePoint> b = a;
+  for (std::size_t i = 0; i < 11; ++i) b[i].velocity_mps = NAN;
+  const BinErrors errors = ErrorsOf(BinnedByRange(MadeCloud(a)), BinnedByRange(MadeCloud(b)));
+  EXPECT_TRUE(std::isnan(errors.velocity_mps));
+  EXPECT_EQ(errors.points, 0.0);
+}
+
+TEST(CloudHistograms, PutVelocitiesIntoBinsOfOneMetrePerSecond) {
+  using Counts = std::vector<std::pair<std::int64_t, std::uint64_t>>;
+  const std::vector<MadePoint> points = {{1, 0, 0, 0.5F, 0, -0.5F},
+                                         {2, 0, 0, 0.5F, 0, 0.0F},
+                                         {3, 0, 0, 0.5F, 0, 0.99F},
+                                         {4, 0, 0, 0.5F, 0, NAN},
+                                         {5, 0, 0, 0.5F, 0, 1e30F}};
+  EXPECT_EQ(HistogramsOf(MadeCloud(points)).velocity.counts(),
+            (Counts{{-1, 1}, {0, 2}, {1'000'000, 1}}));
+}
+
 TEST(BinErrors, LeaveOutBinsWithTooFewPointsOfTheReference) {
   std::vector<MadePoint> a, b;
   AddPoints(a, 9, 12.0F, 0.5F);

@@ -15,6 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::Pair;
 
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -145,8 +146,21 @@ TEST(Comparison, KnowsNoDivergenceOfFieldsThatAreMissing) {
   bare.fields = {"x", "y", "z"};
   Comparison comparison({0.1});
   comparison.Add(comparison.Compare(bare, FrameOf(MadePlane(0.0F))));
-  EXPECT_EQ(std::get<Estimate>(MeanOverPairs(comparison, "jsd_ring")).num, 0U);
+  for (const char* const metric : {"jsd_ring", "jsd_velocity", "velocity_error_mps"}) {
+    EXPECT_EQ(std::get<Estimate>(MeanOverPairs(comparison, metric)).num, 0U) << metric;
+  }
   EXPECT_EQ(std::get<double>(MeanOverPairs(comparison, "jsd_range")), 0.0);
+}
+
+TEST(Comparison, ShowsVelocitiesWhereThereAreAny) {
+  const auto without = [] {
+    std::vector<RecordedFrame> frames = NoisyPlanes(2, 0.05);
+    for (RecordedFrame& frame : frames) frame.fields.erase("radial_velocity_mps");
+    return frames;
+  };
+  EXPECT_THAT(ComparisonReportOf(without(), without(), 1), Not(HasSubstr("velocity_by_range")));
+  EXPECT_THAT(ComparisonReportOf(without(), NoisyPlanes(2, 0.05), 1),
+              HasSubstr("velocity_by_range"));
 }
 
 TEST(Comparison, GivesFewPairsABareMeanAndNoInterval) {

@@ -14,6 +14,7 @@ struct MadePoint {
   float x{}, y{}, z{};
   float intensity = 0.5F;
   std::uint16_t ring = 0;
+  float velocity_mps = 0.0F;
 };
 
 /// A frame of one row with these points, as a foreign recording has it.
@@ -21,6 +22,7 @@ struct MadePoint {
                                            std::int64_t stamp_ns = 0) {
   RecordedFrame recorded;
   recorded.frame.stamp_ns = stamp_ns;
+  recorded.frame.has_velocity = true;
   recorded.frame.Resize(1, static_cast<std::uint32_t>(points.size()), 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
     recorded.frame.x[i] = points[i].x;
@@ -28,9 +30,10 @@ struct MadePoint {
     recorded.frame.z[i] = points[i].z;
     recorded.frame.intensity[i] = points[i].intensity;
     recorded.frame.ring[i] = points[i].ring;
+    recorded.frame.radial_velocity_mps[i] = points[i].velocity_mps;
     recorded.frame.range_m[i] = std::hypot(points[i].x, points[i].y, points[i].z);
   }
-  recorded.fields = {"x", "y", "z", "intensity", "range_m", "ring"};
+  recorded.fields = {"x", "y", "z", "intensity", "range_m", "ring", "radial_velocity_mps"};
   return recorded;
 }
 

@@ -1,0 +1,134 @@
+#include "analysis/stats/velocity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/report/chart_columns.h"
+#include "analysis/stats/bins.h"
+
+namespace railcast {
+namespace {
+
+// Velocities beyond this, as a faulty foreign file may hold, share the last bin.
+constexpr double kFastest_mps = 1000.0;
+
+Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
+  Table table = {"velocity_by_range",
+                 "Velocity by range",
+                 "",
+                 {{"range_m", "Range", "m"},
+                  {"points", "Points", ""},
+                  {"share", "Share with a velocity", ""},
+                  {"mean_mps", "Mean", "m/s"}},
+                 {}};
+  if (has_truth) {
+    table.note = "Bias and standard deviations are those of measured less true velocity.";
+    table.columns.insert(table.columns.end(),
+                         {{"bias_mps", "Bias", "m/s"},
+                          {"sigma_mps", "Standard deviation", "m/s"},
+                          {"robust_sigma_mps", "Standard deviation, robust", "m/s"}});
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Velocity::Sum& sum = sums[i];
+    if (sum.num_points == 0) continue;
+    std::vector<Cell> row = {RangeBins().span(i), sum.num_points,
+                             Proportion(sum.measured_mps.num(), sum.num_points),
+                             sum.measured_mps.Mean()};
+    if (has_truth) {
+      row.insert(row.end(), {sum.errors_mps.Mean(), sum.errors_mps.StandardDeviation(),
+                             sum.robust_errors_mps.RobustScale()});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table DistributionTable(const std::map<std::int64_t, std::uint64_t>& distribution) {
+  Table table = {
+      "velocities",
+      "Points by velocity",
+      "",
+      {{"velocity_mps", "Velocity", "m/s"}, {"points", "Points", ""}, {"share", "Share", ""}},
+      {}};
+  std::uint64_t num_all = 0;
+  for (const auto& [bin, num] : distribution) num_all += num;
+  for (const auto& [bin, num] : distribution) {
+    const double low_mps = kVelocityBin_mps * static_cast<double>(bin);
+    table.rows.push_back(
+        {Span{low_mps, low_mps + kVelocityBin_mps}, num, Proportion(num, num_all)});
+  }
+  return table;
+}
+
+}  // namespace
+
+void Velocity::Sum::Add(const Sum& other) {
+  num_points += other.num_points;
+  measured_mps.Add(other.measured_mps);
+  errors_mps.Add(other.errors_mps);
+  robust_errors_mps.Add(other.robust_errors_mps);
+}
+
+void Velocity::Add(const RecordedFrame& recorded) {
+  if (!recorded.Has("radial_velocity_mps")) return;
+  by_range_.resize(RangeBins().size());
+  const bool has_truth = recorded.Has("true_radial_velocity_mps");
+  has_truth_ = has_truth_ || has_truth;
+  const Frame& frame = recorded.frame;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    const auto bin = RangeBins().Find(static_cast<double>(frame.range_m[slot]));
+    const auto measured_mps = static_cast<double>(frame.radial_velocity_mps[slot]);
+    if (bin) ++by_range_[*bin].num_points;
+    if (!std::isfinite(measured_mps)) continue;
+    const double shown_mps = std::clamp(measured_mps, -kFastest_mps, kFastest_mps);
+    ++distribution_[static_cast<std::int64_t>(std::floor(shown_mps / kVelocityBin_mps))];
+    if (!bin) continue;
+    Sum& sum = by_range_[*bin];
+    sum.measured_mps.Add(measured_mps);
+    if (!has_truth) continue;
+    const double error_mps =
+        measured_mps - static_cast<double>(frame.true_radial_velocity_mps[slot]);
+    sum.errors_mps.Add(error_mps);
+    sum.robust_errors_mps.Add(error_mps);
+  }
+}
+
+void Velocity::Add(const Velocity& other) {
+  has_truth_ = has_truth_ || other.has_truth_;
+  AddEach(by_range_, other.by_range_);
+  for (const auto& [bin, num] : other.distribution_) distribution_[bin] += num;
+}
+
+Section Velocity::MakeSection() const {
+  Section section{"velocity",
+                  "Velocity along the beams",
+                  {"Of points, as measured: positive is receding. What stands still has the "
+                   "sensor's own motion."},
+                  {},
+                  {VelocityTable(by_range_, has_truth_), DistributionTable(distribution_)}};
+  if (has_truth_) {
+    section.paragraphs.emplace_back(
+        "Frames hold the truth. A velocity that the sensor folds is wrong by the whole span; "
+        "false echoes have no true velocity and are left out. The robust figure hardly knows "
+        "either.");
+    const Table& table = section.tables.front();
+    section.charts.push_back({"velocity_noise_by_range",
+                              "Noise of velocity against range",
+                              "Measured less true velocity.",
+                              {"Range", "m"},
+                              {"Standard deviation", "m/s"},
+                              {SeriesOf(table, {"range_m", "sigma_mps"}, "plain"),
+                               SeriesOf(table, {"range_m", "robust_sigma_mps"}, "robust")}});
+  }
+  section.charts.push_back(
+      {"velocities",
+       "Points by velocity",
+       "Bins of 2 m/s.",
+       {"Velocity", "m/s"},
+       {"Share", "", true},
+       {SeriesOf(section.tables.back(), {"velocity_mps", "share"}, "points")}});
+  return section;
+}
+
+}  // namespace railcast
