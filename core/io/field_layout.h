@@ -30,4 +30,12 @@ void StoreAt(char* place, T value) {
   std::memcpy(place, &stored, sizeof stored);
 }
 
+/// Reads a number at an address of any alignment.
+template <typename Number>
+[[nodiscard]] Number LoadAt(const char* place) {
+  Number number{};
+  std::memcpy(&number, place, sizeof number);
+  return number;
+}
+
 }  // namespace railcast

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "railcast/lidar.h"
@@ -10,5 +11,9 @@ namespace railcast {
 /// scenarios/sensors/NAME.json, a copy of which is part of the program.
 /// @param name One that core/io/CMakeLists.txt lists.
 [[nodiscard]] SpinningSpec SensorTable(std::string_view name);
+
+/// The whole text of the file of a sensor that calls itself so: "VLP-16". Absent if the program
+/// holds none.
+[[nodiscard]] std::optional<std::string_view> SensorFileOf(std::string_view product);
 
 }  // namespace railcast

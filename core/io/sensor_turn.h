@@ -37,6 +37,19 @@ struct TurnField {
   std::vector<float> values;  ///< One for each point of the turn.
 };
 
+/// Where the rotor was as a firing cycle, or one of its loops, began, as its packet says.
+struct TurnAim {
+  double azimuth_deg{};       ///< Clockwise from forward.
+  double speed_deg_per_us{};  ///< 0 where the packet's angles have accounted for it.
+};
+
+/// Where in its packet a firing's returns stand.
+struct FiringPlace {
+  std::uint32_t packet{};  ///< Number among all packets that the decoder was given, from 0.
+  std::uint32_t first{};   ///< Byte at which the return of index 0 begins.
+  std::uint32_t second{};  ///< Of index 1, where that has a place of its own; else 0.
+};
+
 /// The points of one turn of the rotor in order of time.
 struct SensorTurn {
   /// Time of the first firing cycle; each decoder defines its epoch.
@@ -46,7 +59,11 @@ struct SensorTurn {
   /// When each firing cycle in the packets began, since the stamp. A laser of such a cycle without
   /// a point had distance 0. Cycles of missing packets are missing here, too.
   std::vector<std::int64_t> column_time_ns;
+  /// For each of these cycles, the aim of each of its loops.
+  std::vector<TurnAim> aims;
   bool is_dual{};  ///< Whether any of its packets was in dual mode.
+  /// Of each laser in each firing cycle: column * rows + ring.
+  std::vector<FiringPlace> places;
 
   [[nodiscard]] std::size_t num_columns() const { return column_time_ns.size(); }
 };

@@ -48,12 +48,14 @@ void DecodeAll(Decoder decoder,
 }
 
 // With the right checksums of all packets, which an input does not have by chance.
-std::vector<char> WithChecksums(const HesaiLayout& layout, std::span<const char> bytes) {
-  std::vector<char> checked(bytes.begin(), bytes.end());
-  for (std::size_t end = layout.packet_size; end <= checked.size(); end += layout.packet_size) {
-    StoreHesaiChecksums(layout, std::span(checked).first(end).last(layout.packet_size));
+std::vector<char> WithChecksums(std::span<const HesaiCheckedBytes> checked,
+                                std::size_t packet_size,
+                                std::span<const char> bytes) {
+  std::vector<char> packets(bytes.begin(), bytes.end());
+  for (std::size_t end = packet_size; end <= packets.size(); end += packet_size) {
+    StoreHesaiChecksums(checked, std::span(packets).first(end).last(packet_size));
   }
-  return checked;
+  return packets;
 }
 
 // A correction file whose fields start at 20, 140 and 260 deg; its angles are 0 but for what the
@@ -144,12 +146,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (model < railcast::HesaiModels().size()) {
     const railcast::HesaiModel& hesai = railcast::HesaiModels()[model];
     railcast::DecodeAll(railcast::HesaiDecoder(hesai), hesai.layout.packet_size,
-                        hesai.channels.size(), railcast::WithChecksums(hesai.layout, bytes));
+                        hesai.channels.size(),
+                        railcast::WithChecksums(railcast::HesaiCheckedBytesOf(hesai.layout),
+                                                hesai.layout.packet_size, bytes));
   } else if (data[0] == 'a') {
     const auto correction =
         std::make_shared<const railcast::At128Correction>(railcast::CorrectionFile({}));
-    railcast::DecodeAll(railcast::At128Decoder(correction), railcast::kAt128PacketSize,
-                        railcast::kAt128Lasers, bytes);
+    railcast::DecodeAll(
+        railcast::At128Decoder(correction), railcast::kAt128PacketSize, railcast::kAt128Lasers,
+        railcast::WithChecksums(railcast::kAt128CheckedBytes, railcast::kAt128PacketSize, bytes));
   } else if (data[0] == 'c') {
     railcast::UseCorrection(bytes);
   } else {

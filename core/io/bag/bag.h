@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/io/mcap/compression.h"
+#include "core/io/mcap/mcap_records.h"
 
 namespace railcast::bag {
 
@@ -27,11 +28,20 @@ struct BagTopic {
   bool operator==(const BagTopic&) const = default;
 };
 
+/// Where a message stands in a bag.
+struct BagPlace {
+  std::size_t part{};            ///< Index of its file among the bag's files.
+  mcap::MessagePlace in_part{};  ///< Of a database: the message's id in place of the record.
+
+  auto operator<=>(const BagPlace&) const = default;
+};
+
 /// A serialized message, with the header of its encoding.
 struct BagMessage {
   std::size_t topic{};  ///< Index of its topic.
   std::int64_t time_ns{};
   std::span<const std::byte> data;
+  BagPlace place{};  ///< Of messages that were read.
 };
 
 /// A file inside a bag.
@@ -138,6 +148,28 @@ class BagReader {
 /// the bag.
 /// @throws InputError "file: rule (got value)" if it is none or is damaged.
 [[nodiscard]] std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
+
+/// A copy of a bag in which messages of one topic are replaced and all else stays byte for byte as
+/// it was. Files have the suffix kUnfinishedSuffix until they are finished.
+class BagCopy {
+ public:
+  virtual ~BagCopy() = default;
+
+  /// Says what becomes of a message of the topic. Memory grows with messages that are said before
+  /// others that stand before them in the bag.
+  /// @param data With the header of its encoding; absent: it stays as it is.
+  virtual void Put(const BagPlace& place, std::optional<std::span<const std::byte>> data) = 0;
+  /// Completes the copy. Messages that nothing was said of stay as they are.
+  virtual void Finish() = 0;
+};
+
+/// Copies a bag, as OpenBag() takes it.
+/// @param copy A file, or a directory if the bag is one.
+/// @param topic Of the bag.
+/// @throws InputError as OpenBag(), or if the system refuses.
+[[nodiscard]] std::unique_ptr<BagCopy> CopyBag(const std::filesystem::path& bag,
+                                               const std::filesystem::path& copy,
+                                               const BagTopic& topic);
 
 /// Whether OpenBag() would take the path for a bag, by its name and its first bytes.
 [[nodiscard]] bool IsBag(const std::filesystem::path& path);

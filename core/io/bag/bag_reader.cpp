@@ -13,6 +13,7 @@ namespace {
 /// A part of a bag, with the message of it that comes next.
 struct BagPart {
   std::unique_ptr<BagReader> reader;
+  std::size_t number{};             ///< As BagPlace counts them.
   std::vector<std::size_t> topics;  ///< Index in the whole bag by index in the part.
   std::optional<std::int64_t> start_ns;
   std::optional<BagMessage> next;
@@ -23,7 +24,11 @@ class MergedReader : public BagReader {
  public:
   explicit MergedReader(std::vector<std::unique_ptr<BagReader>> parts) {
     for (auto& reader : parts) {
-      BagPart part{.reader = std::move(reader), .topics = {}, .start_ns = {}, .next = {}};
+      BagPart part{.reader = std::move(reader),
+                   .number = parts_.size(),
+                   .topics = {},
+                   .start_ns = {},
+                   .next = {}};
       part.start_ns = part.reader->FindStart_ns();
       for (const BagTopic& topic : part.reader->topics()) part.topics.push_back(IndexOf(topic));
       parts_.push_back(std::move(part));
@@ -64,7 +69,10 @@ class MergedReader : public BagReader {
     }
     last_ = first;
     if (first == nullptr) return std::nullopt;
-    return BagMessage{first->topics[first->next->topic], first->next->time_ns, first->next->data};
+    return BagMessage{first->topics[first->next->topic],
+                      first->next->time_ns,
+                      first->next->data,
+                      {.part = first->number, .in_part = first->next->place.in_part}};
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {

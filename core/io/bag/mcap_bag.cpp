@@ -46,8 +46,10 @@ class McapBagReader : public BagReader {
   [[nodiscard]] std::optional<BagMessage> Next() override {
     const auto message = reader_.Next();
     if (!message) return std::nullopt;
-    return BagMessage{topic_by_channel_.at(message->channel_id), CheckedTime_ns(message->log_time),
-                      message->data};
+    return BagMessage{topic_by_channel_.at(message->channel_id),
+                      CheckedTime_ns(message->log_time),
+                      message->data,
+                      {.in_part = reader_.place()}};
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {

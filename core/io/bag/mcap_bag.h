@@ -14,4 +14,11 @@ namespace railcast::bag {
 [[nodiscard]] std::unique_ptr<BagReader> OpenMcapBag(const std::filesystem::path& file,
                                                      const std::string& name);
 
+/// Makes a copy of an MCAP file, of which messages of a topic are replaced.
+/// @param copy Its file; unfinished until Finish().
+[[nodiscard]] std::unique_ptr<BagCopy> CopyMcapBag(const std::filesystem::path& file,
+                                                   const std::string& name,
+                                                   const std::filesystem::path& copy,
+                                                   const BagTopic& topic);
+
 }  // namespace railcast::bag

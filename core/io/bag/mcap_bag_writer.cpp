@@ -1,6 +1,3 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <map>
@@ -17,6 +14,7 @@
 #include "core/io/mcap/mcap_index.h"
 #include "core/io/mcap/mcap_writer.h"
 #include "core/io/mcap/record_scan.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 
 namespace railcast::bag {
@@ -29,54 +27,6 @@ constexpr const char* kHashKey = "topic_type_hash";
 std::filesystem::path UnfinishedMcap(const std::filesystem::path& target) {
   return target.string() + std::string(kUnfinishedSuffix);
 }
-
-/// A file to which bytes are appended until it gets its name.
-class GrowingFile {
- public:
-  /// @param size What is kept of the unfinished file.
-  GrowingFile(std::filesystem::path file, std::uint64_t size)
-      : file_(std::move(file)), target_(FileToReplace(file_)) {
-    constexpr int kAccess = 0644;
-    descriptor_ =
-        ::open(UnfinishedMcap(target_).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kAccess);
-    if (descriptor_ < 0) throw FileError(file_, errno);
-    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
-      const int reason = errno;
-      ::close(descriptor_);
-      throw FileError(file_, reason);
-    }
-  }
-  ~GrowingFile() { ::close(descriptor_); }
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
-
-  void Append(mcap::ByteSpan bytes) const {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno != EINTR) throw FileError(file_, errno);
-      if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-  }
-
-  void Sync() const {
-    if (::fdatasync(descriptor_) != 0) throw FileError(file_, errno);
-  }
-
-  void Finish() const {
-    if (::fsync(descriptor_) != 0 ||
-        ::rename(UnfinishedMcap(target_).c_str(), target_.c_str()) != 0) {
-      throw FileError(file_, errno);
-    }
-  }
-
-  /// The name that it gets.
-  [[nodiscard]] std::string final_name() const { return file_.filename().string(); }
-
- private:
-  std::filesystem::path file_;
-  std::filesystem::path target_;
-  int descriptor_{};
-};
 
 class McapBagWriter : public BagWriter {
  public:
@@ -205,7 +155,7 @@ class McapBagWriter : public BagWriter {
         "rosbag2", {{"serialized_metadata", MetadataText(metadata, MetadataVersion::kIron)}}});
   }
 
-  GrowingFile file_;
+  UnfinishedFile file_;
   std::optional<McapTrace> trace_;
   std::size_t num_commits_{};
   mcap::McapWriter writer_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "core/io/bag/temporary_copy.h"
 #include "core/io/mcap/byte_file.h"
 #include "core/io/mcap/record_scan.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 
 namespace railcast::bag {
@@ -74,7 +76,111 @@ BagParts PartsIn(const std::filesystem::path& directory) {
   return {.files = BagFilesIn(directory)};
 }
 
+/// A copy of a file that rosbag2 compressed as a whole.
+class CompressedCopy : public BagCopy {
+ public:
+  /// @param plain The copy of what it becomes, which is made at `plain_file`.
+  CompressedCopy(std::filesystem::path file,
+                 std::filesystem::path copy,
+                 std::filesystem::path plain_file,
+                 std::unique_ptr<BagCopy> plain)
+      : file_(std::move(file)),
+        copy_(std::move(copy)),
+        plain_file_(std::move(plain_file)),
+        plain_(std::move(plain)) {}
+
+  void Put(const BagPlace& place, std::optional<std::span<const std::byte>> data) override {
+    has_changed_ = has_changed_ || data;
+    plain_->Put(place, data);
+  }
+
+  void Finish() override {
+    plain_->Finish();
+    const UnfinishedFile out(copy_, 0);
+    if (has_changed_) {
+      mcap::CompressFile(plain_file_, [&](mcap::ByteSpan bytes) { out.Append(bytes); });
+    } else {
+      out.AppendFile(file_);
+    }
+    out.Finish();
+    std::filesystem::remove(plain_file_);
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path copy_;
+  std::filesystem::path plain_file_;
+  std::unique_ptr<BagCopy> plain_;
+  bool has_changed_ = false;
+};
+
+std::unique_ptr<BagCopy> CopyBagFile(const std::filesystem::path& file,
+                                     const std::filesystem::path& copy,
+                                     const BagTopic& topic) {
+  const std::string name = ShownPath(file);
+  CheckIsReadable(file);
+  if (IsMcap(file)) return CopyMcapBag(file, name, copy, topic);
+  if (IsSqlite(file)) return CopySqliteBag(file, copy);
+  const TemporaryCopy uncompressed;
+  const std::filesystem::path plain = uncompressed.AddUncompressed(file);
+  const std::filesystem::path plain_copy = copy.string() + ".plain";
+  auto inner = IsMcap(plain) ? CopyMcapBag(plain, name, plain_copy, topic)
+                             : CopySqliteBag(plain, plain_copy);
+  return std::make_unique<CompressedCopy>(file, copy, plain_copy, std::move(inner));
+}
+
+/// A copy of a rosbag2 directory.
+class DirectoryCopy : public BagCopy {
+ public:
+  DirectoryCopy(const std::filesystem::path& bag, std::filesystem::path copy, const BagTopic& topic)
+      : copy_(std::move(copy)) {
+    std::error_code error;
+    std::filesystem::create_directories(copy_, error);
+    if (error) throw FileError(copy_, error.value());
+    const BagParts parts = PartsIn(bag);
+    are_messages_compressed_ = parts.are_messages_compressed;
+    std::set<std::filesystem::path> known;
+    for (const std::filesystem::path& file : parts.files) {
+      parts_.push_back(CopyBagFile(file, copy_ / file.filename(), topic));
+      known.insert(file.filename());
+      for (const auto& beside : ChangesBeside(file)) known.insert(beside.filename());
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(bag)) {
+      const bool is_other = entry.is_regular_file() && !known.contains(entry.path().filename());
+      if (is_other) others_.push_back(entry.path());
+    }
+  }
+
+  void Put(const BagPlace& place, std::optional<std::span<const std::byte>> data) override {
+    if (!data || !are_messages_compressed_) return parts_.at(place.part)->Put(place, data);
+    const mcap::Bytes compressed = mcap::Compressed(*data, McapCompression::kZstd);
+    parts_.at(place.part)->Put(place, compressed);
+  }
+
+  void Finish() override {
+    for (const auto& part : parts_) part->Finish();
+    for (const std::filesystem::path& other : others_) {
+      const UnfinishedFile out(copy_ / other.filename(), 0);
+      out.AppendFile(other);
+      out.Finish();
+    }
+  }
+
+ private:
+  std::filesystem::path copy_;
+  std::vector<std::unique_ptr<BagCopy>> parts_;
+  std::vector<std::filesystem::path> others_;  ///< Files beside the parts, such as metadata.yaml.
+  bool are_messages_compressed_ = false;
+};
+
 }  // namespace
+
+std::unique_ptr<BagCopy> CopyBag(const std::filesystem::path& bag,
+                                 const std::filesystem::path& copy,
+                                 const BagTopic& topic) {
+  if (is_directory(bag)) return std::make_unique<DirectoryCopy>(bag, copy, topic);
+  return CopyBagFile(bag, copy, topic);
+}
 
 std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path) {
   std::error_code error;

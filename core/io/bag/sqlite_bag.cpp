@@ -88,7 +88,10 @@ class SqliteBagReader : public BagReader {
     if (!data_->With(id).Step() || !data_->IsBlob(0)) {
       throw InputError(place + "data: must be a blob");
     }
-    return BagMessage{topic->second, list_->Integer(2), data_->Blob(0)};
+    return BagMessage{topic->second,
+                      list_->Integer(2),
+                      data_->Blob(0),
+                      {.in_part = {.record = static_cast<std::uint64_t>(id)}}};
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override { return {}; }
@@ -133,17 +136,6 @@ class SqliteBagReader : public BagReader {
   bool is_at_end_ = false;
 };
 
-/// Returns the files beside a database in which an interrupted recorder left changes.
-std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& file) {
-  std::vector<std::filesystem::path> changes;
-  for (const char* suffix : {"-wal", "-journal"}) {
-    const std::filesystem::path beside = file.string() + suffix;
-    std::error_code error;
-    if (std::filesystem::file_size(beside, error) > 0 && !error) changes.push_back(beside);
-  }
-  return changes;
-}
-
 /// Opens a copy of the files, in which SQLite finishes what the recorder had begun.
 std::unique_ptr<SqliteDatabase> OpenCopy(const std::filesystem::path& file,
                                          const std::string& name,
@@ -157,6 +149,16 @@ std::unique_ptr<SqliteDatabase> OpenCopy(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> changes;
+  for (const char* suffix : {"-wal", "-journal"}) {
+    const std::filesystem::path beside = file.string() + suffix;
+    std::error_code error;
+    if (std::filesystem::file_size(beside, error) > 0 && !error) changes.push_back(beside);
+  }
+  return changes;
+}
 
 bool IsSqlite(const std::filesystem::path& file) {
   constexpr std::string_view kBegin("SQLite format 3\0", 16);

@@ -19,4 +19,12 @@ namespace railcast::bag {
 [[nodiscard]] std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
                                                        const std::string& name);
 
+/// Makes a copy of such a database, of which messages are replaced by their ids.
+/// @param copy Its file; unfinished until Finish().
+[[nodiscard]] std::unique_ptr<BagCopy> CopySqliteBag(const std::filesystem::path& file,
+                                                     const std::filesystem::path& copy);
+
+/// The files beside a database in which an interrupted recorder left changes.
+[[nodiscard]] std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& file);
+
 }  // namespace railcast::bag

@@ -56,10 +56,12 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file,
       sqlite3_open_v2(is_read ? ReadOnlyUri(file).c_str() : file.c_str(), &handle, flags, nullptr);
   handle_.reset(handle);
   if (status != SQLITE_OK) Throw();
+  // Bags of others may hold code.
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, nullptr);
   if (!is_read) return;
   // What a hostile file may do is limited; every row takes some bytes of it and few instructions.
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
-  sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   work_left_ = std::filesystem::file_size(file) + 10000;
   sqlite3_progress_handler(handle, kInstructionsPerStep, StopAtEndOfWork, &work_left_);
 }

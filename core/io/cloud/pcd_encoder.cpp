@@ -17,7 +17,9 @@
 namespace railcast {
 namespace {
 
-void AppendCompressed(const Frame& frame, const FieldSelection& selection, std::string& bytes) {
+void AppendCompressedFields(const Frame& frame,
+                            const FieldSelection& selection,
+                            std::string& bytes) {
   std::string plain;
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
     if (!selection.Has(name)) return;
@@ -26,18 +28,7 @@ void AppendCompressed(const Frame& frame, const FieldSelection& selection, std::
     plain.resize(begin + size);
     std::memcpy(plain.data() + begin, values.data(), size);
   });
-  Check(plain.size() < std::numeric_limits<std::uint32_t>::max() / 2, "a frame is below 2 GiB");
-  // LZF adds at most one byte per 32 where nothing repeats.
-  std::string packed(plain.size() + plain.size() / 16 + 64, '\0');
-  const std::uint32_t packed_size =
-      pcl::lzfCompress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
-                       static_cast<std::uint32_t>(packed.size()));
-  Check(packed_size > 0 || plain.empty(), "LZF output fits its bound");
-  std::array<char, 8> sizes{};
-  StoreAt<std::uint32_t>(sizes.data(), packed_size);
-  StoreAt<std::uint32_t>(sizes.data() + 4, plain.size());
-  bytes.append(sizes.data(), sizes.size());
-  bytes.append(packed, 0, packed_size);
+  AppendCompressed(plain, bytes);
 }
 
 template <typename Stored>
@@ -68,6 +59,21 @@ void AppendText(const Frame& frame, const FieldSelection& selection, std::string
 
 }  // namespace
 
+void AppendCompressed(const std::string& plain, std::string& bytes) {
+  Check(plain.size() < std::numeric_limits<std::uint32_t>::max() / 2, "a frame is below 2 GiB");
+  // LZF adds at most one byte per 32 where nothing repeats.
+  std::string packed(plain.size() + plain.size() / 16 + 64, '\0');
+  const std::uint32_t packed_size =
+      pcl::lzfCompress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
+                       static_cast<std::uint32_t>(packed.size()));
+  Check(packed_size > 0 || plain.empty(), "LZF output fits its bound");
+  std::array<char, 8> sizes{};
+  StoreAt<std::uint32_t>(sizes.data(), packed_size);
+  StoreAt<std::uint32_t>(sizes.data() + 4, plain.size());
+  bytes.append(sizes.data(), sizes.size());
+  bytes.append(packed, 0, packed_size);
+}
+
 void EncodePcd(const Frame& frame,
                const FieldSelection& fields,
                PcdEncoding encoding,
@@ -88,7 +94,7 @@ void EncodePcd(const Frame& frame,
     case PcdEncoding::kBinaryCompressed:
       bytes = writer.generateHeaderBinaryCompressed(cloud, origin, orientation) +
               "DATA binary_compressed\n";
-      AppendCompressed(frame, fields, bytes);
+      AppendCompressedFields(frame, fields, bytes);
       break;
     case PcdEncoding::kAscii:
       bytes = writer.generateHeaderASCII(cloud, origin, orientation) + "DATA ascii\n";

@@ -153,19 +153,23 @@ PointTable ParseKittiTable(const std::string& file,
   return table;
 }
 
+std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& file) {
+  const FrameFormat* const format = FindReader(file);
+  if (format == nullptr || format->files.size() < 2) return std::nullopt;
+  const std::filesystem::path folder(format->files[1].folder);
+  auto beside =
+      file.parent_path().parent_path() / folder.parent_path().filename() / file.filename();
+  beside.replace_extension(format->files[1].extension);
+  return exists(beside) ? std::optional(beside) : std::nullopt;
+}
+
 PointTable ReadPointTable(const std::filesystem::path& file) {
   const FrameFormat* const format = FindReader(file);
   if (format == nullptr) {
     throw InputError(ShownPath(file) + ": must be a " + ReadableExtensions(true) + " file");
   }
   std::optional<std::string> second;
-  if (format->files.size() > 1) {
-    const std::filesystem::path folder(format->files[1].folder);
-    auto beside =
-        file.parent_path().parent_path() / folder.parent_path().filename() / file.filename();
-    beside.replace_extension(format->files[1].extension);
-    if (exists(beside)) second = ReadFileWhole(beside);
-  }
+  if (const auto beside = SecondFileOf(file)) second = ReadFileWhole(*beside);
   return format->parse(ShownPath(file), ReadFileWhole(file), second);
 }
 

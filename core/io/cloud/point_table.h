@@ -52,6 +52,9 @@ struct PointTable {
                                          std::string bytes,
                                          const std::optional<std::string>& labels);
 
+/// Returns the file of the labels of a .bin file, ../labels/NAME.label, if it is there.
+[[nodiscard]] std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& file);
+
 /// Reads a cloud file. A .bin file takes its labels from ../labels if they are there.
 /// @throws InputError with one line if the file is not a .pcd, .ply or .bin, cannot be read or is
 ///   damaged.

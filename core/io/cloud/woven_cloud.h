@@ -2,6 +2,7 @@
 
 #include <pcl/PCLPointCloud2.h>
 #include <cstddef>
+#include <string>
 
 #include "railcast/frame.h"
 #include "railcast/io/cloud_files.h"
@@ -17,5 +18,9 @@ namespace railcast {
 /// @param step Bytes of a point: point_step of DescribeCloud().
 /// @pre `to` has room for num_slots() * step bytes.
 void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to);
+
+/// Appends the data of a PCD file of encoding binary_compressed: both sizes and the LZF of `plain`.
+/// @param plain Each field for all points, one field after another.
+void AppendCompressed(const std::string& plain, std::string& bytes);
 
 }  // namespace railcast

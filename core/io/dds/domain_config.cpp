@@ -46,19 +46,36 @@ const InterfaceAddress& Find(const std::string& interface,
                              : interface == each.name || interface == each.address;
   });
   if (found != addresses.end()) return *found;
-  throw InputError(
-      "interface: must be the name or the IPv4 address of a network interface that is up, " +
-      (addresses.empty() ? "of which there is none" : "one of " + Known(addresses)) + " (got " +
-      (interface.empty() ? "loopback" : "\"" + ShownText(interface) + "\"") + ")");
+  throw InputError("interface: must be the name or an address of a network interface that is up, " +
+                   (addresses.empty() ? "of which there is none" : "one of " + Known(addresses)) +
+                   " (got " +
+                   (interface.empty() ? "loopback" : "\"" + ShownText(interface) + "\"") + ")");
 }
 
 /// By multicast, participants find each other wherever they are. Loopback has none, so that each
 /// asks the ports of all others that there may be.
 std::string DiscoveryOf(const InterfaceAddress& interface) {
   if (!interface.is_loopback) return "";
+  const std::string peer = interface.is_ipv6() ? "[" + interface.address + "]" : interface.address;
   return "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-         std::string(kLastIndex) + "</MaxAutoParticipantIndex><Peers><Peer Address=\"" +
-         interface.address + "\"/></Peers></Discovery>";
+         std::string(kLastIndex) + "</MaxAutoParticipantIndex><Peers><Peer Address=\"" + peer +
+         "\"/></Peers></Discovery>";
+}
+
+/// The address as text; empty if it is of no family that DDS uses here. Link-local addresses of
+/// IPv6, which mean nothing without their interface, are left out.
+std::string TextOf(const sockaddr& address) {
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (address.sa_family == AF_INET) {
+    const auto& ipv4 = reinterpret_cast<const sockaddr_in&>(address);
+    ::inet_ntop(AF_INET, &ipv4.sin_addr, text.data(), text.size());
+  } else if (address.sa_family == AF_INET6) {
+    const auto& ipv6 = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+    if (!IN6_IS_ADDR_LINKLOCAL(&ipv6)) {
+      ::inet_ntop(AF_INET6, &ipv6, text.data(), text.size());
+    }
+  }
+  return text.data();
 }
 
 }  // namespace
@@ -70,12 +87,12 @@ std::vector<InterfaceAddress> InterfaceAddresses() {
   std::vector<InterfaceAddress> addresses;
   for (const ifaddrs* each = first; each != nullptr; each = each->ifa_next) {
     const bool is_up = (each->ifa_flags & IFF_UP) != 0;
-    if (!is_up || each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
-    std::array<char, INET_ADDRSTRLEN> text{};
-    const auto* address = reinterpret_cast<const sockaddr_in*>(each->ifa_addr);
-    ::inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
-    addresses.push_back({each->ifa_name, text.data(), (each->ifa_flags & IFF_LOOPBACK) != 0});
+    const std::string text = is_up && each->ifa_addr != nullptr ? TextOf(*each->ifa_addr) : "";
+    if (text.empty()) continue;
+    addresses.push_back({each->ifa_name, text, (each->ifa_flags & IFF_LOOPBACK) != 0});
   }
+  // A name is that of its address of IPv4, if it has one.
+  std::ranges::stable_partition(addresses, [](const auto& each) { return !each.is_ipv6(); });
   return addresses;
 }
 
@@ -84,6 +101,7 @@ std::string DomainConfig(const ParticipantSpec& spec,
   const InterfaceAddress& interface = Find(spec.interface, addresses);
   std::string config =
       "<General><Interfaces><NetworkInterface address=\"" + interface.address + "\"/></Interfaces>";
+  if (interface.is_ipv6()) config += "<Transport>udp6</Transport>";
   if (interface.is_loopback) config += kLoopbackGeneral;
   config += "</General>" + DiscoveryOf(interface) + "<Internal>";
   // The end of a run does not wait for readers that are slow or gone: WaitForReaders() does.

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kMaxDomain = 232;
 /// A domain and how to take part in it.
 struct ParticipantSpec {
   std::uint32_t domain = 0;  ///< ROS 2's ROS_DOMAIN_ID.
-  /// Name or IPv4 address of the network interface through which all traffic goes; empty =
-  /// loopback, without multicast.
+  /// Name or address of the network interface through which all traffic goes, by IPv6 if the
+  /// address is one; empty = loopback, without multicast.
   std::string interface {};
   /// Whether every reader has room for a whole message in the buffer of its socket (1 MiB or more),
   /// so that messages are sent at once. If not, all but the first 100 kB of a message are sent when

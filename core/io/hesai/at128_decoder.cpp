@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/field_layout.h"
 #include "core/io/hesai/hesai_model.h"
 #include "core/io/hesai/hesai_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -23,6 +24,7 @@ constexpr std::size_t kReturnBytes = 4;
 constexpr std::size_t kBlockHead = 3;  // u16 azimuth in 0.01 deg, u8 in 1/256 of that.
 constexpr std::size_t kFirstBlock = 12;
 constexpr std::size_t kBlockBytes = kBlockHead + kAt128Lasers * kReturnBytes;
+static_assert(kAt128CheckedBytes[0].end == kFirstBlock + kBlocks * kBlockBytes);
 constexpr std::size_t kUnit = 9;
 constexpr HesaiTail kTail = {.mode_place = 1070,
                              .speed_place = 1064,
@@ -64,7 +66,7 @@ std::int64_t StatedNsOfAt128(std::span<const char> payload) {
   std::int64_t seconds = 0;
   for (std::size_t i = 2; i < 6; ++i) seconds = 256 * seconds + byte(i);
   const auto time_us = LoadAt<std::uint32_t>(payload.data() + kTail.time_place);
-  return seconds * kNsPerS + std::int64_t{1000} * time_us;
+  return seconds * kNsPerS + kNsPerUs * time_us;
 }
 
 std::uint8_t ModeOfAt128(std::span<const char> payload) {
@@ -80,6 +82,7 @@ std::optional<std::string> RefuseAt128(std::span<const char> payload) {
     return "must be 1118 bytes" + Got(payload.size());
   }
   if (!IsAt128Packet(payload)) return "must begin as an AT128's, protocol 4.3, 2 blocks of 128";
+  if (!HasRightHesaiChecksums(kAt128CheckedBytes, payload)) return std::string(kWrongChecksum);
   if (payload[kUnit] == 0) return "distance unit must be > 0 (got 0)";
   const auto time_us = LoadAt<std::uint32_t>(payload.data() + kTail.time_place);
   if (time_us >= 1'000'000) return "microseconds of the second must be < 1000000" + Got(time_us);
@@ -121,6 +124,7 @@ At128Decoder::At128Decoder(std::shared_ptr<const At128Correction> correction)
 
 std::optional<std::string> At128Decoder::Decode(std::span<const char> payload,
                                                 std::vector<SensorTurn>& turns) {
+  ++num_packets_;
   if (auto refusal = RefuseAt128(payload)) return refusal;
   for (std::size_t block = 0; block < kBlocks; block += IsDualAt128(payload) ? 2 : 1) {
     AddColumn(payload, block, turns);
@@ -131,6 +135,17 @@ std::optional<std::string> At128Decoder::Decode(std::span<const char> payload,
 SensorTurn At128Decoder::TakeUnfinished() {
   field_.reset();
   return std::exchange(turn_, {});
+}
+
+std::optional<std::string> At128Decoder::Store(const EditedReturns& returns,
+                                               const FiringPlace& place,
+                                               std::span<char> packet) const {
+  const double unit_m = 1e-3 * static_cast<std::uint8_t>(packet[kUnit]);
+  return StoreReturns(returns, place, {.unit_m = unit_m}, packet);
+}
+
+void At128Decoder::Seal(std::span<char> packet) const {
+  StoreHesaiChecksums(kAt128CheckedBytes, packet);
 }
 
 void At128Decoder::AddColumn(std::span<const char> payload,
@@ -151,9 +166,16 @@ void At128Decoder::AddColumn(std::span<const char> payload,
   TurnPoint point{};
   point.column = static_cast<std::uint32_t>(turn_.num_columns());
   turn_.column_time_ns.push_back(time_ns - turn_.stamp_ns);
+  turn_.aims.push_back({.azimuth_deg = block_deg});
+  turn_.places.resize(turn_.num_columns() * kAt128Lasers);
   const double unit_m = 1e-3 * static_cast<std::uint8_t>(payload[kUnit]);
   for (std::size_t laser = 0; laser < kAt128Lasers; ++laser) {
     const char* const place = begin + kBlockHead + laser * kReturnBytes;
+    const auto in_packet = static_cast<std::uint32_t>(place - payload.data());
+    turn_.places[point.column * kAt128Lasers + rows_[laser]] = {
+        .packet = num_packets_ - 1,
+        .first = in_packet,
+        .second = is_dual ? in_packet + static_cast<std::uint32_t>(kBlockBytes) : 0};
     point.laser = static_cast<std::uint8_t>(laser);
     point.ring = rows_[laser];
     point.time_ns = turn_.column_time_ns.back() + kFiring_ns[laser];

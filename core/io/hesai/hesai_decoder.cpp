@@ -37,6 +37,10 @@ std::uint8_t ModeOf(const HesaiLayout& layout, std::span<const char> payload) {
   return ByteAt(payload, layout.tail.mode_place);
 }
 
+double UnitOf(const HesaiLayout& layout, std::span<const char> payload) {
+  return 1e-3 * (layout.header ? ByteAt(payload, layout.header->unit_place) : kHesaiUnit_mm);
+}
+
 std::size_t BlocksPerLoop(const HesaiModel& model, std::span<const char> payload) {
   return model.IsDual(ModeOf(model.layout, payload)) ? 2 : 1;
 }
@@ -134,7 +138,9 @@ std::optional<std::string> RefuseBlock(const HesaiModel& model,
 // Returns why the payload is not a data packet of this sensor, or nothing if it is one.
 std::optional<std::string> RefuseHesai(const HesaiModel& model, std::span<const char> payload) {
   if (auto refusal = RefuseHeader(model.layout, payload)) return refusal;
-  if (!HasRightHesaiChecksums(model.layout, payload)) return std::string(kWrongChecksum);
+  if (!HasRightHesaiChecksums(HesaiCheckedBytesOf(model.layout), payload)) {
+    return std::string(kWrongChecksum);
+  }
   if (auto refusal = RefuseTail(model, payload)) return refusal;
   for (std::size_t i = 0; i < model.layout.blocks; ++i) {
     if (auto refusal = RefuseBlock(model, payload, i)) return refusal;
@@ -167,6 +173,7 @@ HesaiDecoder::HesaiDecoder(const HesaiModel& model) : model_(&model) {
 
 std::optional<std::string> HesaiDecoder::Decode(std::span<const char> payload,
                                                 std::vector<SensorTurn>& turns) {
+  ++num_packets_;
   if (auto refusal = RefuseHesai(*model_, payload)) return refusal;
   const std::size_t in_group = BlocksPerLoop(*model_, payload);
   for (std::size_t i = 0; i < model_->layout.blocks; i += in_group) {
@@ -185,16 +192,17 @@ HesaiDecoder::Group HesaiDecoder::GroupOf(std::span<const char> payload, std::si
   const std::int64_t since_stated_ns =
       model_->loop_ns * (model_->states_first ? loops_before : -loops_left);
   const std::uint8_t mode = ModeOf(layout, payload);
-  return {
-      .blocks = {blocks, blocks + in_group * layout.block_size()},
-      .loop = LoopOf(*model_, payload, block),
-      .time_ns = HesaiStatedNs(layout.tail, model_->year_zero, payload) + model_->stated_loop_ns +
-                 since_stated_ns,
-      .azimuth = BlockAzimuth(payload, layout, block),
-      .unit_m = 1e-3 * (layout.header ? ByteAt(payload, layout.header->unit_place) : kHesaiUnit_mm),
-      .speed_deg_per_us = kDegPerUsPerRpm * speed_rpm,
-      .is_dual = in_group == 2,
-      .has_last_second = mode == kHesaiFirstAndLast && !model_->has_last_first};
+  return {.blocks = {blocks, blocks + in_group * layout.block_size()},
+          .packet = num_packets_ - 1,
+          .place = static_cast<std::uint32_t>(layout.BlockPlace(block)),
+          .loop = LoopOf(*model_, payload, block),
+          .time_ns = HesaiStatedNs(layout.tail, model_->year_zero, payload) +
+                     model_->stated_loop_ns + since_stated_ns,
+          .azimuth = BlockAzimuth(payload, layout, block),
+          .unit_m = UnitOf(layout, payload),
+          .speed_deg_per_us = kDegPerUsPerRpm * speed_rpm,
+          .is_dual = in_group == 2,
+          .has_last_second = mode == kHesaiFirstAndLast && !model_->has_last_first};
 }
 
 void HesaiDecoder::Take(Group group, std::vector<SensorTurn>& turns) {
@@ -214,6 +222,23 @@ SensorTurn HesaiDecoder::TakeUnfinished() {
   return std::exchange(turn_, {});
 }
 
+std::optional<std::string> HesaiDecoder::Store(const EditedReturns& returns,
+                                               const FiringPlace& place,
+                                               std::span<char> packet) const {
+  const std::uint8_t mode = ModeOf(model_->layout, packet);
+  const auto none = model_->near_limits ? HesaiNoPoint::kNoReturn : HesaiNoPoint::kNotFired;
+  return StoreReturns(returns, place,
+                      {.unit_m = UnitOf(model_->layout, packet),
+                       .least = model_->least_distance(),
+                       .none = static_cast<std::uint16_t>(none),
+                       .has_last = mode == kHesaiLastAndStrongest || mode == kHesaiFirstAndLast},
+                      packet);
+}
+
+void HesaiDecoder::Seal(std::span<char> packet) const {
+  StoreHesaiChecksums(HesaiCheckedBytesOf(model_->layout), packet);
+}
+
 void HesaiDecoder::AddCycle(std::vector<SensorTurn>& turns) {
   const Group& first = cycle_.front();
   const bool is_new_turn = last_azimuth_ && first.azimuth < *last_azimuth_;
@@ -221,17 +246,21 @@ void HesaiDecoder::AddCycle(std::vector<SensorTurn>& turns) {
   if (!last_azimuth_) turn_.stamp_ns = first.time_ns;
   last_azimuth_ = first.azimuth;
   turn_.column_time_ns.push_back(first.time_ns - turn_.stamp_ns);
+  turn_.places.resize(turn_.num_columns() * model_->channels.size());
   for (const Group& group : cycle_) AddGroup(group);
 }
 
 void HesaiDecoder::AddGroup(const Group& group) {
   const HesaiLayout& layout = model_->layout;
   turn_.is_dual = turn_.is_dual || group.is_dual;
+  turn_.aims.push_back({group.azimuth * kAzimuthUnit_deg, group.speed_deg_per_us});
   TurnPoint point{};
   point.column = static_cast<std::uint32_t>(turn_.num_columns() - 1);
   for (const Channel& channel : loops_[group.loop]) {
-    const char* place =
-        group.blocks.data() + layout.block_head_size() + channel.laser * layout.return_size;
+    const std::size_t in_block = layout.block_head_size() + channel.laser * layout.return_size;
+    const char* place = group.blocks.data() + in_block;
+    FiringPlace& firing = turn_.places[point.column * model_->channels.size() + channel.ring];
+    firing = {.packet = group.packet, .first = group.place + static_cast<std::uint32_t>(in_block)};
     point.time_ns = turn_.column_time_ns.back() + channel.time_ns;
     point.ring = channel.ring;
     point.laser = channel.laser;
@@ -241,7 +270,11 @@ void HesaiDecoder::AddGroup(const Group& group) {
       continue;
     }
     const char* other = place + layout.block_size();
-    if (group.has_last_second) std::swap(place, other);
+    firing.second = firing.first + static_cast<std::uint32_t>(layout.block_size());
+    if (group.has_last_second) {
+      std::swap(place, other);
+      std::swap(firing.first, firing.second);
+    }
     AddPoint(place, group, channel, point);
     if (std::equal(place, place + kMeasuredSize, other)) continue;
     point.return_index = 1;

@@ -8,6 +8,7 @@
 
 #include "core/io/hesai/hesai_model.h"
 #include "core/io/sensor_turn.h"
+#include "core/io/turn_edit.h"
 
 namespace railcast {
 
@@ -33,6 +34,15 @@ class HesaiDecoder {
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 
+  /// Stores the returns of a firing in its packet.
+  /// @pre The decoder has taken the packet.
+  /// @returns Why the packet cannot state them; it is then unchanged.
+  [[nodiscard]] std::optional<std::string> Store(const EditedReturns& returns,
+                                                 const FiringPlace& place,
+                                                 std::span<char> packet) const;
+  /// Brings a packet's checksums up to what was stored in it.
+  void Seal(std::span<char> packet) const;
+
  private:
   struct Channel {
     double sine{};  ///< Sine of the elevation.
@@ -46,6 +56,8 @@ class HesaiDecoder {
   /// The blocks of one loop.
   struct Group {
     std::vector<char> blocks;
+    std::uint32_t packet{};  ///< Its number, as FiringPlace counts them.
+    std::uint32_t place{};   ///< Of the blocks in it.
     std::size_t loop{};
     std::int64_t time_ns{};   ///< When the loop begins.
     std::uint16_t azimuth{};  ///< In 0.01 deg.
@@ -63,6 +75,7 @@ class HesaiDecoder {
 
   const HesaiModel* model_;
   std::vector<std::vector<Channel>> loops_;
+  std::uint32_t num_packets_{};
   std::vector<Group> cycle_;  ///< The loops of a cycle that is not complete.
   std::optional<std::uint16_t> last_azimuth_;
   SensorTurn turn_;

@@ -21,13 +21,6 @@ namespace {
 
 constexpr double kCodedUnit_m = 1e-3 * kHesaiUnit_mm;
 
-std::uint8_t PercentByte(float intensity) {
-  constexpr float kMost = 255.0F;
-  // Written so that NaN gives 0, too.
-  if (!(intensity > 0.0F)) return 0;
-  return static_cast<std::uint8_t>(std::lround(std::min(100.0F * intensity, kMost)));
-}
-
 std::uint16_t DistanceOf(HesaiNoPoint reason) {
   return static_cast<std::uint16_t>(reason);
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <chrono>
+#include <cmath>
 
+#include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
@@ -12,13 +14,22 @@ namespace {
 
 constexpr char kFactory = 0x42;
 
-/// Bytes of a packet, from begin to end, behind which the checksum of them stands.
-struct CheckedBytes {
-  std::size_t begin{};
-  std::size_t end{};
-};
+}  // namespace
 
-std::vector<CheckedBytes> CheckedBytesOf(const HesaiLayout& layout) {
+std::uint8_t PercentByte(float intensity) {
+  constexpr float kMost = 255.0F;
+  // Written so that NaN gives 0, too.
+  if (!(intensity > 0.0F)) return 0;
+  return static_cast<std::uint8_t>(std::lround(std::min(100.0F * intensity, kMost)));
+}
+
+std::uint32_t HesaiCrc(std::span<const char> bytes) {
+  boost::crc_optimal<32, 0x04C11DB7, 0xFFFFFFFF, 0, false, false> crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+std::vector<HesaiCheckedBytes> HesaiCheckedBytesOf(const HesaiLayout& layout) {
   constexpr std::size_t kCrcSize = 4;
   if (!layout.checked_size) return {};
   const std::size_t blocks_end = layout.BlockPlace(layout.blocks);
@@ -29,24 +40,18 @@ std::vector<CheckedBytes> CheckedBytesOf(const HesaiLayout& layout) {
           {tail, *layout.checked_size - kCrcSize}};
 }
 
-}  // namespace
-
-std::uint32_t HesaiCrc(std::span<const char> bytes) {
-  boost::crc_optimal<32, 0x04C11DB7, 0xFFFFFFFF, 0, false, false> crc;
-  crc.process_bytes(bytes.data(), bytes.size());
-  return crc.checksum();
-}
-
-void StoreHesaiChecksums(const HesaiLayout& layout, std::span<char> packet) {
-  for (const auto [begin, end] : CheckedBytesOf(layout)) {
+void StoreHesaiChecksums(std::span<const HesaiCheckedBytes> checked, std::span<char> packet) {
+  for (const auto [begin, end] : checked) {
     StoreAt<std::uint32_t>(packet.data() + end, HesaiCrc(packet.subspan(begin, end - begin)));
   }
 }
 
-bool HasRightHesaiChecksums(const HesaiLayout& layout, std::span<const char> packet) {
-  return std::ranges::all_of(CheckedBytesOf(layout), [&](const CheckedBytes& bytes) {
-    const std::span<const char> checked = packet.subspan(bytes.begin, bytes.end - bytes.begin);
-    return LoadAt<std::uint32_t>(packet.data() + bytes.end) == HesaiCrc(checked);
+bool HasRightHesaiChecksums(std::span<const HesaiCheckedBytes> checked,
+                            std::span<const char> packet) {
+  return std::ranges::all_of(checked, [&](const HesaiCheckedBytes& bytes) {
+    const auto [begin, end] = bytes;
+    return LoadAt<std::uint32_t>(packet.data() + end) ==
+           HesaiCrc(packet.subspan(begin, end - begin));
   });
 }
 
@@ -62,7 +67,7 @@ std::int64_t HesaiStatedNs(const HesaiTail& tail, int year_zero, std::span<const
   const std::int64_t hours = 24 * days + date(3);
   const std::int64_t seconds = 3600 * hours + std::int64_t{60} * date(4) + date(5);
   const auto time_us = LoadAt<std::uint32_t>(packet.data() + tail.time_place);
-  return (seconds * kUsPerSecond + time_us) * 1000;
+  return (seconds * kUsPerSecond + time_us) * kNsPerUs;
 }
 
 HesaiPacket::HesaiPacket(const HesaiModel& model, std::uint8_t mode)
@@ -122,7 +127,7 @@ std::span<const char> HesaiPacket::Close(const HesaiEnd& end) {
   }
   WriteTime(end.time_ns);
   if (model_->layout.checked_size) WriteSafety(end.time_ns);
-  StoreHesaiChecksums(model_->layout, bytes_);
+  StoreHesaiChecksums(HesaiCheckedBytesOf(model_->layout), bytes_);
   return bytes_;
 }
 

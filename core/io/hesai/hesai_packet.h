@@ -10,6 +10,9 @@
 
 namespace railcast {
 
+/// Returns the intensity byte of a frame's intensity: percent, at most 255. NaN gives 0.
+[[nodiscard]] std::uint8_t PercentByte(float intensity);
+
 /// What a packet says at its end.
 struct HesaiEnd {
   std::int64_t time_ns{};  ///< That the packet states, since 1970-01-01.
@@ -20,13 +23,23 @@ struct HesaiEnd {
 /// The CRC of Hesai's packets, CRC-32/MPEG-2.
 [[nodiscard]] std::uint32_t HesaiCrc(std::span<const char> bytes);
 
-/// Writes the checksums of the bytes that a packet has, if its layout has any.
-/// @pre The packet has the layout's size.
-void StoreHesaiChecksums(const HesaiLayout& layout, std::span<char> packet);
+/// Bytes of a packet, from begin to end, behind which the checksum of them stands.
+struct HesaiCheckedBytes {
+  std::size_t begin{};
+  std::size_t end{};
+};
 
-/// Whether the checksums that a packet states are those of its bytes; true if it has none.
-/// @pre The packet has the layout's size.
-[[nodiscard]] bool HasRightHesaiChecksums(const HesaiLayout& layout, std::span<const char> packet);
+/// Those of a layout; none if its packets have no checksums.
+[[nodiscard]] std::vector<HesaiCheckedBytes> HesaiCheckedBytesOf(const HesaiLayout& layout);
+
+/// Writes the checksums of a packet's bytes.
+/// @pre The packet has all of them, and what follows.
+void StoreHesaiChecksums(std::span<const HesaiCheckedBytes> checked, std::span<char> packet);
+
+/// Whether the checksums that a packet states are those of its bytes.
+/// @pre The packet has all of them, and what follows.
+[[nodiscard]] bool HasRightHesaiChecksums(std::span<const HesaiCheckedBytes> checked,
+                                          std::span<const char> packet);
 
 /// Returns the time that a packet states, since 1970-01-01, or since the start of the day if it has
 /// no date.

@@ -174,4 +174,36 @@ void UncompressFile(const std::filesystem::path& file, int descriptor, std::uint
   });
 }
 
+void CompressFile(const std::filesystem::path& file, const std::function<void(ByteSpan)>& take) {
+  std::ifstream input = OpenInput(file);
+  const std::unique_ptr<::ZSTD_CCtx, std::size_t (*)(::ZSTD_CCtx*)> context(::ZSTD_createCCtx(),
+                                                                            ::ZSTD_freeCCtx);
+  const auto check = [](std::size_t status) {
+    Check(::ZSTD_isError(status) == 0, "zstd compresses whatever it is given");
+    return status;
+  };
+  check(::ZSTD_CCtx_setParameter(context.get(), ::ZSTD_c_compressionLevel, kZstdLevel));
+  std::uint64_t left = std::filesystem::file_size(file);
+  check(::ZSTD_CCtx_setPledgedSrcSize(context.get(), left));
+  Bytes piece(kBlock_bytes);
+  Bytes block(::ZSTD_CStreamOutSize());
+  bool is_over = false;
+  while (!is_over) {
+    const std::size_t size = std::min<std::uint64_t>(left, piece.size());
+    input.read(reinterpret_cast<char*>(piece.data()), static_cast<std::streamsize>(size));
+    if (!input) throw FileError(file, EIO);
+    left -= size;
+    const auto mode = left == 0 ? ::ZSTD_e_end : ::ZSTD_e_continue;
+    ::ZSTD_inBuffer in{piece.data(), size, 0};
+    bool is_taken = false;
+    while (!is_taken) {
+      ::ZSTD_outBuffer out{block.data(), block.size(), 0};
+      const std::size_t rest = check(::ZSTD_compressStream2(context.get(), &out, &in, mode));
+      take(ByteSpan(block).first(out.pos));
+      is_taken = left == 0 ? rest == 0 : in.pos == in.size;
+    }
+    is_over = left == 0;
+  }
+}
+
 }  // namespace railcast::mcap

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 #include "core/io/mcap/mcap_records.h"
@@ -45,5 +46,10 @@ inline constexpr std::size_t kMaxUncompressed_bytes = std::size_t{1} << 30U;
 ///   not fill the disk.
 /// @throws InputError "file: rule" if it is damaged or becomes larger, or if the system refuses.
 void UncompressFile(const std::filesystem::path& file, int descriptor, std::uint64_t max_ratio);
+
+/// Gives away a file's content compressed by zstd, block by block. The frame states its size, which
+/// rosbag2 asks for.
+/// @throws InputError "file: rule" if the system refuses.
+void CompressFile(const std::filesystem::path& file, const std::function<void(ByteSpan)>& take);
 
 }  // namespace railcast::mcap

@@ -123,6 +123,7 @@ std::optional<McapMessage> McapReader::Next() {
   if (waiting_.empty()) return std::nullopt;
   const Waiting next = waiting_.top();
   waiting_.pop();
+  place_ = {next.file_offset, next.chunk_offset};
   if (next.chunk == kNoChunk) {
     loose_ = ContentOf(file_, NeedRecord(file_, next.file_offset, McapOpcode::kMessage));
     return ReadRecord<McapMessage>(loose_);

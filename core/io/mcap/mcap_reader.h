@@ -36,6 +36,8 @@ class McapReader {
   /// Returns the next message, whose data are valid until the next call; nothing at the end.
   /// @throws InputError "file: record at N: rule (got value)" where the file is damaged.
   [[nodiscard]] std::optional<McapMessage> Next();
+  /// Where the message stands that Next() returned last.
+  [[nodiscard]] const MessagePlace& place() const { return place_; }
 
   /// Returns the content of an attachment's record.
   /// @throws InputError as Next() does.
@@ -73,6 +75,7 @@ class McapReader {
   std::vector<std::size_t> by_time_;  ///< The chunks' numbers in the order of their start times.
   std::optional<std::set<std::uint16_t>> wanted_;
 
+  MessagePlace place_;
   std::size_t num_entered_{};  ///< How many of by_time_.
   std::priority_queue<Waiting> waiting_;
   std::unordered_map<std::size_t, std::size_t> num_waiting_;  ///< Messages by chunk.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -16,6 +17,14 @@ namespace railcast::mcap {
 
 using Bytes = std::vector<std::byte>;
 using ByteSpan = std::span<const std::byte>;
+
+/// Where a message stands in a file.
+struct MessagePlace {
+  std::uint64_t record{};    ///< Offset of the record of its chunk, or of its own.
+  std::uint64_t in_chunk{};  ///< Of its record in the uncompressed chunk.
+
+  auto operator<=>(const MessagePlace&) const = default;
+};
 
 /// Begins and ends every file.
 inline constexpr std::array<std::byte, 8> kMagic = {std::byte{0x89}, std::byte{'M'}, std::byte{'C'},

@@ -6,7 +6,9 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <charconv>
+#include <memory>
 #include <optional>
 
 #include "core/base/error.h"
@@ -39,7 +41,25 @@ bool IsNumeric(std::string_view host) {
              std::string_view::npos;
 }
 
-IpAddress ParseIpv4(const std::string& host, std::string_view whole) {
+/// The first address of a family that a name has, or nothing.
+std::optional<IpAddress> Resolve(const std::string& host, int family) {
+  addrinfo hints{};
+  hints.ai_family = family;
+  hints.ai_socktype = SOCK_DGRAM;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return {};
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> all(found, ::freeaddrinfo);
+  if (family == AF_INET) {
+    const auto* address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
+    return ntohl(address->sin_addr.s_addr);
+  }
+  IpAddress address;
+  const auto* ipv6 = reinterpret_cast<const sockaddr_in6*>(found->ai_addr);
+  std::copy_n(ipv6->sin6_addr.s6_addr, address.bytes.size(), address.bytes.begin());
+  return address;
+}
+
+IpAddress ParseIpv4OrName(const std::string& host, std::string_view whole) {
   // Resolved here because a minimal system may have no /etc/hosts entry for it (RFC 6761, 6.3).
   if (host == "localhost") return INADDR_LOOPBACK;
   in_addr address{};
@@ -50,20 +70,13 @@ IpAddress ParseIpv4(const std::string& host, std::string_view whole) {
         "leading 0 (got " +
         std::string(whole) + ")");
   }
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (::getaddrinfo(host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) {
-    throw InputError(
-        "must be HOST:PORT with an IPv4 address, an IPv6 address in brackets, or a known name "
-        "(got " +
-        std::string(whole) + ")");
+  // IPv4 first, which the sensors' own programs understand.
+  for (const int family : {AF_INET, AF_INET6}) {
+    if (const auto found = Resolve(host, family)) return *found;
   }
-  const auto* socket_address = reinterpret_cast<const sockaddr_in*>(found->ai_addr);
-  const std::uint32_t first = ntohl(socket_address->sin_addr.s_addr);
-  ::freeaddrinfo(found);
-  return first;
+  throw InputError(
+      "must be HOST:PORT with an IPv4 address, an IPv6 address in brackets, or a known name (got " +
+      std::string(whole) + ")");
 }
 
 IpAddress ParseIpv6(const std::string& host, std::string_view whole) {
@@ -109,7 +122,7 @@ IpAddress ParseHost(std::string_view host, bool is_ipv6, std::string_view whole)
   const std::string plain(host.substr(0, percent));
   std::optional<std::string> name;
   if (percent != std::string_view::npos) name = host.substr(percent + 1);
-  IpAddress address = is_ipv6 ? ParseIpv6(plain, whole) : ParseIpv4(plain, whole);
+  IpAddress address = is_ipv6 ? ParseIpv6(plain, whole) : ParseIpv4OrName(plain, whole);
   address.interface = ParseInterface(name, address, whole);
   return address;
 }

@@ -11,12 +11,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/osi/ground_truth.h"
 
 namespace railcast::osi {
 namespace {
 
-constexpr double kLightSpeed_mps = 299'792'458.0;
 constexpr double kNmPerM = 1e9;
 /// As OSI says that there is no object.
 constexpr std::uint64_t kNoObject = std::numeric_limits<std::uint64_t>::max();
@@ -54,7 +54,6 @@ void ForEachRay(const LidarOfView& lidar, const Frame& frame, const Visit& visit
 void SetRays(const LidarOfView& lidar,
              const Frame& frame,
              osi3::LidarSensorViewConfiguration& message) {
-  constexpr std::uint32_t kNsPerUs = 1000;
   const ScanPattern& pattern = *lidar.pattern;
   const auto num_rays = static_cast<int>(frame.num_slots());
   message.mutable_directions()->Reserve(num_rays);
@@ -63,7 +62,7 @@ void SetRays(const LidarOfView& lidar,
     Set(Vector3(pattern.direction_x[firing], pattern.direction_y[firing],
                 pattern.direction_z[firing]),
         *message.add_directions());
-    message.add_timings(pattern.time_ns[firing] / kNsPerUs);
+    message.add_timings(static_cast<std::uint32_t>(pattern.time_ns[firing] / kNsPerUs));
   });
 }
 
@@ -76,7 +75,7 @@ void SetConfiguration(const LidarOfView& lidar,
   message.set_number_of_rays_horizontal(frame.width());
   message.set_number_of_rays_vertical(frame.rows);
   message.set_max_number_of_interactions(lidar.max_interactions);
-  message.set_emitter_frequency(kLightSpeed_mps * kNmPerM / lidar.wavelength_nm);
+  message.set_emitter_frequency(kSpeedOfLight_mps * kNmPerM / lidar.wavelength_nm);
   message.set_num_of_pixels(static_cast<std::uint32_t>(frame.num_slots()));
   SetRays(lidar, frame, message);
 }
@@ -86,7 +85,7 @@ void SetReflection(const LidarOfView& lidar,
                    std::size_t slot,
                    osi3::LidarSensorView::Reflection& message) {
   constexpr double kDbPerDecade = 10.0;
-  message.set_time_of_flight(2.0 * static_cast<double>(frame.range_m[slot]) / kLightSpeed_mps);
+  message.set_time_of_flight(2.0 * static_cast<double>(frame.range_m[slot]) / kSpeedOfLight_mps);
   if (frame.has_velocity && !std::isnan(frame.radial_velocity_mps[slot])) {
     message.set_doppler_shift(-2.0 * static_cast<double>(frame.radial_velocity_mps[slot]) *
                               kNmPerM / lidar.wavelength_nm);

@@ -7,6 +7,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {
@@ -83,6 +84,7 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
 
 std::optional<std::string> OusterDecoder::Decode(std::span<const char> payload,
                                                  std::vector<SensorTurn>& turns) {
+  ++num_packets_;
   if (auto refusal = Refuse(payload)) return refusal;
   const std::uint32_t frame_id = layout_.HeaderOf(payload).frame_id;
   if (frame_id_ && frame_id != *frame_id_) {
@@ -102,9 +104,14 @@ void OusterDecoder::AddColumn(std::span<const char> payload, std::size_t place) 
   const double turned = static_cast<double>(column.measurement_id) / metadata_.columns_per_frame;
   columns_.push_back({.measurement_id = column.measurement_id,
                       .time_ns = static_cast<std::int64_t>(column.time_ns),
-                      .first_point = points_.size()});
+                      .first_point = points_.size(),
+                      .first_place = places_.size()});
+  places_.resize(places_.size() + beams_.size());
   for (const Beam& beam : beams_) {
-    const OusterPixel pixel = layout_.PixelOf(payload, place, beam.pixel);
+    const std::size_t in_packet = layout_.PlaceOfPixel(place, beam.pixel);
+    const OusterPixel pixel = layout_.PixelAt(payload, in_packet);
+    places_[columns_.back().first_place + beam.ring] = {
+        .packet = num_packets_ - 1, .first = static_cast<std::uint32_t>(in_packet)};
     TurnPoint point{};
     point.ring = beam.ring;
     point.laser = static_cast<std::uint8_t>(beam.pixel);
@@ -146,6 +153,50 @@ void OusterDecoder::AddPoint(const OusterReturn& measured,
   points_.push_back(point);
 }
 
+std::optional<std::string> OusterDecoder::Store(const EditedReturns& returns,
+                                                const FiringPlace& place,
+                                                std::span<char> packet) const {
+  const OusterPixel recorded = layout_.PixelAt(packet, place.first);
+  OusterPixel pixel{.near_ir = recorded.near_ir};
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    if (!returns[i]) continue;
+    if (auto refusal = StoreReturn(*returns[i], recorded, pixel.returns[i])) return refusal;
+  }
+  layout_.StorePixel(pixel, place.first, packet);
+  return std::nullopt;
+}
+
+std::optional<std::string> OusterDecoder::StoreReturn(const EditedReturn& edited,
+                                                      const OusterPixel& recorded,
+                                                      OusterReturn& stored) const {
+  if (edited.from) {
+    stored = recorded.returns[*edited.from];
+  } else {
+    const double unit_m = 1e-3 * layout_.range_unit_mm();
+    const double stated_m = static_cast<double>(edited.range_m) + metadata_.range_offset_m();
+    const double num_units = std::round(stated_m / unit_m);
+    const double most = layout_.most_range_mm() / layout_.range_unit_mm();
+    // Written so that NaN is refused, too.
+    if (!(num_units >= 1.0 && num_units <= most)) {
+      return RefuseRange(static_cast<double>(edited.range_m), unit_m,
+                         1e-3 * layout_.most_range_mm());
+    }
+    stored.range_mm = static_cast<std::uint32_t>(num_units) * layout_.range_unit_mm();
+  }
+  if (!edited.intensity) return std::nullopt;
+  const float before = IntensityOfByte(stored.reflectivity);
+  stored.reflectivity = *edited.intensity;
+  const float in_ratio =
+      before > 0.0F ? IntensityOfByte(stored.reflectivity) / before * stored.signal : 0.0F;
+  const float signal = edited.signal.value_or(in_ratio);
+  stored.signal = static_cast<std::uint16_t>(std::lround(std::clamp(signal, 0.0F, 65535.0F)));
+  return std::nullopt;
+}
+
+void OusterDecoder::Seal(std::span<char> packet) const {
+  if (layout_.may_have_checksum() && StatesChecksum(packet)) StoreChecksum(packet);
+}
+
 SensorTurn OusterDecoder::TakeUnfinished() {
   SensorTurn turn;
   turn.is_dual = layout_.is_dual();
@@ -164,11 +215,16 @@ SensorTurn OusterDecoder::TakeUnfinished() {
       turn.fields[1].values.push_back(near_irs_[i]);
     }
     turn.column_time_ns.push_back(since_stamp_ns);
+    turn.aims.push_back(
+        {.azimuth_deg = 360.0 * column.measurement_id / metadata_.columns_per_frame});
+    const auto places = std::span(places_).subspan(column.first_place, beams_.size());
+    turn.places.insert(turn.places.end(), places.begin(), places.end());
   }
   if (!layout_.has_signal()) turn.fields.erase(turn.fields.begin());
   frame_id_.reset();
   columns_.clear();
   points_.clear();
+  places_.clear();
   signals_.clear();
   near_irs_.clear();
   is_seen_.assign(is_seen_.size(), false);

@@ -9,6 +9,7 @@
 
 #include "core/io/ouster/ouster_packet.h"
 #include "core/io/sensor_turn.h"
+#include "core/io/turn_edit.h"
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/transform.h"
 
@@ -34,6 +35,15 @@ class OusterDecoder {
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 
+  /// Stores the returns of a firing in its packet.
+  /// @pre The decoder has taken the packet.
+  /// @returns Why the packet cannot state them; it is then unchanged.
+  [[nodiscard]] std::optional<std::string> Store(const EditedReturns& returns,
+                                                 const FiringPlace& place,
+                                                 std::span<char> packet) const;
+  /// Brings a packet's checksum, if it has one, up to what was stored in it.
+  void Seal(std::span<char> packet) const;
+
   [[nodiscard]] const OusterLayout& layout() const { return layout_; }
 
  private:
@@ -50,10 +60,14 @@ class OusterDecoder {
     std::int64_t time_ns{};
     std::size_t first_point{};
     std::size_t num_points{};
+    std::size_t first_place{};  ///< Likewise, among the places.
   };
 
   [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
   [[nodiscard]] std::optional<std::string> RefuseColumns(std::span<const char> payload) const;
+  [[nodiscard]] std::optional<std::string> StoreReturn(const EditedReturn& edited,
+                                                       const OusterPixel& recorded,
+                                                       OusterReturn& stored) const;
   void AddColumn(std::span<const char> payload, std::size_t place);
   void AddPoint(const OusterReturn& measured, const Beam& beam, double rotor_rad, TurnPoint point);
 
@@ -65,6 +79,8 @@ class OusterDecoder {
   std::vector<bool> is_seen_;  ///< By measurement.
   std::vector<TurnPoint> points_;
   std::vector<float> signals_, near_irs_;  ///< By point.
+  std::vector<FiringPlace> places_;        ///< By column, as they came, then by ring.
+  std::uint32_t num_packets_{};
 };
 
 }  // namespace railcast

@@ -242,30 +242,27 @@ void OusterLayout::Store(const OusterColumn& column,
                          column.is_valid ? kLegacyValid : 0);
 }
 
-OusterPixel OusterLayout::PixelOf(std::span<const char> packet,
-                                  std::size_t column,
-                                  std::size_t pixel) const {
-  const char* const place = packet.data() + PlaceOfPixel(column, pixel);
+OusterPixel OusterLayout::PixelAt(std::span<const char> packet, std::size_t place) const {
+  const char* const begin = packet.data() + place;
   switch (profile_) {
     case OusterProfile::kLegacy:
-      return LegacyPixel(place);
+      return LegacyPixel(begin);
     case OusterProfile::kSingle:
-      return SinglePixel(place);
+      return SinglePixel(begin);
     case OusterProfile::kDual:
-      return DualPixel(place);
+      return DualPixel(begin);
     case OusterProfile::kLowRate:
     case OusterProfile::kLowRateDual:
     case OusterProfile::kFusaDual:
       break;
   }
-  return LowRatePixel(place, is_dual());
+  return LowRatePixel(begin, is_dual());
 }
 
-void OusterLayout::Store(const OusterPixel& pixel,
-                         std::size_t column,
-                         std::size_t place,
-                         std::span<char> packet) const {
-  char* const begin = packet.data() + PlaceOfPixel(column, place);
+void OusterLayout::StorePixel(const OusterPixel& pixel,
+                              std::size_t place,
+                              std::span<char> packet) const {
+  char* const begin = packet.data() + place;
   switch (profile_) {
     case OusterProfile::kLegacy:
       return StoreLegacy(pixel, begin);
@@ -290,10 +287,15 @@ std::uint64_t OusterChecksum(std::span<const char> bytes) {
   return ~checksum;
 }
 
+bool StatesChecksum(std::span<const char> packet) {
+  const auto stated = LoadAt<std::uint64_t>(packet.data() + packet.size() - kChecksumSize);
+  return stated != 0 && stated != kBlankFooter;
+}
+
 bool HasRightChecksum(std::span<const char> packet) {
   const std::span<const char> before = packet.first(packet.size() - kChecksumSize);
-  const auto stated = LoadAt<std::uint64_t>(packet.data() + before.size());
-  return stated == 0 || stated == kBlankFooter || stated == OusterChecksum(before);
+  return !StatesChecksum(packet) ||
+         LoadAt<std::uint64_t>(packet.data() + before.size()) == OusterChecksum(before);
 }
 
 void StoreChecksum(std::span<char> packet) {

@@ -84,7 +84,16 @@ class OusterLayout {
   [[nodiscard]] OusterColumn ColumnOf(std::span<const char> packet, std::size_t column) const;
   [[nodiscard]] OusterPixel PixelOf(std::span<const char> packet,
                                     std::size_t column,
-                                    std::size_t pixel) const;
+                                    std::size_t pixel) const {
+    return PixelAt(packet, PlaceOfPixel(column, pixel));
+  }
+  /// The byte of the packet at which a pixel begins.
+  [[nodiscard]] std::size_t PlaceOfPixel(std::size_t column, std::size_t pixel) const {
+    return PlaceOfColumn(column) + column_header_size_ + pixel * pixel_size_;
+  }
+  /// @param place As PlaceOfPixel().
+  [[nodiscard]] OusterPixel PixelAt(std::span<const char> packet, std::size_t place) const;
+  void StorePixel(const OusterPixel& pixel, std::size_t place, std::span<char> packet) const;
   void Store(const OusterHeader& header, std::span<char> packet) const;
   /// @param encoder_ticks Of LEGACY packets: the rotor's angle, 90112 to a turn.
   /// @param frame_id Of LEGACY packets.
@@ -96,7 +105,9 @@ class OusterLayout {
   void Store(const OusterPixel& pixel,
              std::size_t column,
              std::size_t place,
-             std::span<char> packet) const;
+             std::span<char> packet) const {
+    StorePixel(pixel, PlaceOfPixel(column, place), packet);
+  }
 
  private:
   [[nodiscard]] bool has_low_rate() const {
@@ -105,9 +116,6 @@ class OusterLayout {
   }
   [[nodiscard]] std::size_t PlaceOfColumn(std::size_t column) const {
     return header_size_ + column * column_size_;
-  }
-  [[nodiscard]] std::size_t PlaceOfPixel(std::size_t column, std::size_t pixel) const {
-    return PlaceOfColumn(column) + column_header_size_ + pixel * pixel_size_;
   }
 
   OusterProfile profile_;
@@ -122,6 +130,9 @@ class OusterLayout {
 /// footer blank.
 /// @pre The layout's packets may have one.
 [[nodiscard]] bool HasRightChecksum(std::span<const char> packet);
+/// Whether the packet states a checksum, right or not.
+/// @pre As above.
+[[nodiscard]] bool StatesChecksum(std::span<const char> packet);
 void StoreChecksum(std::span<char> packet);
 
 /// A measurement of the sensor's motion, in the axes of the sensor.

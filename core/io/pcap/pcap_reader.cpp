@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <pcap/pcap.h>
+#include <unistd.h>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -211,7 +212,7 @@ std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment
     throw InputError("an IP fragment must end within 65535 bytes" + Got(end));
   }
   Packet& packet = PacketOf(fragment);
-  const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second;
+  const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second.end;
   if ((packet.end && end > *packet.end) || (fragment.is_last && end < last)) {
     throw InputError("an IP fragment must lie before the end of its packet (got bytes " +
                      SpanOf(begin, end) + ", the end at " +
@@ -219,25 +220,29 @@ std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment
   }
   // The first part that ends behind this one's begin is the only one that may be the same.
   const auto after =
-      std::ranges::find_if(packet.parts, [&](const auto& part) { return part.second > begin; });
+      std::ranges::find_if(packet.parts, [&](const auto& part) { return part.second.end > begin; });
   if (after != packet.parts.end() && after->first < end) {
     const bool is_same =
-        after->first == begin && after->second == end &&
+        after->first == begin && after->second.end == end &&
         std::ranges::equal(fragment.bytes,
                            std::span(packet.bytes).subspan(begin, fragment.bytes.size()));
     if (is_same) return std::nullopt;
     throw InputError("an IP fragment must not overlap another (got bytes " + SpanOf(begin, end) +
-                     " beside " + SpanOf(after->first, after->second) + ")");
+                     " beside " + SpanOf(after->first, after->second.end) + ")");
   }
   if (packet.bytes.size() < end) packet.bytes.resize(end);
   std::ranges::copy(fragment.bytes, packet.bytes.begin() + static_cast<std::ptrdiff_t>(begin));
-  if (begin < end) packet.parts.emplace(begin, end);
+  if (begin < end) packet.parts.emplace(begin, Part{end, fragment.place});
   if (fragment.is_last) packet.end = end;
   std::size_t reached = 0;
-  for (const auto& [part_begin, part_end] : packet.parts) {
-    if (part_begin == reached) reached = part_end;
+  for (const auto& [part_begin, part] : packet.parts) {
+    if (part_begin == reached) reached = part.end;
   }
   if (packet.end != reached) return std::nullopt;
+  pieces_.clear();
+  for (const auto& [part_begin, part] : packet.parts) {
+    pieces_.push_back({part.place, part.end - part_begin});
+  }
   whole_ = std::move(packet.bytes);
   unfinished_.remove_if([&](const Packet& other) { return &other == &packet; });
   return whole_;
@@ -283,6 +288,33 @@ PcapReader::PcapReader(std::FILE* stream, std::string name)
 
 PcapReader::~PcapReader() = default;
 
+std::uint64_t PcapReader::PlaceOf(std::span<const char> packet, const std::string& place) const {
+  // Of classic captures a packet ends where libpcap stands, and so does its block in pcapng, whose
+  // last four bytes are its length, and from whose begin on the packet is 28 bytes away, or 12 in a
+  // simple packet block (IETF, draft-tuexen-opsawg-pcapng, 4.3 and 4.4).
+  constexpr std::array<std::uint64_t, 2> kBlockHeads = {28, 12};
+  std::FILE* const stream = pcap_file(capture_->pcap);
+  const auto end = static_cast<std::uint64_t>(::ftello(stream));
+  const int file = ::fileno(stream);
+  std::vector<std::uint64_t> candidates = {end - packet.size()};
+  std::uint32_t length = 0;
+  if (::pread(file, &length, sizeof length, static_cast<::off_t>(end - sizeof length)) == 4) {
+    for (const std::uint32_t size : {length, __builtin_bswap32(length)}) {
+      for (const std::uint64_t head : kBlockHeads) candidates.push_back(end - size + head);
+    }
+  }
+  std::vector<char> there(packet.size());
+  for (const std::uint64_t candidate : candidates) {
+    if (candidate > end || end - candidate < packet.size()) continue;
+    const auto got = ::pread(file, there.data(), there.size(), static_cast<::off_t>(candidate));
+    if (got >= 0 && static_cast<std::size_t>(got) == there.size() &&
+        std::ranges::equal(there, packet)) {
+      return candidate;
+    }
+  }
+  throw InputError(place + "must stand in the file as it was captured (got a stream)");
+}
+
 std::optional<CapturedDatagram> PcapReader::Next() {
   while (true) {
     pcap_pkthdr* header = nullptr;
@@ -293,7 +325,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
     if (status != 1) throw InputError(place + pcap_geterr(capture_->pcap));
     const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
-    const auto fragment = FindFragment(kept);
+    auto fragment = FindFragment(kept);
     const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
     if (!is_datagram && header->caplen < header->len && MayBeginDatagram(kept)) {
       throw InputError(place + "must be captured whole (got " + NumberText(header->caplen) +
@@ -301,12 +333,18 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     }
     if (!is_datagram) continue;
     const std::int64_t time_ns = TimeOf(*header, place);
+    if (finds_places_) {
+      const auto in_packet = static_cast<std::uint64_t>(fragment->bytes.data() - kept.data());
+      fragment->place = PlaceOf(kept, place) + in_packet;
+      pieces_ = {{fragment->place, fragment->bytes.size()}};
+    }
     auto datagram =
         IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
     if (!datagram) continue;
     datagram->source_address = fragment->source;
     datagram->packet = packet;
     datagram->time_ns = time_ns;
+    if (finds_places_) datagram->pieces = IsWhole(*fragment) ? pieces_ : fragments_.pieces();
     return datagram;
   }
 }

@@ -17,6 +17,12 @@
 
 namespace railcast {
 
+/// Where a piece of a datagram stands in the file that it was captured to.
+struct CapturedPiece {
+  std::uint64_t place{};  ///< Of its first byte.
+  std::size_t size{};
+};
+
 /// A piece of what a packet of IPv4 or IPv6 carries.
 struct IpFragment {
   /// Source, destination and identification, as they were sent; those of IPv4 fill the first 10.
@@ -26,6 +32,7 @@ struct IpFragment {
   bool is_last{};        ///< Whether the data end with it.
   std::span<const char> bytes;
   std::int64_t time_ns{};  ///< Time of capture.
+  std::uint64_t place{};   ///< Of its bytes in the file, if that is wanted.
 };
 
 /// Puts together what was sent in fragments (RFC 791, 3.2; RFC 8200, 4.5), in whatever order these
@@ -41,23 +48,30 @@ class IpFragments {
   /// @throws InputError "rule (got value)" if the fragment overlaps one that differs from it, if it
   ///   lies behind the end of the packet, or if the packet would have more than 65,535 bytes.
   [[nodiscard]] std::optional<std::span<const char>> Add(const IpFragment& fragment);
+  /// Where the packet that Add() returned last stands, piece by piece.
+  [[nodiscard]] const std::vector<CapturedPiece>& pieces() const { return pieces_; }
 
   /// Number of packets that are unfinished or were given up.
   [[nodiscard]] std::size_t num_torn() const { return num_given_up_ + unfinished_.size(); }
 
  private:
+  struct Part {
+    std::size_t end{};
+    std::uint64_t place{};  ///< In the file.
+  };
   struct Packet {
     std::array<char, 36> name{};
     std::int64_t time_ns{};
     std::vector<char> bytes;
-    std::map<std::size_t, std::size_t> parts;  ///< The end of each part by its begin.
-    std::optional<std::size_t> end;            ///< Known once the last fragment is there.
+    std::map<std::size_t, Part> parts;  ///< By begin.
+    std::optional<std::size_t> end;     ///< Known once the last fragment is there.
   };
 
   Packet& PacketOf(const IpFragment& fragment);
 
   std::list<Packet> unfinished_;  ///< From the oldest on.
   std::vector<char> whole_;
+  std::vector<CapturedPiece> pieces_;
   std::size_t num_given_up_{};
 };
 
@@ -73,6 +87,9 @@ struct CapturedDatagram {
   /// Time of capture since 1970-01-01 00:00:00 UTC; of a datagram in fragments, the last one's.
   std::int64_t time_ns{};
   std::size_t packet{};  ///< Index among all packets of the file, from 0; as `time_ns`.
+  /// Where the datagram stands in the file from its UDP header on, if PcapReader was asked for it.
+  /// Valid as the payload.
+  std::span<const CapturedPiece> pieces{};
 };
 
 /// Returns the UDP datagram in an Ethernet frame: IPv4 with any options or IPv6 with its extension
@@ -90,6 +107,8 @@ class PcapReader {
   /// @param name Names the stream in error messages.
   PcapReader(std::FILE* stream, std::string name);
   ~PcapReader();
+  /// Lets Next() say where datagrams stand in the file, which must be a regular one.
+  void FindPlaces() { finds_places_ = true; }
   PcapReader(const PcapReader&) = delete;
   PcapReader& operator=(const PcapReader&) = delete;
 
@@ -108,7 +127,13 @@ class PcapReader {
                                                             std::int64_t time_ns,
                                                             const std::string& place);
 
+  /// Where the last packet's bytes stand in the file.
+  /// @throws InputError if they are not found.
+  [[nodiscard]] std::uint64_t PlaceOf(std::span<const char> packet, const std::string& place) const;
+
   IpFragments fragments_;
+  std::vector<CapturedPiece> pieces_;  ///< Of the last datagram.
+  bool finds_places_ = false;
   std::string name_;
   std::size_t num_frames_{};
   std::unique_ptr<Capture> capture_;

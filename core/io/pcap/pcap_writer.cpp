@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/pcap/packet_headers.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
@@ -145,7 +146,7 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     std::memcpy(udp + kUdpHeaderSize, payload.data(), payload.size());
     // IPv4 allows that there is no checksum, and the sensors send none.
     if (is_ipv6_) StoreBigAt(udp + 6, UdpChecksum(udp, udp_size));
-    const std::int64_t time_us = (item.due_ns + clock_ahead_ns_) / 1000;
+    const std::int64_t time_us = (item.due_ns + clock_ahead_ns_) / kNsPerUs;
     pcap_pkthdr header{};
     header.ts.tv_sec = kSimulationEpoch_s + time_us / 1'000'000;
     header.ts.tv_usec = time_us % 1'000'000;

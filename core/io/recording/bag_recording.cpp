@@ -11,6 +11,7 @@
 #include "core/io/bag/bag.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/cloud_message.h"
+#include "core/io/recording/message_packets.h"
 #include "core/io/recording/packet_messages.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/tf_poses.h"
@@ -20,98 +21,13 @@
 namespace railcast {
 namespace {
 
-/// A datagram of a message, with the time at which it was received.
-struct RecordedPacket {
-  std::vector<char> payload;
-  std::int64_t time_ns{};
-};
-
 std::int64_t NsOf(const ros::Time& time) {
   return time.sec * kNsPerS + time.nanosec;
 }
 
-template <typename Data>
-RecordedPacket PacketOf(const ros::Time& stamp, const Data& data, std::size_t size) {
-  const char* const begin = reinterpret_cast<const char*>(data.data());
-  return {{begin, begin + size}, NsOf(stamp)};
-}
-
-using PacketsOfMessage = std::vector<RecordedPacket> (*)(const bag::BagMessage& message);
-
-std::vector<RecordedPacket> PandarPackets(const bag::BagMessage& message) {
-  std::vector<RecordedPacket> packets;
-  for (const auto& packet : ros::FromCdr<ros::PandarScan>(message.data).packets) {
-    if (packet.size > packet.data.size()) {
-      throw InputError("size: must be at most " + NumberText(packet.data.size()) +
-                       Got(packet.size));
-    }
-    packets.push_back(PacketOf(packet.stamp, packet.data, packet.size));
-  }
-  return packets;
-}
-
-template <typename Scan>
-std::vector<RecordedPacket> PacketsOfScan(const bag::BagMessage& message) {
-  std::vector<RecordedPacket> packets;
-  for (const auto& packet : ros::FromCdr<Scan>(message.data).packets) {
-    packets.push_back(PacketOf(packet.stamp, packet.data, packet.data.size()));
-  }
-  return packets;
-}
-
-std::vector<RecordedPacket> OusterPackets(const bag::BagMessage& message) {
-  const auto packet = ros::FromCdr<ros::OusterPacketMessage>(message.data);
-  RecordedPacket recorded = PacketOf({}, packet.buf, packet.buf.size());
-  recorded.time_ns = message.time_ns;
-  return {std::move(recorded)};
-}
-
-struct PacketType {
-  std::string_view name;
-  PacketsOfMessage packets_of;
-};
-
-constexpr std::array<PacketType, 4> kPacketTypes = {
-    {{ros::PandarScan::kName, PandarPackets},
-     {ros::NebulaPackets::kName, PacketsOfScan<ros::NebulaPackets>},
-     {ros::VelodyneScan::kName, PacketsOfScan<ros::VelodyneScan>},
-     {ros::OusterPacketMessage::kName, OusterPackets}}};
-
-const PacketType* PacketTypeOf(const bag::BagTopic& topic) {
-  const auto found = std::ranges::find(kPacketTypes, topic.type, &PacketType::name);
-  return found == kPacketTypes.end() ? nullptr : &*found;
-}
-
 bool CanBeOpened(const bag::BagTopic& topic) {
   return topic.encoding == "cdr" &&
-         (topic.type == ros::PointCloud2::kName || PacketTypeOf(topic) != nullptr);
-}
-
-/// Returns the index of the topic to open.
-std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
-                      const std::filesystem::path& bag,
-                      const std::string& name) {
-  std::string names;
-  std::vector<std::size_t> candidates;
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    if (!CanBeOpened(topics[i])) continue;
-    candidates.push_back(i);
-    names += (names.empty() ? "" : ", ") + ShownText(topics[i].name);
-    // Some recorders leave out the first slash.
-    if (topics[i].name == name || '/' + topics[i].name == name) return i;
-  }
-  const std::string place = ShownPath(bag) + ": ";
-  if (candidates.empty()) {
-    throw InputError(place + "must have a topic of type " + std::string(ros::PointCloud2::kName) +
-                     " or of a sensor's packets (got none)");
-  }
-  if (!name.empty()) {
-    throw InputError(place + "--topic: must be one of " + names + " (got " + ShownText(name) + ")");
-  }
-  if (candidates.size() > 1) {
-    throw InputError(place + "--topic: must be one of " + names + " (got none)");
-  }
-  return candidates.front();
+         (topic.type == ros::PointCloud2::kName || FindPacketsOf(topic.type) != nullptr);
 }
 
 /// Reads the metadata of an Ouster sensor, which its driver records as `metadata` beside the topic
@@ -136,7 +52,7 @@ class PacketSource : public DatagramSource {
  public:
   PacketSource(const std::filesystem::path& bag, std::size_t topic, std::string name)
       : bag_(bag::OpenBag(bag)),
-        packets_of_(PacketTypeOf(bag_->topics().at(topic))->packets_of),
+        packets_of_(FindPacketsOf(bag_->topics().at(topic).type)),
         name_(std::move(name)) {
     bag_->Select({topic});
   }
@@ -149,7 +65,7 @@ class PacketSource : public DatagramSource {
                          [&] { return packets_of_(*message); });
       next_ = 0;
     }
-    const RecordedPacket& packet = packets_[next_++];
+    const MessagePacket& packet = packets_[next_++];
     return CapturedDatagram{
         .payload = packet.payload, .time_ns = packet.time_ns, .packet = num_packets_++};
   }
@@ -160,7 +76,7 @@ class PacketSource : public DatagramSource {
   std::string name_;
   std::size_t num_messages_{};
   std::size_t num_packets_{};
-  std::vector<RecordedPacket> packets_;  ///< Of the last message.
+  std::vector<MessagePacket> packets_;  ///< Of the last message.
   std::size_t next_{};
 };
 
@@ -271,10 +187,36 @@ class CloudTopicRecording : public Recording {
 
 }  // namespace
 
+std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
+                      const std::filesystem::path& bag,
+                      const std::string& name) {
+  std::string names;
+  std::vector<std::size_t> candidates;
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    if (!CanBeOpened(topics[i])) continue;
+    candidates.push_back(i);
+    names += (names.empty() ? "" : ", ") + ShownText(topics[i].name);
+    // Some recorders leave out the first slash.
+    if (topics[i].name == name || '/' + topics[i].name == name) return i;
+  }
+  const std::string place = ShownPath(bag) + ": ";
+  if (candidates.empty()) {
+    throw InputError(place + "must have a topic of type " + std::string(ros::PointCloud2::kName) +
+                     " or of a sensor's packets (got none)");
+  }
+  if (!name.empty()) {
+    throw InputError(place + "--topic: must be one of " + names + " (got " + ShownText(name) + ")");
+  }
+  if (candidates.size() > 1) {
+    throw InputError(place + "--topic: must be one of " + names + " (got none)");
+  }
+  return candidates.front();
+}
+
 std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag) {
   const std::vector<bag::BagTopic> topics = bag::OpenBag(bag)->topics();
   const std::size_t picked = PickTopic(topics, bag, "");
-  if (PacketTypeOf(topics[picked]) != nullptr) {
+  if (FindPacketsOf(topics[picked].type) != nullptr) {
     return std::make_unique<PacketSource>(bag, picked, ShownPath(bag));
   }
   throw InputError(ShownPath(bag) + ": must hold packets of a sensor (got " +
@@ -289,7 +231,7 @@ std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
                                             const std::string& topic) {
   const auto reader = bag::OpenBag(bag);
   const std::size_t picked = PickTopic(reader->topics(), bag, topic);
-  if (PacketTypeOf(reader->topics()[picked]) == nullptr) return std::nullopt;
+  if (FindPacketsOf(reader->topics()[picked].type) == nullptr) return std::nullopt;
   return PlaceOfPackets(bag, bag, picked, *reader);
 }
 
@@ -298,7 +240,7 @@ std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
                                             const std::string& topic) {
   auto reader = bag::OpenBag(bag);
   const std::size_t picked = PickTopic(reader->topics(), bag, topic);
-  if (PacketTypeOf(reader->topics()[picked]) == nullptr) {
+  if (FindPacketsOf(reader->topics()[picked].type) == nullptr) {
     return std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
   }
   return OpenDatagrams(PlaceOfPackets(source, bag, picked, *reader));

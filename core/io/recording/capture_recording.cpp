@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
+#include "core/io/recording/turn_reader.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -32,12 +33,10 @@ class CaptureRecording : public Recording {
                    const std::filesystem::path& source,
                    CaptureSensor sensor)
       : datagrams_(std::move(datagrams)),
-        name_(std::move(sensor.name)),
-        packet_size_(sensor.packet_size),
-        shape_(std::make_shared<const TurnShape>(std::move(sensor.shape))),
-        decoder_(std::move(sensor.decoder)) {
+        shape_(std::make_shared<const TurnShape>(sensor.shape)),
+        reader_(std::move(sensor), ShownPath(source)) {
     info_.source = source;
-    info_.kind = "capture of " + name_;
+    info_.kind = "capture of " + reader_.sensor().name;
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -58,19 +57,14 @@ class CaptureRecording : public Recording {
 
  private:
   void TakeDatagram() {
-    std::vector<SensorTurn> turns;
     const auto datagram = datagrams_->Next();
-    std::visit(
-        [&](auto& decoder) {
-          if (datagram) TakePackets(*datagram, decoder, turns);
-          if (!datagram) turns.push_back(decoder.TakeUnfinished());
-        },
-        decoder_);
-    is_at_end_ = !datagram;
-    if (is_at_end_) info_.left_out = LeftOut();
-    for (SensorTurn& turn : turns) {
-      if (turn.num_columns() > 0) turns_.push_back(std::move(turn));
+    if (datagram) {
+      reader_.Take(*datagram, turns_);
+      return;
     }
+    reader_.End(turns_);
+    is_at_end_ = true;
+    info_.left_out = LeftOut();
   }
 
   [[nodiscard]] std::string LeftOut() const {
@@ -79,45 +73,18 @@ class CaptureRecording : public Recording {
       if (num == 0) return;
       text += (text.empty() ? "" : ", ") + NumberText(num) + (num == 1 ? one : several);
     };
-    add(num_damaged_, " packet with a wrong checksum", " packets with a wrong checksum");
+    add(reader_.num_damaged(), " packet with a wrong checksum", " packets with a wrong checksum");
     add(datagrams_->num_torn(), " datagram that lacks IP fragments",
         " datagrams that lack IP fragments");
     return text;
   }
 
-  // The payload holds one packet, or several that were captured as one datagram. A packet that the
-  // decoder refuses leaves it unchanged.
-  template <typename Decoder>
-  void TakePackets(const CapturedDatagram& datagram,
-                   Decoder& decoder,
-                   std::vector<SensorTurn>& turns) {
-    std::span<const char> rest = datagram.payload;
-    while (!rest.empty()) {
-      const std::size_t size = std::min(rest.size(), packet_size_);
-      const auto refusal = decoder.Decode(rest.first(size), turns);
-      const bool is_damaged = refusal == kWrongChecksum;
-      num_damaged_ += is_damaged ? 1 : 0;
-      const bool is_first = rest.size() == datagram.payload.size();
-      if (refusal && is_first && !is_damaged) return;
-      if (size < packet_size_) {
-        throw InputError(ShownPath(info_.source) + ": packet " + NumberText(datagram.packet) +
-                         ": must hold whole packets of " + name_ + ", of " +
-                         NumberText(packet_size_) + " bytes each (got " +
-                         NumberText(datagram.payload.size()) + " bytes)");
-      }
-      rest = rest.subspan(size);
-    }
-  }
-
   RecordingInfo info_;
   std::unique_ptr<DatagramSource> datagrams_;
-  std::string name_;
-  std::size_t packet_size_;
   std::shared_ptr<const TurnShape> shape_;
-  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder> decoder_;
+  TurnReader reader_;
   std::deque<SensorTurn> turns_;
   std::uint32_t num_frames_{};
-  std::size_t num_damaged_{};  ///< Packets whose checksum is wrong.
   bool is_at_end_ = false;
 };
 
@@ -140,7 +107,9 @@ std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path fi
 DatagramPlace PlaceOfFile(const std::filesystem::path& file,
                           const std::filesystem::path& source,
                           const CaptureMetadata& beside) {
-  return PlaceOfCapture([file] { return OpenStream(file); }, ShownPath(source), beside);
+  auto place = PlaceOfCapture([file] { return OpenStream(file); }, ShownPath(source), beside);
+  place.file = file;
+  return place;
 }
 
 DatagramPlace PlaceOfFile(const std::filesystem::path& file) {

@@ -8,6 +8,7 @@
 
 #include "core/base/text.h"
 #include "core/io/hesai/hesai_model.h"
+#include "core/io/hesai/hesai_packet.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
@@ -95,7 +96,7 @@ CaptureSensor OusterSensor(const OusterMetadata& metadata) {
   }
   return {.name = metadata.product_line.empty() ? "an Ouster sensor" : metadata.product_line,
           .packet_size = OusterPacketSize(metadata),
-          .shape = ShapeOfTurns(channels, IntensityBytes::kVelodyne),
+          .shape = ShapeOfTurns(channels, IntensityBytes::kVelodyne, BeamsOfOuster(metadata)),
           .decoder = OusterDecoder(metadata)};
 }
 
@@ -118,16 +119,18 @@ std::vector<CaptureSensor> ReadableSensors(
     const std::optional<OusterMetadata>& metadata = std::nullopt) {
   std::vector<CaptureSensor> sensors;
   for (const VelodyneModel* model : ModelsWithoutCalibration()) {
-    sensors.push_back({.name = std::string(model->name),
-                       .packet_size = kVelodynePacketSize,
-                       .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne),
-                       .decoder = VelodyneDecoder(*model)});
+    sensors.push_back(
+        {.name = std::string(model->name),
+         .packet_size = kVelodynePacketSize,
+         .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne, BeamsOfVelodyne(*model)),
+         .decoder = VelodyneDecoder(*model)});
   }
   for (const HesaiModel& model : HesaiModels()) {
-    sensors.push_back({.name = std::string(model.name),
-                       .packet_size = model.layout.packet_size,
-                       .shape = ShapeOfTurns(model.channels, IntensityBytes::kPercent),
-                       .decoder = HesaiDecoder(model)});
+    sensors.push_back(
+        {.name = std::string(model.name),
+         .packet_size = model.layout.packet_size,
+         .shape = ShapeOfTurns(model.channels, IntensityBytes::kPercent, BeamsOfHesai(model)),
+         .decoder = HesaiDecoder(model)});
   }
   if (metadata) sensors.push_back(OusterSensor(*metadata));
   return sensors;
@@ -136,7 +139,8 @@ std::vector<CaptureSensor> ReadableSensors(
 CaptureSensor At128Of(const std::shared_ptr<const At128Correction>& correction) {
   return {.name = std::string(kAt128Name),
           .packet_size = kAt128PacketSize,
-          .shape = ShapeOfTurns(At128Channels(*correction), IntensityBytes::kPercent),
+          .shape = ShapeOfTurns(At128Channels(*correction), IntensityBytes::kPercent,
+                                BeamsOfAt128(correction)),
           .decoder = At128Decoder(correction)};
 }
 
@@ -190,9 +194,16 @@ std::string NameOfStranger(std::span<const char> payload) {
 
 }  // namespace
 
-TurnShape ShapeOfTurns(const std::vector<ChannelSpec>& channels, IntensityBytes intensity) {
+std::uint8_t ByteOfIntensity(float intensity, IntensityBytes bytes) {
+  return bytes == IntensityBytes::kVelodyne ? ReflectivityByte(intensity) : PercentByte(intensity);
+}
+
+TurnShape ShapeOfTurns(const std::vector<ChannelSpec>& channels,
+                       IntensityBytes intensity,
+                       BeamOfAims beam_of) {
   TurnShape shape{.row_time_ns = std::vector<std::int64_t>(channels.size()),
-                  .intensity = intensity};
+                  .intensity = intensity,
+                  .beam_of = std::move(beam_of)};
   const std::vector<std::uint16_t> rows = RowsByElevation(channels);
   for (std::size_t i = 0; i < channels.size(); ++i) {
     shape.row_time_ns[rows[i]] = std::llround(channels[i].time_us * 1e3);
@@ -219,6 +230,7 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   FillSlots(turn, shape, frame);
   FillPoints(turn, shape, frame);
   recorded.foreign = FieldsOf(turn, frame);
+  recorded.beam_of = BeamsOfTurn(turn, shape.beam_of);
   if (AreTimesKnown(turn, shape)) {
     recorded.fields.emplace("time_ns");
     frame.duration_ns = *std::ranges::max_element(frame.time_ns);

@@ -14,6 +14,7 @@
 #include "core/io/hesai/hesai_decoder.h"
 #include "core/io/ouster/ouster_decoder.h"
 #include "core/io/recording/capture_metadata.h"
+#include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
 #include "core/io/velodyne/velodyne_decoder.h"
 #include "railcast/io/recording.h"
@@ -31,11 +32,13 @@ enum class IntensityBytes {
 struct TurnShape {
   std::vector<std::int64_t> row_time_ns;  ///< Firing time of each row since its cycle began.
   IntensityBytes intensity{};
+  BeamOfAims beam_of;  ///< The beams of a firing cycle.
 };
 
 /// Gives the rows by rising elevation.
 [[nodiscard]] TurnShape ShapeOfTurns(const std::vector<ChannelSpec>& channels,
-                                     IntensityBytes intensity);
+                                     IntensityBytes intensity,
+                                     BeamOfAims beam_of);
 
 /// Makes a grid of a turn: one column for each firing cycle that the turn holds, two slots per
 /// firing if the turn is dual, and a slot without a point where a laser's distance was 0. Times are
@@ -44,12 +47,17 @@ struct TurnShape {
                                           const TurnShape& shape,
                                           const std::string& name);
 
+/// The byte of a frame's intensity.
+[[nodiscard]] std::uint8_t ByteOfIntensity(float intensity, IntensityBytes bytes);
+
+using TurnDecoder = std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder>;
+
 /// A sensor whose packets can be decoded.
 struct CaptureSensor {
   std::string name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
-  std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder> decoder;
+  TurnDecoder decoder;
 };
 
 /// Finds out from datagrams which sensor sent them.

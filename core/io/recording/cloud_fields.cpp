@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -164,22 +165,6 @@ void MarkEmptySlots(Frame& frame, bool has_range) {
   }
 }
 
-void FillGridIndices(Frame& frame) {
-  std::size_t slot = 0;
-  for (std::uint32_t row = 0; row < frame.rows; ++row) {
-    for (std::uint32_t column = 0; column < frame.columns; ++column) {
-      std::uint8_t count = 0;
-      for (std::uint32_t r = 0; r < frame.returns; ++r) count += !std::isnan(frame.x[slot + r]);
-      for (std::uint32_t r = 0; r < frame.returns; ++r, ++slot) {
-        frame.ring[slot] = static_cast<std::uint16_t>(row);
-        frame.column[slot] = column;
-        frame.return_index[slot] = static_cast<std::uint8_t>(r);
-        frame.return_count[slot] = count;
-      }
-    }
-  }
-}
-
 /// Returns the columns that hold our fields.
 std::vector<const PointColumn*> OwnColumns(const PointTable& table, const Frame& frame) {
   std::vector<const PointColumn*> own;
@@ -212,6 +197,22 @@ void FillForeign(const PointTable& table, const SlotPlan& plan, RecordedFrame& r
 }
 
 }  // namespace
+
+void FillGridIndices(Frame& frame) {
+  std::size_t slot = 0;
+  for (std::uint32_t row = 0; row < frame.rows; ++row) {
+    for (std::uint32_t column = 0; column < frame.columns; ++column) {
+      std::uint8_t count = 0;
+      for (std::uint32_t r = 0; r < frame.returns; ++r) count += !std::isnan(frame.x[slot + r]);
+      for (std::uint32_t r = 0; r < frame.returns; ++r, ++slot) {
+        frame.ring[slot] = static_cast<std::uint16_t>(row);
+        frame.column[slot] = column;
+        frame.return_index[slot] = static_cast<std::uint8_t>(r);
+        frame.return_count[slot] = count;
+      }
+    }
+  }
+}
 
 void TakeFromNearOrigin(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
@@ -283,6 +284,12 @@ void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& rec
                        FindFieldOf(table, "true_radial_velocity_mps") != nullptr;
   frame.Resize(plan.rows, plan.columns, plan.returns);
   recorded.is_grid = plan.is_grid;
+  recorded.why_no_grid = plan.why_no_grid;
+  recorded.slot_of_entry = plan.slots;
+  if (plan.slots.empty()) {
+    recorded.slot_of_entry.resize(table.num_points());
+    std::iota(recorded.slot_of_entry.begin(), recorded.slot_of_entry.end(), 0U);
+  }
   ForEachField(frame, [&](std::string_view name, std::string_view, auto& values) {
     if (plan.is_grid && IsIndex(name)) return;
     const PointColumn* const column = FindFieldOf(table, name);

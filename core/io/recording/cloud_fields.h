@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,10 +18,8 @@ struct SlotPlan {
   /// For each point its slot; if empty, each point's own index.
   std::vector<std::uint32_t> slots;
   bool is_grid{};
+  std::string why_no_grid{};  ///< As in RecordedFrame.
 };
-
-/// The slot of a point that is left out.
-inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
 
 /// Gives the frame the plan's shape and fills all the fields that the file has, under our names or
 /// under those that other software uses for the same quantity (docs/recordings.md). Then computes
@@ -33,6 +30,10 @@ inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max
 /// @throws InputError "name: field: rule (got value)" if a value does not fit its field, or if x, y
 ///   or z is missing.
 void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded);
+
+/// Fills ring, column, return_index and return_count by the slots.
+/// @pre Slots without a point have NaN positions.
+void FillGridIndices(Frame& frame);
 
 /// Moves positions far from 0 to an origin near them. Where x, y and z are stored as float64 and
 /// the median of the points lies more than 10 km from 0, as in a national grid, the positions are

@@ -36,6 +36,7 @@ bool IsScanTime(double span_s) {
 struct PointTimes {
   const PointColumn* column{};
   double first_ns{};
+  double ns_per_unit{};
   std::vector<double> since_first_ns;
 };
 
@@ -56,7 +57,7 @@ std::optional<PointTimes> LoadTimes(const PointTable& table, const PointColumn& 
     if (std::isnan(time)) return std::nullopt;
     time = (time - first) * ns_per_unit;
   }
-  return PointTimes{&column, first * ns_per_unit, std::move(times)};
+  return PointTimes{&column, first * ns_per_unit, ns_per_unit, std::move(times)};
 }
 
 std::optional<PointTimes> FindTimes(const PointTable& table) {
@@ -107,14 +108,17 @@ SlotPlan PlanOfTable(const PointTable& table, const std::string& name) {
     return is_ours ? OrganisedPlan(table, ReturnsOf(table, name)) : SortedRowsPlan(table);
   }
   // Points of several sensors share no grid.
-  if (FindFieldOf(table, kSensorIndexField) != nullptr) return LoosePlan(table);
+  if (FindFieldOf(table, kSensorIndexField) != nullptr) {
+    return LoosePlan(table, "its points are those of several sensors");
+  }
   if (is_ours) return PlacedPlan(table, name, std::nullopt);
   const PointPositions positions{.x = LoadFloats(table, *table.Find("x")),
                                  .y = LoadFloats(table, *table.Find("y")),
                                  .z = LoadFloats(table, *table.Find("z"))};
   const std::vector<std::uint32_t> rings = LoadRings(table, name);
-  if (auto plan = MakeRingTable(positions, rings)) return std::move(*plan);
-  return LoosePlan(table);
+  std::string why_not;
+  if (auto plan = MakeRingTable(positions, rings, &why_not)) return std::move(*plan);
+  return LoosePlan(table, why_not);
 }
 
 /// Fills in the times of the scan pattern, since slots without a point have no time of their own.
@@ -129,9 +133,15 @@ void FillScanTimes(const ScanPattern& pattern, Frame& frame) {
 
 }  // namespace
 
-std::optional<double> FirstTimeIn_ns(const PointTable& table) {
+std::optional<TimeColumn> FindTimeColumn(const PointTable& table) {
   if (FindFieldOf(table, "time_ns") != nullptr) return std::nullopt;
   const auto times = FindTimes(table);
+  if (!times) return std::nullopt;
+  return TimeColumn{times->column, times->first_ns, times->ns_per_unit};
+}
+
+std::optional<double> FirstTimeIn_ns(const PointTable& table) {
+  const auto times = FindTimeColumn(table);
   return times ? std::optional(times->first_ns) : std::nullopt;
 }
 
@@ -167,7 +177,7 @@ RecordedFrame MakeScanFrame(const PointTable& table,
     FillFrame(table, PlacedPlan(table, name, ScanShape{pattern.rows, pattern.columns}), recorded);
     if (recorded.Has("time_ns")) FillScanTimes(pattern, recorded.frame);
   } else {
-    FillFrame(table, LoosePlan(table), recorded);
+    FillFrame(table, LoosePlan(table, "it has no fields ring and column"), recorded);
   }
   return recorded;
 }

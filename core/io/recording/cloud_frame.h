@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,21 @@ namespace railcast {
 /// @throws InputError with one line if x, y or z is missing, a value does not fit its field, or two
 ///   points claim the same slot.
 [[nodiscard]] RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name);
+
+/// The column of times of a cloud that has no time_ns.
+struct TimeColumn {
+  const PointColumn* column{};
+  double first_ns{};     ///< The earliest time of a point.
+  double ns_per_unit{};  ///< Of the stored numbers.
+
+  /// What is stored for a time since the earliest.
+  [[nodiscard]] double Stored(std::uint32_t since_first_ns) const {
+    return (first_ns + since_first_ns) / ns_per_unit;
+  }
+};
+
+/// Returns the column from which MakeCloudFrame() takes times since the earliest, if there is one.
+[[nodiscard]] std::optional<TimeColumn> FindTimeColumn(const PointTable& table);
 
 /// Returns the earliest time of a point, as stored, of a cloud from whose column of times
 /// MakeCloudFrame() takes the times since then; nothing if it takes none.

@@ -157,10 +157,10 @@ RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const Pl
 class ReceivedRecording : public Recording {
  public:
   explicit ReceivedRecording(const std::filesystem::path& directory)
-      : lines_(directory / "frames.csv") {
+      : lines_(directory / kReceivedFile) {
     info_.source = directory;
     info_.kind = "received stream";
-    info_.num_frames = std::max<std::size_t>(1, CountLines(directory / "frames.csv")) - 1;
+    info_.num_frames = std::max<std::size_t>(1, CountLines(directory / kReceivedFile)) - 1;
     (void)lines_.Need();  // Skip the line of column names.
   }
 
@@ -203,6 +203,19 @@ std::vector<std::filesystem::path> KittiSequencesIn(const std::filesystem::path&
   }
   SortNaturally(sequences);
   return sequences;
+}
+
+std::vector<std::filesystem::path> CloudsOfDirectory(const std::filesystem::path& directory) {
+  for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
+    auto files = CloudFilesIn(place);
+    if (!files.empty()) return files;
+  }
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& sequence : KittiSequencesIn(directory)) {
+    const auto more = CloudFilesIn(sequence / "velodyne");
+    files.insert(files.end(), more.begin(), more.end());
+  }
+  return files;
 }
 
 std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,

@@ -40,7 +40,9 @@ bool IsGrid(const ReceivedFrame& received) {
 SlotPlan PlanOfStream(const ReceivedFrame& received,
                       const PointTable& table,
                       const std::string& name) {
-  if (!IsGrid(received)) return LoosePlan(table);
+  if (!IsGrid(received)) {
+    return LoosePlan(table, "datagrams are missing, or the fields ring and column");
+  }
   return PlacedPlan(table, name, ScanShape{received.header.rows, received.header.columns});
 }
 

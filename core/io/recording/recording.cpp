@@ -34,39 +34,31 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
   if (exists(directory / kMergedFile)) return OpenMerged(directory);
-  if (exists(directory / "frames.csv")) return OpenReceived(directory);
+  if (exists(directory / kReceivedFile)) return OpenReceived(directory);
   CheckIsOfOneSensor(directory);
-  for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
-    auto files = CloudFilesIn(place);
-    if (files.empty()) continue;
+  auto files = CloudsOfDirectory(directory);
+  if (!files.empty()) {
     const bool is_kitti = files.front().extension() == ".bin";
     return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
                       std::move(files));
   }
-  std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& sequence : KittiSequencesIn(directory)) {
-    const auto more = CloudFilesIn(sequence / "velodyne");
-    files.insert(files.end(), more.begin(), more.end());
-  }
-  if (!files.empty()) return OpenClouds(directory, "KITTI sequence", std::move(files));
   if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true) + " files (got neither)");
 }
 
-/// Opens the topic of a bag that `source` names behind the bag's path; returns nothing if it does
-/// not.
-std::unique_ptr<Recording> OpenTopicIn(const std::filesystem::path& source) {
+}  // namespace
+
+std::optional<BagSource> FindBag(const std::filesystem::path& source) {
+  if (bag::IsBag(source)) return BagSource{source};
   const std::string& text = source.native();
   for (std::size_t mark = text.find(kTopicMark); mark != std::string::npos;
        mark = text.find(kTopicMark, mark + 1)) {
     const std::filesystem::path bag = text.substr(0, mark);
-    if (bag::IsBag(bag)) return OpenBagRecording(source, bag, text.substr(mark + 1));
+    if (bag::IsBag(bag)) return BagSource{bag, text.substr(mark + 1)};
   }
-  return nullptr;
+  return std::nullopt;
 }
-
-}  // namespace
 
 std::filesystem::path TopicOfBag(const std::filesystem::path& bag, const std::string& topic) {
   const std::string mark(kTopicMark, 0, kTopicMark.size() - (topic.starts_with('/') ? 1 : 0));
@@ -82,7 +74,9 @@ std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) {
-    if (auto recording = OpenTopicIn(source)) return recording;
+    if (const auto found = FindBag(source)) {
+      return OpenBagRecording(source, found->bag, found->topic);
+    }
     throw FileError(source, error ? error.value() : ENOENT);
   }
   if (is_directory(status)) return OpenDirectory(source);

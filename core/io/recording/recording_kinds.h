@@ -63,6 +63,7 @@ struct DatagramPlace {
   std::function<std::unique_ptr<DatagramSource>()> open;
   std::filesystem::path source;  ///< As messages and RecordingInfo name it.
   CaptureMetadata beside;        ///< What is known of the sensor.
+  std::filesystem::path file{};  ///< The capture; empty for other places.
 };
 
 /// The place of a capture that `open` opens, as OpenCapture() takes it.
@@ -80,6 +81,23 @@ struct DatagramPlace {
 
 /// Stands between the path of a bag and the name of one of its topics.
 inline constexpr std::string_view kTopicMark = ":/";
+
+/// A bag and one of its topics.
+struct BagSource {
+  std::filesystem::path bag;
+  std::string topic{};  ///< Empty: the only one that can be opened.
+};
+
+/// Finds the bag that `source` names, with or without a topic behind it. Returns nothing if it
+/// names none.
+[[nodiscard]] std::optional<BagSource> FindBag(const std::filesystem::path& source);
+
+/// Returns the index of the topic to open.
+/// @param topic Empty: the only one that can be opened.
+/// @throws InputError as OpenBagRecording().
+[[nodiscard]] std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
+                                    const std::filesystem::path& bag,
+                                    const std::string& topic);
 
 /// Opens a topic of a bag: clouds (sensor_msgs/msg/PointCloud2) with the poses that its transforms
 /// say, or the packets of a sensor whose captures can be opened, as ROS drivers record them.
@@ -116,6 +134,11 @@ inline constexpr std::string_view kTopicMark = ":/";
 [[nodiscard]] std::vector<std::filesystem::path> KittiSequencesIn(
     const std::filesystem::path& directory);
 
+/// Returns the clouds of a directory that is none of railcast's: those side by side in it, in its
+/// folder `frames` or `velodyne`, or those of all sequences of KITTI's layout.
+[[nodiscard]] std::vector<std::filesystem::path> CloudsOfDirectory(
+    const std::filesystem::path& directory);
+
 /// Opens clouds without poses, in this order. The names of KITTI's labels are those of the
 /// configuration beside the first (FindSemanticKittiYaml).
 /// @param kind The kind of recording as shown to users.
@@ -123,6 +146,9 @@ inline constexpr std::string_view kTopicMark = ":/";
 [[nodiscard]] std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
                                                     const std::string& kind,
                                                     std::vector<std::filesystem::path> files);
+
+/// The file of a received stream that names its clouds with their poses.
+inline constexpr std::string_view kReceivedFile = "frames.csv";
 
 /// Opens a directory that `railcast-analyze receive --out` wrote: clouds with the poses of
 /// frames.csv. Their points are assumed to be in the sensor's axes, the default of a stream.

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 
 namespace railcast {
@@ -261,18 +262,26 @@ bool PointPositions::IsPoint(std::size_t i) const {
 }
 
 std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
-                                      std::span<const std::uint32_t> rings) {
+                                      std::span<const std::uint32_t> rings,
+                                      std::string* why_not) {
+  const auto refuse = [&](const std::string& why) -> std::optional<SlotPlan> {
+    if (why_not != nullptr) *why_not = why;
+    return std::nullopt;
+  };
   RingCloud cloud = GatherPoints(positions, rings);
   std::vector<TablePoint>& points = cloud.points;
-  if (points.empty()) return std::nullopt;
+  if (points.empty()) return refuse("it has no points");
   if (rings.empty()) {
     auto found = RingsByElevation(cloud.elevations_rad);
-    if (!found) return std::nullopt;
+    if (!found) return refuse("it has no field ring, and its elevations do not form rings");
     cloud.rings = std::move(*found);
   }
   const std::vector<std::uint32_t> rows = RowsOf(cloud.rings, cloud.elevations_rad);
   const std::uint32_t num_rings = *std::ranges::max_element(rows) + 1;
-  if (num_rings > kMaxRings) return std::nullopt;
+  if (num_rings > kMaxRings) {
+    return refuse("its points have " + NumberText(num_rings) + " rings, more than " +
+                  NumberText(kMaxRings));
+  }
   for (std::size_t i = 0; i < points.size(); ++i) points[i].row = rows[i];
   if (!IsCounterclockwise(points, num_rings)) {
     for (TablePoint& point : points) point.turns = WrappedTurns(-point.turns);
@@ -280,19 +289,29 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
   const double first = points.front().turns;
   SortByRow(points);
   const AzimuthSteps steps = AzimuthStepsOf(points, num_rings);
-  if (steps.column <= 0.0) return std::nullopt;
+  if (steps.column <= 0.0) return refuse("no ring has two points beside each other");
   const double shortest = steps.column / *std::ranges::max_element(steps.firings);
   StartBehindGap(points, WrappedTurns(first - 0.5 * shortest));
   SortByRow(points);
   AssignColumns(points, steps);
-  if (!AreFiringsCertain(points, steps)) return std::nullopt;
+  if (!AreFiringsCertain(points, steps)) {
+    return refuse(
+        "the azimuths of its rings have no common step, as where several sensors are mixed, the "
+        "sensor's motion is undone or points were thinned out");
+  }
   const std::uint32_t num_rows = SplitRows(steps, points);
   const std::uint32_t num_columns = CloseColumns(points);
-  if (std::size_t{num_rows} * num_columns > kMaxSlotsPerPoint * points.size()) return std::nullopt;
+  if (std::size_t{num_rows} * num_columns > kMaxSlotsPerPoint * points.size()) {
+    return refuse("its " + NumberText(points.size()) + " points are too few for " +
+                  NumberText(num_rows) + " rings of " + NumberText(num_columns) + " azimuths");
+  }
   std::ranges::stable_sort(points, {}, [](const TablePoint& point) {
     return std::tuple(point.row, point.column, point.range_m);
   });
-  if (MostInACell(points) > kMaxRingReturns) return std::nullopt;
+  if (MostInACell(points) > kMaxRingReturns) {
+    return refuse("up to " + NumberText(MostInACell(points)) +
+                  " points of a ring have one azimuth, more than " + NumberText(kMaxRingReturns));
+  }
   return PlanOf(points, num_rows, num_columns, positions.size());
 }
 

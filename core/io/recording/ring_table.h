@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/io/recording/cloud_fields.h"
@@ -87,10 +88,12 @@ struct PointPositions {
 ///
 /// @param rings Ring of each point, as any numbers. If empty, rings are found from the elevations,
 ///   provided that these lie in 2 to 256 narrow clusters that hold 98 % of the points.
+/// @param why_not If there is no table, says why: RecordedFrame::why_no_grid.
 /// @returns Nothing if there are no such clusters, if a cell has more than four points, if the
 /// table
 ///   would be nearly empty, or if it is not certain where the sensor fired (AreFiringsCertain()).
 [[nodiscard]] std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
-                                                    std::span<const std::uint32_t> rings);
+                                                    std::span<const std::uint32_t> rings,
+                                                    std::string* why_not = nullptr);
 
 }  // namespace railcast

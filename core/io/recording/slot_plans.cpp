@@ -135,9 +135,9 @@ SlotPlan PlacedPlan(const PointTable& table,
   return plan;
 }
 
-SlotPlan LoosePlan(const PointTable& table) {
+SlotPlan LoosePlan(const PointTable& table, const std::string& why_no_grid) {
   const PointPositions positions = LoadPositions(table);
-  SlotPlan plan{.rows = 1, .returns = 1, .slots = {}, .is_grid = false};
+  SlotPlan plan{.rows = 1, .returns = 1, .slots = {}, .why_no_grid = why_no_grid};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     plan.slots.push_back(positions.IsPoint(i) ? plan.columns++ : kNoSlot);
   }

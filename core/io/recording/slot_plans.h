@@ -39,6 +39,7 @@ inline constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
                                   const std::optional<ScanShape>& shape);
 
 /// Plans one row of all entries that are points.
-[[nodiscard]] SlotPlan LoosePlan(const PointTable& table);
+/// @param why_no_grid As in RecordedFrame.
+[[nodiscard]] SlotPlan LoosePlan(const PointTable& table, const std::string& why_no_grid);
 
 }  // namespace railcast

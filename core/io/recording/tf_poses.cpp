@@ -105,6 +105,14 @@ std::optional<Transform> TfPoses::PoseOf(const TfLink& link, std::int64_t time_n
   const auto to_transform = [](const Vector3& position_m, const Eigen::Quaterniond& rotation) {
     return MakeTransform(rotation.toRotationMatrix(), position_m);
   };
+  // Points state their times in rounded seconds, so that the last one may seem to be behind the
+  // last transform.
+  constexpr std::int64_t kRounding_ns = 1000;
+  if (!link.poses.empty()) {
+    const std::int64_t known_ns =
+        std::clamp(time_ns, link.poses.front().time_ns, link.poses.back().time_ns);
+    if (std::abs(known_ns - time_ns) <= kRounding_ns) time_ns = known_ns;
+  }
   const auto after = std::ranges::lower_bound(link.poses, time_ns, {}, &TimedPose::time_ns);
   if (link.is_static) {
     return to_transform(link.poses.front().position_m, link.poses.front().rotation);

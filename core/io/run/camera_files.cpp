@@ -113,22 +113,26 @@ std::string CalibrationJson(const CameraSpec& spec,
   return WithRowsOnLines(calibration);
 }
 
-std::string EncodeNpy(std::uint32_t width_px,
-                      std::uint32_t height_px,
-                      const std::vector<float>& values) {
+std::string NpyHeader(const std::string& type, const std::string& shape) {
   static_assert(std::endian::native == std::endian::little);
   // Data begin at a multiple of 64 bytes; the two bytes before the header hold its length.
   constexpr std::size_t kAlignment = 64;
   constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);
-  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
-                       NumberText(height_px) + ", " + NumberText(width_px) + "), }";
+  std::string header = "{'descr': " + type + ", 'fortran_order': False, 'shape': " + shape + ", }";
   const std::size_t unpadded = kMagic.size() + 2 + header.size() + 1;
   header.append((kAlignment - unpadded % kAlignment) % kAlignment, ' ');
   header += '\n';
   std::string bytes(kMagic);
   bytes += static_cast<char>(header.size() & 0xFFU);
   bytes += static_cast<char>(header.size() >> 8U);
-  bytes += header;
+  return bytes += header;
+}
+
+std::string EncodeNpy(std::uint32_t width_px,
+                      std::uint32_t height_px,
+                      const std::vector<float>& values) {
+  std::string bytes =
+      NpyHeader("'<f4'", "(" + NumberText(height_px) + ", " + NumberText(width_px) + ")");
   const std::size_t first = bytes.size();
   bytes.resize(first + values.size() * sizeof(float));
   if (!values.empty()) std::memcpy(&bytes[first], values.data(), values.size() * sizeof(float));

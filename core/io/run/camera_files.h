@@ -35,6 +35,11 @@ namespace railcast {
                                           const Transform& vehicle_from_camera,
                                           const Transform& vehicle_from_sensor);
 
+/// The header of a NumPy array (.npy, version 1.0), behind which its values stand.
+/// @param type As NumPy describes it: "'<f4'".
+/// @param shape "(480, 640)".
+[[nodiscard]] std::string NpyHeader(const std::string& type, const std::string& shape);
+
 /// Encodes values in rows as a NumPy array (.npy, version 1.0) of little-endian float32.
 [[nodiscard]] std::string EncodeNpy(std::uint32_t width_px,
                                     std::uint32_t height_px,

@@ -23,6 +23,8 @@ inline constexpr std::string_view kIndexDatabaseFile = "index.sqlite";
 inline constexpr std::string_view kReportFile = "report.json";
 inline constexpr std::string_view kDatasetManifestFile = "manifest.json";
 inline constexpr std::string_view kSequencesFolder = "sequences";
+/// In the folder of a scenario that is a plan: its recording with what was inserted.
+inline constexpr std::string_view kRecordingFolder = "recording";
 inline constexpr std::array<std::string_view, 3> kSplitFiles = {"split/train.txt", "split/val.txt",
                                                                 "split/test.txt"};
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/units.h"
 #include "core/io/field_layout.h"
 
 namespace railcast {
@@ -64,7 +65,6 @@ bool HasOutcomes(const ReceivedFrame& received) {
 }  // namespace
 
 pcl::PCLPointCloud2 MakePclCloud(const ReceivedFrame& received) {
-  constexpr std::int64_t kNsPerUs = 1000;
   pcl::PCLPointCloud2 cloud;
   cloud.header.seq = received.header.frame;
   cloud.header.stamp = static_cast<std::uint64_t>(received.header.stamp_ns / kNsPerUs);

@@ -141,11 +141,12 @@ std::int64_t VelodyneDecoder::PacketNs(std::uint32_t us_past_hour) {
   if (since_last_us > kUsPerHour / 2) since_last_us -= kUsPerHour;
   if (since_last_us < -kUsPerHour / 2) since_last_us += kUsPerHour;
   *last_packet_us_ += since_last_us;
-  return *last_packet_us_ * 1000;
+  return *last_packet_us_ * kNsPerUs;
 }
 
 std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload,
                                                    std::vector<SensorTurn>& turns) {
+  ++num_packets_;
   if (auto refusal = RefuseVelodyne(model_, payload)) return refusal;
   const bool is_dual = IsDualPacket(model_, payload);
   const std::size_t in_group = model_.blocks_per_cycle() * (is_dual ? 2U : 1U);
@@ -159,6 +160,7 @@ std::optional<std::string> VelodyneDecoder::Decode(std::span<const char> payload
     if (i > 0) group_index += GroupsTo(AzimuthOf(blocks), usual_step, 1e3 * group_us);
     const double since_packet_us = static_cast<double>(group_index) * group_us;
     const Group group{.blocks = blocks,
+                      .place = static_cast<std::uint32_t>(i * kBlockSize),
                       .azimuth = AzimuthOf(blocks),
                       .time_ns = packet_ns + std::llround(since_packet_us * 1e3),
                       .is_dual = is_dual};
@@ -202,6 +204,12 @@ SensorTurn VelodyneDecoder::TakeUnfinished() {
   return std::exchange(turn_, {});
 }
 
+std::optional<std::string> VelodyneDecoder::Store(const EditedReturns& returns,
+                                                  const FiringPlace& place,
+                                                  std::span<char> packet) const {
+  return StoreReturns(returns, place, {.unit_m = model_.distance_unit_m}, packet);
+}
+
 void VelodyneDecoder::DecodeGroup(const Group& group, double speed_deg_per_us) {
   const std::size_t num_cycles = model_.cycles_per_block();
   turn_.is_dual = turn_.is_dual || group.is_dual;
@@ -209,10 +217,19 @@ void VelodyneDecoder::DecodeGroup(const Group& group, double speed_deg_per_us) {
     const auto column = static_cast<std::uint32_t>(turn_.num_columns());
     const double cycle_us = static_cast<double>(cycle) * model_.cycle_us;
     turn_.column_time_ns.push_back(group.time_ns - turn_.stamp_ns + std::llround(cycle_us * 1e3));
+    turn_.aims.push_back(
+        {group.azimuth * kAzimuthUnit_deg + speed_deg_per_us * cycle_us, speed_deg_per_us});
+    turn_.places.resize(turn_.num_columns() * lasers_.size());
     for (std::size_t i = 0; i < lasers_.size(); ++i) {
       const std::size_t index = cycle * lasers_.size() + i;
-      const char* const place = group.blocks + index / kLasersPerBlock * kBlockSize +
-                                kReturnsPlace + index % kLasersPerBlock * kReturnSize;
+      const std::size_t in_group = index / kLasersPerBlock * kBlockSize + kReturnsPlace +
+                                   index % kLasersPerBlock * kReturnSize;
+      const char* const place = group.blocks + in_group;
+      const auto in_packet = group.place + static_cast<std::uint32_t>(in_group);
+      turn_.places[column * lasers_.size() + lasers_[i].ring] = {
+          .packet = num_packets_ - 1,
+          .first = in_packet,
+          .second = group.is_dual ? in_packet + static_cast<std::uint32_t>(kBlockSize) : 0};
       const double since_group_us = cycle_us + lasers_[i].time_us;
       const double azimuth_deg = group.azimuth * kAzimuthUnit_deg +
                                  speed_deg_per_us * since_group_us + lasers_[i].azimuth_deg;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/io/sensor_turn.h"
+#include "core/io/turn_edit.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/velodyne/velodyne_model.h"
 
@@ -37,6 +38,13 @@ class VelodyneDecoder {
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 
+  /// Stores the returns of a firing in its packet.
+  /// @pre The decoder has taken the packet.
+  /// @returns Why the packet cannot state them; it is then unchanged.
+  [[nodiscard]] std::optional<std::string> Store(const EditedReturns& returns,
+                                                 const FiringPlace& place,
+                                                 std::span<char> packet) const;
+
  private:
   struct Laser {
     double sine{};  ///< Sine of the elevation.
@@ -49,6 +57,7 @@ class VelodyneDecoder {
   /// The blocks of one azimuth.
   struct Group {
     const char* blocks{};
+    std::uint32_t place{};  ///< Of the blocks in their packet.
     std::uint16_t azimuth{};
     std::int64_t time_ns{};
     bool is_dual{};
@@ -71,6 +80,7 @@ class VelodyneDecoder {
 
   const VelodyneModel& model_;
   std::vector<Laser> lasers_;
+  std::uint32_t num_packets_{};
   std::optional<std::int64_t> last_packet_us_;  ///< Continues counting across hours.
   std::optional<std::uint16_t> last_azimuth_;
   std::optional<StatedGroup> stated_;  ///< The first one of the turn.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "core/io/datagrams.h"
+#include "core/io/field_layout.h"
 #include "core/io/scan_fit.h"
 
 namespace railcast {
@@ -41,14 +41,6 @@ inline constexpr std::uint8_t kLastMode = 0x38;
 inline constexpr std::uint8_t kDualMode = 0x39;
 
 inline constexpr std::int64_t kUsPerHour = 3'600'000'000;
-
-/// Reads a number at an address of any alignment.
-template <typename Number>
-[[nodiscard]] Number LoadAt(const char* place) {
-  Number number{};
-  std::memcpy(&number, place, sizeof number);
-  return number;
-}
 
 /// The intensity of reflectivity byte 255: an ideal retroreflector seen along its normal.
 inline constexpr float kIdealRetroreflector = 1000.0F;

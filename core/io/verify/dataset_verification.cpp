@@ -164,7 +164,10 @@ std::vector<fs::path> FinishedSequences(const fs::path& directory, const Dataset
   for (std::uint32_t i = 0; i < content.num_own(); ++i) {
     const fs::path scenario = directory / SequenceFolderOf(content.shard.ScenarioAt(i));
     std::vector<fs::path> of_sensors = SensorFoldersIn(scenario);
-    if (of_sensors.empty()) of_sensors.push_back(scenario);
+    if (of_sensors.empty()) {
+      const fs::path recording = scenario / kRecordingFolder;
+      of_sensors.push_back(fs::is_directory(recording) ? recording : scenario);
+    }
     for (fs::path& sequence : of_sensors) {
       CheckIsFinished(sequence);
       sequences.push_back(std::move(sequence));

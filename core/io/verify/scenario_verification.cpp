@@ -1,5 +1,6 @@
 #include "core/io/verify/scenario_verification.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -83,6 +84,8 @@ struct SequenceOfLine {
   std::uint64_t points{};
   std::uint32_t num_frames{};
   std::string bag{};  ///< That holds its clouds, relative to the folder; empty = none.
+  /// Of a recording into which something was put: the hashes of all files of the scenario.
+  std::map<std::string, std::string> files{};
 };
 
 /// A line of scenarios.jsonl.
@@ -100,6 +103,7 @@ ScenarioLine ReadScenarioLine(const PlacedLine& line) {
                                 sequence.at("data_xxh3"), sequence.at("scenario_xxh3"),
                                 sequence.at("points"), sequence.at("num_frames")});
       if (sequence.contains("bag")) read.sequences.back().bag = sequence.at("bag").at("path");
+      if (sequence.contains("files_xxh3")) read.sequences.back().files = sequence.at("files_xxh3");
     }
     if (json.contains("sensors_xxh3")) {
       read.sensors_hash = json.at("sensors_xxh3").get<std::string>();
@@ -132,11 +136,15 @@ class ScenarioVerifier : private Findings {
     };
     if (line.scenario != scenario_) return fail(NumberText(line.scenario));
     for (const SequenceOfLine& sequence : line.sequences) {
-      const bool is_in_place = line.sensors_hash ? sequence.folder.starts_with(folder_ + "/")
-                                                 : sequence.folder == folder_;
+      const bool is_below = line.sensors_hash || !sequence.files.empty();
+      const bool is_in_place =
+          is_below ? sequence.folder.starts_with(folder_ + "/") : sequence.folder == folder_;
       if (!is_in_place) return fail(sequence.folder);
     }
-    for (const SequenceOfLine& sequence : line.sequences) CheckSequence(sequence);
+    for (const SequenceOfLine& sequence : line.sequences) {
+      if (!sequence.files.empty()) return CheckFiles(sequence);
+      CheckSequence(sequence);
+    }
     if (!line.sensors_hash) return;
     // That of all sensors stands beside their folders.
     for (const SequenceOfLine& sequence : line.sequences) {
@@ -163,6 +171,26 @@ class ScenarioVerifier : private Findings {
       Try([&] { CompareManifest(dataset_ / manifest, line); });
     }
     Try([&] { Add(VerifySequence(dataset_ / line.folder, [](double) {})); });
+  }
+
+  void CheckFiles(const SequenceOfLine& line) {
+    NameSet known;
+    for (const auto& [name, hash] : line.files) {
+      if (fs::path(name).is_absolute() ||
+          fs::path(name).lexically_normal().begin()->string() == "..") {
+        faults_.Add({line_.place, "must name files of the scenario", ShownText(name)});
+        continue;
+      }
+      known.insert(folder_ + "/" + name);
+      CheckHash(dataset_ / folder_ / name, hash, line_.place);
+    }
+    result_.num_frames += line.num_frames;
+    Try([&] {
+      ForEachFileBelow(dataset_ / folder_, dataset_, {}, [&](const std::string& name) {
+        if (known.contains(name)) return;
+        faults_.Add({ShownPath(dataset_ / name), "is not named in " + line_.place, ""});
+      });
+    });
   }
 
   // The line repeats what the manifest says.

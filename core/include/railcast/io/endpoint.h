@@ -57,9 +57,9 @@ struct Endpoint {
 };
 
 /// Parses "HOST:PORT", "HOST" or ":PORT". HOST is a dotted-decimal IPv4 address, an IPv6 address,
-/// which stands in brackets before a port, or a name that resolves to an IPv4 address. Multicast
-/// groups may, and link-local addresses must name the network interface by which they are reached:
-/// "239.1.1.1%eth0:2368", "[fe80::1%eth0]:2368".
+/// which stands in brackets before a port, or a name: its IPv4 address or, if it has none, its IPv6
+/// one. Multicast groups may, and link-local addresses must name the network interface by which
+/// they are reached: "239.1.1.1%eth0:2368", "[fe80::1%eth0]:2368".
 /// @param default_port Used if no port is written.
 /// @throws InputError "rule (got text)".
 [[nodiscard]] Endpoint ParseEndpoint(std::string_view text, std::uint16_t default_port);

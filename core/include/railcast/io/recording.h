@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -42,6 +43,15 @@ struct ForeignField {
   std::vector<float> values;  ///< One per slot, in the file's unit; NaN where missing.
 };
 
+/// The slot of a point that was left out of a frame.
+inline constexpr std::uint32_t kNoSlot = std::numeric_limits<std::uint32_t>::max();
+
+/// Where a firing goes and where it leaves, in the sensor's axes at its time.
+struct RecordedBeam {
+  Vector3 direction = Vector3::UnitX();  ///< Unit vector.
+  Vector3 origin_m = Vector3::Zero();
+};
+
 /// Whose axes the points of a frame are in.
 enum class PointAxes : std::uint8_t {
   kSensorAtFiring,  ///< The sensor's at the time of each firing, as it measures.
@@ -74,6 +84,13 @@ struct RecordedFrame {
   /// from 0, as in a national grid; range_m is then still the distance from the stored 0. Frames of
   /// one recording may have different origins.
   Vector3 origin_m = Vector3::Zero();
+  /// For each point of the file or message, in its order, its slot or kNoSlot. Empty for captures.
+  std::vector<std::uint32_t> slot_of_entry{};
+  /// Why the frame is not a grid, as a clause: "it has no ...". Empty if it is one.
+  std::string why_no_grid{};
+  /// Captures only, null for others: the beam of a cell as its packet and the sensor's angles state
+  /// it, whether or not it returned anything.
+  std::function<RecordedBeam(std::uint32_t row, std::uint32_t column)> beam_of{};
 
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }
 };

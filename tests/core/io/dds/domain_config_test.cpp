@@ -32,6 +32,21 @@ TEST(DomainConfig, UsesTheInterfaceOfThatNameOrAddressAndItsMulticast) {
   EXPECT_EQ(network.find("Peer"), std::string::npos);
 }
 
+TEST(DomainConfig, SpeaksIpv6WhereTheAddressIsOne) {
+  const std::vector<dds::InterfaceAddress> interfaces = {
+      {"lo", "127.0.0.1", true}, {"lo", "::1", true}, {"eth0", "2001:db8::2", false}};
+  const auto config = [&](const std::string& interface) {
+    return dds::DomainConfig({.interface = interface}, interfaces);
+  };
+  EXPECT_NE(config("::1").find("<NetworkInterface address=\"::1\"/></Interfaces>"
+                               "<Transport>udp6</Transport><AllowMulticast>false"),
+            std::string::npos);
+  EXPECT_NE(config("::1").find("<Peer Address=\"[::1]\"/>"), std::string::npos);
+  EXPECT_NE(config("eth0").find("udp6"), std::string::npos) << "it has no other";
+  EXPECT_EQ(config("lo").find("udp6"), std::string::npos);
+  EXPECT_EQ(config("").find("udp6"), std::string::npos);
+}
+
 TEST(DomainConfig, LimitsBurstsUnlessReadersHaveLargeBuffers) {
   EXPECT_NE(ConfigWith({}).find("<MaxInitTransmit>0</MaxInitTransmit>"), std::string::npos);
   EXPECT_EQ(ConfigWith({.has_large_buffers = true}).find("BurstSize"), std::string::npos);
@@ -39,10 +54,10 @@ TEST(DomainConfig, LimitsBurstsUnlessReadersHaveLargeBuffers) {
 
 TEST(DomainConfig, RefusesWhatIsNoInterface) {
   EXPECT_EQ(MessageOf([] { static_cast<void>(ConfigWith({.interface = "<eth1>"})); }),
-            "interface: must be the name or the IPv4 address of a network interface that is up, "
+            "interface: must be the name or an address of a network interface that is up, "
             "one of lo (127.0.0.1), eth0 (10.0.0.2) (got \"<eth1>\")");
   EXPECT_EQ(MessageOf([] { static_cast<void>(dds::DomainConfig({}, {})); }),
-            "interface: must be the name or the IPv4 address of a network interface that is up, "
+            "interface: must be the name or an address of a network interface that is up, "
             "of which there is none (got loopback)");
 }
 

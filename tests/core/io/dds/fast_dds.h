@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPv6TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -136,18 +137,31 @@ struct SeenWriter {
 class FastParticipant final : public eprosima::fastdds::dds::DomainParticipantListener {
  public:
   /// @param receive_buffer_bytes 0 = the system's default.
-  explicit FastParticipant(std::uint32_t domain, std::uint32_t receive_buffer_bytes = 0) {
+  explicit FastParticipant(std::uint32_t domain,
+                           std::uint32_t receive_buffer_bytes = 0,
+                           bool is_ipv6 = false) {
     using eprosima::fastrtps::rtps::IPLocator;
+    using namespace eprosima::fastdds::rtps;
     eprosima::fastdds::dds::DomainParticipantQos qos;
-    auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-    udp->interfaceWhiteList.emplace_back("127.0.0.1");
+    std::shared_ptr<UDPTransportDescriptor> udp;
+    if (is_ipv6) {
+      udp = std::make_shared<UDPv6TransportDescriptor>();
+    } else {
+      udp = std::make_shared<UDPv4TransportDescriptor>();
+    }
+    udp->interfaceWhiteList.emplace_back(is_ipv6 ? "::1" : "127.0.0.1");
     constexpr std::uint32_t kMostParticipants = 10;
     udp->maxInitialPeersRange = kMostParticipants;
     udp->receiveBufferSize = receive_buffer_bytes;
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
     eprosima::fastrtps::rtps::Locator_t loopback;
-    IPLocator::setIPv4(loopback, "127.0.0.1");
+    if (is_ipv6) {
+      loopback.kind = LOCATOR_KIND_UDPv6;
+      IPLocator::setIPv6(loopback, "::1");
+    } else {
+      IPLocator::setIPv4(loopback, "127.0.0.1");
+    }
     qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(loopback);
     qos.wire_protocol().builtin.initialPeersList.push_back(loopback);
     qos.wire_protocol().default_unicast_locator_list.push_back(loopback);

@@ -12,6 +12,7 @@
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/discovery_messages.h"
 #include "core/io/ros/geometry_messages.h"
+#include "railcast/error.h"
 #include "tests/core/io/dds/fast_dds.h"
 #include "tests/core/io/dds/free_domain.h"
 #include "tests/core/io/message_of.h"
@@ -70,6 +71,28 @@ TEST(DdsParticipant, BringsMessagesOfAnyLengthUnchanged) {
     EXPECT_EQ(messages[i].size() % 4, 0U);
     EXPECT_EQ(WithoutPadding(messages[i], sizes[i]), Message(i, sizes[i])) << i;
   }
+}
+
+TEST(DdsParticipant, SpeaksIpv6WhereItsAddressIsOne) {
+  const std::uint32_t domain = FreeDomain();
+  std::unique_ptr<dds::Participant> participant;
+  try {
+    participant = dds::Join({.domain = domain, .interface = "::1", .node = "railcast"});
+  } catch (const InputError& error) {
+    GTEST_SKIP() << error.what();
+  }
+  const std::size_t writer = participant->AddWriter(Points());
+  FastParticipant of_ipv4(domain);
+  FastReader& deaf = of_ipv4.Read("rt/front/points", kCloudType);
+  FastParticipant other(domain, 0, true);
+  FastReader& reader = other.Read("rt/front/points", kCloudType);
+  ASSERT_TRUE(reader.WaitForWriter());
+  ASSERT_TRUE(WaitUntilTrue([&] { return participant->NumReaders(writer) == 1; }));
+  EXPECT_TRUE(participant->Write(writer, Message(1, 300'000)));
+  const auto messages = reader.WaitFor(1);
+  ASSERT_EQ(messages.size(), 1U);
+  EXPECT_EQ(messages[0], Message(1, 300'000));
+  EXPECT_TRUE(deaf.WaitFor(1, 100).empty());
 }
 
 // 30 frames of 0.9 MB at 10 Hz to a reader with Linux's default buffer: without bursts that it has
@@ -218,7 +241,7 @@ TEST(DdsParticipant, TakesOnlyTheBeginningOfWhatIsTooLong) {
 TEST(DdsParticipant, SaysWhatIsWrong) {
   EXPECT_THAT(
       MessageOf([] { static_cast<void>(dds::Join({.domain = 1, .interface = "no_such_one"})); }),
-      testing::MatchesRegex("interface: must be the name or the IPv4 address of a network "
+      testing::MatchesRegex("interface: must be the name or an address of a network "
                             "interface that is up, one of .*lo \\(127.0.0.1\\).* \\(got "
                             "\"no_such_one\"\\)"));
   const Joined joined;

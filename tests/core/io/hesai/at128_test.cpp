@@ -64,6 +64,7 @@ std::vector<char> MadeAt128Packet(double block_deg, std::uint8_t mode = 0x37) {
   packet[1070] = static_cast<char>(mode);
   const std::string date = {123, 3, 24, 10, 0, 0};
   std::ranges::copy(date, packet.begin() + 1072);
+  StoreHesaiChecksums(kAt128CheckedBytes, packet);
   return packet;
 }
 
@@ -104,6 +105,7 @@ TEST(At128Decoder, CountsSecondsWhereThereIsNoDate) {
   std::vector<char> packet = MadeAt128Packet(65.0);
   const std::vector<std::uint8_t> seconds = {0, 0, 0x64, 0x1D, 0x75, 0x20};  // 1679652128.
   std::ranges::copy(seconds, packet.begin() + 1072);
+  StoreHesaiChecksums(kAt128CheckedBytes, packet);
   At128Decoder decoder(CorrectionOf(MadeCorrection()));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -127,6 +129,7 @@ TEST(At128Decoder, EndsATurnWhereTheNextMirrorBegins) {
 TEST(At128Decoder, TakesTwoBlocksForOneColumnInDualMode) {
   std::vector<char> packet = MadeAt128Packet(65.0, 0x39);
   StoreAt<std::uint16_t>(packet.data() + 12 + 515 + 3 + 4 * 5, 2000);
+  StoreHesaiChecksums(kAt128CheckedBytes, packet);
   At128Decoder decoder(CorrectionOf(MadeCorrection()));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -143,6 +146,7 @@ TEST(At128Decoder, RefusesWhatIsNoPacketOfIts) {
   const auto said = [&](std::size_t place, char byte) {
     std::vector<char> packet = MadeAt128Packet(65.0);
     packet[place] = byte;
+    StoreHesaiChecksums(kAt128CheckedBytes, packet);
     return decoder.Decode(packet, turns).value_or("");
   };
   EXPECT_EQ(decoder.Decode({}, turns), "must be 1118 bytes (got 0)");
@@ -151,6 +155,24 @@ TEST(At128Decoder, RefusesWhatIsNoPacketOfIts) {
   EXPECT_EQ(said(1069, 1), "microseconds of the second must be < 1000000 (got 17277216)");
   EXPECT_EQ(said(1070, 0x33), "return mode must be 55, 56 or 57 (got 51)");
   EXPECT_EQ(said(13, '\xFF'), "block 0: azimuth must be <= 35999 (got 65380)");
+}
+
+TEST(At128Decoder, RefusesPacketsOfWhichAByteIsWrong) {
+  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  std::vector<SensorTurn> turns;
+  const std::vector<char> right = MadeAt128Packet(65.0);
+  // In the blocks, their checksum, the tail, its number and its checksum; then in the header and
+  // the signature, which no checksum is of.
+  for (const std::size_t place : {20, 1041, 1042, 1046, 1079, 1082, 1085}) {
+    std::vector<char> packet = right;
+    packet[place] ^= 1;
+    EXPECT_EQ(decoder.Decode(packet, turns), std::string(kWrongChecksum)) << place;
+  }
+  for (const std::size_t place : {4, 10, 1086, 1117}) {
+    std::vector<char> packet = right;
+    packet[place] ^= 1;
+    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt) << place;
+  }
 }
 
 TEST(At128Correction, SaysWhatIsWrongWithAFile) {

@@ -77,7 +77,7 @@ SensorTurn TurnOf(const std::vector<std::vector<char>>& packets) {
   HesaiDecoder decoder(Qt128Model());
   std::vector<SensorTurn> turns;
   for (std::vector<char> packet : packets) {
-    StoreHesaiChecksums(Qt128Model().layout, packet);
+    StoreHesaiChecksums(HesaiCheckedBytesOf(Qt128Model().layout), packet);
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   }
   EXPECT_TRUE(turns.empty());

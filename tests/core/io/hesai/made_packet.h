@@ -59,7 +59,7 @@ inline std::vector<char> MadePacket(const HesaiModel& model = Pandar64Model(),
   packet[layout.tail.mode_place] = static_cast<char>(mode);
   const std::array<std::uint8_t, 6> date = {100, 1, 2, 0, 0, 3};
   std::ranges::copy(date, packet.begin() + static_cast<std::ptrdiff_t>(layout.tail.date_place));
-  StoreHesaiChecksums(layout, packet);
+  StoreHesaiChecksums(HesaiCheckedBytesOf(layout), packet);
   return packet;
 }
 

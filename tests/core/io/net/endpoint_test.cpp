@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <net/if.h>
+#include <netdb.h>
+#include <sys/socket.h>
 
 #include <array>
 #include <string>
@@ -30,6 +32,21 @@ TEST(Endpoint, IsReadFromAnAddressOfIpv6) {
   EXPECT_EQ(ParseEndpoint("::1:2368", 5), ParseEndpoint("[::1:2368]:5", 1));
   // RFC 4291, 2.5.5.2: another way to write an address of IPv4.
   EXPECT_EQ(ParseEndpoint("[::ffff:10.0.0.1]:5", 1), (Endpoint{0x0A000001, 5}));
+}
+
+// A group of the link, by /etc/hosts of Debian and others.
+TEST(Endpoint, OfANameHasItsAddressOfIpv6WhereItHasNoOther) {
+  const std::string name = "ip6-allnodes";
+  addrinfo hints{};
+  hints.ai_family = AF_INET6;
+  addrinfo* found = nullptr;
+  if (::getaddrinfo(name.c_str(), nullptr, &hints, &found) != 0) {
+    GTEST_SKIP() << name << " is no name of this machine";
+  }
+  ::freeaddrinfo(found);
+  EXPECT_EQ(ParseEndpoint(name + "%lo:2368", 1), ParseEndpoint("[ff02::1%lo]:2368", 1));
+  EXPECT_EQ(MessageOf([&] { return ParseEndpoint(name, 1); }),
+            "must name the network interface, as [fe80::1%eth0]:2368 does (got ip6-allnodes)");
 }
 
 TEST(Endpoint, HasTheInterfaceOfGroupsAndOfAddressesOfTheLink) {

@@ -242,15 +242,16 @@ TEST(BagRecording, HasThePosesThatItsTransformsSay) {
   bag.Add("/lidar/points", 10 * kSecond_ns, CloudOf(kPoints, 10 * kSecond_ns + kSecond_ns / 2));
   bag.Link("/tf", "map", "base_link", 11 * kSecond_ns,
            {{110.0, 4.0, 0.0}, {0.0, 0.0, half, half}});  // A quarter turn to the left.
+  bag.Add("/lidar/points", 11 * kSecond_ns, CloudOf(kPoints, 11 * kSecond_ns + 900));  // Rounded.
   bag.Add("/lidar/points", 12 * kSecond_ns, CloudOf(kPoints, 12 * kSecond_ns));
   const auto frames = ReadAll(bag.Closed());
-  ASSERT_EQ(frames.size(), 2U);
-  ASSERT_TRUE(frames[0].has_pose);
+  ASSERT_EQ(frames.size(), 3U);
+  ASSERT_TRUE(frames[0].has_pose && frames[1].has_pose);
   const Transform& pose = frames[0].frame.world_from_sensor;
   EXPECT_TRUE(pose.translation().isApprox(Vector3(105.0, 2.0, 2.0), 1e-12));
   EXPECT_TRUE(pose.linear().col(0).isApprox(Vector3(half, half, 0.0), 1e-12));
   // Nothing is known of the time after the last transform.
-  EXPECT_FALSE(frames[1].has_pose);
+  EXPECT_FALSE(frames[2].has_pose);
 }
 
 TEST(BagRecording, RefusesTransformsThatGoInCirclesOrAreNone) {

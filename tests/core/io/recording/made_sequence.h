@@ -20,6 +20,7 @@ struct MadeSequenceSpec {
   std::string sensor = "vir2rail";
   std::string return_mode = "strongest";
   bool has_velocity = false;
+  std::string lidar{};  ///< Further members of the section `lidar`: R"(, "name": ...)".
   std::string object = R"({"name": "wagon", "type": "open_wagon", "s_m": 300})";
   Vector3 wagon_velocity_mps = Vector3::Zero();
   std::uint32_t start_frame = 0;
@@ -39,7 +40,8 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
          "sensors/" + spec.sensor + R"(.json", "mount": {"position_m": [2.2, 0.1, 2.5], )" +
          R"("pitch_deg": 3}, "receiver": {"return_mode": ")" + spec.return_mode + R"("})" +
          (spec.has_velocity ? R"(, "velocity": {"sigma_mps": 0.03, "max_mps": 50})" : "") +
-         R"(}, )" + R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
+         spec.lidar + R"(}, )" +
+         R"("world": {"alignment": {"course": {"type": "elements", "elements": [)" +
          R"({"type": "arc", "length_m": 900, "radius_m": 500}]}}, )" + R"("objects": [)" +
          spec.object + "]}, " +
          R"("vehicle": {"start_s_m": 250, "motion": {"profile": [{"time_s": 0, )" +

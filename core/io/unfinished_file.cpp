@@ -1,0 +1,78 @@
+#include "core/io/unfinished_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+#include "core/base/input_file.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+
+UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::uint64_t size)
+    : file_(std::move(file)), target_(FileToReplace(file_)) {
+  constexpr int kAccess = 0644;
+  descriptor_ = ::open(unfinished().c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kAccess);
+  if (descriptor_ < 0) throw FileError(file_, errno);
+  const auto kept = static_cast<off_t>(size);
+  if (::ftruncate(descriptor_, kept) == 0 && ::lseek(descriptor_, kept, SEEK_SET) == kept) return;
+  const int reason = errno;
+  ::close(descriptor_);
+  throw FileError(file_, reason);
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  ::close(descriptor_);
+}
+
+std::filesystem::path UnfinishedFile::unfinished() const {
+  return target_.string() + std::string(kUnfinishedSuffix);
+}
+
+void UnfinishedFile::Append(std::span<const std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) throw FileError(file_, errno);
+    if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void UnfinishedFile::AppendFile(const std::filesystem::path& source) const {
+  std::ifstream input = OpenInput(source);
+  std::vector<char> block(std::size_t{1} << 20U);
+  while (input) {
+    input.read(block.data(), static_cast<std::streamsize>(block.size()));
+    Append(std::as_bytes(std::span(block).first(static_cast<std::size_t>(input.gcount()))));
+  }
+  if (input.bad()) throw FileError(source, EIO);
+}
+
+std::string UnfinishedFile::Read(std::uint64_t place, std::size_t size) const {
+  std::string bytes(size, '\0');
+  const ssize_t got = ::pread(descriptor_, bytes.data(), size, static_cast<off_t>(place));
+  if (got < 0 || static_cast<std::size_t>(got) != size) throw FileError(file_, errno);
+  return bytes;
+}
+
+void UnfinishedFile::Overwrite(std::uint64_t place, std::span<const char> bytes) const {
+  const ssize_t written =
+      ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+  if (written < 0 || static_cast<std::size_t>(written) != bytes.size()) {
+    throw FileError(file_, errno);
+  }
+}
+
+void UnfinishedFile::Sync() const {
+  if (::fdatasync(descriptor_) != 0) throw FileError(file_, errno);
+}
+
+void UnfinishedFile::Finish() const {
+  if (::fsync(descriptor_) != 0 || ::rename(unfinished().c_str(), target_.c_str()) != 0) {
+    throw FileError(file_, errno);
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace railcast {
+
+/// A file that has the suffix kUnfinishedSuffix until it is finished. All functions throw
+/// InputError if the system refuses.
+class UnfinishedFile {
+ public:
+  /// @param size What is kept of the unfinished file.
+  UnfinishedFile(std::filesystem::path file, std::uint64_t size);
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  void Append(std::span<const std::byte> bytes) const;
+  /// Appends the content of another file.
+  void AppendFile(const std::filesystem::path& source) const;
+  /// Returns bytes that were written.
+  [[nodiscard]] std::string Read(std::uint64_t place, std::size_t size) const;
+  /// Writes over bytes that were written.
+  void Overwrite(std::uint64_t place, std::span<const char> bytes) const;
+
+  void Sync() const;
+  /// Gives the file its name.
+  void Finish() const;
+
+  /// The name that it gets.
+  [[nodiscard]] std::string final_name() const { return file_.filename().string(); }
+
+ private:
+  [[nodiscard]] std::filesystem::path unfinished() const;
+
+  std::filesystem::path file_;
+  std::filesystem::path target_;
+  int descriptor_{};
+};
+
+}  // namespace railcast
