@@ -188,6 +188,26 @@ struct VegetationSpec {
   bool operator==(const VegetationSpec&) const = default;
 };
 
+/// Where the poses of a recording's sensor come from.
+enum class PoseSource {
+  kRecorded,    ///< From the recording.
+  kStanding,    ///< The sensor stands still; the vehicle is at the world's origin.
+  kRegistered,  ///< Estimated from the clouds, each laid on the one before it.
+};
+template <>
+inline constexpr auto kEnumNames<PoseSource> =
+    std::to_array<EnumName<PoseSource>>({{PoseSource::kRecorded, "recorded"},
+                                         {PoseSource::kStanding, "standing"},
+                                         {PoseSource::kRegistered, "registered"}});
+
+/// A recording as a world: what a plan of railcast-generate insert has in place of an alignment.
+struct RecordingWorldSpec {
+  std::optional<PoseSource> poses{};         ///< Absent: recorded.
+  std::optional<AlignmentSpec> alignment{};  ///< Absent: the line is the way of the vehicle.
+
+  bool operator==(const RecordingWorldSpec&) const = default;
+};
+
 struct WorldSpec {
   /// Seed of the world's geometry: relief, stones, plants. The scenario's own seed drives the
   /// sensor and the weather.
@@ -203,6 +223,11 @@ struct WorldSpec {
   SceneDetail detail = SceneDetail::kAuto;
   std::vector<YardSpec> yards{};
   std::vector<DiamondCrossingSpec> diamond_crossings{};
+  /// In plans of railcast-generate insert, instead of `alignment`: no world can be made of it.
+  std::optional<RecordingWorldSpec> recording{};
+  /// File of a survey (core/rail/survey/survey_file.h), whose surfaces and wires take the place of
+  /// ground, tracks, contact line and plants; absent = none.
+  std::optional<std::string> survey{};
 
   bool operator==(const WorldSpec&) const = default;
 };

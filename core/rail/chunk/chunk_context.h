@@ -16,6 +16,7 @@ namespace railcast {
 
 class ClearedAreas;
 class Landform;
+class SurveyedScene;
 
 /// Overlap of neighbouring chunks. Each chunk has a frame of its own, so an exact seam would leak
 /// beams: 0.4 % of those aimed at it were measured to pass, and none with this overlap
@@ -44,6 +45,7 @@ struct ChunkContext {
   /// Where structures take the place of ballast, known for some range of chainages; null: looked up
   /// for each place.
   const ClearedAreas* unballasted = nullptr;
+  const SurveyedScene* survey = nullptr;  ///< What is surveyed instead of built; null: nothing.
 };
 
 [[nodiscard]] inline WorldTracks TracksOf(const ChunkContext& context) {

@@ -12,6 +12,7 @@
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/crossing_road.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/survey/surveyed_scene.h"
 #include "core/rail/track/cross_section.h"
 
 namespace railcast {
@@ -62,6 +63,12 @@ double SurfaceHeight_m(const ChunkContext& context,
                        const Floors& floors,
                        double s_m,
                        double d_m) {
+  if (context.survey != nullptr) {
+    const Vector3 place_m = context.alignment.WorldFromTrack(s_m, d_m).translation();
+    if (const auto ground_m = context.survey->GroundHeight_m(place_m.head<2>())) {
+      return std::max(*ground_m, floors.HeightAt_m(s_m, d_m));
+    }
+  }
   Vector3 surface = GroundPoint(context, section, s_m, d_m);
   const double ballast_m = section.BallastHeight_m(d_m);
   if (std::isfinite(ballast_m)) {

@@ -16,15 +16,6 @@ bool StandsStraight(const TrackPath& path, const Alignment& alignment) {
   return front.linear().isApprox(axes, kRounding) && rear.linear().isApprox(axes, kRounding);
 }
 
-/// Rail vehicles stand on the rails unless they have left them, and drag shoes lie there.
-bool StandsOnGround(const ObjectSpec& object) {
-  if (object.h_m) return false;
-  if (object.type.model && object.type.model->lies_on_rail) {
-    return FollowOf(object) == Follow::kGround;
-  }
-  return !RestsOnPivots(object);
-}
-
 Eigen::AlignedBox2d GroundAreaOf(const Model& model) {
   const Eigen::AlignedBox3d bounds_m = model.Bounds();
   return {bounds_m.min().head<2>(), bounds_m.max().head<2>()};
@@ -72,6 +63,14 @@ ObjectStance WalkingStance(const ObjectWay& way,
 bool RestsOnPivots(const ObjectSpec& object) {
   return IsRailVehicle(object.type) && object.follow.value_or(Follow::kTrack) == Follow::kTrack &&
          object.roll_deg == 0.0 && object.pitch_deg == 0.0;
+}
+
+bool StandsOnGround(const ObjectSpec& object) {
+  if (object.h_m) return false;
+  if (object.type.model && object.type.model->lies_on_rail) {
+    return FollowOf(object) == Follow::kGround;
+  }
+  return !RestsOnPivots(object);
 }
 
 void GiveBogies(const ObjectSpec& spec,

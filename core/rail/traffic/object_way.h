@@ -21,6 +21,10 @@ namespace railcast {
 /// Whether an object rests on the track with two pivots: a rail vehicle that does not lean.
 [[nodiscard]] bool RestsOnPivots(const ObjectSpec& object);
 
+/// Whether an object stands on the ground below it: rail vehicles stand on the rails unless they
+/// have left them, and drag shoes lie there.
+[[nodiscard]] bool StandsOnGround(const ObjectSpec& object);
+
 /// Gives a rail vehicle its pieces, body, front bogie and rear bogie, if the bogies turn against
 /// the body: if it moves or stands where the track is bent. A vehicle that stands turned against
 /// its track has left it, and is rigid.

@@ -29,23 +29,19 @@
 #include "core/rail/objects/table_models.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/survey/surveyed_scene.h"
 #include "core/rail/track/track_models.h"
 #include "core/rail/track/track_structure.h"
 #include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/map_placing.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/train_places.h"
+#include "core/rail/world/coarser_surfaces.h"
 #include "core/rail/world/world_check.h"
 #include "core/rail/world/world_draft.h"
 
 namespace railcast {
 namespace {
-
-// What permits the coarser form of a chunk (docs/detail.md). Its ballast has cells of up to 0.48 m
-// across, 2.4 spacings; along the track, where it is as fine as ever, most beams run.
-constexpr double kCoarseRaySpacing_m = 0.2;
-constexpr double kCoarseBeamWidth_m = 0.0;
-constexpr double kCoarseSightAngle_rad = 0.5;
 
 // Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
@@ -71,7 +67,9 @@ struct RailWorld::Line {
   /// Made by whoever needs them first: a world that is only looked into has no plants.
   std::shared_future<PlantModels> plants;
   Landform land;
-  std::optional<Ride> ride;  ///< Of the sensor's vehicle.
+  std::optional<Ride> ride;                     ///< Of the sensor's vehicle.
+  std::shared_ptr<const SurveyedScene> survey;  ///< Null: the line is built from the spec.
+  TilesOfChunks surveyed;
 
   /// If `chunk_from_world` is the identity, builders work in world coordinates.
   [[nodiscard]] ChunkContext ContextOf(int chunk, const Transform& chunk_from_world) const {
@@ -86,7 +84,8 @@ struct RailWorld::Line {
             .end_s_m = grid.EndOf(chunk),
             .chunk_from_world = chunk_from_world,
             .land = &land,
-            .diamonds = diamonds};
+            .diamonds = diamonds,
+            .survey = survey.get()};
   }
   [[nodiscard]] static ClearedAreas UnballastedAbout(const ChunkContext& context) {
     // Cross-sections beyond are few.
@@ -101,6 +100,12 @@ struct RailWorld::Line {
     built.ground.name = "chunk " + std::to_string(context.chunk);
     WithinMemory([&] { return "building " + built.ground.name + " of the line"; },
                  [&] {
+                   if (survey) {
+                     survey->Add(surveyed.tiles.at(static_cast<std::size_t>(context.chunk)),
+                                 context.chunk_from_world, built);
+                     AddStructures(context, built);
+                     return;
+                   }
                    AddTerrain(context, built);
                    AddTracks(context, track_models, built);
                    AddCatenary(context, catenary_plan, mast_model, built);
@@ -167,15 +172,17 @@ RailWorld::RailWorld(const WorldSpec& world,
   Network network = Completed(std::move(draft.network));
   std::vector<LaidTurnout> turnouts = LayTurnouts(network);
   std::vector<LaidDiamond> diamonds = LayDiamonds(network);
+  const ChunkGrid grid(alignment, kChunkLength_m, world.terrain.half_width_m);
+  TilesOfChunks surveyed;
+  if (draft.survey) surveyed = AssignTiles(draft.survey->file().tiles(), alignment, grid);
   line_ = std::make_shared<const Line>(
       Line{std::move(draft.world), vehicle, labels, materials, seed, surfaces, alignment,
-           std::move(network), std::move(turnouts), std::move(diamonds),
-           ChunkGrid(alignment, kChunkLength_m, world.terrain.half_width_m),
+           std::move(network), std::move(turnouts), std::move(diamonds), grid,
            std::move(*draft.catenary_plan), MakeTrackModels(world.alignment, surfaces),
            std::make_shared<const Model>(MakeMast(world.catenary, surfaces)),
            std::async(std::launch::deferred, MakePlantModels, surfaces, seed).share(),
            Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
-           RideOf(vehicle, world.seed)});
+           RideOf(vehicle, world.seed), std::move(draft.survey), std::move(surveyed)});
 
   std::vector<SceneObject> objects = std::move(draft.objects);
   std::vector<ObjectWay> ways;
@@ -413,7 +420,8 @@ std::vector<int> RailWorld::ChunksInReach(int home_chunk, double range_m) const 
                                  1.0 * i / kNumSteps);
     aside_m = std::max(aside_m, std::abs(things_->vehicle.course().OffsetAt(s_m).d_m));
   }
-  double overhang_m = kOverhang_m;
+  double overhang_m =
+      std::max(kOverhang_m, line_->surveyed.half_width_m - line_->world.terrain.half_width_m);
   for (const StructureSpec& structure : line_->world.structures) {
     overhang_m = std::max(overhang_m, OverhangOf_m(structure));
   }
@@ -435,28 +443,12 @@ Chunk RailWorld::BuildCoarserChunk(int chunk) const {
 }
 
 std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
-  constexpr int kNumSteps = 10;
-  const Transform chunk_from_world = line_->grid.WorldFromChunk(chunk).inverse();
-  const auto heading_rad = [&](double s_m) { return line_->alignment.At(s_m).heading_rad; };
-  // By how much a curve turns the track at the chunk's ends from its middle.
-  const double turn_rad = 0.5 * std::abs(heading_rad(line_->grid.EndOf(chunk)) -
-                                         heading_rad(line_->grid.BeginOf(chunk)));
-  CoarserSurfaces coarser{.area_m = {},
-                          .ray_spacing_m = kCoarseRaySpacing_m,
-                          .beam_width_m = kCoarseBeamWidth_m,
-                          .sight_angle_rad = std::max(0.0, kCoarseSightAngle_rad - turn_rad)};
-  for (int i = 0; i <= kNumSteps; ++i) {
-    const double s_m =
-        std::lerp(line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk), 1.0 * i / kNumSteps);
-    for (const double side : {-1.0, 1.0}) {
-      const double d_m = side * line_->land.width().At(s_m, side);
-      const Transform chunk_from_edge =
-          chunk_from_world * line_->alignment.WorldFromTrack(s_m, d_m);
-      coarser.area_m.extend(Eigen::Vector2d(chunk_from_edge.translation().head<2>()));
-    }
-  }
-  return coarser;
+  if (line_->survey) return std::nullopt;
+  return CoarserSurfacesBetween({line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk)},
+                                line_->alignment, line_->land.width(),
+                                line_->grid.WorldFromChunk(chunk).inverse());
 }
+
 const std::vector<SceneObject>& RailWorld::objects() const {
   return *things_->objects;
 }

@@ -234,6 +234,10 @@ void CheckObject(const WorldSpec& world,
   if (IsRailVehicle(object.type)) {
     CheckWheelsFit(world, object.type, pointer + "/type", faults);
   }
+  if (object.frame && !world.recording) {
+    faults.Add(pointer + "/frame", "must be left out: only recordings have frames",
+               NumberText(*object.frame));
+  }
   if (!object.route.empty()) return;
   const TrackPlace place{pointer + "/track", pointer + "/s_m", object.track, object.s_m};
   const TrackSpec* track = CheckTrackPlace(world, place, line, faults);
@@ -260,6 +264,10 @@ void CheckWorld(const WorldSpec& world,
                 const LineOfTracks& line,
                 WorldFaults& faults) {
   CheckHalfWidth(world, faults);
+  if (world.recording && faults.AreKnown({"/world/alignment"})) {
+    faults.Add("/world/recording",
+               "must be left out: this is a plan for railcast-generate insert, not a scenario");
+  }
   if (world.tracks.empty()) {
     faults.Add("/world/tracks", "must have at least one track", "none");
     return;  // Without a track, every check below would report another fault.

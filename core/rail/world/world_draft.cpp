@@ -28,7 +28,7 @@ namespace {
 // Makes the line if its course is known, leaving out all other values that are unknown.
 std::optional<Alignment> DraftAlignment(const WorldSpec& world, WorldFaults& faults) {
   const std::string place = "/world/alignment";
-  if (!faults.AreKnown({place + "/course"})) return std::nullopt;
+  if (!faults.AreKnown({place + "/course"}) || world.recording) return std::nullopt;
   AlignmentSpec known = world.alignment;
   if (!faults.AreKnown({place + "/gradients_permil"})) known.gradients_permil.clear();
   if (!faults.AreKnown({place + "/speed_limits_kmph"})) known.speed_limits_kmph.clear();
@@ -109,6 +109,17 @@ std::optional<DemHeights> DraftElevation(const WorldSpec& world,
   return elevation;
 }
 
+std::shared_ptr<const SurveyedScene> DraftSurvey(const WorldSource& source, WorldFaults& faults) {
+  const std::string place = "/world/survey";
+  if (!source.world.survey || !faults.AreKnown({place, "/labels", "/materials"})) return nullptr;
+  return Attempt(place + ": ", faults.errors,
+                 [&] {
+                   return std::make_shared<const SurveyedScene>(*source.world.survey, source.labels,
+                                                                source.materials);
+                 })
+      .value_or(nullptr);
+}
+
 // Checks that the tables have what the models of the sensor's own train need.
 void CheckNamesOfOwnTrain(const WorldSource& source, WorldFaults& faults) {
   for (std::size_t i = 0; i < source.vehicle.consist.size(); ++i) {
@@ -166,8 +177,8 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   const WorldSpec& world = draft.world;
   const std::size_t num_faults_before = faults.errors.size();
   draft.alignment = DraftAlignment(world, faults);
-  const bool is_line_known =
-      faults.errors.size() == num_faults_before && faults.AreKnown({"/world/alignment"});
+  const bool is_line_known = faults.errors.size() == num_faults_before &&
+                             faults.AreKnown({"/world/alignment"}) && !world.recording;
   // If the line is unknown, no chainage can be beyond it.
   constexpr double kEndless_m = std::numeric_limits<double>::infinity();
   const LineMeasures line = draft.alignment ? LineMeasures{draft.alignment->length_m(),
@@ -212,6 +223,7 @@ WorldDraft DraftWorld(const WorldSource& source, WorldFaults& faults) {
   draft.catenary_plan = DraftCatenary(world, draft.alignment, draft.network, faults);
   draft.strip_width = DraftStripWidth(world, draft.alignment, draft.network, faults);
   draft.elevation = DraftElevation(world, draft, faults);
+  draft.survey = DraftSurvey(source, faults);
   ErrorList errors;
   for (const Fault& fault : faults.errors.faults()) errors.Add(FaultOfYard(source.world, fault));
   faults.errors = std::move(errors);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "core/rail/landform/landform.h"
 #include "core/rail/landform/strip_width.h"
 #include "core/rail/motion/track_path.h"
+#include "core/rail/survey/surveyed_scene.h"
 #include "core/rail/traffic/object_draft.h"
 #include "railcast/alignment.h"
 #include "railcast/frame.h"
@@ -36,7 +38,8 @@ struct WorldDraft {
   std::vector<SceneObject> objects;
   std::optional<CatenaryPlan> catenary_plan;
   std::optional<StripWidth> strip_width;
-  std::optional<DemHeights> elevation;  ///< If the spec has any.
+  std::optional<DemHeights> elevation;          ///< If the spec has any.
+  std::shared_ptr<const SurveyedScene> survey;  ///< Likewise.
 };
 
 /// Makes every part that can be made and adds all faults found in doing so. Values that `faults`

@@ -1,0 +1,97 @@
+#include "generator/survey/survey.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/base/error.h"
+#include "generator/survey/moving_things.h"
+#include "generator/survey/survey_voxels.h"
+#include "generator/survey/wire_finder.h"
+
+namespace railcast {
+namespace {
+
+using TilesByCell = std::map<std::array<std::int32_t, 2>, SurveyTile>;
+
+/// Leaves out the surfels of what moved, and shrinks those that let beams pass.
+void CheckByBeams(const FramesOfSurvey& frames,
+                  const SurveyVoxels& cloud,
+                  bool keeps_moving,
+                  std::vector<MadeSurfel>& surfels) {
+  MovingThings moving(surfels, cloud);
+  std::uint32_t frame_index = 0;
+  frames([&](const SurveyFrame& frame) { moving.Add(frame, frame_index++); });
+  std::vector<MadeSurfel> kept;
+  for (std::size_t i = 0; i < surfels.size(); ++i) {
+    if (moving.HasMoved(i) && !keeps_moving) continue;
+    MadeSurfel& surfel = kept.emplace_back(surfels[i]);
+    const auto factor = static_cast<float>(std::sqrt(moving.ShareStopped(i)));
+    surfel.half_u_m *= factor;
+    surfel.half_v_m *= factor;
+  }
+  surfels = std::move(kept);
+}
+
+/// The median height of the body's places above the ground below them; nothing where none of them
+/// is above surveyed ground.
+std::optional<double> HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
+  std::vector<double> heights_m;
+  for (const Transform& world_from_body : way.world_from_body) {
+    const Vector3 place_m = world_from_body.translation();
+    const auto found = tiles.find(SurveyCellAt(place_m.head<2>()));
+    if (found == tiles.end()) continue;
+    const auto ground_m = GroundHeight_m(found->second, place_m.head<2>());
+    if (ground_m) heights_m.push_back(place_m.z() - *ground_m);
+  }
+  if (heights_m.empty()) return std::nullopt;
+  const auto middle = heights_m.begin() + std::ssize(heights_m) / 2;
+  std::nth_element(heights_m.begin(), middle, heights_m.end());
+  return *middle;
+}
+
+}  // namespace
+
+Survey MakeSurvey(const FramesOfSurvey& frames,
+                  const SurveyLabels& labels,
+                  const SurveyOptions& options) {
+  Survey survey;
+  SurveyVoxels cloud(options.voxel_m);
+  frames([&](const SurveyFrame& frame) {
+    cloud.Add(frame, static_cast<std::uint32_t>(survey.num_frames++));
+    survey.num_points += frame.beams.size();
+    if (frame.has_origins) survey.way.world_from_body.push_back(frame.world_from_body);
+    survey.is_way_of_vehicle = frame.has_vehicle;
+  });
+  survey.num_voxels = cloud.voxels().size();
+  std::vector<MadeSurfel> surfels = MakeSurfels(cloud, options.surfels);
+  survey.num_alone = survey.num_voxels - surfels.size();
+  const std::size_t num_before = surfels.size();
+  if (!survey.way.world_from_body.empty()) {
+    CheckByBeams(frames, cloud, options.keeps_moving, surfels);
+  }
+  survey.num_moving = num_before - surfels.size();
+  survey.num_linear = std::ranges::count(surfels, SurfelKind::kLinear, &MadeSurfel::kind);
+  survey.num_scattered = std::ranges::count(surfels, SurfelKind::kOther, &MadeSurfel::kind);
+  if (surfels.empty()) {
+    throw InputError("the survey: must have surfaces (got " + std::to_string(survey.num_points) +
+                     " points of " + std::to_string(survey.num_frames) + " frames and no surface)");
+  }
+  survey.labels = labels.names();
+  TilesByCell tiles = TilesOf(surfels);
+  if (!survey.is_way_of_vehicle) {
+    survey.way.above_rail_m =
+        options.sensor_height_m.value_or(HeightAboveGround_m(survey.way, tiles).value_or(0.0));
+  }
+  const std::vector<FoundWire> wires = TakeWires(survey.way, surfels);
+  tiles = TilesOf(surfels);
+  AddWires(wires, tiles);
+  survey.num_surfels = surfels.size();
+  survey.num_wires = wires.size();
+  for (auto& [cell, tile] : tiles) survey.tiles.push_back(std::move(tile));
+  return survey;
+}
+
+}  // namespace railcast

@@ -1,0 +1,162 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/write_file.h"
+#include "core/program/progress_line.h"
+#include "core/scenario/describe_alignment.h"
+#include "core/scenario/json_writer.h"
+#include "generator/commands.h"
+#include "generator/empty_folder.h"
+#include "generator/survey/survey.h"
+
+namespace railcast {
+namespace {
+
+constexpr const char* kSceneFile = "scene.survey";
+constexpr const char* kWorldFile = "world.json";
+
+struct SurveyCommandOptions {
+  SurveySource source;
+  SurveyOptions made;
+  std::filesystem::path out;
+};
+
+std::string WorldText(const AlignmentSpec& axis) {
+  AlignmentSpec alignment = axis;
+  alignment.attribution = "The way of the surveying vehicle, by railcast-generate survey.";
+  const Json world = {
+      {"version", 1}, {"alignment", JsonWriter::WriteShort(alignment)}, {"survey", kSceneFile}};
+  return world.dump(2) + "\n";
+}
+
+/// What a survey consists of, as counts.
+std::string SurveyReport(const Survey& survey, std::size_t num_bytes) {
+  const auto line = [](std::size_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + "\n";
+  };
+  return line(survey.num_points, "points of " + std::to_string(survey.num_frames) + " frames in " +
+                                     std::to_string(survey.num_voxels) + " cubes") +
+         line(survey.num_alone, "cubes without neighbours left out") +
+         line(survey.num_moving, "surfels of things that moved left out") +
+         line(survey.num_surfels, "surfels in " + std::to_string(survey.tiles.size()) +
+                                      " tiles: " + std::to_string(survey.num_linear) +
+                                      " along lines, " + std::to_string(survey.num_scattered) +
+                                      " scattered, the others on surfaces") +
+         line(survey.num_wires, "wires") + line(num_bytes, "bytes");
+}
+
+int RunSurvey(const SurveyCommandOptions& options) {
+  MakeEmptyFolder(options.out);
+  SurveyLabels labels;
+  const ProgressLine progress;
+  std::size_t num_visited = 0;
+  const FramesOfSurvey frames = [&](const auto& visit) {
+    VisitFrames(options.source, labels, [&](const SurveyFrame& frame) {
+      progress.Show("frame " + std::to_string(++num_visited));
+      visit(frame);
+    });
+  };
+  const Survey survey = MakeSurvey(frames, labels, options.made);
+  progress.End();
+  const std::string bytes = EncodeSurvey(survey.labels, survey.tiles);
+  WriteFileWhole(options.out / kSceneFile, bytes);
+  std::cout << SurveyReport(survey, bytes.size());
+  if (survey.way.world_from_body.empty()) {
+    std::cout << "no way of a vehicle is known: name an alignment beside \"survey\"\n";
+    return kExitSuccess;
+  }
+  if (!survey.is_way_of_vehicle) {
+    std::cout << "top of rail is taken to be " << ShortText(survey.way.above_rail_m)
+              << " m below the sensor\n";
+  }
+  const AlignmentSpec axis = AxisAlong(survey.way, options.source.range_max_m);
+  WriteFileWhole(options.out / kWorldFile, WorldText(axis));
+  std::cout << "the line begins " << ShortText(options.source.range_max_m)
+            << " m before the first frame's place and is " << ShortText(Alignment(axis).length_m())
+            << " m long: " << ShownPath(options.out / kWorldFile) << "\n";
+  return kExitSuccess;
+}
+
+void AddSourceOptions(CLI::App& command, SurveySource& source) {
+  constexpr std::uint32_t kMostFrames = 1'000'000'000;
+  constexpr NumberRule kRange{1.0, 1000.0};  // In m.
+  command
+      .add_option("RECORDING", source.recordings, "Recordings or clouds in one frame of reference")
+      ->required()
+      ->check(NonEmpty());
+  command.add_option("--start-frame", source.first_frame, "First frame of each recording")
+      ->transform(Whole({0, kMostFrames}))
+      ->capture_default_str();
+  command.add_option("--frames", source.num_frames, "Number of frames; default: all")
+      ->transform(Whole({1, kMostFrames}));
+  command.add_option("--stride", source.stride, "Every how many-th frame to take; 1 = all")
+      ->transform(Whole({1, kMostFrames}))
+      ->capture_default_str();
+  CLI::Option* standing =
+      command.add_flag("--standing", source.is_standing,
+                       "Frames without a pose were all taken from one place, the world's origin");
+  CLI::Option* world_axes = command
+                                .add_flag("--world-axes", source.is_in_world,
+                                          "Frames without a pose have points in the world's axes")
+                                ->excludes(standing);
+  command
+      .add_option("--poses", source.poses,
+                  "Poses of the sensor in the world: a line of KITTI's, 12 numbers, for each frame")
+      ->excludes(standing)
+      ->excludes(world_axes)
+      ->check(NonEmpty());
+  command
+      .add_option("--range", source.range_max_m, "Leave out points farther from the sensor, in m")
+      ->capture_default_str()
+      ->check(Number(kRange));
+  command
+      .add_option(
+          "--white", source.white_intensity,
+          "Recorded intensity of a white surface; default: 1, or 255 in foreign clouds with "
+          "more than 1")
+      ->check(Number({1e-6, 1e6}));
+}
+
+}  // namespace
+
+void AddSurvey(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<SurveyCommandOptions>();
+  CLI::App* survey = app.add_subcommand(
+      "survey", "Make the scene of a scenario from recordings with poses or from survey clouds");
+  AddSourceOptions(*survey, options->source);
+  survey->add_option("--out", options->out, "New or empty folder to write to")
+      ->required()
+      ->check(NonEmpty());
+  survey
+      ->add_option("--voxel", options->made.voxel_m,
+                   "Edge of the cubes of which each keeps one point, in m")
+      ->capture_default_str()
+      ->check(Number({0.005, 1.0}));
+  survey
+      ->add_option("--max-gap", options->made.surfels.max_gap_m,
+                   "Points farther apart than this, in m, have nothing between them")
+      ->capture_default_str()
+      ->check(Number({0.02, 5.0}));
+  survey
+      ->add_option("--surfel-size", options->made.surfels.size_factor,
+                   "Size of surfels as a multiple of what reaches half way to their neighbours")
+      ->capture_default_str()
+      ->check(Number({0.2, 4.0}));
+  survey->add_flag("--keep-moving", options->made.keeps_moving,
+                   "Leave in what other frames' beams have passed through");
+  survey
+      ->add_option("--sensor-height", options->made.sensor_height_m,
+                   "Height of the sensor above top of rail, in m; default: that of the mount in "
+                   "railcast's own recordings, else above the ground below the way")
+      ->check(Number({-100.0, 100.0}));
+  survey->callback([&command, options] {
+    command = [options](const std::string& /*all*/) { return RunSurvey(*options); };
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/write_file.h"
+#include "core/rail/survey/survey_file.h"
+#include "railcast/scenario.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/project_folder.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+/// A square of ground as a cloud in the axes of a national grid.
+std::string GroundCloud() {
+  constexpr int kEdge = 30;
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kEdge * kEdge) +
+                    "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    ply += std::to_string(3'400'000.0 + 0.1 * (i % kEdge)) + " " +
+           std::to_string(5'800'000.0 + 0.1 * (i / kEdge)) + " 412.5\n";
+  }
+  return ply;
+}
+
+TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 900U);
+  const auto cell = SurveyCellAt({3'400'001.0, 5'800'001.0});
+  for (const SurveyTile& tile : file.tiles()) {
+    if (tile.cell != cell) continue;
+    EXPECT_NEAR(GroundHeight_m(tile, {3'400'001.0, 5'800'001.0}).value(), 412.5, 1e-3);
+  }
+  EXPECT_FALSE(exists(directory.path() / "out" / "world.json"));
+}
+
+TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const std::string cloud = (directory.path() / "ground.ply").string();
+  EXPECT_EQ(Generate("survey " + cloud + " --standing --out " + (directory.path() / "out").string())
+                .status,
+            1);  // Nothing is within 60 m of the sensor.
+}
+
+TEST(SurveyCommand, SaysThatPosesAreMissing) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() + " --out " +
+                               (directory.path() / "out").string() + " 2>&1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find(
+                "has no pose; must be given with --poses, with --standing if the "
+                "sensor did not move, or with --world-axes if the points are in the world's axes"),
+            std::string::npos)
+      << ended.said;
+}
+
+/// Two clouds of the same square of ground 2 m below the sensor, and a file of poses.
+std::string WriteGroundSeenTwice(const std::filesystem::path& folder, const std::string& poses) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  for (int i = 0; i < 400; ++i) {
+    ply += NumberText(1.0 + 0.1 * (i % 20)) + " " + NumberText(0.1 * (i / 20)) + " -2\n";
+  }
+  create_directory(folder / "clouds");
+  WriteFileWhole(folder / "clouds" / "0.ply", ply);
+  WriteFileWhole(folder / "clouds" / "1.ply", ply);
+  WriteFileWhole(folder / "poses.txt", poses);
+  return "survey " + (folder / "clouds").string() + " --poses " + (folder / "poses.txt").string() +
+         " --out " + (folder / "out").string() + " 2>&1";
+}
+
+TEST(SurveyCommand, TakesPosesOfAFile) {
+  const TemporaryDirectory directory;
+  const Ended ended = Generate(WriteGroundSeenTwice(
+      directory.path(), "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n"));
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_TRUE(exists(directory.path() / "out" / "world.json"));
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 800U);
+  for (const double x_m : {102.0, 106.0}) {
+    const Eigen::Vector2d place_m(x_m, 21.0);
+    for (const SurveyTile& tile : file.tiles()) {
+      if (tile.cell != SurveyCellAt(place_m)) continue;
+      EXPECT_NEAR(GroundHeight_m(tile, place_m).value(), 5.0, 1e-3);
+    }
+  }
+}
+
+TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
+  const std::string pose = "1 0 0 100 0 1 0 20 0 0 1 7\n";
+  const auto said = [](const std::string& poses) {
+    const TemporaryDirectory directory;
+    const Ended ended = Generate(WriteGroundSeenTwice(directory.path(), poses));
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
+    return ended.said;
+  };
+  EXPECT_THAT(said(pose), testing::HasSubstr("poses.txt: must have a line for each frame (got 1 "
+                                             "lines and more frames)"));
+  EXPECT_THAT(
+      said(pose + pose + pose),
+      testing::HasSubstr("poses.txt: must have a line for each frame (got 3 lines and 2 frames)"));
+  EXPECT_THAT(said(pose + "1 2 3\n"),
+              testing::HasSubstr("poses.txt:2: must be the 12 numbers of a pose"));
+}
+
+}  // namespace
+}  // namespace railcast
