@@ -6,6 +6,10 @@
 namespace railcast {
 
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+inline constexpr std::int64_t kNsPerUs = 1000;
+
+/// In vacuum, exact by definition of the metre.
+inline constexpr double kSpeedOfLight_mps = 299'792'458.0;
 
 [[nodiscard]] constexpr double RadFromDeg(double angle_deg) {
   return angle_deg * (std::numbers::pi / 180.0);

@@ -47,8 +47,6 @@ struct FramesOfFirings {
 /// Larger frames (this one takes about 1 GB) are assumed to be a mistake in the input.
 inline constexpr std::size_t kMaxNumFirings = std::size_t{1} << 24U;
 
-inline constexpr double kNsPerUs = 1e3;
-
 /// The fault of a number that breaks a rule.
 [[nodiscard]] Fault FaultOf(std::string_view place, std::string_view rule, double got);
 

@@ -157,6 +157,11 @@ void DescribePlace(Archive& a, ObjectSpec& s) {
   a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
            HasOnePlace(s_m.has_value(), !s_m && !d_m, s),
            "must have either s_m (and d_m), or x_m and y_m, or longitude_deg and latitude_deg");
+  a.Optional("frame", s.frame,
+             "In plans for recordings only: s_m counts ahead from where the vehicle is in this "
+             "frame, and x_m and y_m are in the axes of the sensor there.");
+  a.Ensure({"frame", "longitude_deg"}, !s.frame || !s.longitude_deg,
+           "must not be given beside longitude_deg");
   s.s_m = s_m.value_or(0.0);
   s.d_m = d_m.value_or(0.0);
 }

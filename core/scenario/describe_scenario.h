@@ -108,7 +108,7 @@ void Describe(Archive& a, Ros2Spec& s) {
   constexpr double kMaxDomain = 232;  // Ports of higher ones would be above 65535.
   a.Optional("domain", s.domain, "Absent = as ROS_DOMAIN_ID says, or 0.", Within(0, kMaxDomain));
   a.Optional("interface", s.interface,
-             "Name or IPv4 address of the network interface to use; empty = loopback.", OneLine());
+             "Name or address of the network interface to use; empty = loopback.", OneLine());
   a.Optional("receive_buffers", s.receive_buffers,
              "large: every reader has room for whole frames, 1 MiB or more.");
   a.Optional("deceleration_mps2", s.deceleration_mps2,
@@ -218,8 +218,6 @@ void Describe(Archive& a, ScenarioSpec& s) {
   if (lidar) s.lidar = *lidar;
   a.Optional("lidars", s.lidars, "Several sensors, instead of lidar; each has a name of its own.",
              NonEmptyListIf{!lidar, "; a scenario has at least one sensor"});
-  a.Ensure({"", "lidar", "lidars"}, lidar.has_value() == s.lidars.empty(),
-           "must have either lidar or lidars");
   const auto has_name = [](const LidarSpec& sensor) { return !sensor.name.empty(); };
   a.Ensure({"", "lidars"}, std::all_of(s.lidars.begin(), s.lidars.end(), has_name),
            "must have a name for each of its lidars");
@@ -243,6 +241,10 @@ void Describe(Archive& a, ScenarioSpec& s) {
            "must have rates that give at most 100000 samples in a frame");
   a.Types("models", s.models, "Types of objects and vehicles beside those that railcast has.");
   a.Required("world", s.world, "The railway and what stands on it.");
+  // A recording may say itself which sensor made it.
+  const bool is_sensor_known = s.world.recording && !lidar && s.lidars.empty();
+  a.Ensure({"", "lidar", "lidars"}, is_sensor_known || lidar.has_value() == s.lidars.empty(),
+           "must have either lidar or lidars");
   a.Optional("vehicle", s.vehicle, "The sensor's own vehicle.");
   a.Optional("output", s.output, "Axes of the points.");
   a.RequiredLibrary("materials", s.materials, "What surfaces are made of.");

@@ -167,9 +167,29 @@ void Describe(Archive& a, VegetationSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, RecordingWorldSpec& s) {
+  a.Optional("poses", s.poses,
+             "Where the sensor's poses come from: recorded; standing, for a sensor that does not "
+             "move; registered, estimated by laying each cloud on the one before it. Absent = "
+             "recorded.");
+  a.Optional("alignment", s.alignment,
+             "The line along which chainages count; absent = the way of the sensor's vehicle, from "
+             "where it is in the first frame.");
+}
+
+template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
-  a.Required("alignment", s.alignment, "The axis of the line.");
+  a.OneOfTwo("alignment", "recording");
+  std::optional<AlignmentSpec> alignment;
+  if (s.alignment != AlignmentSpec{}) alignment = s.alignment;
+  a.Optional("alignment", alignment, "The axis of the line.");
+  if (alignment) s.alignment = *alignment;
+  a.Optional("recording", s.recording,
+             "In plans of railcast-generate insert, instead of alignment: the world is a "
+             "recording.");
+  a.Ensure({"", "alignment", "recording"}, alignment.has_value() != s.recording.has_value(),
+           "must have either alignment or recording");
   a.Optional("tracks", s.tracks, "Along the alignment.", NonEmptyList());
   a.Optional("yards", s.yards, "Ladders of tracks.");
   a.Optional("diamond_crossings", s.diamond_crossings,
@@ -180,6 +200,10 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Optional("structures", s.structures, "Platforms and the like, by chainage along a track.");
   a.Optional("objects", s.objects, "Things placed beside tracks or on the map.");
   a.Optional("trains", s.trains, "Coupled vehicles that stand on the tracks or run along them.");
+  a.Optional("survey", s.survey,
+             "File of railcast-generate survey, whose surfaces and wires take the place of ground, "
+             "tracks, contact line and plants.",
+             ExistingFile());
   a.Optional(
       "detail", s.detail,
       "auto: plants, ground and tracks are coarser far away, where the sensor cannot tell the "

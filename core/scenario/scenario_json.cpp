@@ -5,6 +5,7 @@
 
 #include "core/base/out_of_memory.h"
 #include "core/rail/network/yard.h"
+#include "core/rail/survey/survey_levels.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/describe_scenario.h"
 #include "core/scenario/json_reader.h"
@@ -117,6 +118,17 @@ void CheckNumberOfMaterials(const ScenarioSpec& spec, JsonSource& source) {
   source.unknown().Add(pointer);
 }
 
+// Adds the materials of a survey's surfaces, unless the scenario has them already.
+void AddSurveyMaterials(ScenarioSpec& spec) {
+  if (!spec.world.survey) return;
+  for (std::uint8_t level = 0; level < kNumSurveyLevels; ++level) {
+    Material material = MaterialOfLevel(level);
+    if (std::ranges::find(spec.materials, material.name, &Material::name) == spec.materials.end()) {
+      spec.materials.push_back(std::move(material));
+    }
+  }
+}
+
 // `open` opens the scenario's root.
 template <class Open>
 ScenarioSpec ReadRoot(const Open& open) {
@@ -124,9 +136,12 @@ ScenarioSpec ReadRoot(const Open& open) {
   ScenarioSpec spec;
   if (const std::optional<Node> root = open(source)) {
     ReadValue(source, *root, spec, Anything{});
+    AddSurveyMaterials(spec);
     CheckNumberOfMaterials(spec, source);
     CheckReferences(spec, source);
     spec.sources = source.sources();
+    // The line of a recording is not known yet.
+    if (spec.world.recording) source.unknown().Add("/world/alignment");
     if (!source.errors().empty()) AddBuildFaults(spec, source.unknown(), source.errors());
   }
   source.errors().ThrowIfAny();

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/beam/sub_ray_pattern.h"
+#include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
@@ -94,6 +96,9 @@ void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& 
     if (!work.footprint.NeedsCenter(beams, i)) rays.range_m[i] = kNoRay_m;
   }
   beams.caster.Cast(rays);
+  if (beams.screens != nullptr) {
+    beams.screens->Meet(work.echoes.first.firing, work.echoes.first.num_rays, rays);
+  }
   const auto range_max_m = static_cast<float>(spec_.range_max_m);
   for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m : range_m;
 }
@@ -128,8 +133,9 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
-  const WideBeams beams{rays,  beam,      frame.caster,
-                        table, detector_, frame.mirrors ? &*frame.mirrors : nullptr};
+  const WideBeams beams{rays,         beam,      frame.caster,
+                        table,        detector_, frame.mirrors ? &*frame.mirrors : nullptr,
+                        frame.screens};
   const bool is_wide = HasFootprint(spec_) || spec_.effects.thin_conductors;
   if (is_wide) {
     work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);
@@ -158,14 +164,63 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
     mirror_paths_.AddEchoes(beams, work.mirrors, echoes);
     if (observer) observer("mirror_paths");
   }
+  PassAir(frame, work, observer);
+}
+
+void BeamTracer::PassAir(const CastFrame& frame, Work& work, const EffectObserver& observer) const {
   if (!frame.spray.empty()) {
-    spray_.Apply(rays, frame.spray, detector_, echoes);
+    spray_.Apply(work.rays, frame.spray, detector_, work.echoes);
     if (observer) observer("spray");
   }
   if (is_sun_up_) {
-    Blind(frame, rays, echoes);
+    Blind(frame, work.rays, work.echoes);
     if (observer) observer("the sun's disc");
   }
+}
+
+void BeamTracer::PutScreen(const Screen& screen, const EchoTiles::Place& place) const {
+  const auto& [tile, i] = place;
+  tile.surface[i] = screen.surface;
+  tile.true_range_m[i] = screen.range_m;
+  tile.cos_incidence[i] = 1.0F;
+  tile.normal_up[i] = 0.0F;
+  tile.spread_m[i] = 0.0F;
+  tile.share[i] = 1.0F;
+  tile.peak_shift_m[i] = 0.0F;
+  tile.reflectivity[i] = screen.intensity;
+  tile.outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
+  tile.clutter[i] = kNoClutter;
+  tile.intensity[i] = screen.intensity;
+  tile.power_ratio[i] = detector_.PowerRatio(screen.intensity, screen.range_m, 0.0F);
+}
+
+void BeamTracer::MakeScreenEchoes(const CastFrame& frame,
+                                  const FiringTiles& tiles,
+                                  std::size_t tile,
+                                  Work& work) const {
+  AimCenters(frame, tiles, tile, work);
+  EchoTiles& echoes = work.echoes;
+  DetectTile& first = echoes.first;
+  echoes.ClearMore();
+  if (cover_) cover_->Fill(first, work.drops);
+  // No ray has met anything yet, so that this marks all firings as empty.
+  ResolveHits(work.rays, {frame.surfaces, optics_}, first);
+  kernels_.incidence(work.rays, first);
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
+  for (float* unknown : {first.intensity, first.power_ratio}) std::fill_n(unknown, kTileSize, kNaN);
+  for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
+    const auto screens = frame.screens->of(first.firing[lane]);
+    if (screens.empty()) continue;
+    // What the air adds must lie before the nearest.
+    const auto nearest = std::ranges::min_element(screens, {}, &Screen::range_m);
+    PutScreen(*nearest, {first, lane});
+    std::uint32_t number = 0;
+    for (const Screen& screen : screens) {
+      if (&screen != &*nearest) PutScreen(screen, echoes.Add(lane, ++number));
+    }
+  }
+  if (is_physical_) PassAir(frame, work, {});
 }
 
 }  // namespace railcast

@@ -33,6 +33,7 @@ struct CastFrame {
   /// Whether the caster takes rays that are shorter than 0, which hit nothing.
   bool takes_no_rays = false;
   const FrameMotion* motion{};  ///< Null unless velocities are measured and it is known.
+  const Screens* screens{};     ///< Recorded returns; null if nothing was recorded.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -61,6 +62,14 @@ class BeamTracer {
                   std::size_t tile,
                   Work& work,
                   const EffectObserver& observer = {}) const;
+
+  /// As MakeEchoes(), of firings that meet nothing but their screens, each of which sends an echo
+  /// of its own. Nothing is traced.
+  /// @pre The frame has screens.
+  void MakeScreenEchoes(const CastFrame& frame,
+                        const FiringTiles& tiles,
+                        std::size_t tile,
+                        Work& work) const;
 
   /// Aims the central rays of a tile, as MakeEchoes() does, and describes the firings in
   /// `work.echoes.first`.
@@ -93,6 +102,9 @@ class BeamTracer {
   /// Casts the central rays of beams that need one; of all if `are_all_needed`.
   void CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const;
   void Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const;
+  void PutScreen(const Screen& screen, const EchoTiles::Place& place) const;
+  /// What becomes of the light on its way through spray and before the sun.
+  void PassAir(const CastFrame& frame, Work& work, const EffectObserver& observer) const;
 
   bool is_physical_;
   BeamFrame beam_;

@@ -18,20 +18,32 @@ FiringTiles::FiringTiles(const ScanPattern& pattern) : num_firings_(pattern.num_
     slot_row_[slot] = pattern.row[i];
     duration_ns_ = std::max(duration_ns_, pattern.time_ns[i]);
   }
-  for (const std::uint32_t i : pattern.packet_order) {
-    firing_.push_back(i);
-    slot_.push_back(pattern.row[i] * pattern.columns + pattern.column[i]);
-    time_ns_.push_back(pattern.time_ns[i]);
-    channel_.push_back(pattern.row[i]);
-    x_.push_back(pattern.direction_x[i]);
-    y_.push_back(pattern.direction_y[i]);
-    z_.push_back(pattern.direction_z[i]);
-    if (pattern.origin_x_m.empty()) continue;
-    origin_x_m_.push_back(pattern.origin_x_m[i]);
-    origin_y_m_.push_back(pattern.origin_y_m[i]);
-    origin_z_m_.push_back(pattern.origin_z_m[i]);
-  }
+  for (const std::uint32_t i : pattern.packet_order) Append(pattern, i);
   Check(firing_.size() % kPacketSize == 0, "packets are full");
+}
+
+FiringTiles::FiringTiles(const ScanPattern& pattern, std::vector<std::uint32_t> order)
+    : num_firings_(order.size()) {
+  while (order.size() % kPacketSize != 0) order.push_back(order.back());
+  for (const std::uint32_t time_ns : pattern.time_ns) {
+    duration_ns_ = std::max(duration_ns_, time_ns);
+  }
+  for (const std::uint32_t i : order) Append(pattern, i);
+}
+
+void FiringTiles::Append(const ScanPattern& pattern, std::uint32_t firing) {
+  const std::uint32_t i = firing;
+  firing_.push_back(i);
+  slot_.push_back(pattern.row[i] * pattern.columns + pattern.column[i]);
+  time_ns_.push_back(pattern.time_ns[i]);
+  channel_.push_back(pattern.row[i]);
+  x_.push_back(pattern.direction_x[i]);
+  y_.push_back(pattern.direction_y[i]);
+  z_.push_back(pattern.direction_z[i]);
+  if (pattern.origin_x_m.empty()) return;
+  origin_x_m_.push_back(pattern.origin_x_m[i]);
+  origin_y_m_.push_back(pattern.origin_y_m[i]);
+  origin_z_m_.push_back(pattern.origin_z_m[i]);
 }
 
 std::size_t FiringTiles::num_firings(std::size_t tile) const {

@@ -17,6 +17,9 @@ namespace railcast {
 class FiringTiles {
  public:
   explicit FiringTiles(const ScanPattern& pattern);
+  /// Some firings of a pattern, whose other cells need not have any.
+  /// @param order Indices of the firings in tracing order, each once.
+  FiringTiles(const ScanPattern& pattern, std::vector<std::uint32_t> order);
 
   [[nodiscard]] std::size_t num_tiles() const {
     return (firing_.size() + kTileSize - 1) / kTileSize;
@@ -53,13 +56,16 @@ class FiringTiles {
   [[nodiscard]] Place PlaceOf(std::uint32_t firing) const;
 
  private:
+  /// Appends a firing to those that are traced.
+  void Append(const ScanPattern& pattern, std::uint32_t firing);
+
   std::size_t num_firings_;
   std::uint32_t duration_ns_{};
   // In tracing order.
   std::vector<std::uint32_t> firing_, slot_, time_ns_, channel_;
   std::vector<float> x_, y_, z_;
   std::vector<float> origin_x_m_, origin_y_m_, origin_z_m_;  // Empty as ScanPattern's.
-  // In slot order.
+  // In slot order; empty where not all firings are there.
   std::vector<std::uint32_t> slot_time_ns_, slot_column_;
   std::vector<std::uint16_t> slot_row_;
 };

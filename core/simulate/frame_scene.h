@@ -108,6 +108,9 @@ class FrameScenes {
   /// Sets the wind from now on; at first, there is none.
   void UseWind(const Wind& wind);
 
+  /// Sets how long frames last from now on, where they differ.
+  void UseDuration(std::uint32_t duration_ns) { spec_.duration_ns = duration_ns; }
+
   /// Sets whether scenes have their `motion` from now on; at first, they have not.
   void UseMotion(bool has_motion) { has_motion_ = has_motion; }
 

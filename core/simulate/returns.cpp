@@ -62,21 +62,6 @@ void StoreMixedShares(const EchoTiles& echoes, const SlotRange& slots, Frame& fr
   }
 }
 
-void StoreNothing(std::size_t slot, Frame& frame) {
-  for (auto* values :
-       {&frame.x, &frame.y, &frame.z, &frame.intensity, &frame.power_ratio, &frame.range_m,
-        &frame.true_range_m, &frame.incidence_rad, &frame.footprint_share}) {
-    (*values)[slot] = kNaN;
-  }
-  if (frame.has_velocity) {
-    frame.radial_velocity_mps[slot] = frame.true_radial_velocity_mps[slot] = kNaN;
-  }
-  frame.outcome[slot] = Outcome::kNoFurtherEcho;
-  frame.label[slot] = 0;
-  frame.instance[slot] = 0;
-  frame.material[slot] = 0;
-}
-
 /// One echo of a firing.
 struct Candidate {
   DetectTile* tile{};
@@ -209,6 +194,21 @@ TilePlace Missed(const std::vector<Candidate>& all) {
 
 }  // namespace
 
+void ClearSlot(std::size_t slot, Frame& frame) {
+  for (auto* values :
+       {&frame.x, &frame.y, &frame.z, &frame.intensity, &frame.power_ratio, &frame.range_m,
+        &frame.true_range_m, &frame.incidence_rad, &frame.footprint_share}) {
+    (*values)[slot] = kNaN;
+  }
+  if (frame.has_velocity) {
+    frame.radial_velocity_mps[slot] = frame.true_radial_velocity_mps[slot] = kNaN;
+  }
+  frame.outcome[slot] = Outcome::kNoFurtherEcho;
+  frame.label[slot] = 0;
+  frame.instance[slot] = 0;
+  frame.material[slot] = 0;
+}
+
 std::uint32_t NumReturns(ReturnMode mode) {
   return mode == ReturnMode::kTriple ? 3 : mode == ReturnMode::kDual ? 2 : 1;
 }
@@ -292,7 +292,7 @@ void ReturnStore::Store(EchoTiles& echoes,
       const std::size_t slot = first_slot + r;
       frame.return_count[slot] = static_cast<std::uint8_t>(count);
       if (r > 0 && r >= count) {
-        StoreNothing(slot, frame);
+        ClearSlot(slot, frame);
         continue;
       }
       const TilePlace echo = r < count ? detected[r].place() : Missed(all);

@@ -47,6 +47,9 @@ struct SlotRange {
   std::size_t num_firings{};
 };
 
+/// Leaves a slot without a return: values are NaN, and it is of no label, instance and material.
+void ClearSlot(std::size_t slot, Frame& frame);
+
 /// Callback for each echo that is stored in a slot.
 /// @param beam A lane of `echoes.first`.
 using StoredEcho =

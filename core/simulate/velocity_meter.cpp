@@ -163,16 +163,23 @@ double VelocityMeter::Measured_mps(const EchoTiles::Place& echo, double true_mps
   return velocity_mps;
 }
 
+BeamVelocity VelocityMeter::Of(const EchoTiles::Place& echo,
+                               std::size_t beam,
+                               BeamTracer::Work& work) const {
+  const double true_mps = TrueOf_mps(echo, beam, work);
+  const bool has_point = HasPoint(static_cast<Outcome>(echo.tile.outcome[echo.lane]));
+  return {static_cast<float>(has_point ? Measured_mps(echo, true_mps) : kNoVelocity),
+          static_cast<float>(true_mps)};
+}
+
 void VelocityMeter::Store(const EchoTiles::Place& echo,
                           std::size_t beam,
                           BeamTracer::Work& work,
                           std::size_t slot,
                           Frame& frame) const {
-  const double true_mps = TrueOf_mps(echo, beam, work);
-  const bool has_point = HasPoint(static_cast<Outcome>(echo.tile.outcome[echo.lane]));
-  frame.true_radial_velocity_mps[slot] = static_cast<float>(true_mps);
-  frame.radial_velocity_mps[slot] =
-      static_cast<float>(has_point ? Measured_mps(echo, true_mps) : kNoVelocity);
+  const BeamVelocity velocity = Of(echo, beam, work);
+  frame.true_radial_velocity_mps[slot] = velocity.true_mps;
+  frame.radial_velocity_mps[slot] = velocity.measured_mps;
 }
 
 }  // namespace railcast

@@ -10,6 +10,12 @@
 
 namespace railcast {
 
+/// The velocity of an echo along its beam.
+struct BeamVelocity {
+  float measured_mps{};  ///< NaN without a point.
+  float true_mps{};      ///< NaN where it is not known.
+};
+
 /// The velocities along the beams that an FMCW sensor measures (VelocitySpec), from the motion of
 /// sensor and things at the time of the firing:
 ///
@@ -40,8 +46,11 @@ class VelocityMeter {
   /// @param cast Must outlive the meter. @pre It has a motion.
   VelocityMeter(const DetectorSpec& spec, const CastFrame& cast);
 
-  /// Stores what is measured of an echo, and what is true.
   /// @param beam The echo's firing, a lane of the tile in `work`.
+  [[nodiscard]] BeamVelocity Of(const EchoTiles::Place& echo,
+                                std::size_t beam,
+                                BeamTracer::Work& work) const;
+  /// Stores what is measured of an echo, and what is true.
   void Store(const EchoTiles::Place& echo,
              std::size_t beam,
              BeamTracer::Work& work,

@@ -56,6 +56,7 @@ void ViewCounter::Add(const BeamTracer& tracer,
       tracer.AimSubRays(work, beam_frame, lane, beam);
       CopySubRays(beam, kPacketSize, packet.rays);
       ForgetHits(packet.rays, range_max_m);
+      packet.firings.fill(work.echoes.first.firing[lane]);
       Count(packet);
     }
     return;
@@ -63,6 +64,7 @@ void ViewCounter::Add(const BeamTracer& tracer,
   for (std::size_t first = 0; first < num_firings; first += kPacketSize) {
     packet.lanes = (1U << std::min(kPacketSize, num_firings - first)) - 1U;
     CopyPacket(work.rays, first, packet.rays);
+    std::copy_n(work.echoes.first.firing + first, kPacketSize, packet.firings.begin());
     ForgetHits(packet.rays, range_max_m);
     Count(packet);
   }
@@ -73,6 +75,9 @@ void ViewCounter::Count(Packet& packet) {
   for (const LoneObjects& objects : alone_) objects.AddHits(packet.rays, 0, packet.hits);
   if (packet.hits.empty()) return;
   frame_.caster.Cast(packet.rays);
+  if (frame_.screens != nullptr) {
+    frame_.screens->Meet(packet.firings.data(), kPacketSize, packet.rays);
+  }
   for (const ObjectHits& hit : packet.hits) {
     const std::uint32_t alone = hit.lanes & packet.lanes;
     if (alone == 0) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
+#include "railcast/lidar.h"
 #include "railcast/ray_caster.h"
 #include "railcast/scene.h"
 #include "railcast/simulator.h"
@@ -37,6 +39,7 @@ class ViewCounter {
   /// A packet of rays, and which objects they hit.
   struct Packet {
     RayTile rays;
+    std::array<std::uint32_t, kPacketSize> firings;
     std::uint32_t lanes;  ///< Bit i: ray i counts; others only fill the packet.
     bool is_one_beam;     ///< Whether they sample one beam; otherwise each is a firing of its own.
     std::vector<ObjectHits> hits;

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/units.h"
 #include "railcast/outcome.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kSpeedOfLight_m_per_ns = 0.299792458;
+constexpr double kSpeedOfLight_m_per_ns = kSpeedOfLight_mps / kNsPerS;
 
 // Standard deviation of a Gaussian profile: a quarter of the full 1/e^2 angle.
 double SigmaOf_rad(double divergence_mrad) {

@@ -62,6 +62,11 @@ void FacetParts::Aim(const WideBeams& beams,
   beam_.facets[0] = {};
 }
 
+void FacetParts::Cast(const WideBeams& beams, std::uint32_t firing) {
+  beams.caster.CastBeam(beam_);
+  if (beams.screens != nullptr) beams.screens->Meet(firing, beam_);
+}
+
 bool FacetParts::IsOneFacet() const {
   const std::uint32_t last = beam_.num_facets - 1;
   return last <= 1 && std::all_of(beam_.facet, beam_.facet + beam_.num_rays,
@@ -225,7 +230,7 @@ bool FacetParts::TraceSet(const WideBeams& beams,
                           const BeamSubRays& set) {
   Aim(beams, first, lane, set);
   beam_.num_rays = kNumSubRays;
-  beams.caster.CastBeam(beam_);
+  Cast(beams, first.firing[lane]);
   return beam_.num_rays == kNumSubRays;  // Else a crowd, after all.
 }
 
@@ -306,7 +311,7 @@ void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
   plane_surface_.fill(kSeveralPlanes);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
     Aim(beams, first, lane, SubRaysOfBeam());
-    beams.caster.CastBeam(beam_);
+    Cast(beams, first.firing[lane]);
     NoteMissed(beams, lane);
     // So are half of all beams, most of them in the sky; sums would tell no more.
     if (IsOneFacet()) {
@@ -344,7 +349,7 @@ void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists
     if (surface == kSeveralPlanes || surface == beams.rays.surface[lane]) continue;
     // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
     Aim(beams, first, lane, SubRaysOfBeam());
-    beams.caster.CastBeam(beam_);
+    Cast(beams, first.firing[lane]);
     sums_.Clear();
     sums_.Add(beam_);
     sums_.JoinPlanes(kMostPlanes);

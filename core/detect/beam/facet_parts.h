@@ -58,6 +58,8 @@ class FacetParts {
            const DetectTile& first,
            std::size_t lane,
            const BeamSubRays& pattern);
+  /// Casts the beam that is aimed.
+  void Cast(const WideBeams& beams, std::uint32_t firing);
   /// Whether all sub-rays are on one facet, or on none.
   [[nodiscard]] bool IsOneFacet() const;
   void BeginParts(std::size_t lane);

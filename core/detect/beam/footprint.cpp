@@ -64,6 +64,7 @@ void SubRayParts::Flush(const WideBeams& beams, std::size_t num_rays) {
   rays.mask = beams.rays.mask;
   const std::size_t num = batch_.Pad(num_rays);
   beams.caster.Cast(rays);
+  if (beams.screens != nullptr) beams.screens->Meet(firing_.data(), num_rays, rays);
   batch_.Respond(beams, kernels_, num, num_rays, found_);
 }
 
@@ -91,6 +92,7 @@ void SubRayParts::Find(const WideBeams& beams, const DetectTile& first, PartList
       rays.direction_y[num_rays] = aim.y;
       rays.direction_z[num_rays] = aim.z;
       rays.shutter[num_rays] = beams.rays.shutter[lane];
+      firing_[num_rays] = first.firing[lane];
       batch_.Describe(num_rays, sub_ray.share, sub_ray.share, 0.0F);
       if (++num_rays < kTileSize) continue;
       Flush(beams, num_rays);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -34,6 +35,7 @@ class SubRayParts {
   Kernels kernels_;
   SubRayPattern pattern_;
   PartBatch batch_;
+  std::array<std::uint32_t, kTileSize> firing_{};  // Of the rays in the batch.
   std::vector<Component> found_;  // Responses of the batches so far.
 };
 

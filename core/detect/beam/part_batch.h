@@ -9,6 +9,7 @@
 #include "core/detect/base/detect_tile.h"
 #include "core/detect/beam/echo_finder.h"
 #include "core/detect/beam/mirrors.h"
+#include "core/detect/beam/screens.h"
 #include "core/detect/detector/detector.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"
@@ -24,6 +25,7 @@ struct WideBeams {
   const SurfaceTable& table;
   const Detector& detector;
   const MirrorScene* mirrors{};  ///< Null if nothing mirrors.
+  const Screens* screens{};      ///< What beams meet besides; null = nothing.
 };
 
 /// Hits of sub-rays on the way to their response. Each stands for a share of its beam.

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "core/base/random.h"
+#include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/clutter/added_echo.h"
 
 namespace railcast {
 
 double ListeningTime_s(const DetectorSpec& spec) {
-  constexpr double kSpeedOfLight_mps = 299'792'458.0;
   return 2.0 * (spec.range_max_m - spec.range_min_m) / kSpeedOfLight_mps;
 }
 

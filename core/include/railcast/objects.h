@@ -259,6 +259,9 @@ struct ObjectSpec {
   /// Instead of s_m and d_m: WGS 84; needs the alignment's map.
   std::optional<double> longitude_deg{};
   std::optional<double> latitude_deg{};
+  /// In plans of railcast-generate insert only: s_m counts ahead from where the vehicle is in this
+  /// frame of the recording; x_m and y_m are in the axes of the sensor there.
+  std::optional<std::uint32_t> frame{};
 
   bool operator==(const ObjectSpec&) const = default;
 };

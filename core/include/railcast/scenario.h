@@ -167,7 +167,7 @@ inline constexpr auto kEnumNames<ReceiveBuffers> = std::to_array<EnumName<Receiv
 /// Key `interfaces.ros2`: how the sensors of Protocol::kRos2 reach ROS 2.
 struct Ros2Spec {
   std::optional<std::uint32_t> domain;  ///< Absent: as ROS_DOMAIN_ID says, or 0.
-  std::string interface;                ///< Name or IPv4 address; empty = loopback.
+  std::string interface;                ///< Name or address; empty = loopback.
   ReceiveBuffers receive_buffers = ReceiveBuffers::kUsual;
   double deceleration_mps2 = 0.5;  ///< Of the vehicle at commands of ROS 2, which name none.
 

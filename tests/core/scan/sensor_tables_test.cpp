@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <complex>
 #include <cstdio>
 #include <filesystem>
@@ -180,31 +182,46 @@ TEST(Mid40Like, CoversItsViewBitByBit) {
   }
 }
 
-// Aeva's own simulation (ScanPatterns.yaml, "64-19.2-Uniform") moves four beams in 16 steps, with
-// lines 0.25 to 0.3 deg apart; the raster's are 0.3 deg apart.
-TEST(Aeries2Raster, HasAsManyLinesAsItsMakersSimulation) {
-  std::ifstream file(RAILCAST_SOURCE_DIR "/scenarios/sensors/aeries2.json");
-  const nlohmann::json pattern = nlohmann::json::parse(file).at("scan").at("pattern");
-  const ScanPattern raster = BuildScanPattern(
+ScanPattern Aeries2Pattern() {
+  return BuildScanPattern(
       {.rate_hz = 10.0,
-       .pattern = RasterSpec{.horizontal_fov_deg = pattern.at("horizontal_fov_deg"),
-                             .vertical_fov_deg = pattern.at("vertical_fov_deg"),
-                             .angular_resolution_deg = pattern.at("angular_resolution_deg"),
-                             .order = RasterOrder::kRows}});
-  std::vector<double> lines_deg;
-  for (const double beam_deg : {0.5729578, -1.718873, 1.718873, -0.5729578}) {
-    for (const double step_deg :
-         {-7.8, -7.5, -7.2, -6.9, -3.0, -2.7, -2.4, -2.1, 1.8, 2.1, 2.4, 2.7, 6.6, 6.9, 7.2, 7.5}) {
-      lines_deg.push_back(beam_deg + step_deg);
-    }
+       .pattern = FiringTableSpec{RAILCAST_SOURCE_DIR "/scenarios/sensors/aeries2.csv"}});
+}
+
+// Of Aeva's own simulation (ScanPatterns.yaml, "64-19.2-Uniform"): four beams move in 16 steps,
+// with 3051 points over 144 deg in each sweep, of which the sensor sees the middle 120 deg. Four
+// sweeps of lines adjoin each other, so that some of their rows interleave.
+TEST(Aeries2Table, SweepsFourLinesAtATimeAsItsMakersSimulationDoes) {
+  const ScanPattern pattern = Aeries2Pattern();
+  constexpr std::size_t kPoints = 2543;
+  constexpr std::array kBeams_deg = {-1.718873, -0.5729578, 0.5729578, 1.718873};
+  constexpr std::array kSteps_deg = {-7.8, -7.5, -7.2, -6.9, -3.0, -2.7, -2.4, -2.1,
+                                     1.8,  2.1,  2.4,  2.7,  6.6,  6.9,  7.2,  7.5};
+  ASSERT_EQ(pattern.rows, 64U);
+  ASSERT_EQ(pattern.columns, kPoints);
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const std::size_t sweep = i / (4 * kPoints);
+    const std::size_t point = i / 4 % kPoints;
+    ASSERT_EQ(pattern.time_ns[i], 6'250'000 * sweep + 2'048 * point);
+    ASSERT_NEAR(AzimuthInDegrees(pattern, i),
+                (1271.0 - static_cast<double>(point)) * 144.0 / 3051.0, kTable_deg);
+    ASSERT_NEAR(ElevationInDegrees(pattern, i), kBeams_deg.at(i % 4) + kSteps_deg.at(sweep),
+                kTable_deg);
   }
-  std::ranges::sort(lines_deg);
-  ASSERT_EQ(raster.rows, lines_deg.size());
-  for (std::size_t row = 0; row < lines_deg.size(); ++row) {
-    EXPECT_NEAR(-9.45 + 0.3 * static_cast<double>(row), lines_deg[row], 0.25) << row;
+}
+
+// 0.5 m x 1.75 m at 56 m, before the middle of the view, are 0.512 x 1.79 deg. Of the lines, five
+// are within 0.895 deg of the middle (those of the steps -2.4, -2.1, 1.8, 2.1 and 2.4), and each
+// has 10.8 points in the width.
+TEST(Aeries2Table, HasTheBeamsOnAPersonThatItsResolutionSays) {
+  const ScanPattern pattern = Aeries2Pattern();
+  std::size_t num_hits = 0;
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const double scale = 56.0 / static_cast<double>(pattern.direction_x[i]);
+    num_hits += std::abs(scale * static_cast<double>(pattern.direction_y[i])) < 0.25 &&
+                std::abs(scale * static_cast<double>(pattern.direction_z[i])) < 0.875;
   }
-  // Line by line.
-  EXPECT_TRUE(std::ranges::is_sorted(raster.row));
+  EXPECT_EQ(num_hits, 5U * 11U);
 }
 
 TEST(PandarTable, AgreesWithThePublishedCalibration) {

@@ -7,60 +7,29 @@
 
 #include "core/base/units.h"
 #include "railcast/simulator.h"
-#include "tests/support/analytic_meshes.h"
+#include "tests/core/simulate/turning_leaf.h"
 #include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kDistance_m = 20.0;
-constexpr double kTurn_radps = 4.0;  // As fast as a shank swings.
+constexpr double kDistance_m = TurningLeaf::kDistance_m;
+constexpr double kTurn_radps = TurningLeaf::kTurn_radps;
 
-/// A square of 8 m in the plane x = 0, 4 m to each side of a hinge along z.
-std::shared_ptr<const Model> Leaf() {
-  Mesh mesh;
-  mesh.vertices = {{0, -4, -4}, {0, 4, -4}, {0, 4, 4}, {0, -4, 4}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return std::make_shared<const Model>(Model{"leaf", {{mesh, 3, 3}}});
-}
-
-/// An object before the sensor whose first piece turns about its hinge and whose second stands
-/// still, `gap_m` behind it.
-class HingedWorld final : public World {
+/// With a second leaf that stands still, `gap_m` behind the hinge.
+class HingedWorld final : public TurningLeaf {
  public:
-  explicit HingedWorld(double gap_m, bool moves = true) : gap_m_(gap_m) {
-    const auto leaf = Leaf();
-    objects_.push_back({.name = "gate",
-                        .type = "mesh",
-                        .label = 3,
-                        .instance = 1,
-                        .model = leaf,
-                        .moves = moves,
-                        .pieces = {leaf, leaf},
-                        .pose_step_ns = 10'000'000});
-  }
-  [[nodiscard]] Transform WorldFromVehicle(std::int64_t) const override {
-    return Transform::Identity();
-  }
-  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
-  [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }
-  [[nodiscard]] Transform WorldFromChunk(int) const override { return Transform::Identity(); }
-  [[nodiscard]] Chunk BuildChunk(int) const override { return {}; }
-  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
-  [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t) const override {
-    return Transform(Eigen::Translation3d(kDistance_m, 0.0, 0.0));
+  explicit HingedWorld(double gap_m, bool moves = true) : TurningLeaf(moves), gap_m_(gap_m) {
+    objects_.front().pieces = {objects_.front().model, objects_.front().model};
   }
   [[nodiscard]] std::vector<Transform> WorldFromPieces(std::size_t object,
                                                        std::int64_t time_ns) const override {
-    const Transform hinge = WorldFromObject(object, time_ns);
-    const double angle_rad = objects_.front().moves ? kTurn_radps * SecondsFromNs(time_ns) : 0.0;
-    return {hinge * Eigen::AngleAxisd(angle_rad, Vector3::UnitZ()),
-            hinge * Eigen::Translation3d(gap_m_, 0.0, 0.0)};
+    return {WorldFromObject(object, time_ns),
+            Transform(Eigen::Translation3d(kDistance_m + gap_m_, 0.0, 0.0))};
   }
 
  private:
   double gap_m_;
-  std::vector<SceneObject> objects_;
 };
 
 TEST(BendingObjects, AreHitWhereEachPieceIsWhenTheBeamComes) {

@@ -16,39 +16,10 @@
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/core/simulate/measured_velocities.h"
+#include "tests/core/simulate/turning_leaf.h"
 
 namespace railcast {
 namespace {
-
-// A leaf of a gate 20 m ahead that turns about its hinge.
-class TurningLeaf final : public World {
- public:
-  static constexpr double kTurn_radps = 4.0;
-  TurningLeaf() {
-    objects_.push_back({.name = "gate",
-                        .type = "mesh",
-                        .label = 7,
-                        .instance = 1,
-                        .model = SheetModel(4.0F),
-                        .moves = true,
-                        .pose_step_ns = 10'000'000});
-  }
-  [[nodiscard]] Transform WorldFromVehicle(std::int64_t) const override {
-    return Transform::Identity();
-  }
-  [[nodiscard]] int HomeChunk(std::int64_t) const override { return 0; }
-  [[nodiscard]] std::vector<int> ChunksInReach(int, double) const override { return {0}; }
-  [[nodiscard]] Transform WorldFromChunk(int) const override { return Transform::Identity(); }
-  [[nodiscard]] Chunk BuildChunk(int) const override { return {}; }
-  [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
-  [[nodiscard]] Transform WorldFromObject(std::size_t, std::int64_t time_ns) const override {
-    return Transform(Eigen::Translation3d(20.0, 0.0, 0.0)) *
-           Eigen::AngleAxisd(kTurn_radps * SecondsFromNs(time_ns), Vector3::UnitZ());
-  }
-
- private:
-  std::vector<SceneObject> objects_;
-};
 
 TEST(VelocityOfThings, OfWhatTurnsIsThatOfThePointThatIsHit) {
   const ScanPattern pattern = MakeRaster(10, 5, 0.5);

@@ -1,0 +1,83 @@
+#include "core/simulate/beams_near_objects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace railcast {
+namespace {
+
+// Between so near instants things move straight on, within kStraightness_m.
+constexpr std::uint32_t kStep_ns = 5'000'000;
+constexpr double kStraightness_m = 0.02;
+
+/// A sphere around an object in the sensor's axes, at every step of the frame.
+struct MovingSphere {
+  double radius_m{};
+  std::vector<Vector3> centers_m{};
+};
+
+MovingSphere SphereOf(const World& world,
+                      std::size_t object,
+                      const BeamReach& reach,
+                      std::uint32_t duration_ns) {
+  const Eigen::AlignedBox3d box_m = world.objects()[object].model->Bounds();
+  MovingSphere sphere{.radius_m = 0.5 * box_m.diagonal().norm() + kStraightness_m};
+  for (std::uint32_t step = 0; step <= duration_ns / kStep_ns + 1; ++step) {
+    const std::int64_t time_ns = reach.stamp_ns + std::int64_t{step} * kStep_ns;
+    const Transform world_from_sensor = world.WorldFromVehicle(time_ns) * reach.vehicle_from_sensor;
+    sphere.centers_m.push_back(world_from_sensor.inverse() *
+                               (world.WorldFromObject(object, time_ns) * box_m.center()).eval());
+  }
+  return sphere;
+}
+
+bool MayMeet(const MovingSphere& sphere,
+             const Vector3& origin_m,
+             const Vector3& direction,
+             std::uint32_t time_ns,
+             double beside_rad) {
+  const std::size_t step = time_ns / kStep_ns;
+  const double part = static_cast<double>(time_ns % kStep_ns) / kStep_ns;
+  const Vector3 to_center_m = sphere.centers_m[step] +
+                              part * (sphere.centers_m[step + 1] - sphere.centers_m[step]) -
+                              origin_m;
+  const double along_m = to_center_m.dot(direction);
+  const double distance2_m2 = to_center_m.squaredNorm();
+  const double reach_m = sphere.radius_m + beside_rad * std::sqrt(distance2_m2);
+  return along_m > -reach_m && distance2_m2 - along_m * along_m < reach_m * reach_m;
+}
+
+}  // namespace
+
+std::vector<bool> BeamsNearObjects(const World& world,
+                                   const ScanPattern& pattern,
+                                   const BeamReach& reach) {
+  std::vector<bool> is_near(pattern.num_firings());
+  if (is_near.empty()) return is_near;
+  const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
+  for (std::size_t object = 0; object < world.objects().size(); ++object) {
+    if (world.objects()[object].is_ego) continue;
+    const MovingSphere sphere = SphereOf(world, object, reach, duration_ns);
+    const bool is_far = std::ranges::all_of(sphere.centers_m, [&](const Vector3& center_m) {
+      return center_m.norm() > reach.range_max_m + sphere.radius_m + 1.0;
+    });
+    if (is_far) continue;
+    for (std::size_t i = 0; i < is_near.size(); ++i) {
+      if (is_near[i]) continue;
+      const Vector3 direction(static_cast<double>(pattern.direction_x[i]),
+                              static_cast<double>(pattern.direction_y[i]),
+                              static_cast<double>(pattern.direction_z[i]));
+      Vector3 origin_m = Vector3::Zero();
+      if (!pattern.origin_x_m.empty()) {
+        origin_m = Vector3(static_cast<double>(pattern.origin_x_m[i]),
+                           static_cast<double>(pattern.origin_y_m[i]),
+                           static_cast<double>(pattern.origin_z_m[i]));
+      }
+      is_near[i] = MayMeet(sphere, origin_m, direction, pattern.time_ns[i], reach.beside_rad);
+    }
+  }
+  return is_near;
+}
+
+}  // namespace railcast

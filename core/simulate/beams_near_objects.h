@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "railcast/lidar.h"
+#include "railcast/scene.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// Where beams are during a frame, and how far beside their directions they reach.
+struct BeamReach {
+  std::int64_t stamp_ns{};
+  Transform vehicle_from_sensor = Transform::Identity();
+  double beside_rad{};  ///< Half the width of a beam, and by how much it may be aimed wrong.
+  double range_max_m{};
+};
+
+/// For each firing of a pattern, whether its beam may meet an object of the world: all that do are
+/// among them, and some that do not. Those of the vehicle itself are left out.
+[[nodiscard]] std::vector<bool> BeamsNearObjects(const World& world,
+                                                 const ScanPattern& pattern,
+                                                 const BeamReach& reach);
+
+}  // namespace railcast

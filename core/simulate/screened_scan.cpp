@@ -1,0 +1,344 @@
+#include "core/simulate/screened_scan.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/detect/base/weather_optics.h"
+#include "core/detect/beam/footprint.h"
+#include "core/detect/beam/sub_ray_pattern.h"
+#include "core/detect/detector/effect_table.h"
+#include "core/detect/effects/spray.h"
+#include "core/scan/firing.h"
+#include "core/simulate/beam_tracer.h"
+#include "core/simulate/beams_near_objects.h"
+#include "core/simulate/firing_tiles.h"
+#include "core/simulate/frame_scene.h"
+#include "core/simulate/returns.h"
+#include "core/simulate/screen_echoes.h"
+#include "core/simulate/screen_surfaces.h"
+#include "core/simulate/velocity_meter.h"
+#include "core/simulate/view_counter.h"
+
+namespace railcast {
+namespace {
+
+// Draws lie within so many standard deviations.
+constexpr double kMostDeviation = 6.0;
+
+// What the recording shows already, or what is not known of it, is not simulated once more.
+SimulatorSpec ForRecorded(SimulatorSpec spec) {
+  EffectSet& effects = spec.detector.effects;
+  effects.surface_condition = false;
+  effects.halo = false;
+  effects.ghost = false;
+  effects.interference = false;
+  if (!(spec.detector.weather.sun.illuminance_klx > 0.0)) effects.sunlight = false;
+  return spec;
+}
+
+bool ChangesEmptyBeams(const DetectorSpec& spec) {
+  if (spec.effects.threshold && FogExtinction_per_m(spec.weather) > 0.0) return true;
+  const char* const names[] = {"rain",     "snow",  "extinction", "clutter",
+                               "fog_echo", "spray", "sunlight",   "cover"};
+  return std::ranges::any_of(names, [&](const char* name) {
+    const Effect* const effect = FindEffect(name);
+    return spec.effects.*effect->is_on && effect->has_cause(spec);
+  });
+}
+
+ReturnMode ModeOf(ReturnMode mode, std::uint32_t returns) {
+  if (NumReturns(mode) == returns) return mode;
+  return returns == 1   ? ReturnMode::kStrongest
+         : returns == 2 ? ReturnMode::kDual
+                        : ReturnMode::kTriple;
+}
+
+ScanPattern AnyPatternOf(std::uint32_t rows, double rate_hz) {
+  ScanPattern pattern;
+  pattern.rows = rows;
+  pattern.rate_hz = rate_hz;
+  pattern.figure = std::make_shared<const MovingFigure>();  // Frames have firings of their own.
+  return pattern;
+}
+
+using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
+
+}  // namespace
+
+struct ScreenedScan::Parts {
+  SimulatorSpec spec;
+  std::uint16_t first_material;
+  std::vector<Material> materials;
+  FrameScenes scenes;
+  std::unique_ptr<tbb::global_control> parallelism;
+  tbb::task_arena arena;
+  std::uint32_t num_rows = 0;
+  std::unique_ptr<const BeamTracer> tracer{};
+  std::unique_ptr<const Detector> unfailing{};  // Loses no pulses by chance.
+  std::unique_ptr<WorkOfThreads> work{};
+
+  /// One frame on its way.
+  struct Job {
+    const RecordedScan& recorded;
+    const CastFrame& cast;
+    const ScreenEchoes& screen_echoes;
+    std::optional<VelocityMeter> velocities;
+    Transform world_from_window;
+    std::vector<ChangedFiring>& changed;
+  };
+
+  void UseRows(std::uint32_t rows, double rate_hz);
+  [[nodiscard]] ReturnRule RuleFor(std::uint32_t returns) const;
+  [[nodiscard]] double BesideBeam_rad() const;
+  [[nodiscard]] CastFrame CastOf(const FrameScene& scene,
+                                 const std::vector<Surface>& surfaces,
+                                 const Screens& screens,
+                                 std::uint32_t duration_ns) const;
+
+  enum class Kind { kTraced, kScreens, kEmpty };
+  void MakeTile(const Job& job,
+                const FiringTiles& firings,
+                std::size_t tile,
+                Kind kind,
+                std::vector<ChangedFiring>& changed);
+  void Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind);
+  [[nodiscard]] std::vector<ObjectView> ViewObjects(const Job& job,
+                                                    const FrameScene& scene,
+                                                    const std::vector<std::uint32_t>& order);
+  [[nodiscard]] ScreenedFrame Scan(const RecordedScan& recorded, std::uint32_t returns);
+};
+
+ScreenedScan::ScreenedScan(std::shared_ptr<const World> world,
+                           const std::vector<Material>& materials,
+                           const SimulatorSpec& spec,
+                           int num_threads) {
+  CheckDetectorSpec(spec.detector);
+  const MaterialLibrary library(WithScreenMaterials(materials));
+  const FrameSceneSpec scene_spec{
+      .range_max_m = spec.detector.range_max_m,
+      .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true};
+  const int num_workers = num_threads > 0 ? num_threads : tbb::info::default_concurrency();
+  parts_.reset(new Parts{
+      .spec = ForRecorded(spec),
+      .first_material =
+          static_cast<std::uint16_t>(library.materials().size() - kNumScreenMaterials),
+      .materials = library.materials(),
+      .scenes{std::make_shared<SceneStore>(std::move(world), library, spec.isa), scene_spec},
+      // Without this, TBB starts no more threads than there are cores.
+      .parallelism = std::make_unique<tbb::global_control>(
+          tbb::global_control::max_allowed_parallelism,
+          static_cast<std::size_t>(std::max(num_workers, tbb::info::default_concurrency()))),
+      .arena{num_workers}});
+  parts_->scenes.UseMotion(spec.detector.velocity.has_value());
+}
+
+ScreenedScan::~ScreenedScan() = default;
+
+ScreenedFrame ScreenedScan::Scan(RecordedScan recorded, std::uint32_t returns) {
+  ScreenedFrame frame;
+  parts_->arena.execute([&] { frame = parts_->Scan(recorded, returns); });
+  return frame;
+}
+
+void ScreenedScan::Parts::UseRows(std::uint32_t rows, double rate_hz) {
+  if (rows == num_rows) return;
+  num_rows = rows;
+  const ScanPattern pattern = AnyPatternOf(rows, rate_hz);
+  tracer = std::make_unique<const BeamTracer>(spec, materials, pattern);
+  DetectorSpec without_dropout = spec.detector;
+  without_dropout.effects.sensor_dropout = false;
+  unfailing = std::make_unique<const Detector>(without_dropout,
+                                               DetectorSetting{.num_channels = rows, .snow = {}});
+  work = std::make_unique<WorkOfThreads>([used = tracer.get()] { return BeamTracer::Work(*used); });
+  if (tracer->casts_beams()) scenes.UseBeams();
+}
+
+ReturnRule ScreenedScan::Parts::RuleFor(std::uint32_t returns) const {
+  const EffectSet& effects = spec.detector.effects;
+  const ReceiverSpec& receiver = spec.detector.receiver;
+  return {ModeOf(receiver.return_mode, returns),
+          effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
+          effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
+                             : 0.0F};
+}
+
+double ScreenedScan::Parts::BesideBeam_rad() const {
+  const DetectorSpec& detector = spec.detector;
+  double beside_rad = 0.0;
+  if (HasFootprint(detector)) {
+    // Of a dense pattern, the outermost of n sub-rays is at sqrt(2 ln 2n) standard deviations.
+    const double offset = std::max(
+        static_cast<double>(SubRaysOfBeam().largest_offset),
+        std::sqrt(2.0 * std::log(2.0 * static_cast<double>(detector.beam.reference_rays))));
+    beside_rad +=
+        offset * std::max(HorizontalSigma_rad(detector.beam), VerticalSigma_rad(detector.beam));
+  }
+  if (detector.effects.pointing_jitter) {
+    beside_rad += kMostDeviation * RadFromDeg(detector.receiver.pointing_jitter_deg);
+  }
+  return 1.1 * beside_rad + 1e-4;
+}
+
+CastFrame ScreenedScan::Parts::CastOf(const FrameScene& scene,
+                                      const std::vector<Surface>& surfaces,
+                                      const Screens& screens,
+                                      std::uint32_t duration_ns) const {
+  CastFrame cast{scene.index, scene.poses,    scene,
+                 surfaces,    &scene.wires(), scene.window->window_from_world};
+  if (scene.motion) cast.motion = &*scene.motion;
+  if (spec.detector.effects.spray && HasSpray(spec.detector)) {
+    cast.spray = SprayCloudsOf(scenes.world(), spec.detector.weather, {scene.stamp_ns, duration_ns},
+                               cast.window_from_world);
+  }
+  cast.mirrors = tracer->MirrorsAmong(surfaces, cast.window_from_world);
+  cast.takes_no_rays = true;
+  cast.screens = &screens;
+  return cast;
+}
+
+void ScreenedScan::Parts::MakeTile(const Job& job,
+                                   const FiringTiles& firings,
+                                   std::size_t tile,
+                                   Kind kind,
+                                   std::vector<ChangedFiring>& changed) {
+  BeamTracer::Work& mine = work->local();
+  EchoTiles& echoes = mine.echoes;
+  if (kind == Kind::kTraced) {
+    tracer->MakeEchoes(job.cast, firings, tile, mine);
+  } else {
+    tracer->MakeScreenEchoes(job.cast, firings, tile, mine);
+  }
+  job.screen_echoes.Place(echoes);
+  const Detector& detector = kind == Kind::kScreens ? *unfailing : tracer->detector();
+  detector.Detect({mine.rays, job.world_from_window, SecondsFromNs(job.recorded.stamp_ns)}, echoes);
+  job.screen_echoes.Judge(echoes);
+  firings.MoveToOrigins(tile, echoes);
+  std::array<bool, kTileSize> is_told{};
+  const auto tell = [&](std::size_t lane, const EchoTiles::Place& echo) {
+    is_told[lane] = is_told[lane] || job.screen_echoes.IsNews(echo);
+  };
+  for (std::size_t i = 0; i < echoes.first.num_rays; ++i) tell(i, {echoes.first, i});
+  for (std::size_t i = 0; i < echoes.num_more(); ++i) tell(echoes.beam_of(i), echoes.more(i));
+  for (std::size_t lane = 0; lane < firings.num_firings(tile); ++lane) {
+    const std::uint32_t firing = echoes.first.firing[lane];
+    const bool is_met = kind == Kind::kTraced && job.cast.screens->met(firing) != 0;
+    // Beams that were traced in vain are as all others.
+    if (kind == Kind::kTraced ? !is_met : !is_told[lane]) continue;
+    VelocityOfEcho velocity_of;
+    if (job.velocities) {
+      velocity_of = [&](const EchoTiles::Place& echo) {
+        return job.velocities->Of(echo, lane, mine);
+      };
+    }
+    ChangedFiring composed = job.screen_echoes.Compose(echoes, lane, velocity_of);
+    if (job.screen_echoes.IsChanged(composed)) changed.push_back(std::move(composed));
+  }
+}
+
+void ScreenedScan::Parts::Make(Job& job, const std::vector<std::uint32_t>& order, Kind kind) {
+  if (order.empty()) return;
+  const FiringTiles firings(job.recorded.pattern, order);
+  std::vector<std::vector<ChangedFiring>> changed(firings.num_tiles());
+  tbb::parallel_for(std::size_t{0}, firings.num_tiles(),
+                    [&](std::size_t tile) { MakeTile(job, firings, tile, kind, changed[tile]); });
+  for (std::vector<ChangedFiring>& of_tile : changed) {
+    std::ranges::move(of_tile, std::back_inserter(job.changed));
+  }
+}
+
+std::vector<ObjectView> ScreenedScan::Parts::ViewObjects(const Job& job,
+                                                         const FrameScene& scene,
+                                                         const std::vector<std::uint32_t>& order) {
+  ViewCounter views(job.cast, scenes.world(), scenes.ObjectsAlone(scene));
+  if (!order.empty()) {
+    const FiringTiles firings(job.recorded.pattern, order);
+    tbb::parallel_for(std::size_t{0}, firings.num_tiles(),
+                      [&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
+  }
+  return views.Total();
+}
+
+namespace {
+
+// Each firing once, in the order in which the pattern would be traced.
+std::vector<std::uint32_t> TracingOrder(const ScanPattern& pattern) {
+  const auto& packets = pattern.packet_order;
+  Check(packets.size() >= pattern.num_firings(), "every firing is in a packet");
+  return {packets.begin(), packets.begin() + static_cast<std::ptrdiff_t>(pattern.num_firings())};
+}
+
+template <typename IsWanted>
+std::vector<std::uint32_t> Those(const std::vector<std::uint32_t>& order,
+                                 const IsWanted& is_wanted) {
+  std::vector<std::uint32_t> those;
+  std::ranges::copy_if(order, std::back_inserter(those), is_wanted);
+  return those;
+}
+
+}  // namespace
+
+ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint32_t returns) {
+  ScreenedFrame frame;
+  const ScanPattern& pattern = recorded.pattern;
+  frame.views.resize(scenes.world().objects().size());
+  if (pattern.num_firings() == 0) return frame;
+  UseRows(pattern.rows, pattern.rate_hz);
+  const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
+  scenes.UseDuration(duration_ns);
+  BegunFrame begun = scenes.Begin(recorded.index, recorded.stamp_ns);
+  const FrameScene& scene = scenes.SceneOf(begun);
+
+  ScreenSurfaces surfaces{.all = scene.surfaces(), .alone = {}};
+  const Screens screens =
+      MakeScreens(spec.detector, recorded.first, recorded.returns, first_material, surfaces);
+  const CastFrame cast = CastOf(scene, surfaces.all, screens, duration_ns);
+  const ReturnRule rule = RuleFor(returns);
+  const ScreenEchoes screen_echoes(spec.detector, rule, cast, surfaces);
+  Job job{.recorded = recorded,
+          .cast = cast,
+          .screen_echoes = screen_echoes,
+          .velocities = {},
+          .world_from_window = scene.window->window_from_world.inverse(),
+          .changed = frame.firings};
+  if (cast.motion != nullptr) job.velocities.emplace(spec.detector, cast);
+  const std::vector<bool> is_near =
+      BeamsNearObjects(scenes.world(), pattern,
+                       {.stamp_ns = recorded.stamp_ns,
+                        .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
+                        .beside_rad = BesideBeam_rad(),
+                        .range_max_m = spec.detector.range_max_m});
+  const std::vector<std::uint32_t> order = TracingOrder(pattern);
+  const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });
+  Make(job, near, Kind::kTraced);
+  if (ChangesEmptyBeams(spec.detector)) {
+    std::vector<bool> is_met(pattern.num_firings());
+    for (const std::uint32_t firing : near) is_met[firing] = screens.met(firing) != 0;
+    const auto make = [&](Kind kind, bool has_screens) {
+      Make(job,
+           Those(order,
+                 [&](std::uint32_t firing) {
+                   return !is_met[firing] && screens.of(firing).empty() != has_screens;
+                 }),
+           kind);
+    };
+    make(Kind::kScreens, true);
+    make(Kind::kEmpty, false);
+  }
+  std::ranges::sort(frame.firings, {}, &ChangedFiring::firing);
+  frame.views = ViewObjects(job, scene, near);
+  return frame;
+}
+
+}  // namespace railcast
