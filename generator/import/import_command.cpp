@@ -361,8 +361,7 @@ void AddImport(CLI::App& app, ProgramCommand& command) {
   constexpr NumberRule kSpeed{1.0, 1000.0};   // In km/h.
   constexpr NumberRule kDegrees{-180.0, 180.0};
   const auto options = std::make_shared<ImportCommandOptions>();
-  CLI::App* subcommand =
-      app.add_subcommand("import", "Fit the lines of a map and write them as alignments");
+  CLI::App* subcommand = app.add_subcommand("import", kImportDescription);
   subcommand
       ->add_option("MAP", options->map,
                    "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
