@@ -11,15 +11,32 @@
 
 namespace railcast {
 
+/// Where an object of a plan was asked for, and where it is at first.
+struct PlacedThing {
+  std::string asked;    ///< As the plan says it: "frame 120, s_m 60, d_m 0.4".
+  double s_m{};         ///< Chainage, as the plan counts it.
+  double d_m{};         ///< Left of the line.
+  double h_m{};         ///< Above the rails.
+  bool is_on_ground{};  ///< Whether it stands on the ground instead of at a height of the plan's.
+  bool has_ground{};    ///< Whether that was found in the recording.
+  double ground_residual_m{};  ///< Root mean square distance of the ground's points from its plane.
+};
+
 /// What is put into a recording, ready to be simulated.
 struct InsertPlan {
   /// The sensor, its effects, receiver and weather, labels, materials and models. `world` has the
-  /// driven path as its alignment and the objects at their places on it.
+  /// line of the recording as its alignment and the objects at their places on it.
   ScenarioSpec scenario;
   /// The objects alone, and the recorded way of the vehicle. Time 0 is `first_stamp_ns`.
   std::shared_ptr<const World> world;
   std::int64_t first_stamp_ns{};  ///< Stamp of the recording's first frame.
-  std::string hash;               ///< XXH3 of the plan and of every file that it names.
+  /// When each frame of the recording begins, by the clock of `world`. Frames that have no stamps
+  /// follow each other at the sensor's rate.
+  std::vector<std::int64_t> frame_times_ns;
+  /// Recorded intensity of a white Lambertian surface (IntensityScaleFinder).
+  double intensity_per_reflectance = 1.0;
+  std::vector<PlacedThing> places;  ///< Of the objects, without the vehicles of trains.
+  std::string hash;                 ///< XXH3 of the plan and of every file that it names.
   /// What was found or assumed on the way, each in a sentence for the user.
   std::vector<std::string> remarks;
 };
@@ -27,7 +44,8 @@ struct InsertPlan {
 /// Reads a plan, a scenario whose world is a recording, and the way that the recording's sensor
 /// took.
 /// @param plan_file `world` has the section `recording` in place of an alignment (docs/insert.md).
-/// @param recording As OpenRecording() takes it; is read once, for poses and ground.
+/// @param recording As OpenRecording() takes it; is read once for its poses, and of frames near
+///   objects once more for the ground.
 /// @throws InputError with a line for every fault: "plan.json: /world/objects/0/s_m: rule (got
 ///   value)".
 [[nodiscard]] InsertPlan ReadInsertPlan(const std::filesystem::path& plan_file,

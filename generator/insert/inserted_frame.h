@@ -25,7 +25,12 @@ struct SlotEdit {
   bool has_point = false;
   /// ... and whether that one was not recorded.
   bool is_added = false;
-  /// What the recorded return of this slot met if it is not in any slot now: kReturned otherwise.
+  /// Whether most light of an added return comes from a recorded surface, beside which something
+  /// new returned within the pulse: its label, instance and material are the recorded ones.
+  bool is_merged = false;
+  /// What the recorded return of this slot met if it is not in any slot now: kBelowThreshold if too
+  /// little of it is left, or nothing; kNoFurtherEcho if the sensor reports others of its firing;
+  /// kRainAbsorbed or kCoverBlocked. kReturned otherwise.
   Outcome lost_to = Outcome::kReturned;
   /// Instance of the object that has hidden it; 0 = none, such as fog.
   std::uint32_t hidden_by = 0;
@@ -36,7 +41,7 @@ struct InsertedFrame {
   /// The frame as the sensor would have recorded it, with the shape of the recorded one. Slots
   /// without an edit are as recorded. Returns that were added have every field that the recording
   /// has, intensities on the recording's own scale, and label, instance, outcome and true range
-  /// besides.
+  /// besides. All returns of a firing say how many it has.
   RecordedFrame recorded;
   std::vector<SlotEdit> edits;  ///< By slot.
   /// The objects with their boxes, in order of the plan, visible or not.

@@ -24,8 +24,9 @@ struct RecordedFirings {
   /// order, or kNoEntry. Slots without a point have one where the cloud is organised. Empty for
   /// recordings whose slots say by themselves where their bytes are (captures).
   std::vector<std::uint32_t> entry_of_slot;
-  /// The firings, in the sensor's axes at the time of each. rows and columns are those of
-  /// `recorded.frame`; not every cell need have a firing.
+  /// The firings, in the axes of the points (`recorded.axes`): the sensor's at the time of each, or
+  /// where its motion is undone at the stamp, where beams leave along the way. rows and columns are
+  /// those of `recorded.frame`; not every cell need have a firing.
   ScanPattern pattern;
   /// For each cell (row * columns + column) the index of its firing in `pattern`, or kNoFiring.
   std::vector<std::uint32_t> firing_of_cell;

@@ -1,0 +1,123 @@
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/program/command_line.h"
+#include "core/program/program.h"
+#include "core/program/progress_line.h"
+#include "generator/commands.h"
+#include "generator/insert/insert_plan.h"
+#include "generator/insert/plan/plan_check.h"
+#include "generator/insert/run/insert_run.h"
+#include "generator/run/run_plan.h"
+#include "generator/run/stopping.h"
+#include "generator/sequence/summary.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+namespace {
+
+struct InsertOptions {
+  InsertChoices choices;
+  std::string frames;
+  std::string topic;
+  bool is_check = false;
+};
+
+/// Reads "12..30" or "12".
+void ReadRange(const std::string& text, InsertChoices& choices) {
+  if (text.empty()) return;
+  const std::size_t dots = text.find("..");
+  const auto first = ParseWholeNumber(text.substr(0, dots));
+  const auto last = dots == std::string::npos ? first : ParseWholeNumber(text.substr(dots + 2));
+  if (!first || !last || *first > *last || *last > kMaxFrame) {
+    throw InputError("--frames: must be numbers of frames, first and last, such as 12..30 (got " +
+                     ShownText(text) + ")");
+  }
+  choices.first_frame = static_cast<std::uint32_t>(*first);
+  choices.last_frame = static_cast<std::uint32_t>(*last);
+}
+
+int RunInsertCommand(InsertOptions options) {
+  InsertChoices& choices = options.choices;
+  ReadRange(options.frames, choices);
+  if (!options.is_check && choices.directory.empty()) {
+    throw InputError("--out: missing (only --check writes nothing)");
+  }
+  if (!options.is_check) CheckIsApart(choices);
+  choices.recording = WithTopic({choices.recording}, options.topic).front();
+  const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
+  for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";
+  if (options.is_check) {
+    std::cout << ShownLines(PlanCheckText(plan, CheckPlan(plan, choices.recording)));
+    return kExitSuccess;
+  }
+  CatchStopSignals();
+  const TerminalLine line;
+  std::optional<std::uint32_t> num_before;
+  auto begin = std::chrono::steady_clock::now();
+  const auto show = [&](std::uint32_t num_done, std::uint32_t num_frames) {
+    if (!num_before) {
+      num_before = num_done;
+      begin = std::chrono::steady_clock::now();
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    line.Show(SequenceProgressText(num_done, num_frames, *num_before, elapsed.count()));
+  };
+  const InsertResult result = RunInsert(choices, plan, {show, StopRequested});
+  line.End();
+  if (result.is_complete) {
+    std::cout << ShownLines(result.text);
+    return kExitSuccess;
+  }
+  std::cerr << "interrupted; the same command continues with frame "
+            << choices.first_frame + result.num_done << "\n";
+  return kExitInterrupted;
+}
+
+}  // namespace
+
+void AddInsert(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<InsertOptions>();
+  InsertChoices& choices = options->choices;
+  CLI::App* insert = app.add_subcommand(
+      "insert",
+      "Put objects and weather into a recording; run the same command again to continue an "
+      "interrupted run");
+  insert->add_option("RECORDING", choices.recording, "What railcast-analyze reads")
+      ->required()
+      ->check(NonEmpty());
+  insert->add_option("PLAN", choices.plan, "Scenario whose world is a recording")
+      ->required()
+      ->check(NonEmpty());
+  insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
+  insert->add_option("--frames", options->frames,
+                     "First and last frame, counted from 0: 12..30; default: all");
+  std::vector<std::string> formats = {"same"};
+  for (const FrameFormat& format : FrameFormats()) {
+    if (!format.files.empty()) formats.emplace_back(format.name);
+  }
+  insert->add_option("--format", choices.format, "The recording's own format, or one of railcast's")
+      ->check(CLI::IsMember(formats))
+      ->capture_default_str();
+  insert->add_flag("--points-alone", choices.may_use_points_alone,
+                   "Take frames point by point where their firings cannot be found");
+  insert->add_flag("--check", options->is_check,
+                   "Print what the objects meet in the recording, and write nothing");
+  insert->add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  AddTopic(*insert, options->topic);
+  insert->footer(
+      "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
+      "command continues).");
+  insert->callback([&command, options] {
+    command = [options](const std::string&) { return RunInsertCommand(*options); };
+  });
+}
+
+}  // namespace railcast

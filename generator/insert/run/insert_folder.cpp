@@ -1,0 +1,171 @@
+#include "generator/insert/run/insert_folder.h"
+
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/sequence_summary.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
+#include "core/io/write_file.h"
+#include "generator/empty_folder.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Whether a line of insert.jsonl is that of the frame, and all that it names is there.
+bool IsWhole(const fs::path& directory,
+             std::string_view line,
+             std::uint32_t frame,
+             const std::string& records) {
+  if (line.empty()) return false;
+  line.remove_suffix(1);
+  if (!HasLineHash(line) || !LineHashFault(line).empty()) return false;
+  try {
+    const StrictJson json = StrictJson::parse(line);
+    if (json.at("frame").get<std::uint32_t>() != frame) return false;
+    if (json.at("records_xxh3").get<std::string>() != ContentHash(records)) return false;
+    for (const StrictJson& file : json.at("files")) {
+      const WrittenFile written = {file.at("name").get<std::string>(),
+                                   file.at("bytes").get<std::uint64_t>(),
+                                   file.at("xxh3").get<std::string>()};
+      if (!HasContent(directory, written)) return false;
+    }
+  } catch (const StrictJson::exception&) {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock_(spec_.directory) {
+  const fs::path run_file = spec_.directory / kRunFile;
+  if (fs::exists(run_file)) {
+    CheckSameRun(ReadFileWhole(run_file));
+  } else {
+    MakeEmptyFolder(spec_.directory);
+    was_empty_ = true;
+    WriteFileWhole(run_file, spec_.run_json);
+  }
+  is_complete_ = fs::exists(spec_.directory / kManifestFile);
+  CountFrames();
+  if (is_complete_ && num_done_ < spec_.num_frames) {
+    throw InputError(ShownPath(spec_.directory) + ": is complete, but frame " +
+                     NumberText(spec_.first_frame + num_done_) +
+                     " was changed or removed; delete manifest.json to make it anew");
+  }
+}
+
+void InsertFolder::CheckSameRun(const std::string& found) const {
+  const Json theirs = Json::parse(found, nullptr, false);
+  const std::string place = ShownPath(spec_.directory) + ": ";
+  if (!theirs.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
+  const Json ours = Json::parse(spec_.run_json);
+  for (const auto& [key, value] : ours.items()) {
+    const auto other = theirs.find(key);
+    if (other != theirs.end() && *other == value) continue;
+    const bool is_shown = other != theirs.end() && other->is_primitive();
+    throw InputError(place + "holds another run: its " + key + " is " +
+                     (is_shown ? ShownText(other->dump()) : "missing") + " (got " +
+                     ShownText(value.dump()) + "); choose another --out");
+  }
+}
+
+std::vector<LineFileName> InsertFolder::LineFiles() const {
+  std::vector<LineFileName> files = spec_.line_files;
+  files.push_back({std::string(kInsertFile), ""});
+  return files;
+}
+
+void InsertFolder::CountFrames() {
+  std::vector<LineWalk> walks;
+  for (const LineFileName& file : LineFiles()) {
+    walks.emplace_back(spec_.directory / file.name, file.header);
+  }
+  const auto note = [&] {
+    std::vector<std::uint64_t> sizes;
+    for (const LineWalk& walk : walks) sizes.push_back(walk.position());
+    sizes_.push_back(std::move(sizes));
+  };
+  note();
+  for (; num_done_ < spec_.num_frames; ++num_done_) {
+    std::string records;
+    for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
+    const std::uint32_t frame = spec_.first_frame + num_done_;
+    if (!IsWhole(spec_.directory, walks.back().Next(), frame, records)) break;
+    for (LineWalk& walk : walks) walk.Advance();
+    note();
+  }
+}
+
+void InsertFolder::Open(std::uint32_t num_kept) {
+  Check(num_kept <= num_done_, "only frames that are there are kept");
+  num_done_ = num_kept;
+  const std::vector<LineFileName> files = LineFiles();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const fs::path file = spec_.directory / files[i].name;
+    MakeFolders(file.parent_path());
+    lines_.emplace_back(file, sizes_[num_kept][i]);
+    if (sizes_[num_kept][i] == 0) lines_.back().Append(files[i].header);
+  }
+}
+
+void InsertFolder::WriteFixed(const FrameFile& file) {
+  const fs::path path = spec_.directory / file.name;
+  fixed_.push_back(file.name);
+  if (HasContent(spec_.directory, {file.name, file.bytes.size(), ContentHash(file.bytes)})) return;
+  MakeFolders(path.parent_path());
+  WriteFileWhole(path, file.bytes);
+}
+
+void InsertFolder::Write(const std::vector<FrameFile>& files,
+                         const std::vector<std::string>& lines,
+                         Json& entry) {
+  Check(lines.size() + 1 == lines_.size(), "each file gets a line");
+  Json names = Json::array();
+  for (const FrameFile& file : files) {
+    MakeFolders((spec_.directory / file.name).parent_path());
+    WriteFileWhole(spec_.directory / file.name, file.bytes);
+    names.push_back(
+        {{"name", file.name}, {"bytes", file.bytes.size()}, {"xxh3", ContentHash(file.bytes)}});
+  }
+  std::string records;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines_[i].Append(lines[i]);
+    records += lines[i];
+  }
+  entry["files"] = std::move(names);
+  entry["records_xxh3"] = ContentHash(records);
+  lines_.back().Append(WithLineHash(entry.dump()) + "\n");
+  ++num_done_;
+}
+
+void InsertFolder::Abandon() noexcept {
+  if (!was_empty_ || num_done_ > 0) return;
+  lines_.clear();
+  std::error_code error;
+  fs::remove_all(spec_.directory, error);
+}
+
+void InsertFolder::Finish(const Json& summary) {
+  for (LineFile& file : lines_) file.Sync();
+  Json manifest = Json::parse(spec_.run_json);
+  manifest.update(summary);
+  Json hashes = Json::object();
+  std::vector<std::string> names = {std::string(kRunFile)};
+  names.insert(names.end(), fixed_.begin(), fixed_.end());
+  for (const LineFileName& file : LineFiles()) names.push_back(file.name);
+  for (const std::string& name : names) hashes[name] = HashFile(spec_.directory / name).hash;
+  manifest["files_xxh3"] = std::move(hashes);
+  WriteFileWhole(spec_.directory / kManifestFile, WithManifestHash(manifest.dump(2) + "\n"));
+  is_complete_ = true;
+}
+
+}  // namespace railcast

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/run/line_walk.h"
+#include "generator/run/run_folder.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+
+/// The file with a line for each frame, which makes the frame count as done.
+inline constexpr std::string_view kInsertFile = "insert.jsonl";
+
+/// What a folder of inserted frames is of.
+struct InsertFolderSpec {
+  std::filesystem::path directory;
+  std::string run_json;  ///< An object whose members say which run it is.
+  std::uint32_t first_frame{};
+  std::uint32_t num_frames{};
+  /// Those that get a line of each frame, without insert.jsonl.
+  std::vector<LineFileName> line_files;
+};
+
+/// The folder that `insert --out` names, complete or unfinished. A frame counts as done when its
+/// line in insert.jsonl is whole and its files and lines have the hashes that this line states.
+/// What else an interrupted run has left is written again.
+class InsertFolder {
+ public:
+  /// Makes the folder, or opens it and finds out how far its run has got.
+  /// @throws InputError if it holds another run or other files, is being written by another
+  ///   process, or the system refuses.
+  explicit InsertFolder(InsertFolderSpec spec);
+
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+
+  /// Keeps the lines of the first frames and opens the files for those after them.
+  void Open(std::uint32_t num_kept);
+  /// Writes a file that is known before the first frame, unless it is there already.
+  void WriteFixed(const FrameFile& file);
+  /// Writes the next frame.
+  /// @param lines One for each of the spec's files.
+  /// @param entry The frame's members of its line in insert.jsonl; gets `files` and `records_xxh3`.
+  void Write(const std::vector<FrameFile>& files,
+             const std::vector<std::string>& lines,
+             nlohmann::ordered_json& entry);
+  /// Removes what was written if no frame was: a plan that does not fit its recording leaves
+  /// nothing that keeps a mended one from being run.
+  void Abandon() noexcept;
+  /// Writes the manifest: the members of run.json, those of `summary`, and the hashes of all files
+  /// but those of frames, which insert.jsonl names.
+  void Finish(const nlohmann::ordered_json& summary);
+
+ private:
+  void CheckSameRun(const std::string& found) const;
+  void CountFrames();
+  [[nodiscard]] std::vector<LineFileName> LineFiles() const;
+
+  InsertFolderSpec spec_;
+  FolderLock lock_;
+  bool was_empty_ = false;
+  bool is_complete_ = false;
+  std::uint32_t num_done_ = 0;
+  std::vector<std::vector<std::uint64_t>> sizes_;  ///< Of the line files, after each frame.
+  std::vector<LineFile> lines_;
+  std::vector<std::string> fixed_;
+};
+
+}  // namespace railcast

@@ -1,0 +1,343 @@
+#include "generator/insert/run/insert_run.h"
+
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/scenario_identity.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
+#include "core/program/version.h"
+#include "core/trace/trace_program.h"
+#include "generator/insert/clouds/inserted_objects.h"
+#include "generator/insert/clouds/recording_output.h"
+#include "generator/insert/clouds/sidecars.h"
+#include "generator/insert/firing_finder.h"
+#include "generator/insert/inserter.h"
+#include "generator/insert/packets/same_copy.h"
+#include "generator/insert/run/insert_folder.h"
+#include "generator/insert/run/recording_split.h"
+#include "generator/run/run_directory.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// The frames that are wanted, of those that the plan has found.
+InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
+  const auto num = static_cast<std::uint32_t>(plan.frame_times_ns.size());
+  const std::uint32_t last = choices.last_frame.value_or(num == 0 ? 0 : num - 1);
+  if (choices.first_frame < num && last < num && choices.first_frame <= last) {
+    return {choices.first_frame, last - choices.first_frame + 1};
+  }
+  throw InputError("--frames: must be of the recording's " + NumberText(num) + " frames (got " +
+                   NumberText(choices.first_frame) + ".." + NumberText(last) + ")");
+}
+
+std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
+                                          const RecordingInfo& info,
+                                          const InsertPlan& plan,
+                                          const InsertRange& range) {
+  if (choices.format != "same") {
+    return MakeConvertedClouds(info, plan, ParseFrameFormat(choices.format), range.first);
+  }
+  const fs::path folder = choices.directory / kRecordingFolder;
+  if (auto sequence = MakeSameSequence(info, plan, range, folder)) return sequence;
+  if (auto clouds = MakeSameClouds(info, plan)) return clouds;
+  if (auto copy = MakeSameCopy(info, folder)) return copy;
+  throw InputError(
+      ShownPath(choices.recording) +
+      ": must be a sequence, clouds in files, a capture or a bag for --format same (got a " +
+      info.kind + ")");
+}
+
+std::string RunJsonOf(const InsertChoices& choices,
+                      const RecordingInfo& info,
+                      const InsertPlan& plan,
+                      const InsertRange& range) {
+  Json json = {{"version", ProgramVersion()},
+               {"embree", EmbreeVersion()},
+               {"recording", choices.recording.generic_string()},
+               {"kind", info.kind},
+               {"plan_xxh3", plan.hash},
+               {"seed", plan.scenario.seed},
+               {"format", choices.format},
+               {"points_alone", choices.may_use_points_alone},
+               {"first_frame", range.first},
+               {"num_frames", range.num}};
+  if (info.origin) {
+    json["source"] = {{"version", info.origin->version},
+                      {"scenario_xxh3", info.origin->scenario_hash},
+                      {"data_xxh3", info.origin->data_hash}};
+  }
+  return json.dump(2) + "\n";
+}
+
+/// A frame on its way from the recording to the folder.
+struct FrameOnWay {
+  std::uint32_t frame{};
+  Recording::FrameReader read;
+  RecordedFirings firings;
+  InsertedFrame inserted;
+  WrittenFrame output;
+  std::vector<FrameFile> sidecars;
+  Json entry;
+  std::exception_ptr fault;  ///< Why there is nothing to write.
+};
+
+class InsertRun {
+ public:
+  InsertRun(const InsertChoices& choices,
+            const InsertPlan& plan,
+            const InsertHooks& hooks,
+            Recording& recording)
+      : plan_(plan),
+        hooks_(hooks),
+        recording_(recording),
+        range_(RangeOf(choices, plan)),
+        num_threads_(choices.num_threads),
+        split_(SplitOfRecording(recording.info().source)),
+        labels_(LabelTable(plan.scenario.labels), recording.info(), {}),
+        finder_(recording.info(), plan.scenario.lidar.scan, choices.may_use_points_alone),
+        inserter_(plan, choices.num_threads),
+        output_(OutputOf(choices, recording.info(), plan, range_)),
+        folder_({.directory = choices.directory,
+                 .run_json = RunJsonOf(choices, recording.info(), plan, range_),
+                 .first_frame = range_.first,
+                 .num_frames = range_.num,
+                 .line_files = LineFiles()}) {}
+
+  InsertResult Run() {
+    InsertResult result;
+    result.num_frames = range_.num;
+    result.was_complete = folder_.is_complete();
+    result.num_resumed = folder_.num_done();
+    if (!folder_.is_complete()) {
+      result.num_resumed = output_->Begin(folder_.num_done());
+      folder_.Open(result.num_resumed);
+      WriteFixed();
+      hooks_.on_progress(folder_.num_done(), range_.num);
+      try {
+        MakeFrames();
+      } catch (...) {
+        folder_.Abandon();
+        throw;
+      }
+      if (folder_.num_done() == range_.num) Finish();
+    }
+    result.num_done = folder_.num_done();
+    result.is_complete = folder_.is_complete();
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::vector<LineFileName> LineFiles() const {
+    std::vector<LineFileName> files = {{std::string(kPosesFile), std::string(kPosesHeader)},
+                                       {std::string(kObjectsFile), ""}};
+    for (LineFileName& file : output_->LineFiles()) {
+      files.push_back({InRecording(file.name), file.header});
+    }
+    return files;
+  }
+  static std::string InRecording(const std::string& name) {
+    return std::string(kRecordingFolder) + "/" + name;
+  }
+
+  void WriteFixed() {
+    const ScenarioIdentity identity = IdentityOf(plan_.scenario);
+    folder_.WriteFixed({"plan.resolved.json", identity.scenario_json});
+    for (const InputFile& input : identity.inputs) {
+      folder_.WriteFixed({input.CopyName(), input.bytes});
+    }
+    for (const FrameFile& file : output_->FixedFiles()) {
+      folder_.WriteFixed({InRecording(file.name), file.bytes});
+    }
+  }
+
+  void MakeFrames() {
+    next_ = 0;
+    tbb::task_arena arena(num_threads_ == 0 ? tbb::task_arena::automatic : num_threads_);
+    const auto num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 2;
+    using Way = std::shared_ptr<FrameOnWay>;
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          num_at_once,
+          tbb::make_filter<void, Way>(tbb::filter_mode::serial_in_order,
+                                      [this](tbb::flow_control& flow) {
+                                        Way way = Begin();
+                                        if (!way) flow.stop();
+                                        return way;
+                                      }) &
+              tbb::make_filter<Way, Way>(tbb::filter_mode::parallel,
+                                         [this](const Way& way) { return Read(way); }) &
+              tbb::make_filter<Way, Way>(tbb::filter_mode::serial_in_order,
+                                         [this](const Way& way) { return Insert(way); }) &
+              tbb::make_filter<Way, Way>(tbb::filter_mode::parallel,
+                                         [this](const Way& way) { return Encode(way); }) &
+              tbb::make_filter<Way, void>(tbb::filter_mode::serial_in_order,
+                                          [this](const Way& way) { Write(*way); }));
+    });
+  }
+
+  // Returns null after the last frame.
+  std::shared_ptr<FrameOnWay> Begin() {
+    const std::uint32_t first = range_.first + folder_done_at_begin();
+    const auto way = std::make_shared<FrameOnWay>();
+    try {
+      for (; next_ < first; ++next_) {
+        if (!recording_.Next()) return nullptr;
+      }
+      if (is_over_ || next_ >= range_.first + range_.num || hooks_.is_stopped()) return nullptr;
+      auto reader = recording_.Next();
+      if (!reader) return nullptr;
+      way->read = std::move(*reader);
+    } catch (...) {
+      way->fault = std::current_exception();
+      is_over_ = true;
+    }
+    way->frame = next_++;
+    return way;
+  }
+  [[nodiscard]] std::uint32_t folder_done_at_begin() {
+    if (!num_before_) num_before_ = folder_.num_done();
+    return *num_before_;
+  }
+
+  template <typename Work>
+  static std::shared_ptr<FrameOnWay> Try(const std::shared_ptr<FrameOnWay>& way, const Work& work) {
+    if (way->fault) return way;
+    try {
+      work(*way);
+    } catch (...) {
+      way->fault = std::current_exception();
+    }
+    return way;
+  }
+  std::shared_ptr<FrameOnWay> Read(const std::shared_ptr<FrameOnWay>& way) const {
+    return Try(way,
+               [&](FrameOnWay& it) { it.firings = finder_.Find(std::exchange(it.read, {})()); });
+  }
+  std::shared_ptr<FrameOnWay> Insert(const std::shared_ptr<FrameOnWay>& way) {
+    return Try(way, [&](FrameOnWay& it) { it.inserted = inserter_.Insert(it.firings, it.frame); });
+  }
+  std::shared_ptr<FrameOnWay> Encode(const std::shared_ptr<FrameOnWay>& way) const {
+    return Try(way, [&](FrameOnWay& it) {
+      it.output = output_->Encode(it.firings, it.inserted, it.frame);
+      it.entry = InsertEntry(it.firings, it.inserted, plan_, it.frame);
+      if (split_) it.entry["split"] = *split_;
+      if (!it.output.source_hash.empty()) it.entry["source_xxh3"] = it.output.source_hash;
+      if (it.output.has_slots) MakeSidecars(it);
+    });
+  }
+
+  void MakeSidecars(FrameOnWay& way) const {
+    way.sidecars = SidecarFiles(way.firings, way.inserted, way.output.slots, labels_, way.frame);
+  }
+
+  void Write(FrameOnWay& way) {
+    if (way.fault) std::rethrow_exception(way.fault);
+    output_->Write(way.firings, way.inserted, way.output);
+    if (!way.output.has_slots) MakeSidecars(way);
+    std::vector<FrameFile> files = std::move(way.sidecars);
+    for (FrameFile& file : way.output.files) {
+      files.push_back({InRecording(file.name), std::move(file.bytes)});
+    }
+    const Frame& frame = way.firings.recorded.frame;
+    const Transform pose = way.firings.recorded.has_pose
+                               ? frame.world_from_sensor
+                               : plan_.world->WorldFromVehicle(plan_.frame_times_ns[way.frame]) *
+                                     VehicleFromSensor(plan_.scenario.lidar.mount);
+    std::vector<std::string> lines = {PoseLine(PoseRecord(frame.stamp_ns, pose)),
+                                      InsertedObjectsLine(way.inserted)};
+    lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
+    folder_.Write(files, lines, way.entry);
+    hooks_.on_progress(folder_.num_done(), range_.num);
+  }
+
+  void Finish() {
+    output_->Finish();
+    folder_.Finish({{"remarks", plan_.remarks}});
+  }
+
+  const InsertPlan& plan_;
+  const InsertHooks& hooks_;
+  Recording& recording_;
+  InsertRange range_;
+  int num_threads_;
+  std::optional<std::string> split_;
+  LabelNumbers labels_;
+  FiringFinder finder_;
+  Inserter inserter_;
+  std::unique_ptr<RecordingOutput> output_;
+  InsertFolder folder_;
+  std::uint32_t next_ = 0;
+  std::optional<std::uint32_t> num_before_;
+  bool is_over_ = false;
+};
+
+/// Sums what insert.jsonl says of the frames.
+std::string ReportOf(const fs::path& directory) {
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> seen;  // Returns and frames.
+  std::uint64_t added = 0;
+  std::uint64_t removed = 0;
+  std::uint64_t num_frames = 0;
+  const std::string text = ReadFileWhole(directory / kInsertFile);
+  std::string_view rest = text;
+  while (const auto line = TakeLine(rest)) {
+    const Json json = Json::parse(*line);
+    ++num_frames;
+    added += json.at("added").get<std::uint64_t>();
+    removed += json.at("removed").get<std::uint64_t>();
+    for (const Json& object : json.at("objects")) {
+      auto& [returns, frames] = seen[object.at("name").get<std::string>()];
+      const auto num = object.at("returns").get<std::uint64_t>();
+      returns += num;
+      frames += num > 0 ? 1 : 0;
+    }
+  }
+  std::string report = NumberText(num_frames) + " frames, " + NumberText(added) +
+                       " points added, " + NumberText(removed) + " removed\n";
+  for (const auto& [name, counts] : seen) {
+    report += "  " + ShownText(name) + ": ";
+    report += counts.first == 0 ? "not visible in any frame\n"
+                                : NumberText(counts.first) + " points in " +
+                                      NumberText(counts.second) + " frames\n";
+  }
+  return report + "written to " + ShownPath(directory) + "\n";
+}
+
+}  // namespace
+
+void CheckIsApart(const InsertChoices& choices) {
+  const fs::path recording = fs::weakly_canonical(choices.recording);
+  const fs::path out = fs::weakly_canonical(choices.directory);
+  const auto end = std::mismatch(recording.begin(), recording.end(), out.begin(), out.end()).first;
+  if (end != recording.end()) return;
+  throw InputError("--out: must not be in the recording's directory (got " +
+                   ShownPath(choices.directory) + ")");
+}
+
+InsertResult RunInsert(const InsertChoices& choices,
+                       const InsertPlan& plan,
+                       const InsertHooks& hooks) {
+  CheckIsApart(choices);
+  const auto recording = OpenRecording(choices.recording);
+  InsertResult result = InsertRun(choices, plan, hooks, *recording).Run();
+  if (result.is_complete) result.text = ReportOf(choices.directory);
+  return result;
+}
+
+}  // namespace railcast

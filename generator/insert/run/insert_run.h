@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "generator/insert/insert_plan.h"
+
+namespace railcast {
+
+/// What `insert` is asked for.
+struct InsertChoices {
+  std::filesystem::path recording;
+  std::filesystem::path plan;
+  std::filesystem::path directory;
+  std::string format = "same";
+  std::uint32_t first_frame = 0;
+  std::optional<std::uint32_t> last_frame{};  ///< Absent: the recording's last.
+  bool may_use_points_alone = false;
+  int num_threads = 0;  ///< 0 = all cores.
+};
+
+/// How far a run has got.
+struct InsertResult {
+  std::uint32_t num_resumed{};  ///< Frames made by an earlier run.
+  std::uint32_t num_done{};
+  std::uint32_t num_frames{};
+  bool was_complete{};
+  bool is_complete{};
+  std::string text;  ///< The report of a complete run.
+};
+
+struct InsertHooks {
+  std::function<void(std::uint32_t num_done, std::uint32_t num_frames)> on_progress;
+  std::function<bool()> is_stopped;
+};
+
+/// @throws InputError if what is written would be read as a part of the recording.
+void CheckIsApart(const InsertChoices& choices);
+
+/// Puts a plan into a recording, frame by frame in order, while further frames are read. Makes the
+/// frames that the folder does not hold yet; its bytes do not depend on the number of threads.
+/// @throws InputError if a file cannot be read or written, or the folder holds another run.
+[[nodiscard]] InsertResult RunInsert(const InsertChoices& choices,
+                                     const InsertPlan& plan,
+                                     const InsertHooks& hooks);
+
+}  // namespace railcast
