@@ -31,6 +31,7 @@ struct DatasetOptions {
   DatasetChoices choices;
   std::string shard = "1/1";
   bool has_scenarios_only = false;
+  bool has_format = false;
 };
 
 std::string ShardRule(const std::string& text) {
@@ -66,7 +67,7 @@ int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
       fs::create_directories((folder / input.CopyName()).parent_path());
       WriteFileWhole(folder / input.CopyName(), input.bytes);
     }
-    const fs::path file = folder / "scenario.resolved.json";
+    const fs::path file = folder / (drawn.run ? "plan.resolved.json" : "scenario.resolved.json");
     WriteFileWhole(file, identity.scenario_json);
     std::cout << ShownPath(file) << '\n';
   }
@@ -121,8 +122,9 @@ class ScenarioProgress {
   std::optional<ProgressLine> line_;
 };
 
-int RunDatasetCommand(const DatasetOptions& options) {
+int RunDatasetCommand(DatasetOptions options) {
   const Recipe recipe = ReadRecipe(options.recipe);
+  if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.
   CatchStopSignals();
@@ -176,13 +178,14 @@ void AddDataset(CLI::App& app, ProgramCommand& command) {
   dataset->add_flag("--scenarios-only", options->has_scenarios_only,
                     "Write the scenarios without frames, to a new or an empty folder, and report "
                     "their parts, bases, weathers, draws and objects");
-  AddRunChoices(*dataset, options->choices, false);
+  AddRunChoices(*dataset, options->choices);
   dataset->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
-  dataset->callback([&command, options] {
+  dataset->callback([&command, options, dataset] {
     CheckFields(options->choices.fields);
     options->choices.shard = ParseShard(options->shard).value();
+    options->has_format = dataset->count("--format") > 0;
     command = [options](const std::string&) { return RunDatasetCommand(*options); };
   });
 }

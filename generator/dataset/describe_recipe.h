@@ -23,6 +23,7 @@ inline constexpr const char* kTypeName<ChoiceDraw> = "choice";
 void ReadValue(JsonSource& source, const Node& node, JsonList& list, Anything);
 void ReadValue(JsonSource& source, const Node& node, ChoiceWeights& weights, Anything);
 void ReadValue(JsonSource& source, const Node& node, ObjectTemplate& object, Anything);
+void ReadValue(JsonSource& source, const Node& node, RecordingList& list, Anything);
 // Objects whose keys are JSON pointers.
 void ReadValue(JsonSource& source, const Node& node, SetList& list, Anything);
 void ReadValue(JsonSource& source, const Node& node, DrawList& list, Anything);
@@ -79,7 +80,8 @@ void Describe(Archive& a, ChoiceDraw& s) {
 
 template <class Archive>
 void Describe(Archive& a, RecipeBase& s) {
-  a.Required("file", s.file, "A scenario.", ExistingFile());
+  a.Required("file", s.file, "A scenario, or a plan for recordings.", ExistingFile());
+  a.Optional("recordings", s.recordings, "Of a plan: files and directories of recordings.");
   a.Optional("weight", s.weight, "How often, relative to the others.", PositiveUpTo(1e9));
   a.Optional("split", s.split, "Part of all scenarios on its line.");
   a.Optional("start_s_m", s.start_s_m, "Instead of the recipe's.");

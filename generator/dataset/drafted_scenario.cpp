@@ -5,6 +5,7 @@
 
 #include "core/base/text.h"
 #include "generator/dataset/json_place.h"
+#include "generator/insert/plan/recorded_run.h"
 
 namespace railcast {
 namespace {
@@ -25,8 +26,9 @@ DraftedScenario::DraftedScenario(const Recipe& recipe,
     : file_(recipe.file),
       shown_(ShownPath(recipe.file.lexically_normal())),
       number_(number ? "scenario " + std::to_string(*number) + ": " : ""),
-      json_(base) {
-  origins_.push_back({"", "/bases/" + std::to_string(base_index)});
+      json_(base),
+      run_(recipe.bases.at(base_index).run.get()) {
+  origins_.push_back({"", recipe.bases[base_index].pointer});
 }
 
 void DraftedScenario::Set(const std::string& pointer,
@@ -54,6 +56,20 @@ void DraftedScenario::ResolveFiles() {
 
 ScenarioSpec DraftedScenario::Read() const {
   return Located([&] { return ReadScenarioText(json_.dump(), file_); });
+}
+
+ScenarioSpec DraftedScenario::OnLine(ScenarioSpec scenario) const {
+  if (run_ == nullptr) return scenario;
+  return Located([&] { return OnRecordedLine(*run_, std::move(scenario)); });
+}
+
+DraftedScenario::Start DraftedScenario::start() const {
+  if (start_) return *start_;
+  const Json vehicle = json_.value("vehicle", Json::object());
+  const Json motion = vehicle.value("motion", Json::object());
+  const bool is_reverse = motion.is_object() && motion.value("reverse", Json()) == true;
+  const Json start = vehicle.value("start_s_m", Json());
+  return {start.is_number() ? start.get<double>() : 0.0, is_reverse ? -1.0 : 1.0};
 }
 
 Fault DraftedScenario::FaultAt(const std::string& recipe_pointer, const std::string& rule) const {

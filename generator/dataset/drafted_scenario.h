@@ -37,6 +37,23 @@ class DraftedScenario {
   /// @throws InputError as ReadScenario(), but with the recipe's keys as places.
   [[nodiscard]] ScenarioSpec Read() const;
 
+  /// A plan that was read, with the line of its recording in place of that; other scenarios as they
+  /// are.
+  /// @throws InputError as OnRecordedLine(), but with the recipe's keys as places.
+  [[nodiscard]] ScenarioSpec OnLine(ScenarioSpec scenario) const;
+  [[nodiscard]] bool is_plan() const { return run_ != nullptr; }
+
+  /// Where the vehicle of a plan is when its first frame begins: places of objects count from
+  /// there.
+  struct Start {
+    double s_m{};
+    double direction = 1.0;  ///< 1 where the vehicle faces rising chainage, else -1.
+    double time_s{};         ///< By the clock of the recording.
+  };
+  void StartAt(const Start& start) { start_ = start; }
+  /// That of the scenario unless StartAt() was called.
+  [[nodiscard]] Start start() const;
+
   /// Returns what `work` on the scenario that was read returns.
   /// @throws InputError as `work`, but with the recipe's keys as places.
   template <class Work>
@@ -68,6 +85,8 @@ class DraftedScenario {
   Json json_;
   std::vector<Origin> origins_;
   std::vector<std::string> unread_;  ///< Places whose values name files.
+  const RecordedRun* run_;           ///< Of a plan; null for a scenario.
+  std::optional<Start> start_;
 };
 
 }  // namespace railcast

@@ -8,9 +8,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
+#include "generator/insert/run/insert_folder.h"
 
 namespace railcast {
 namespace {
@@ -46,18 +48,55 @@ Json ObjectJson(const IndexedObject& object) {
   return json;
 }
 
+/// Reads a line of objects.jsonl.
+std::vector<IndexedObject> ReadIndexedObjects(const std::string& line, const std::string& place) {
+  std::vector<IndexedObject> objects;
+  ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
+    for (const StrictJson& object : json.at("objects")) {
+      objects.push_back(
+          IndexedObjectOf(object, place + ": /objects/" + std::to_string(objects.size())));
+    }
+    return true;
+  });
+  return objects;
+}
+
+/// What a line of insert.jsonl says of a frame, with the files of the recording.
+FrameRecord ReadInsertedFrame(const std::string& line, const std::string& place) {
+  return ReadRecordedJson<StrictJson>(line, place, [](const StrictJson& json) {
+    FrameRecord record;
+    record.frame = json.at("frame");
+    record.stamp_ns = json.at("stamp_ns");
+    record.counts.points = json.at("points");
+    const std::string folder = std::string(kRecordingFolder) + "/";
+    for (const StrictJson& file : json.at("files")) {
+      const std::string name = file.at("name");
+      if (!name.starts_with(folder)) continue;
+      record.files.push_back({name.substr(folder.size()), file.at("bytes"), file.at("xxh3")});
+    }
+    return record;
+  });
+}
+
 IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const Json& record) {
   IndexedSequence sequence{record, {}};
-  const std::filesystem::path folder = dataset / record.at("folder").get<std::string>();
-  std::istringstream frames(ReadFileWhole(folder / kFramesFile));
+  std::filesystem::path folder = dataset / record.at("folder").get<std::string>();
+  // What was put into a recording that is no sequence is known beside it.
+  const bool is_sequence = std::filesystem::exists(folder / kFramesFile);
+  if (!is_sequence) folder = folder.parent_path();
+  const std::filesystem::path frames_file = folder / (is_sequence ? kFramesFile : kInsertFile);
+  std::istringstream frames(ReadFileWhole(frames_file));
   std::istringstream objects(ReadFileWhole(folder / kObjectsFile));
   const Json& s_m = record.at("vehicle_s_m");
   const Json& speed_mps = record.at("vehicle_speed_mps");
-  const std::string place = ShownPath(folder / kFramesFile);
+  const std::string place = ShownPath(frames_file);
   std::string frame_line;
   std::string objects_line;
   for (std::size_t i = 0; std::getline(frames, frame_line); ++i) {
-    auto frame_record = ParseFrameLine(frame_line);
+    auto frame_record =
+        is_sequence
+            ? ParseFrameLine(frame_line)
+            : std::optional(ReadInsertedFrame(frame_line, place + ":" + std::to_string(i + 1)));
     if (!frame_record || i >= s_m.size() || !std::getline(objects, objects_line)) {
       throw InputError(place + ":" + std::to_string(i + 1) + ": is damaged");
     }
@@ -65,13 +104,7 @@ IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const 
         std::move(*frame_record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
     const std::string objects_place =
         ShownPath(folder / kObjectsFile) + ":" + std::to_string(i + 1);
-    ReadRecordedJson<StrictJson>(objects_line, objects_place, [&](const StrictJson& json) {
-      for (const StrictJson& object : json.at("objects")) {
-        frame.objects.push_back(IndexedObjectOf(
-            object, objects_place + ": /objects/" + std::to_string(frame.objects.size())));
-      }
-      return true;
-    });
+    frame.objects = ReadIndexedObjects(objects_line, objects_place);
     sequence.frames.push_back(std::move(frame));
   }
   if (sequence.frames.size() == s_m.size()) return sequence;
@@ -95,7 +128,9 @@ std::string IndexLine(const Json& scenario, const Json& sequence, const IndexedF
                {"line", scenario.at("line")},
                {"vehicle_s_m", frame.vehicle_s_m},
                {"vehicle_speed_mps", frame.vehicle_speed_mps}};
-  if (sequence.contains("bag")) line["bag"] = sequence.at("bag");
+  for (const char* const file : {"bag", "trace"}) {
+    if (sequence.contains(file)) line[file] = sequence.at(file);
+  }
   PutCounts(frame.record.counts, line);
   line["objects"] = std::move(objects);
   line["drawn"] = scenario.at("drawn");

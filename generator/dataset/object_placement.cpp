@@ -24,28 +24,36 @@ void AddTo(Json& object, const char* key, double amount_m) {
   }
 }
 
-// Chainages of a motion count from the object's own place.
-void ShiftMotion(Json& object, double s_m) {
+// Until then an object is at its own place, which a profile says for time 0.
+void StandUntil(double time_s, Json& profile) {
+  constexpr double kStart_s = 1e-3;
+  if (!profile.is_array() || profile.empty() || !profile.front().contains("time_s")) return;
+  Json begin = {{{"time_s", 0.0}, {"speed_mps", 0.0}}};
+  if (time_s > kStart_s) begin.push_back({{"time_s", time_s - kStart_s}, {"speed_mps", 0.0}});
+  profile.insert(profile.begin(), begin.begin(), begin.end());
+}
+
+// Chainages and times of a motion count from the object's own place and the first frame.
+void ShiftMotion(Json& object, double s_m, double time_s) {
   if (!object.contains("motion") || !object["motion"].is_object()) return;
   Json& motion = object["motion"];
   const auto shift_all = [&](Json& points) {
     if (!points.is_array()) return;
     for (Json& point : points) AddTo(point, "s_m", s_m);
+    for (Json& point : points) AddTo(point, "time_s", time_s);
   };
-  if (motion.contains("profile")) shift_all(motion["profile"]);
+  if (motion.contains("profile")) {
+    shift_all(motion["profile"]);
+    if (time_s > 0.0) StandUntil(time_s, motion["profile"]);
+  }
   if (!motion.contains("path") || !motion["path"].is_object()) return;
   Json& path = motion["path"];
+  if (time_s > 0.0 && !path.contains("start_at_vehicle_s_m") && !path.contains("start_s")) {
+    path["start_s"] = 0.0;
+  }
+  AddTo(path, "start_s", time_s);
   AddTo(path, "start_at_vehicle_s_m", s_m);
   if (path.contains("points")) shift_all(path["points"]);
-}
-
-// The chainage of the vehicle and its direction of travel, 1 or -1.
-std::pair<double, double> VehicleIn(const Json& scenario) {
-  const Json vehicle = scenario.value("vehicle", Json::object());
-  const Json motion = vehicle.value("motion", Json::object());
-  const bool is_reverse = motion.is_object() && motion.value("reverse", Json()) == true;
-  const Json start = vehicle.value("start_s_m", Json());
-  return {start.is_number() ? start.get<double>() : 0.0, is_reverse ? -1.0 : 1.0};
 }
 
 std::string AtFrame(std::uint32_t frame) {
@@ -166,19 +174,23 @@ class ObjectPlacer {
 
   // Returns why the trial's last object cannot stand there; empty if it can: then it is in world_.
   std::string TryPlace(const DraftedScenario& trial, GaugeRule rule) {
-    const ScenarioSpec scenario = trial.Read();
-    const ObjectSpec& object = scenario.world.objects.back();
+    ScenarioSpec scenario = trial.Read();
     std::shared_ptr<const RailWorld> world;
     try {
-      world = world_->WithObject(object, 0);
+      scenario = trial.OnLine(std::move(scenario));
+      world = world_->WithObject(scenario.world.objects.back(), 0);
     } catch (const InputError& error) {
       return std::string("it cannot stand there: ") + error.what();
     }
+    const ObjectSpec& object = scenario.world.objects.back();
     const PlaceCheck check(*world, object.name, stamps_);
     if (auto fault = check.GaugeFault(scenario, rule)) return *fault;
     if (auto fault = check.Collision()) return *fault;
-    if (!structures_) structures_.emplace(world_, LabelTable(scenario.labels));
-    if (auto fault = check.StructureFault(object, *structures_)) return *fault;
+    // What stands beside the line of a recording is known to its points alone.
+    if (!trial.is_plan()) {
+      if (!structures_) structures_.emplace(world_, LabelTable(scenario.labels));
+      if (auto fault = check.StructureFault(object, *structures_)) return *fault;
+    }
     world_ = std::move(world);
     return "";
   }
@@ -215,11 +227,11 @@ ObjectDraw DrawObject(const Recipe& recipe,
   }
   result.ahead_m =
       DrawValue(objects.ahead_m, turn.draws, key + "ahead_m", turn.attempt).get<double>();
-  const auto [start_s_m, direction] = VehicleIn(draft.json());
-  const double s_m = start_s_m + direction * result.ahead_m;
+  const DraftedScenario::Start start = draft.start();
+  const double s_m = start.s_m + start.direction * result.ahead_m;
   result.object["name"] = name;
   result.object["s_m"] = s_m;
-  ShiftMotion(result.object, s_m);
+  ShiftMotion(result.object, s_m, start.time_s);
   return result;
 }
 

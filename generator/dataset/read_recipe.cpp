@@ -1,15 +1,46 @@
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "generator/dataset/describe_recipe.h"
 #include "generator/dataset/json_place.h"
 #include "generator/dataset/recipe.h"
+#include "generator/insert/plan/recorded_run.h"
 
 namespace railcast {
 namespace {
+
+namespace fs = std::filesystem;
+
+// Makes a base of each recording of a plan. They are read once, here.
+void ReadRecordings(Recipe& recipe) {
+  ErrorList errors;
+  std::vector<RecipeBase> bases;
+  for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
+    RecipeBase& base = recipe.bases[i];
+    base.pointer = "/bases/" + std::to_string(i);
+    const std::vector<std::string> files = std::exchange(base.recordings.files, {});
+    if (files.empty()) bases.push_back(base);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      RecipeBase& one = bases.emplace_back(base);
+      one.weight = base.weight / static_cast<double>(files.size());
+      one.recording_pointer = base.pointer + "/recordings/" + std::to_string(k);
+      const auto run = Attempt("", errors, [&] {
+        return std::make_shared<const RecordedRun>(
+            ReadRecordedRun(fs::path(base.file).lexically_proximate(fs::current_path()), files[k]));
+      });
+      if (run) one.run = *run;
+    }
+  }
+  errors.ThrowIfAny();
+  recipe.bases = std::move(bases);
+}
 
 // Calls `read` with each pointer of an object whose keys are JSON pointers, and with its value.
 template <class Read>
@@ -48,7 +79,8 @@ void ReadValue(JsonSource& source, const Node& node, ChoiceWeights& weights, Any
 void ReadValue(JsonSource& source, const Node& node, ObjectTemplate& object, Anything) {
   if (!node.json->is_object()) return source.Fault(node, "must be an object");
   object.json = *node.json;
-  for (const char* const key : {"name", "s_m", "x_m", "y_m", "longitude_deg", "latitude_deg"}) {
+  for (const char* const key :
+       {"name", "s_m", "x_m", "y_m", "longitude_deg", "latitude_deg", "frame"}) {
     if (!node.json->contains(key)) continue;
     source.FaultWithoutValue(node.Child(key), "must not be given: it is drawn");
   }
@@ -68,6 +100,20 @@ void ReadValue(JsonSource& source, const Node& node, DrawList& list, Anything) {
   });
 }
 
+void ReadValue(JsonSource& source, const Node& node, RecordingList& list, Anything) {
+  std::vector<std::string> names;
+  ReadValue(source, node, names, NonEmptyString());
+  if (node.json->is_array() && names.empty()) source.Fault(node, "must have a recording");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const fs::path file = (node.file->absolute.parent_path() / names[i]).lexically_normal();
+    std::error_code error;
+    if (!names[i].empty() && !fs::exists(file, error)) {
+      source.Fault(node.Child(i), "must be an existing file or directory");
+    }
+    list.files.push_back(file.string());
+  }
+}
+
 Recipe ReadRecipe(const std::filesystem::path& file) {
   JsonSource source;
   Recipe recipe;
@@ -78,6 +124,7 @@ Recipe ReadRecipe(const std::filesystem::path& file) {
   }
   source.errors().ThrowIfAny();
   recipe.file = file;
+  ReadRecordings(recipe);
   CheckRecipe(recipe);
   return recipe;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,12 +41,24 @@ template <>
 inline constexpr auto kEnumNames<GaugeRule> = std::to_array<EnumName<GaugeRule>>(
     {{GaugeRule::kAny, "any"}, {GaugeRule::kClear, "clear"}, {GaugeRule::kFoul, "foul"}});
 
-/// A scenario that others are drawn from.
+struct RecordedRun;
+
+/// Names of recordings.
+struct RecordingList {
+  std::vector<std::string> files;  ///< Absolute.
+};
+
+/// A scenario that others are drawn from, or a plan for a recording (docs/insert.md) that others
+/// for the same recording are drawn from.
 struct RecipeBase {
-  std::string file;  ///< Absolute.
+  std::string file;          ///< Absolute.
+  RecordingList recordings;  ///< Of a plan; each makes a base.
   double weight = 1.0;
   std::optional<Split> split;  ///< Part of all scenarios on its line; for SplitBy::kLine only.
-  std::optional<Distribution> start_s_m;  ///< Instead of the recipe's.
+  std::optional<Distribution> start_s_m;   ///< Instead of the recipe's.
+  std::string pointer;                     ///< Its place in the recipe: "/bases/0".
+  std::string recording_pointer;           ///< That of its recording: "/bases/0/recordings/1".
+  std::shared_ptr<const RecordedRun> run;  ///< The plan and its recording; null for a scenario.
 };
 
 /// A value for one place of a scenario.
@@ -125,13 +138,15 @@ struct Recipe {
   SplitSpec split;
   bool has_split = false;  ///< Whether the recipe asks for the shares, which then must hold.
 
+  /// Whether things are put into recordings: bases are either all plans or all scenarios.
+  [[nodiscard]] bool has_plans() const { return bases.front().run != nullptr; }
   /// Number of the last frame that is made of a scenario.
   [[nodiscard]] std::uint32_t last_frame() const {
     return warm_up_frames + (num_frames - 1) * stride;
   }
 };
 
-/// Reads a recipe as strictly as a scenario, and its bases.
+/// Reads a recipe as strictly as a scenario, its bases, and the ways of their recordings.
 /// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
 [[nodiscard]] Recipe ReadRecipe(const std::filesystem::path& file);
 

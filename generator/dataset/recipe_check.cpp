@@ -1,5 +1,6 @@
 #include "generator/dataset/recipe.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "generator/dataset/recipe_values.h"
 #include "generator/dataset/split_plan.h"
 #include "generator/dataset/split_quota.h"
+#include "generator/insert/plan/recorded_run.h"
 
 namespace railcast {
 namespace {
@@ -58,6 +60,7 @@ class KeyCheck {
     CheckNumbers();
     CheckOptionNames();
     CheckSplit();
+    CheckPlans();
   }
 
  private:
@@ -107,7 +110,7 @@ class KeyCheck {
       if (!recipe_.bases[i].start_s_m) continue;
       std::vector<Written> others = drawn;
       others.insert(others.end(), earlier.begin(), earlier.end());
-      Follow(others, {{"/vehicle/start_s_m", "/bases" + IndexStep(i) + "/start_s_m"}});
+      Follow(others, {{"/vehicle/start_s_m", recipe_.bases[i].pointer + "/start_s_m"}});
     }
   }
 
@@ -132,7 +135,7 @@ class KeyCheck {
     }
     for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
       if (!recipe_.bases[i].start_s_m) continue;
-      CheckNumber(*recipe_.bases[i].start_s_m, "/bases" + IndexStep(i) + "/start_s_m",
+      CheckNumber(*recipe_.bases[i].start_s_m, recipe_.bases[i].pointer + "/start_s_m",
                   "must give numbers", is_any);
     }
     for (std::size_t i = 0; i < recipe_.objects.size(); ++i) {
@@ -173,7 +176,7 @@ class KeyCheck {
     if (recipe_.split.by != SplitBy::kScenario) CheckLinesAreFixed();
     for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
       if (!recipe_.bases[i].split) continue;
-      const std::string place = "/bases" + IndexStep(i) + "/split";
+      const std::string place = recipe_.bases[i].pointer + "/split";
       if (recipe_.split.by != SplitBy::kLine) {
         Add(place, "must be given with /split/by \"line\" only");
       } else if (shares[static_cast<std::size_t>(*recipe_.bases[i].split)] == 0.0) {
@@ -182,8 +185,8 @@ class KeyCheck {
     }
   }
 
-  // Only lines that are known beforehand can be divided so that the shares hold.
-  void CheckLinesAreFixed() {
+  /// What the options of groups and the draws give.
+  [[nodiscard]] std::vector<Written> Drawn() const {
     std::vector<Written> drawn = WrittenBy(recipe_.draws, "/draws");
     for (std::size_t i = 0; i < recipe_.groups.size(); ++i) {
       for (std::size_t j = 0; j < recipe_.groups[i].options.size(); ++j) {
@@ -195,8 +198,47 @@ class KeyCheck {
         }
       }
     }
+    return drawn;
+  }
+
+  // What follows from the recording cannot be drawn for it.
+  void CheckPlans() {
+    const auto is_plan = [](const RecipeBase& base) { return base.run != nullptr; };
+    if (std::ranges::none_of(recipe_.bases, is_plan)) return;
+    if (!std::ranges::all_of(recipe_.bases, is_plan)) {
+      return Add("/bases", "must be either all plans with recordings or all scenarios");
+    }
+    if (recipe_.stride != 1) Add("/stride", "must be 1 with plans", NumberText(recipe_.stride));
+    if (recipe_.warm_up_frames != 0) {
+      Add("/warm_up_frames", "must be 0 with plans", NumberText(recipe_.warm_up_frames));
+    }
+    if (recipe_.sensor) Add("/sensor", "must be left out: plans have one sensor");
+    if (recipe_.start_s_m) Add("/start_s_m", "must be left out: plans begin in any frame");
+    for (const RecipeBase& base : recipe_.bases) {
+      const std::uint32_t num = base.run->num_frames();
+      if (base.start_s_m) {
+        Add(base.pointer + "/start_s_m", "must be left out: plans begin in any frame");
+      }
+      if (num >= recipe_.num_frames) continue;
+      Add(base.recording_pointer, "must have at least the recipe's " +
+                                      NumberText(recipe_.num_frames) + " frames (got " +
+                                      NumberText(num) + ")");
+    }
+    std::vector<Written> written = WrittenBy(recipe_.set, "/set");
+    for (const Written& own : Drawn()) written.push_back(own);
+    for (const Written& own : written) {
+      for (const std::string_view fixed : {"/world/recording", "/lidar/mount", "/lidar/scan"}) {
+        if (!LiesWithin(own.pointer, fixed) && !LiesWithin(fixed, own.pointer)) continue;
+        Add(own.recipe_pointer, "must be given in the plan: the recording's line depends on it");
+        break;
+      }
+    }
+  }
+
+  // Only lines that are known beforehand can be divided so that the shares hold.
+  void CheckLinesAreFixed() {
     constexpr std::string_view kLine = "/world/alignment";
-    for (const Written& own : drawn) {
+    for (const Written& own : Drawn()) {
       if (!LiesWithin(own.pointer, kLine) && !LiesWithin(kLine, own.pointer)) continue;
       Add(own.recipe_pointer, "must not draw the line with /split/by \"" +
                                   std::string(NameOf(recipe_.split.by)) +
@@ -233,12 +275,18 @@ class ExtremesCheck {
     for (std::size_t i = 1; i < recipe_.bases.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (recipe_.bases[i].split == recipe_.bases[j].split) continue;
-        if (LineHash(bases_.json(i)) != LineHash(bases_.json(j))) continue;
-        errors_.Add(
-            {ShownPath(recipe_.file.lexically_normal()) + ": /bases" + IndexStep(i) + "/split",
-             "must be that of /bases" + IndexStep(j) + ", which is on the same line", ""});
+        if (LineOf(i) != LineOf(j)) continue;
+        errors_.Add({ShownPath(recipe_.file.lexically_normal()) + ": " + recipe_.bases[i].pointer +
+                         "/split",
+                     "must be that of " + recipe_.bases[j].pointer + ", which is on the same line",
+                     ""});
       }
     }
+  }
+
+  [[nodiscard]] std::string LineOf(std::size_t base) const {
+    const DraftedScenario draft(recipe_, {}, bases_.json(base), base);
+    return LineHash(Json::parse(ResolvedScenarioJson(draft.OnLine(draft.Read()))));
   }
 
   // Forces the first extreme of each draw unless another value is forced: so a faulty one gives the
@@ -289,7 +337,10 @@ class ExtremesCheck {
   }
 
   void Try(const ForcedValues& forced) {
-    static_cast<void>(Attempt("", errors_, [&] { return Draft(forced).Read(); }));
+    static_cast<void>(Attempt("", errors_, [&] {
+      const DraftedScenario draft = Draft(forced);
+      return draft.OnLine(draft.Read());
+    }));
   }
 
   void TryObject(std::size_t index, const ForcedValues& forced) {

@@ -6,11 +6,15 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/scenario_identity.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
 #include "core/scenario/json_text.h"
+#include "generator/insert/plan/recorded_run.h"
 
 namespace railcast {
 namespace {
@@ -62,6 +66,22 @@ class FileHashes {
   std::map<std::string, std::string> hashes_;
 };
 
+/// What tells recordings apart without reading all of their points: names and sizes of the files,
+/// and the manifests of railcast's own, which hold hashes.
+std::string TraitsOf(const fs::path& recording) {
+  if (!fs::is_directory(recording)) return NumberText(fs::file_size(recording));
+  std::map<std::string, std::string> traits;
+  for (const auto& entry : fs::recursive_directory_iterator(recording)) {
+    if (!entry.is_regular_file()) continue;
+    const std::string name = entry.path().lexically_relative(recording).generic_string();
+    traits[name] = NumberText(entry.file_size());
+    if (entry.path().filename() == kManifestFile) traits[name] = HashFile(entry.path()).hash;
+  }
+  std::string text;
+  for (const auto& [name, trait] : traits) text += name + '\n' + trait + '\n';
+  return text;
+}
+
 }  // namespace
 
 RecipeBases::RecipeBases(const Recipe& recipe) {
@@ -70,8 +90,19 @@ RecipeBases::RecipeBases(const Recipe& recipe) {
     // As a user would name it.
     const std::filesystem::path shown =
         std::filesystem::path(base.file).lexically_proximate(std::filesystem::current_path());
+    if (base.run) {
+      specs_.push_back(base.run->plan);
+      jsons_.push_back(Json::parse(ResolvedScenarioJson(base.run->plan)));
+      hashes_.push_back(ContentHash(base.run->plan_hash + TraitsOf(base.run->recording)));
+      continue;
+    }
     auto spec = Attempt("", errors, [&] { return ReadScenario(shown); });
     if (!spec) continue;
+    if (spec->world.recording) {
+      errors.Add({ShownPath(recipe.file.lexically_normal()) + ": " + base.pointer + "/recordings",
+                  "missing: " + ShownPath(shown) + " is a plan, whose world is a recording", ""});
+      continue;
+    }
     jsons_.push_back(Json::parse(ResolvedScenarioJson(*spec)));
     hashes_.push_back(IdentityOf(*spec).scenario_hash);
     specs_.push_back(std::move(*spec));

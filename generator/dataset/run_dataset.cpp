@@ -13,7 +13,10 @@
 #include "core/program/version.h"
 #include "core/trace/trace_program.h"
 #include "generator/dataset/dataset_files.h"
+#include "generator/dataset/inserted_item.h"
 #include "generator/dataset/recipe_files.h"
+#include "generator/insert/plan/recorded_run.h"
+#include "generator/insert/run/insert_run.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/make_frames.h"
@@ -51,6 +54,22 @@ RunChoices ChoicesOfScenario(const Recipe& recipe,
   made.num_frames = recipe.num_frames;
   made.stride = recipe.stride;
   return made;
+}
+
+/// Checks that nothing is chosen that recordings already say.
+void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
+  if (!recipe.has_plans()) return;
+  const DatasetChoices usual;
+  const std::string rule = ": must be left out: the bases are plans for recordings";
+  if (choices.fields != usual.fields) throw InputError("--fields" + rule);
+  if (choices.is_merged) throw InputError("--merged" + rule);
+  if (!choices.isa.empty()) throw InputError("--isa" + rule);
+  for (const RecipeBase& base : recipe.bases) {
+    InsertChoices insert;
+    insert.recording = base.run->recording;
+    insert.directory = choices.directory;
+    CheckIsApart(insert);
+  }
 }
 
 /// Makes the sequences of a shard.
@@ -98,6 +117,7 @@ class DatasetRun {
   bool MakeNext() {
     const std::uint32_t number = choices_.shard.ScenarioAt(directory_.num_done());
     DrawnScenario drawn = drawer_.Draw(number);
+    if (drawn.run) return MakeNextOfPlan(number, drawn);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
@@ -112,6 +132,24 @@ class DatasetRun {
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
       drawn.record["sequences"].push_back(RecordOf(maker, maker.pattern(i), plan.sensors[i]));
     }
+    directory_.Append(drawn.record);
+    return true;
+  }
+
+  // As MakeNext().
+  bool MakeNextOfPlan(std::uint32_t number, DrawnScenario& drawn) {
+    const auto directory = choices_.directory / SequenceFolderOf(number);
+    const InsertHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
+                                 ShowProgress(static_cast<double>(num_done) / num_frames);
+                               },
+                               hooks_.is_stopped};
+    const InsertResult made =
+        AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
+                [&] { return MakeInserted(drawn, choices_, directory, hooks); });
+    result_.num_frames += made.num_done - made.num_resumed;
+    if (!made.is_complete) return false;
+    drawn.record["sequences"] =
+        Json::array({RecordOfInserted(drawn, choices_.directory, directory)});
     directory_.Append(drawn.record);
     return true;
   }
@@ -159,6 +197,7 @@ class DatasetRun {
         {"vehicle_s_m", std::move(s_m)},
         {"vehicle_speed_mps", std::move(speed_mps)}};
     if (!spec.bag.empty()) record["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
+    if (!spec.trace.empty()) record["trace"] = spec.trace;
     return record;
   }
 
@@ -175,6 +214,7 @@ class DatasetRun {
 DatasetResult RunDataset(const Recipe& recipe,
                          const DatasetChoices& choices,
                          const DatasetHooks& hooks) {
+  CheckChoices(recipe, choices);
   return DatasetRun(recipe, choices, hooks).Run();
 }
 

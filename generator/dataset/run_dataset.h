@@ -12,7 +12,8 @@
 
 namespace railcast {
 
-/// How a recipe's frames are made; which ones the recipe says.
+/// How a recipe's frames are made; which ones the recipe says. The format of a recipe of plans may
+/// also be "same": that of the recordings.
 struct DatasetChoices : RunChoices {
   Shard shard;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
 #include "generator/dataset/distribution.h"
@@ -16,6 +18,7 @@
 #include "generator/dataset/object_placement.h"
 #include "generator/dataset/recipe_values.h"
 #include "generator/dataset/seen_stretch.h"
+#include "generator/insert/plan/recorded_run.h"
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
 
@@ -43,9 +46,18 @@ class OneDraw {
   DrawnScenario Run() {
     Json drawn = PutRecipeValues(recipe_, draws_, number_, {}, draft_);
     PutSeed();
-    FindStart();
+    const std::shared_ptr<const RecordedRun>& run = recipe_.bases[base_].run;
+    if (run) {
+      FindFrames(*run);
+    } else {
+      FindStart();
+    }
     const Json placed = PlaceObjects(recipe_, draws_, stamps_, world_, draft_);
-    DrawnScenario result{WithRecipeSensor(recipe_, draft_.Read()), {}};
+    DrawnScenario result{.scenario = WithRecipeSensor(recipe_, draft_.Read()),
+                         .run = run,
+                         .first_frame = first_frame_,
+                         .num_frames = recipe_.num_frames};
+    if (run) drawn["recording"] = NameOfRecording(*run);
     const ScenarioSpec& scenario = result.scenario;
     const Json resolved = Json::parse(ResolvedScenarioJson(scenario));
     result.record = {
@@ -56,10 +68,11 @@ class OneDraw {
         {"seen_s_m", {seen_.begin_s_m, seen_.end_s_m}},
         {"seed", scenario.seed},
         {"world_seed", scenario.world.seed},
-        {"start_s_m", scenario.vehicle.start_s_m},
+        {"start_s_m", run ? draft_.start().s_m : scenario.vehicle.start_s_m},
         {"drawn", std::move(drawn)},
         {"placed", placed},
         {"weather", resolved.at("weather")}};
+    if (run) result.record["first_frame"] = first_frame_;
     return result;
   }
 
@@ -83,8 +96,7 @@ class OneDraw {
   void FindStart() {
     const RecipeBase& base = recipe_.bases[base_];
     const std::optional<Distribution>& start = base.start_s_m ? base.start_s_m : recipe_.start_s_m;
-    const std::string place =
-        base.start_s_m ? "/bases/" + std::to_string(base_) + "/start_s_m" : "/start_s_m";
+    const std::string place = base.start_s_m ? base.pointer + "/start_s_m" : "/start_s_m";
     if (!start) {
       const std::string obstacle = TryStart();
       if (obstacle.empty()) return;
@@ -111,6 +123,39 @@ class OneDraw {
     throw InputError(
         std::vector<Fault>{draft_.FaultAt(place, "no start in " + std::to_string(attempt) +
                                                      " attempts; at the last one: " + obstacle)});
+  }
+
+  // Draws with which frame of the recording a plan begins, until what it sees is in its part.
+  void FindFrames(const RecordedRun& run) {
+    const ScenarioSpec scenario = draft_.OnLine(draft_.Read());
+    const double sight_m = SightOf_m(recipe_, scenario);
+    const std::uint32_t num_starts = NumStartsIn(recipe_, run);
+    std::string obstacle;
+    for (std::uint32_t attempt = 0; attempt < kMostGlances; ++attempt) {
+      first_frame_ = static_cast<std::uint32_t>(draws_.Unit("first_frame", attempt) * num_starts);
+      seen_ = SeenStretchFrom(recipe_, run, first_frame_, sight_m);
+      obstacle = OtherGround();
+      if (obstacle.empty()) return BeginWith(run, scenario);
+    }
+    throw InputError(std::vector<Fault>{
+        draft_.FaultAt("/split", "no first frame in " + NumberText(kMostGlances) +
+                                     " attempts; at the last one: " + obstacle)});
+  }
+
+  void BeginWith(const RecordedRun& run, const ScenarioSpec& on_line) {
+    for (std::uint32_t i = 0; i < recipe_.num_frames; ++i) {
+      stamps_.frames.push_back(first_frame_ + i);
+      stamps_.stamps_ns.push_back(run.way.frame_times_ns.at(first_frame_ + i));
+    }
+    draft_.StartAt({run.Chainage_m(first_frame_), run.line.faces_up.at(first_frame_) ? 1.0 : -1.0,
+                    SecondsFromNs(stamps_.stamps_ns.front())});
+    world_ = draft_.Located([&] { return MakeWorld(on_line); });
+    line_hash_ = LineHash(Json::parse(ResolvedScenarioJson(on_line)));
+  }
+
+  [[nodiscard]] std::string NameOfRecording(const RecordedRun& run) const {
+    const auto folder = std::filesystem::absolute(recipe_.file).lexically_normal().parent_path();
+    return run.recording.lexically_proximate(folder).generic_string();
   }
 
   // Says that what the scenario sees is not all in its part; empty if it is.
@@ -170,6 +215,7 @@ class OneDraw {
   SeenStretch seen_;
   SeenStretch from_start_;  ///< What is seen from a start at 0, as far as is known.
   std::string line_hash_;
+  std::uint32_t first_frame_ = 0;  ///< Of a plan.
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,14 @@ namespace railcast {
 
 /// A scenario of a recipe.
 struct DrawnScenario {
-  ScenarioSpec scenario;  ///< With the sensors of which frames are made.
+  ScenarioSpec scenario;  ///< With the sensors of which frames are made; or a plan.
+  /// Of a plan, the recording that it is for and the frames that it is put into; else null.
+  std::shared_ptr<const RecordedRun> run{};
+  std::uint32_t first_frame{};
+  std::uint32_t num_frames{};
   /// What index and report say of it: scenario, base, split, place, seed, start_s_m, drawn,
-  /// objects, weather.
-  Json record;
+  /// objects, weather; of a plan also the first frame.
+  Json record{};
 };
 
 /// Draws the scenarios of a recipe. Each depends on the recipe and its number alone.

@@ -45,4 +45,22 @@ SeenStretch SeenStretchOf(const RailWorld& world, const MadeStamps& stamps, doub
   return {least - sight_m, most + sight_m};
 }
 
+std::uint32_t NumStartsIn(const Recipe& recipe, const RecordedRun& run) {
+  return run.num_frames() - recipe.num_frames + 1;
+}
+
+SeenStretch SeenStretchFrom(const Recipe& recipe,
+                            const RecordedRun& run,
+                            std::uint32_t first_frame,
+                            double sight_m) {
+  double least_m = run.Chainage_m(first_frame);
+  double most_m = least_m;
+  for (std::uint32_t i = 1; i < recipe.num_frames; ++i) {
+    const double s_m = run.Chainage_m(first_frame + i);
+    least_m = std::min(least_m, s_m);
+    most_m = std::max(most_m, s_m);
+  }
+  return {least_m - sight_m, most_m + sight_m};
+}
+
 }  // namespace railcast

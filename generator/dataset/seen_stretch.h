@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
+
 #include "generator/dataset/object_placement.h"
 #include "generator/dataset/recipe.h"
+#include "generator/insert/plan/recorded_run.h"
 #include "railcast/lidar.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
@@ -32,5 +35,14 @@ struct SeenStretch {
 [[nodiscard]] SeenStretch SeenStretchOf(const RailWorld& world,
                                         const MadeStamps& stamps,
                                         double sight_m);
+
+/// Number of frames of a recording with which a scenario of the recipe may begin.
+[[nodiscard]] std::uint32_t NumStartsIn(const Recipe& recipe, const RecordedRun& run);
+
+/// All that such a scenario sees, in the chainage of plans.
+[[nodiscard]] SeenStretch SeenStretchFrom(const Recipe& recipe,
+                                          const RecordedRun& run,
+                                          std::uint32_t first_frame,
+                                          double sight_m);
 
 }  // namespace railcast

@@ -21,12 +21,18 @@ namespace {
 /// Draws of a start by which its distribution is judged.
 constexpr std::uint32_t kNumStarts = 4096;
 
+/// Where a scenario may start, and what it sees from there.
+struct StartPlace {
+  double s_m{};
+  SeenStretch seen;
+};
+
 /// A base with what the recipe sets, and with what it draws for scenario 0.
 struct BaseGround {
   std::string line_hash;
-  std::vector<double>
-      starts_m;      ///< Where its scenarios may start: many draws that are on the line.
-  SeenStretch seen;  ///< From a start at 0.
+  std::vector<StartPlace> starts{};  ///< Many draws that are on the line, or all frames.
+  double num_drawn{};                ///< Those that are not on the line included.
+  double seen_m{};                   ///< How much of the line is seen at most.
 };
 
 DraftedScenario DraftOfBase(const Recipe& recipe, const RecipeBases& bases, std::size_t base) {
@@ -36,26 +42,44 @@ DraftedScenario DraftOfBase(const Recipe& recipe, const RecipeBases& bases, std:
 }
 
 std::string LineHashOf(const DraftedScenario& draft) {
-  return LineHash(Json::parse(ResolvedScenarioJson(draft.Read())));
+  return LineHash(Json::parse(ResolvedScenarioJson(draft.OnLine(draft.Read()))));
+}
+
+BaseGround GroundOfRecording(const Recipe& recipe,
+                             const RecordedRun& run,
+                             const DraftedScenario& draft) {
+  const double sight_m = SightOf_m(recipe, draft.Read());
+  const std::uint32_t num = NumStartsIn(recipe, run);
+  BaseGround ground{.line_hash = LineHashOf(draft), .num_drawn = static_cast<double>(num)};
+  for (std::uint32_t i = 0; i < num; ++i) {
+    const SeenStretch seen = SeenStretchFrom(recipe, run, i, sight_m);
+    ground.starts.push_back({run.Chainage_m(i), seen});
+    ground.seen_m = std::max(ground.seen_m, seen.end_s_m - seen.begin_s_m);
+  }
+  return ground;
 }
 
 BaseGround GroundOf(const Recipe& recipe, const RecipeBases& bases, std::size_t base) {
   const DraftedScenario draft = DraftOfBase(recipe, bases, base);
+  if (const auto& run = recipe.bases[base].run) return GroundOfRecording(recipe, *run, draft);
   const ScenarioSpec scenario = WithRecipeSensor(recipe, draft.Read());
   const auto world = draft.Located([&] { return MakeWorld(scenario); });
   const ScanPattern pattern = BuildScanPattern(SensorsOf(scenario).front().lidar.scan);
   const double start_s_m = scenario.vehicle.start_s_m;
-  BaseGround ground{LineHashOf(draft),
-                    {},
-                    SeenStretchOf(*world, StampsOf(recipe, pattern), SightOf_m(recipe, scenario))
-                        .ShiftedBy(-start_s_m)};
+  const SeenStretch seen =
+      SeenStretchOf(*world, StampsOf(recipe, pattern), SightOf_m(recipe, scenario))
+          .ShiftedBy(-start_s_m);
+  BaseGround ground{.line_hash = LineHashOf(draft),
+                    .num_drawn = kNumStarts,
+                    .seen_m = seen.end_s_m - seen.begin_s_m};
   const auto& own = recipe.bases[base].start_s_m;
   const auto& start = own ? own : recipe.start_s_m;
   const KeyedDraws draws(recipe.seed, 0);
   for (std::uint32_t i = 0; i < kNumStarts; ++i) {
     const double s_m =
         start ? DrawValue(*start, draws, "split\nstart_s_m", i).get<double>() : start_s_m;
-    if (s_m >= 0.0 && s_m <= world->alignment().length_m()) ground.starts_m.push_back(s_m);
+    if (s_m < 0.0 || s_m > world->alignment().length_m()) continue;
+    ground.starts.push_back({s_m, seen.ShiftedBy(s_m)});
   }
   return ground;
 }
@@ -135,10 +159,10 @@ void SplitPlan::DivideCells(const RecipeBases& bases) {
   double seen_m = 0.0;
   for (std::size_t i = 0; i < recipe_.bases.size(); ++i) {
     const BaseGround& ground = grounds.emplace_back(GroundOf(recipe_, bases, i));
-    for (const double s_m : ground.starts_m) {
-      weights[{ground.line_hash, CellAt(s_m)}] += recipe_.bases[i].weight / kNumStarts;
+    for (const StartPlace& start : ground.starts) {
+      weights[{ground.line_hash, CellAt(start.s_m)}] += recipe_.bases[i].weight / ground.num_drawn;
     }
-    seen_m = std::max(seen_m, ground.seen.end_s_m - ground.seen.begin_s_m);
+    seen_m = std::max(seen_m, ground.seen_m);
   }
   std::vector<SplitPlace> places;
   for (const auto& [cell, weight] : weights) {
@@ -158,11 +182,10 @@ void SplitPlan::DivideCells(const RecipeBases& bases) {
     const auto split = static_cast<Split>(part);
     double sum = 0.0;
     for (std::size_t i = 0; i < grounds.size(); ++i) {
-      const auto fits = [&](double s_m) {
-        return PartOf(i, grounds[i].seen.ShiftedBy(s_m)) == split;
-      };
+      const auto fits = [&](const StartPlace& start) { return PartOf(i, start.seen) == split; };
       base_weights_[part][i] *=
-          static_cast<double>(std::ranges::count_if(grounds[i].starts_m, fits)) / kNumStarts;
+          static_cast<double>(std::ranges::count_if(grounds[i].starts, fits)) /
+          grounds[i].num_drawn;
       sum += base_weights_[part][i];
     }
     if (quota_[part] == 0 || sum > 0.0) continue;

@@ -1,16 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <sstream>
 #include <string>
 
-#include "core/io/verify/dataset_verification.h"
-#include "generator/dataset/merge_shards.h"
 #include "tests/core/io/recording/read_all.h"
-#include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_in_format.h"
 
 namespace railcast {
 namespace {
@@ -19,27 +15,12 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// Data sets of two sensors, or of one, whose clouds are in bags of ROS 2.
-class DatasetOfBags : public testing::TestWithParam<const char*> {
+/// Data sets whose clouds are in bags of ROS 2.
+class DatasetOfBags : public DatasetInFormat {
  protected:
-  [[nodiscard]] fs::path Path(const std::string& name) const { return directory_.path() / name; }
-  [[nodiscard]] DatasetChoices Choices(const std::string& name, const Shard& shard = {}) const {
-    DatasetChoices choices = OnOneThread(Path(name), shard);
-    choices.format = GetParam();
-    return choices;
-  }
-  void Make(const std::string& name, const Shard& shard = {}) const {
-    EXPECT_TRUE(RunDataset(recipe_, Choices(name, shard), NoDatasetHooks()).is_complete);
-  }
-  [[nodiscard]] std::vector<std::string> FaultsOf(const std::string& name) const {
-    return VerifyDataset(Path(name), [](double) {}).faults;
-  }
   [[nodiscard]] std::string BagName() const {
     return GetParam() == std::string("mcap") ? "frames.mcap" : "rosbag2";
   }
-
-  const TemporaryDirectory directory_;
-  Recipe recipe_ = ReadProjectRecipe(directory_.path() / "project", RecipeOfTwoSensors());
 };
 
 INSTANTIATE_TEST_SUITE_P(Formats, DatasetOfBags, testing::Values("mcap", "rosbag2"));
@@ -62,24 +43,11 @@ TEST_P(DatasetOfBags, SaysInItsIndexWhereTheCloudsAre) {
 }
 
 TEST_P(DatasetOfBags, IsTheSameOfShardsAndIsWholeThen) {
-  Make("whole");
-  Make("a", {1, 2});
-  Make("b", {2, 2});
-  EXPECT_EQ(MergeShards({Path("a"), Path("b")}, Path("merged"), [](auto, auto) {}), 3U);
-  EXPECT_EQ(FilesOfDataset(Path("merged")), FilesOfDataset(Path("whole")));
-  EXPECT_THAT(FaultsOf("merged"), IsEmpty());
+  ExpectTheSameOfShards();
 }
 
 TEST_P(DatasetOfBags, HasTheSameBytesAfterAnInterruption) {
-  Make("whole");
-  for (const int after : {2, 7, 11}) {
-    const std::string name = "stopped_" + std::to_string(after);
-    std::atomic<int> num_asked = 0;
-    const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > after; }};
-    (void)RunDataset(recipe_, Choices(name), hooks);
-    Make(name);
-    EXPECT_EQ(FilesOfDataset(Path(name)), FilesOfDataset(Path("whole"))) << after;
-  }
+  ExpectTheSameAfterAnInterruption();
 }
 
 TEST_P(DatasetOfBags, HasThePointsOfOneOfFiles) {

@@ -1,0 +1,94 @@
+#include "generator/dataset/inserted_item.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/content_hash.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/write_file.h"
+#include "generator/insert/plan/recorded_run.h"
+#include "generator/insert/run/insert_folder.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Hashes of all files of a folder, by their names in it.
+std::map<std::string, std::string> HashesIn(const fs::path& directory) {
+  std::map<std::string, std::string> hashes;
+  for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+    if (entry.is_directory()) continue;
+    hashes[entry.path().lexically_relative(directory).generic_string()] =
+        HashFile(entry.path()).hash;
+  }
+  return hashes;
+}
+
+std::uint64_t PointsIn(const fs::path& directory) {
+  std::uint64_t points = 0;
+  const std::string text = ReadFileWhole(directory / kInsertFile);
+  std::string_view rest = text;
+  while (const auto line = TakeLine(rest)) {
+    points += Json::parse(*line).at("points").get<std::uint64_t>();
+  }
+  return points;
+}
+
+double Speed_mps(const RecordedRun& run, std::uint32_t frame) {
+  const std::uint32_t before = frame == 0 ? 0 : frame - 1;
+  const std::uint32_t after = std::min(frame + 1, run.num_frames() - 1);
+  if (before == after) return 0.0;
+  return std::abs(run.Chainage_m(after) - run.Chainage_m(before)) /
+         SecondsFromNs(run.way.frame_times_ns[after] - run.way.frame_times_ns[before]);
+}
+
+}  // namespace
+
+InsertResult MakeInserted(const DrawnScenario& drawn,
+                          const DatasetChoices& choices,
+                          const fs::path& directory,
+                          const InsertHooks& hooks) {
+  return RunInsert({.recording = drawn.run->recording,
+                    .plan = {},
+                    .directory = directory,
+                    .format = choices.format,
+                    .first_frame = drawn.first_frame,
+                    .last_frame = drawn.first_frame + drawn.num_frames - 1,
+                    .num_threads = choices.num_threads},
+                   MakeInsertPlan(*drawn.run, drawn.scenario), hooks);
+}
+
+Json RecordOfInserted(const DrawnScenario& drawn,
+                      const fs::path& dataset,
+                      const fs::path& directory) {
+  const RecordedRun& run = *drawn.run;
+  Json s_m = Json::array();
+  Json speed_mps = Json::array();
+  for (std::uint32_t i = 0; i < drawn.num_frames; ++i) {
+    s_m.push_back(run.Chainage_m(drawn.first_frame + i));
+    speed_mps.push_back(Speed_mps(run, drawn.first_frame + i));
+  }
+  const Json hashes = HashesIn(directory);
+  const Json manifest = Json::parse(ReadFileWhole(directory / kManifestFile));
+  const fs::path folder = (directory / kRecordingFolder).lexically_relative(dataset);
+  return {{"sensor", drawn.scenario.lidar.name},
+          {"folder", folder.generic_string()},
+          {"num_frames", drawn.num_frames},
+          {"points", PointsIn(directory)},
+          {"scenario_xxh3", manifest.at("plan_xxh3")},
+          {"data_xxh3", ContentHash(hashes.dump())},
+          {"manifest_xxh3", hashes.at(std::string(kManifestFile))},
+          {"vehicle_s_m", std::move(s_m)},
+          {"vehicle_speed_mps", std::move(speed_mps)},
+          {"files_xxh3", hashes}};
+}
+
+}  // namespace railcast

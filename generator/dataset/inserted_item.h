@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/scenario/json_text.h"
+#include "generator/dataset/run_dataset.h"
+#include "generator/dataset/scenario_draw.h"
+#include "generator/insert/run/insert_run.h"
+
+namespace railcast {
+
+/// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it.
+/// @param directory Of this scenario.
+/// @throws InputError as MakeInsertPlan() and RunInsert() do.
+[[nodiscard]] InsertResult MakeInserted(const DrawnScenario& drawn,
+                                        const DatasetChoices& choices,
+                                        const std::filesystem::path& directory,
+                                        const InsertHooks& hooks);
+
+/// What scenarios.jsonl says of it when it is complete: as of a sequence, which is its folder
+/// `recording`, and the hashes of all files of the scenario.
+[[nodiscard]] Json RecordOfInserted(const DrawnScenario& drawn,
+                                    const std::filesystem::path& dataset,
+                                    const std::filesystem::path& directory);
+
+}  // namespace railcast
