@@ -121,8 +121,9 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "A second source to compare the first with, frame by frame");
   app.add_option("--layout", raw.layout,
                  "How --compare shows two sources. beside: side by side; distance: one over the "
-                 "other, each point coloured by its distance to the nearest of the other source")
-      ->check(CLI::IsMember({"beside", "distance"}))
+                 "other, each point coloured by its distance to the nearest of the other source; "
+                 "changes: likewise, coloured by whether both have the point, or only one")
+      ->check(CLI::IsMember(Strings(kLayoutNames)))
       ->capture_default_str();
   app.add_option("--scenario", options.scenario,
                  "Scenario that a stream or a file was made of: it gives the labels' names, the "
@@ -267,7 +268,8 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
     auto& ends = raw.layout == "distance" ? options.choices.distance_ends_m : options.choices.ends;
     ends = {raw.color_range[0], raw.color_range[1]};
   }
-  options.choices.layout = raw.layout == "distance" ? Layout::kDistance : Layout::kBeside;
+  options.choices.layout =
+      static_cast<Layout>(std::ranges::find(kLayoutNames, raw.layout) - kLayoutNames.begin());
   for (const std::string& name : raw.show) {
     const auto* const found = std::ranges::find(kShowables, name, &Showable::name);
     (found == kShowables.end() ? options.choices.empty_beams

@@ -281,10 +281,9 @@ Composition ComposeDistances(const std::shared_ptr<const ShownFrame>& a,
       {.shown = b,
        .view_from_sensor = FirstFromSecond(*a, *b).value_or(Transform::Identity()),
        .colors = ColorByScale(of_b, map, ends_m).colors,
-       .is_faint = FaintPoints(*b, choices.labels)});
+       .is_faint = FaintPoints(*b, choices.labels),
+       .source = 1});
   return composition;
 }
-
-/// What overlays need from the scenario; each part is made when it is first needed.
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "railcast/transform.h"
@@ -31,9 +32,12 @@ struct OverlayChoices {
 
 /// How two recordings are shown together.
 enum class Layout : std::uint8_t {
-  kBeside,   ///< Side by side, sharing one camera.
-  kDistance  ///< In one view, coloured by the distance to the nearest point of the other.
+  kBeside,    ///< Side by side, sharing one camera.
+  kDistance,  ///< In one view, coloured by the distance to the nearest point of the other.
+  kChanges    ///< In one view, coloured by which of the two has the point.
 };
+
+inline constexpr std::array<std::string_view, 3> kLayoutNames = {"beside", "distance", "changes"};
 
 /// Limits the time to draw and the memory that accumulated frames take.
 inline constexpr std::size_t kMaxAccumulated = 128;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct PlacedCloud {
   Transform view_from_sensor = Transform::Identity();
   std::vector<Rgb> colors;       ///< One per point.
   std::vector<bool> is_faint{};  ///< One per point; empty: no point is faint.
+  std::size_t source{};          ///< Where one view shows two sources: whose cloud this is.
 };
 
 /// Surfaces and where they are drawn.

@@ -226,7 +226,8 @@ void Gui::OnClick(const std::array<int, 2>& place_px, bool with_shift) {
 }
 
 void Gui::SelectInLegend(const Legend::Line& line) {
-  if (session_.choices().color_by != "label") return;
+  const Choices& choices = session_.choices();
+  if (choices.color_by != "label" || choices.layout == Layout::kChanges) return;
   session_.ToggleLabel(static_cast<std::uint32_t>(line.value));
   Refresh();
 }

@@ -92,10 +92,10 @@ std::span<const KeyBinding> KeyTable::Bindings() {
        [](Gui& w) { w.SelectPickedLabel(); }},
       {"Escape", "escape", "clear the selection and the picked point",
        [](Gui& w) { w.ClearSelection(); }},
-      {"v", "v", "two recordings: side by side, or by distance",
+      {"v", "v", "two recordings: side by side, by distance, or by what changed",
        [](Gui& w) {
          auto& layout = w.session_.choices().layout;
-         layout = After(layout, 2);
+         layout = After(layout, kLayoutNames.size());
          w.Refresh();
        }},
       {"p", "p", "save the picture", [](Gui& w) { w.SaveScreenshot(); }},

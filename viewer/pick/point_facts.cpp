@@ -16,7 +16,6 @@ constexpr std::size_t kMaxWidth = 60;
 // Width of one coordinate: 5300000.123 and a space.
 constexpr std::size_t kCoordinateWidth = 12;
 constexpr double kMmPerM = 1e3;
-constexpr double kNsPerUs = 1e3;
 
 std::string CoordinatesText(const Vector3& point_m) {
   std::string text;
@@ -78,7 +77,7 @@ class Facts {
     AddField("radial_velocity_mps", "velocity",
              [&] { return QuantityText(At(frame_.radial_velocity_mps), 2, "m/s"); });
     AddField("time_ns", "time",
-             [&] { return QuantityText(frame_.time_ns[slot_] / kNsPerUs, 3, "us"); });
+             [&] { return QuantityText(frame_.time_ns[slot_] / double{kNsPerUs}, 3, "us"); });
     AddField("ring", "ring", [&] { return std::to_string(frame_.ring[slot_]); });
     AddField("column", "column", [&] { return std::to_string(frame_.column[slot_]); });
     AddField("return_index", "return index",

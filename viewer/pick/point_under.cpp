@@ -55,10 +55,9 @@ std::optional<ScreenPoint> PointUnder(Stage& stage,
   while (point >= composition.clouds[cloud].shown->num_points()) {
     point -= composition.clouds[cloud++].shown->num_points();
   }
-  // Where one view shows two sources, its first cloud is of the first source and its second of the
-  // second.
-  const std::size_t source = stage.num_views() < session.num_sources() ? cloud : index;
-  return ScreenPoint{source, composition.clouds[cloud].shown, point};
+  const PlacedCloud& hit = composition.clouds[cloud];
+  return ScreenPoint{session.num_views() < session.num_sources() ? hit.source : index, hit.shown,
+                     point};
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "viewer/composition/changes.h"
 #include "viewer/composition/coloring.h"
 #include "viewer/composition/compose.h"
 #include "viewer/composition/status_text.h"
@@ -125,7 +126,7 @@ void Session::ToggleLabel(std::uint32_t label) {
 }
 
 std::size_t Session::num_views() const {
-  return choices_.layout == Layout::kDistance ? 1 : sources_.size();
+  return choices_.layout == Layout::kBeside ? sources_.size() : 1;
 }
 
 double Session::Period_s() const {
@@ -180,7 +181,7 @@ std::string Session::Missing() const {
     return "frames without poses are not accumulated";
   }
   if (choices_.num_accumulated > 1 && num_views() < sources_.size()) {
-    return "distances are of single frames: they are not accumulated";
+    return "distances and changes are of single frames: they are not accumulated";
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     std::string missing = sources_[i].composer.Missing(*shown_[i], choices_);
@@ -232,15 +233,22 @@ Composition Session::ComposeOne(std::size_t index) {
   return composition;
 }
 
-/// Overlays are those of the first source.
-Composition Session::ComposeBoth() {
-  std::string fault;
-  Composition composition =
-      sources_[0].composer.Compose({shown_[0]}, ChoicesFor(sources_[0], *shown_[0], fault));
+Composition Session::ComposePoints() {
+  if (choices_.layout == Layout::kChanges) return ComposeChanges(shown_[0], shown_[1], choices_);
   Composition distances = ComposeDistances(shown_[0], shown_[1], choices_);
   choices_.distance_ends_m = distances.coloring.ends;
-  composition.clouds = std::move(distances.clouds);
-  composition.coloring = std::move(distances.coloring);
+  return distances;
+}
+
+Composition Session::ComposeBoth() {
+  Composition points = ComposePoints();
+  // Overlays are those of the source in whose axes the points are drawn.
+  const std::size_t main = points.clouds[0].source;
+  std::string fault;
+  Composition composition = sources_[main].composer.Compose(
+      {shown_[main]}, ChoicesFor(sources_[main], *shown_[main], fault));
+  composition.clouds = std::move(points.clouds);
+  composition.coloring = std::move(points.coloring);
   for (std::size_t i = 0; i < sources_.size(); ++i)
     AddLine(StatusOf(i, composition), composition.status);
   AddPicture(sources_[0], composition);

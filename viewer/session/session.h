@@ -45,8 +45,9 @@ class Session {
   /// Says which of the choices cannot be drawn for the current frames, and why; empty if all can.
   [[nodiscard]] std::string Missing() const;
 
-  /// Makes a composition for each view: one per source, or a single one of the distances between
-  /// two. A frame that lacks the chosen field gets the fallback's colours, and its status says so.
+  /// Makes a composition for each view: one per source, or a single one of two that are laid over
+  /// each other. A frame that lacks the chosen field gets the fallback's colours, and its status
+  /// says so.
   [[nodiscard]] std::vector<Composition> Compose();
   [[nodiscard]] std::size_t num_views() const;
 
@@ -78,6 +79,7 @@ class Session {
   [[nodiscard]] ShownFrames FramesWith(const Source& source,
                                        const std::shared_ptr<const ShownFrame>& shown) const;
   [[nodiscard]] Composition ComposeOne(std::size_t index);
+  [[nodiscard]] Composition ComposePoints();
   [[nodiscard]] Composition ComposeBoth();
   [[nodiscard]] bool HasPicture() const;
   void AddPicture(const Source& source, Composition& composition) const;

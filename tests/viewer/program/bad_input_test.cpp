@@ -167,6 +167,7 @@ TEST_F(BadInput, CommandLinesThatDoNotGoTogetherEndWithTwo) {
                                    "--size 100x100x100",
                                    "--size 20000x100",
                                    "--layout distance",
+                                   "--layout changes",
                                    "--layout over",
                                    "--pick 1,1",
                                    "--screenshot b --pick 1,1 --pick 2,2 --pick 3,3",

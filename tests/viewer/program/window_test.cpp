@@ -283,12 +283,14 @@ TEST_F(Window, LooksFromAboveAsItsPrintedCameraSays) {
   EXPECT_EQ(window().ExitStatus(), 0);
 }
 
-TEST_F(Window, ComparesInTwoWays) {
+TEST_F(Window, ComparesInThreeWays) {
   Open({path_, "--compare", path_});
   const std::string compare = "--compare " + path_;
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected(compare)));
   Press("v");
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected(compare + " --layout distance")));
+  Press("v");
+  EXPECT_TRUE(ArePointsAlike(Shown(), Expected(compare + " --layout changes")));
   Press("v Right");
   EXPECT_TRUE(ArePointsAlike(Shown(), Expected(compare + " --frame 1")));
   Press("q");

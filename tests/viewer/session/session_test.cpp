@@ -295,5 +295,22 @@ TEST(Session, OfTwoSourcesShowsTheirDistancesInOneView) {
   EXPECT_EQ(session.choices().distance_ends_m, std::nullopt) << "to be fitted to the next";
 }
 
+TEST(Session, OfTwoSourcesShowsTheChangesInTheAxesOfTheSecond) {
+  HeldFrames a({Share(MovingCloud(0))}, "a");
+  HeldFrames b({Share(MovingCloud(3))}, "b");
+  Choices choices;
+  choices.layout = Layout::kChanges;
+  Session session({&a, &b}, choices);
+  EXPECT_EQ(session.num_views(), 1U);
+  ASSERT_TRUE(session.Seek(0));
+  const auto compositions = session.Compose();
+  ASSERT_THAT(compositions, SizeIs(1));
+  ASSERT_THAT(compositions[0].clouds, SizeIs(2));
+  EXPECT_EQ(compositions[0].clouds[0].shown, session.shown(1));
+  EXPECT_EQ(compositions[0].coloring.title, "change");
+  EXPECT_EQ(compositions[0].status,
+            "a   frame 0   0.000 s   2 points\nb   frame 3   0.600 s   2 points");
+}
+
 }  // namespace
 }  // namespace railcast
