@@ -5,11 +5,16 @@
 
 namespace railcast {
 
+inline constexpr const char* kExitStatusText =
+    "Exit status: 0 success, 1 bad input or failed run, 2 usage.";
+
 // Each function adds one command with its options to railcast-generate. If the command line names
 // it, `command` becomes its work.
 
 /// Writes a sequence directory, or finishes an interrupted one.
 void AddSequence(CLI::App& app, ProgramCommand& command);
+/// Puts objects and weather into a recording.
+void AddInsert(CLI::App& app, ProgramCommand& command);
 /// Sends frames live, at the pace of real sensors, until stopped.
 void AddStream(CLI::App& app, ProgramCommand& command);
 /// Sends a recording at its own pace, faster, or step by step.
@@ -22,9 +27,15 @@ void AddWorld(CLI::App& app, ProgramCommand& command);
 void AddDataset(CLI::App& app, ProgramCommand& command);
 /// Makes one data set of its shards.
 void AddMerge(CLI::App& app, ProgramCommand& command);
-/// Fits the lines of a map and writes them as alignments. Needs GDAL and PROJ
-/// (RAILCAST_BUILD_IMPORT).
+inline constexpr const char* kImportDescription =
+    "Fit the lines of a map and write them as alignments";
+/// Runs the program railcast-import, which stands beside railcast-generate, with what follows on
+/// the command line. It is there if railcast was built with GDAL and PROJ (RAILCAST_BUILD_IMPORT).
+void AddImportProgram(CLI::App& app, ProgramCommand& command);
+/// Fits the lines of a map and writes them as alignments, in the program railcast-import.
 void AddImport(CLI::App& app, ProgramCommand& command);
+/// Makes the scene of a scenario from recordings or from survey clouds.
+void AddSurvey(CLI::App& app, ProgramCommand& command);
 /// Replays one firing and prints what each effect made of it.
 void AddTrace(CLI::App& app, ProgramCommand& command);
 

@@ -1,3 +1,5 @@
+#include <pcl/console/print.h>
+
 #include "generator/commands.h"
 
 namespace {
@@ -7,6 +9,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   app.fallthrough();
   app.add_flag("-v,--verbose")->description("Print details of each step");
   railcast::AddSequence(app, command);
+  railcast::AddInsert(app, command);
   railcast::AddStream(app, command);
   railcast::AddReplay(app, command);
   railcast::AddCheck(app, command);
@@ -14,18 +17,21 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddTrace(app, command);
   railcast::AddDataset(app, command);
   railcast::AddMerge(app, command);
+  railcast::AddSurvey(app, command);
 #ifdef RAILCAST_HAS_IMPORT
-  railcast::AddImport(app, command);
+  railcast::AddImportProgram(app, command);
 #endif
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  // PCL warns whenever points that it has drawn for a plane are on a line, and draws others.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   return railcast::ProgramMain(
       {.name = "railcast-generate",
        .description = "LiDAR simulation for railways: makes frames from a scenario.",
-       .footer = "Exit status: 0 success, 1 bad input or failed run, 2 usage.",
+       .footer = railcast::kExitStatusText,
        .add = AddCommands},
       argc, argv);
 }

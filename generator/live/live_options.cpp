@@ -46,7 +46,7 @@ void AddRosOptions(CLI::App& command, RosOptions& options) {
                   "ROS_DOMAIN_ID, else 0")
       ->transform(Whole({0, 232}));
   command.add_option("--interface", options.interface,
-                     "With protocol ros2: name or IPv4 address of the network interface to publish "
+                     "With protocol ros2: name or address of the network interface to publish "
                      "through; default: the scenario's, else loopback");
   command
       .add_option("--receive-buffers", options.receive_buffers,

@@ -251,7 +251,7 @@ void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
   for (std::size_t i = 1; i < maker_.num_sensors(); ++i) {
     first_ns = std::min(first_ns, maker_.pattern(i).StampNs(0));
   }
-  constexpr std::int64_t kNsPerUs = 1000;  // Packets count microseconds.
+  // Packets count microseconds.
   const std::int64_t time_0_ns = (now_ns + lead_ns - first_ns) / kNsPerUs * kNsPerUs;
   for (const auto& stream : streams_) stream->SetUtcAhead(time_0_ns - kSimulationEpoch_s * kNsPerS);
   if (ros_ != nullptr) ros_->SetClockAhead(time_0_ns);

@@ -13,6 +13,8 @@
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
+#include "generator/insert/packets/inserted_datagrams.h"
+#include "generator/insert/packets/insertion.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_summary.h"
 #include "generator/replay/frame_feeds.h"
@@ -56,11 +58,20 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
       "neither); railcast and ros2 send frames");
 }
 
+/// The recording as OpenRecording() takes it.
+std::filesystem::path SourceOf(const ReplayOptions& options) {
+  return WithTopic({options.recording}, options.topic).front();
+}
+
 std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {
   std::optional<IpAddress> sender;
   if (options.sensor) sender = SensorAddress(*options.sensor);
   constexpr std::uint16_t kAsRecorded = 0;
-  return std::make_unique<PacketFeed>(PacketRecording(FindPackets(options), sender),
+  DatagramPlace packets = FindPackets(options);
+  if (options.insert) {
+    packets = PlaceOfInserted(packets, MakeInsertion(*options.insert, SourceOf(options)));
+  }
+  return std::make_unique<PacketFeed>(PacketRecording(std::move(packets), sender),
                                       ReplayReceivers(options, kAsRecorded), options.pace,
                                       options.frames);
 }
@@ -74,8 +85,12 @@ std::unique_ptr<ReplayFeed> OpenMessages(const ReplayOptions& options) {
 }
 
 FrameSource OpenFrames(const ReplayOptions& options) {
-  const std::filesystem::path source = WithTopic({options.recording}, options.topic).front();
-  return {OpenRecording(source),
+  const std::filesystem::path source = SourceOf(options);
+  auto recording = OpenRecording(source);
+  if (options.insert) {
+    recording = WithInsertion(std::move(recording), *options.insert, source);
+  }
+  return {std::move(recording),
           {.pace = options.pace, .rate_hz = options.rate_hz, .frames = options.frames}};
 }
 

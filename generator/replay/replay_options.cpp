@@ -68,6 +68,11 @@ void CheckFitsKind(const ReplayOptions& options, ReplayKind kind) {
     CheckNone({{"--sensor", options.sensor.has_value()}},
               "is for the packets of a capture, as they were recorded");
   }
+  if (kind == ReplayKind::kMessages) {
+    CheckNone({{"--insert", options.insert.has_value()}},
+              "is for packets and frames; a bag's are sent with --protocol packets, or as frames "
+              "with --protocol railcast, or ros2 and --fields");
+  }
   if (is_utc && (options.pace != 1.0 || options.lockstep)) {
     throw InputError(
         "--clock utc: must be left out where frames take another time than recorded, as with "
@@ -110,6 +115,10 @@ void AddReplayOptions(CLI::App& replay, ReplayOptions& options) {
                   "datagrams of a frame leave when it begins")
       ->check(CLI::IsMember({"spread", "burst"}))
       ->capture_default_str();
+  replay
+      .add_option("--insert", options.insert,
+                  "Plan of objects and weather to put into the recording (docs/insert.md)")
+      ->type_name("PLAN.json");
   replay.add_option("--rate", options.pace, "How many times faster than recorded to send")
       ->check(Number({1e-3, 1e6}))
       ->capture_default_str();

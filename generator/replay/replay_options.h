@@ -19,7 +19,9 @@ inline constexpr const char* kRecordedPackets = "packets";
 /// The options of `railcast-generate replay`.
 struct ReplayOptions : CommandOptions, RosOptions {
   std::filesystem::path recording;
-  std::string topic;                    ///< Of a bag; empty = all, or the only one.
+  std::string topic;  ///< Of a bag; empty = all, or the only one.
+  /// Plan of what is put into the recording.
+  std::optional<std::filesystem::path> insert;
   std::optional<std::string> sensor;    ///< Address in a capture; absent = all sensors.
   std::vector<std::string> to;          ///< HOST:PORT of each receiver; empty = this machine.
   std::optional<std::string> protocol;  ///< kRecordedPackets or a Protocol; absent = as recorded.

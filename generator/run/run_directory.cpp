@@ -19,6 +19,7 @@
 #include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
+#include "generator/run/line_walk.h"
 
 namespace railcast {
 namespace {
@@ -67,12 +68,6 @@ std::optional<std::uint32_t> FrameNumber(std::string_view name) {
   if (error != std::errc() || end == name.data()) return std::nullopt;
   return number;
 }
-
-/// A file of a directory that gets one line per frame; those of motion sensors, one per sample.
-struct LineFileName {
-  std::string name;
-  std::string header;
-};
 
 // The line files of a run in the order in which they are written; frames.jsonl is the last, and
 // those of motion sensors are before it.
@@ -125,41 +120,6 @@ std::string MaterialsJson(const MaterialLibrary& materials) {
          {"retroreflectance", material.retroreflectance}});
   }
   return OrderedJson{{"version", 1}, {"materials", list}}.dump(2) + "\n";
-}
-
-// Iterates over the whole lines of a line file.
-class LineWalk {
- public:
-  LineWalk(const std::filesystem::path& file, std::string_view header) {
-    if (std::filesystem::exists(file)) text_ = ReadFileWhole(file);
-    has_header_ = std::string_view(text_).starts_with(header);
-    if (has_header_) position_ = header.size();
-  }
-
-  /// Returns the next lines with their ends; empty if there are fewer or the last is incomplete.
-  [[nodiscard]] std::string_view Next(std::size_t num_lines = 1) const {
-    if (!has_header_) return {};
-    std::size_t end = position_;
-    for (std::size_t i = 0; i < num_lines; ++i) {
-      end = text_.find('\n', end);
-      if (end == std::string::npos) return {};
-      ++end;
-    }
-    return std::string_view(text_).substr(position_, end - position_);
-  }
-  void Advance(std::size_t num_lines) { position_ += Next(num_lines).size(); }
-  [[nodiscard]] std::uint64_t position() const { return position_; }
-
- private:
-  std::string text_;
-  bool has_header_ = false;
-  std::size_t position_ = 0;
-};
-
-bool HasContent(const std::filesystem::path& directory, const WrittenFile& file) {
-  const std::filesystem::path path = directory / file.name;
-  return std::filesystem::exists(path) && std::filesystem::file_size(path) == file.size &&
-         ContentHash(ReadFileWhole(path)) == file.hash;
 }
 
 // How many lines a frame has in the i-th of a run's line files.

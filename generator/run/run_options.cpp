@@ -19,11 +19,9 @@ void AddIsa(CLI::App& command, std::string& isa) {
       ->check(CLI::IsMember(IsaNames()));
 }
 
-void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_traces) {
+void AddRunChoices(CLI::App& command, RunChoices& choices) {
   std::vector<std::string> formats;
-  for (const FrameFormat& format : FrameFormats()) {
-    if (has_traces || format.trace.empty()) formats.emplace_back(format.name);
-  }
+  for (const FrameFormat& format : FrameFormats()) formats.emplace_back(format.name);
   command.add_option("--format", choices.format, "File format of the frames")
       ->check(CLI::IsMember(formats))
       ->capture_default_str();

@@ -14,8 +14,7 @@ void AddIsa(CLI::App& command, std::string& isa);
 
 /// Adds the options that say how frames are written and made: `--format`, `--fields`, `--merged`,
 /// `--threads` and `--isa`.
-/// @param has_traces Whether the formats that are traces of OSI can be chosen.
-void AddRunChoices(CLI::App& command, RunChoices& choices, bool has_traces);
+void AddRunChoices(CLI::App& command, RunChoices& choices);
 
 /// Checks a list of fields, or the name of a layout of points.
 /// @throws CLI::ValidationError if `fields` is not a valid list: that is a usage error, like an

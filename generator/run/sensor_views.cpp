@@ -10,6 +10,7 @@
 
 #include "core/base/units.h"
 #include "core/io/osi/sensor_view.h"
+#include "core/rail/motion/differentiated.h"
 #include "core/rail/traffic/ego_train.h"
 
 namespace railcast {
@@ -82,25 +83,23 @@ osi::ObjectOfView HostOf(const RailWorld& world,
 void AddRestOfTrain(const RailWorld& world,
                     const Frame& frame,
                     std::vector<osi::ObjectOfView>& objects) {
-  constexpr std::int64_t kSpan_ns = 1'000'000;
   for (std::size_t i = 0; i < world.objects().size(); ++i) {
     const SceneObject& object = world.objects()[i];
     if (!object.is_ego || object.name == objects.front().name) continue;
     const Eigen::AlignedBox3d box_m = object.model->Bounds();
-    const auto world_from_box = [&](std::int64_t time_ns) -> Transform {
+    const RigidMotion box = Differentiated([&](double after_s) -> Transform {
+      const std::int64_t time_ns = frame.stamp_ns + std::llround(after_s * kNsPerS);
       return world.WorldFromObject(i, time_ns) * Eigen::Translation3d(box_m.center());
-    };
-    const Transform begin = world_from_box(frame.stamp_ns);
-    const Transform end = world_from_box(frame.stamp_ns + kSpan_ns);
-    objects.push_back(
-        {.id = object.instance,
-         .name = object.name,
-         .type = object.type,
-         .label = "ego",
-         .moves = true,
-         .size_m = box_m.sizes(),
-         .world_from_box = begin,
-         .velocity_mps = (end.translation() - begin.translation()) / SecondsFromNs(kSpan_ns)});
+    });
+    objects.push_back({.id = object.instance,
+                       .name = object.name,
+                       .type = object.type,
+                       .label = "ego",
+                       .moves = true,
+                       .size_m = box_m.sizes(),
+                       .world_from_box = box.world_from_body,
+                       .velocity_mps = box.velocity_mps,
+                       .acceleration_mps2 = box.acceleration_mps2});
   }
 }
 

@@ -180,7 +180,7 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
                    "Every how many-th of the scenario's frames to make; 1 = all")
       ->transform(Whole({1, kMaxFrame}))
       ->capture_default_str();
-  AddRunChoices(*sequence, options->made, true);
+  AddRunChoices(*sequence, options->made);
   sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}));
   sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")

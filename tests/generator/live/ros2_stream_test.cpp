@@ -376,7 +376,7 @@ TEST(Ros2Stream, RefusesOptionsThatDoNotGoTogether) {
             "--commands-topic: must be a topic of ROS 2: / and letters, digits and _, such as "
             "/brake (got \"brake\")\n");
   EXPECT_THAT(fault_of(" --protocol ros2 --interface no_such_one"),
-              testing::StartsWith("protocol ros2: interface: must be the name or the IPv4 address "
+              testing::StartsWith("protocol ros2: interface: must be the name or an address "
                                   "of a network interface that is up, one of "));
 }
 

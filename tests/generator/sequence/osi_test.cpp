@@ -267,6 +267,21 @@ TEST_F(OsiTraces, SayWhereTheSensorIsInTheWorld) {
   }
 }
 
+// On an arc of 700 m at 20 m/s. The middle of a box is inside the arc, whose chord the pivots span,
+// by (17.375 m)^2 / (8 * 700 m) = 5 cm.
+TEST_F(OsiTraces, SayHowTheRestOfTheTrainMoves) {
+  UseTraffic();
+  for (const auto& view :
+       ViewsIn(Make("osi", "--format osi --frames 2") / Trace(".osi", "front", 2))) {
+    const auto& base = view.global_ground_truth().moving_object(1).base();
+    const Vector3 velocity_mps = osi::VectorOf(base.velocity());
+    const Vector3 acceleration_mps2 = osi::VectorOf(base.acceleration());
+    EXPECT_NEAR(velocity_mps.norm(), 20.0 * (1.0 - 0.05 / 700.0), 1e-3);
+    EXPECT_NEAR(acceleration_mps2.norm(), 20.0 * 20.0 / 700.0, 1e-3);
+    EXPECT_NEAR(acceleration_mps2.dot(velocity_mps), 0.0, 0.01);
+  }
+}
+
 // A wall of 10 % at the data sheet's range, here 200 m, is at the threshold; the aperture is 10 mm.
 TEST_F(OsiTraces, HaveThePowerOfTheLidarEquation) {
   UseTraffic();
