@@ -38,7 +38,7 @@ INSTEAD = (
     ("scripts/demo.sh", None),
     ("scripts/test.sh", None),
     ("railcast-bench", None),
-    ("--show boxes,track", f"timeout {WINDOW_S} xvfb-run -a {{}} || (($? == 124))"),
+    ("railcast-view out/", f"timeout {WINDOW_S} xvfb-run -a {{}} || (($? == 124))"),
     ("malformed", "{} || (($? == 1))"),
     ("frontier", f"timeout {FRONTIER_S} {{}} --frames 1 --rows geometry || (($? == 124))"),
 )

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh,
-# the pictures of reproduce_paper.sh, that of the tutorial, which makes its own, and the hand-made
+# Draws the pictures of README and docs into docs/images, except for the charts of draw_frontiers.sh and
+# draw_insertion.sh, the pictures of reproduce_paper.sh, those of the tutorials, which make their own, and the hand-made
 # data_flow.svg; on one machine the files are reproducible byte by byte. Needs a release build, Xvfb,
 # graphviz and, for the picture of a report, chromium; takes some minutes.
 set -euo pipefail
@@ -39,6 +39,11 @@ draw view_overlays demo --frame 36 --camera driver --color-by range \
   --show surfaces,boxes,track,gauge
 draw view_compare demo --compare fog --frame 32 --show boxes,empty-beams --color-by power \
   --color-range 1,20
+"$generate" insert "$runs/demo" scenarios/insert/obstacles.json --out "$runs/inserted" > "$runs/inserted.txt"
+draw insert demo --compare inserted/recording --frame 18 --eye 2,0,1 --target 30,0.5,-1.5 \
+  --size 1280x460 --point-size 3
+draw view_changes demo --compare inserted/recording --frame 18 --layout changes \
+  --eye 9,0,0.6 --target 30,0.5,-1.5 --size 960x540 --point-size 3
 draw view_noise demo --frame 40 --camera top --accumulate 32 --color-by noise
 draw view_trace demo --frame 20 --camera driver --select person,wagon \
   --pick 618,342 --pick 770,410 --trace

@@ -16,11 +16,12 @@ CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motio
 # The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
 # stands; without it there may be none.
 ROOM_ORDERS = {
-    "core/rail": "base line network motion chunk clearance track landform structures ground catenary objects traffic "
+    "core/rail": "base line network motion chunk survey clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag osi dds stream recording verify".split(),
-    "generator": ". record run check sequence insert live replay trace world dataset import python".split(),
+    "generator": ". record run check sequence insert live replay trace world dataset survey import python".split(),
+    "generator/insert": ". plan firings clouds packets run".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),
     "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),

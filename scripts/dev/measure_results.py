@@ -13,6 +13,7 @@ import argparse
 import csv
 import datetime
 import json
+import math
 import os
 import pathlib
 import re
@@ -20,6 +21,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 import growth
 import results
@@ -248,6 +250,37 @@ def live(build):
             "runs": table(1, ["run", "frames", "late", "compute p50 ms", "compute p99 ms"], list(map(list, runs)))}
 
 
+PERSON_AND_BOX = {"version": 1, "world": {"recording": {}, "objects": [
+    {"name": "person", "type": "person", "frame": 100, "s_m": 40, "d_m": 0.4},
+    {"name": "box", "type": "box", "size_m": [0.5, 0.5, 0.5], "frame": 600, "s_m": 40, "d_m": -0.5}]},
+    "materials": str(ROOT / "scenarios/materials/railway.json"), "labels": str(ROOT / "scenarios/labels.json")}
+
+
+def insertion(build):
+    """Seconds of `insert` into 1,000 frames of the published scan and of `stats` of them, the least of three in turns."""
+    generate, analyze = build / "generator/railcast-generate", build / "analysis/railcast-analyze"
+    rows = []
+    with tempfile.TemporaryDirectory() as out:
+        folder = pathlib.Path(out)
+        said(generate, "sequence", "scenarios/open_line.json", "--out", folder / "run", "--frames", 1000)
+        for rung in ("plausibility", "footprint"):
+            for weather in ({}, {"visibility_m": 200}):
+                plan = folder / "plan.json"
+                plan.write_text(json.dumps({**PERSON_AND_BOX, "fidelity": rung, "weather": weather}), encoding="utf-8")
+                insert = (generate, "insert", folder / "run", plan, "--out", folder / "out")
+                stats = (analyze, "stats", folder / "run", "--format", "text")
+                least = {insert: math.inf, stats: math.inf}
+                for _ in range(3):
+                    for command in least:
+                        shutil.rmtree(folder / "out", ignore_errors=True)
+                        begin = time.monotonic()
+                        said(*command)
+                        least[command] = min(least[command], time.monotonic() - begin)
+                rows.append([f"`{rung}`", "fog, 200 m" if weather else "clear", f"{least[insert]:.1f}",
+                             f"{least[stats]:.1f}", f"{least[insert] / least[stats]:.2f}"])
+    return {"times": table(2, ["rung", "weather", "insert s", "stats s", "ratio"], rows)}
+
+
 def situations(build):
     """The table of scenarios/README.md, which has its own check."""
     said("scripts/dev/measure_situations.py", build, "--write")
@@ -257,7 +290,8 @@ def situations(build):
 # Each with the minutes that it takes on two cores.
 PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
-         "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "situations": (situations, 10),
+         "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "insertion": (insertion, 5),
+         "situations": (situations, 10),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
 UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
 

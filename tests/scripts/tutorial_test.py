@@ -1,6 +1,6 @@
-"""Runs the commands of docs/tutorial.md in an empty folder and looks for the lines that it shows.
+"""Runs the commands of a tutorial in an empty folder and looks for the lines that it shows.
 
-usage: tutorial_test.py BUILD_FOLDER
+usage: tutorial_test.py BUILD_FOLDER PAGE
 """
 
 import pathlib
@@ -37,8 +37,8 @@ def run_page(text, folder):
         yield f"only {num_run} blocks were run"
 
 
-def main(build):
-    text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+def main(build, page):
+    text = (ROOT / page).read_text(encoding="utf-8")
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "build").mkdir()
@@ -51,4 +51,4 @@ def main(build):
 
 
 if __name__ == "__main__":
-    sys.exit(main(pathlib.Path(sys.argv[1]).resolve()))
+    sys.exit(main(pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]))
