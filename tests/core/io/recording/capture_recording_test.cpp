@@ -18,7 +18,7 @@
 namespace railcast {
 namespace {
 
-void WriteCapture(const std::filesystem::path& file, const Datagrams& datagrams) {
+void WriteDatagrams(const std::filesystem::path& file, const Datagrams& datagrams) {
   PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
   writer.Write(datagrams, datagrams.items);
   writer.Finish();
@@ -41,7 +41,7 @@ TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
   for (std::uint32_t i = 0; i < 3; ++i) truth.push_back(scan.MakeFrame(i, returns));
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
-  WriteCapture(file, EncodeAll(format, scan, truth));
+  WriteDatagrams(file, EncodeAll(format, scan, truth));
   const auto frames = ReadAll(file);
   ASSERT_EQ(frames.size(), 3U);
   // The greatest range that a packet can hold.
@@ -202,7 +202,7 @@ std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   const auto file = directory.path() / "a.pcap";
   Datagrams datagrams;
   for (const std::string& payload : payloads) AddDatagram(payload, datagrams);
-  WriteCapture(file, datagrams);
+  WriteDatagrams(file, datagrams);
   const std::string message = MessageOf([&] { (void)OpenRecording(file); });
   const std::string expected =
       file.string() +
@@ -257,7 +257,7 @@ TEST(CaptureRecording, LeavesOutPacketsWithAWrongChecksumAndCountsThem) {
   ASSERT_EQ(datagrams.items.size(), 450U);
   const TemporaryDirectory directory;
   const auto capture = [&](const std::string& name) {
-    WriteCapture(directory.path() / name, datagrams);
+    WriteDatagrams(directory.path() / name, datagrams);
     return OpenRecording(directory.path() / name);
   };
   const auto sound = capture("sound.pcap");
@@ -279,7 +279,7 @@ TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {
   const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
   encoder->Encode(scan.MakeFrame(0), datagrams);
   const TemporaryDirectory directory;
-  WriteCapture(directory.path() / "a.pcap", datagrams);
+  WriteDatagrams(directory.path() / "a.pcap", datagrams);
   EXPECT_EQ(ReadAll(directory.path() / "a.pcap").size(), 1U);
 }
 
