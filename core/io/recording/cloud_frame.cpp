@@ -105,7 +105,8 @@ std::vector<std::uint32_t> LoadRings(const PointTable& table, const std::string&
 SlotPlan PlanOfTable(const PointTable& table, const std::string& name) {
   const bool is_ours = table.Find("ring") != nullptr && table.Find("column") != nullptr;
   if (table.height > 1) {
-    return is_ours ? OrganisedPlan(table, ReturnsOf(table, name)) : SortedRowsPlan(table);
+    return is_ours ? OrganisedPlan(table, ReturnsOf(table, name))
+                   : SortedRowsPlan(table, FindFieldOf(table, "ring"));
   }
   // Points of several sensors share no grid.
   if (FindFieldOf(table, kSensorIndexField) != nullptr) {

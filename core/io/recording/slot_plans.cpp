@@ -20,15 +20,54 @@ PointPositions LoadPositions(const PointTable& table) {
           .z = LoadFloats(table, *table.Find("z"))};
 }
 
+/// Where the rows and columns of a scan are in the table of its cloud.
+struct StoredGrid {
+  std::uint32_t rows{};
+  std::uint32_t columns{};
+  bool is_transposed{};
+
+  [[nodiscard]] std::size_t Entry(std::uint32_t row, std::uint32_t column) const {
+    return is_transposed ? std::size_t{column} * rows + row : std::size_t{row} * columns + column;
+  }
+};
+
+/// Whether all points of a line have the same ring, for each line of the table.
+bool HasRingForEach(const StoredGrid& lines,
+                    const PointPositions& positions,
+                    const std::vector<double>& rings) {
+  for (std::uint32_t line = 0; line < lines.rows; ++line) {
+    std::optional<double> ring;
+    for (std::uint32_t place = 0; place < lines.columns; ++place) {
+      const std::size_t entry = lines.Entry(line, place);
+      if (!positions.IsPoint(entry)) continue;
+      if (ring && *ring != rings[entry]) return false;
+      ring = rings[entry];
+    }
+  }
+  return true;
+}
+
+StoredGrid FindGrid(const PointTable& table,
+                    const PointPositions& positions,
+                    const PointColumn* ring) {
+  const StoredGrid by_rows{table.height, table.width, false};
+  const StoredGrid by_columns{table.width, table.height, true};
+  if (ring == nullptr) return by_rows;
+  std::vector<double> rings(table.num_points());
+  VisitColumn(table, *ring,
+              [&](std::size_t i, auto value) { rings[i] = static_cast<double>(value); });
+  if (HasRingForEach(by_rows, positions, rings)) return by_rows;
+  return HasRingForEach(by_columns, positions, rings) ? by_columns : by_rows;
+}
+
 /// Returns the mean elevation of each row; NaN for a row without a point.
-std::vector<double> RowElevations(const PointTable& table) {
-  const PointPositions positions = LoadPositions(table);
+std::vector<double> RowElevations(const StoredGrid& grid, const PointPositions& positions) {
   std::vector<double> elevations_rad;
-  std::size_t i = 0;
-  for (std::uint32_t row = 0; row < table.height; ++row) {
+  for (std::uint32_t row = 0; row < grid.rows; ++row) {
     double sum_rad = 0.0;
     std::size_t num = 0;
-    for (std::uint32_t column = 0; column < table.width; ++column, ++i) {
+    for (std::uint32_t column = 0; column < grid.columns; ++column) {
+      const std::size_t i = grid.Entry(row, column);
       if (!positions.IsPoint(i)) continue;
       sum_rad += static_cast<double>(
           std::atan2(positions.z[i], std::hypot(positions.x[i], positions.y[i])));
@@ -84,9 +123,12 @@ SlotPlan OrganisedPlan(const PointTable& table, std::uint32_t returns) {
           .is_grid = true};
 }
 
-SlotPlan SortedRowsPlan(const PointTable& table) {
-  SlotPlan plan = OrganisedPlan(table, 1);
-  const std::vector<double> elevations_rad = RowElevations(table);
+SlotPlan SortedRowsPlan(const PointTable& table, const PointColumn* ring) {
+  const PointPositions positions = LoadPositions(table);
+  const StoredGrid grid = FindGrid(table, positions, ring);
+  SlotPlan plan{
+      .rows = grid.rows, .columns = grid.columns, .returns = 1, .slots = {}, .is_grid = true};
+  const std::vector<double> elevations_rad = RowElevations(grid, positions);
   const std::vector<std::uint32_t> stored = RowsInSense(elevations_rad);
   std::vector<std::pair<double, std::uint32_t>> order;
   double last_rad = -std::numeric_limits<double>::infinity();
@@ -96,10 +138,10 @@ SlotPlan SortedRowsPlan(const PointTable& table) {
   }
   std::ranges::stable_sort(order, {}, &std::pair<double, std::uint32_t>::first);
   plan.slots.resize(table.num_points());
-  for (std::uint32_t row = 0; row < table.height; ++row) {
-    const auto begin = plan.slots.begin() +
-                       static_cast<std::ptrdiff_t>(std::size_t{order[row].second} * table.width);
-    std::iota(begin, begin + table.width, row * table.width);
+  for (std::uint32_t row = 0; row < grid.rows; ++row) {
+    for (std::uint32_t column = 0; column < grid.columns; ++column) {
+      plan.slots[grid.Entry(order[row].second, column)] = row * grid.columns + column;
+    }
   }
   return plan;
 }

@@ -24,9 +24,11 @@ inline constexpr std::size_t kMaxSpareSlots = std::size_t{1} << 20U;
 [[nodiscard]] SlotPlan OrganisedPlan(const PointTable& table, std::uint32_t returns);
 
 /// Plans an organised cloud from any software: its rows are sorted by rising mean elevation, and a
-/// row without a point stays beside the row before it.
+/// row without a point stays beside the row before it. Where each of its columns has the points of
+/// one ring, as in clouds of ROS drivers for Velodyne, the columns are taken for the rows.
+/// @param ring Null if the cloud does not say it.
 /// @pre The table has x, y and z.
-[[nodiscard]] SlotPlan SortedRowsPlan(const PointTable& table);
+[[nodiscard]] SlotPlan SortedRowsPlan(const PointTable& table, const PointColumn* ring);
 
 /// Puts each point into the slot that its ring, column and return_index (0 if the file has none)
 /// state.

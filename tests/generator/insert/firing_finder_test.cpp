@@ -65,7 +65,7 @@ void ExpectPointsOnTheirBeams(const RecordedFirings& found, double most_deg) {
 
 struct CloudCase {
   const char* sensor;
-  bool is_organised;
+  CloudLayout layout;
   double most_without_deg;  ///< Bound on all firings without a return: measured + a tenth.
 };
 
@@ -73,13 +73,13 @@ class FiringsOfClouds : public testing::TestWithParam<CloudCase> {};
 
 // Nothing but x, y, z, ring and time, as a driver's cloud has them.
 TEST_P(FiringsOfClouds, AreThoseThatTheSensorFired) {
-  const auto& [name, is_organised, most_without_deg] = GetParam();
+  const auto& [name, layout, most_without_deg] = GetParam();
   const ScanSpec scan = SensorOfTest(name);
   const ScanPattern pattern = BuildScanPattern(scan);
   const std::vector<MadeFiring> truth = FireInThePlain(pattern);
   const TemporaryDirectory directory;
   const fs::path file = directory.path() / "cloud.pcd";
-  WriteCloudOf(truth, pattern, {.is_organised = is_organised}, file);
+  WriteCloudOf(truth, pattern, {.layout = layout}, file);
   RecordedFrame recorded = ReadAll(file).at(0);
   const Frame before = recorded.frame;
   // Turned by half a step, so that the scan of the file is not that of the sensor's file.
@@ -89,7 +89,7 @@ TEST_P(FiringsOfClouds, AreThoseThatTheSensorFired) {
   EXPECT_FALSE(found.are_points_alone);
   EXPECT_EQ(found.pattern.rows, pattern.rows);
   const AimErrors errors = ErrorsOf(truth, found);
-  errors.Print(std::string(name) + (is_organised ? ", all slots" : ", points"));
+  errors.Print(std::string(name) + (layout == CloudLayout::kPoints ? ", points" : ", all slots"));
   EXPECT_LE(AimErrors::Share(errors.with_point_deg, 1.0), 1e-4);
   EXPECT_LE(AimErrors::Share(errors.without_point_deg, 0.5), 0.5 * most_without_deg + 1e-3);
   EXPECT_LE(AimErrors::Share(errors.without_point_deg, 1.0), most_without_deg);
@@ -111,25 +111,26 @@ TEST_P(FiringsOfClouds, AreThoseThatTheSensorFired) {
 
 INSTANTIATE_TEST_SUITE_P(FiringFinder,
                          FiringsOfClouds,
-                         testing::Values(CloudCase{"vlp16", false, 1e-4},
-                                         CloudCase{"vlp16", true, 1e-4},
-                                         CloudCase{"vlp32c", false, 0.1},
-                                         CloudCase{"vlp32c", true, 1e-4},
-                                         CloudCase{"vls128", false, 0.016},
-                                         CloudCase{"vls128", true, 1e-4},
-                                         CloudCase{"pandar64", false, 1e-4},
-                                         CloudCase{"pandar64", true, 1e-4},
-                                         CloudCase{"xt32", false, 1e-4},
-                                         CloudCase{"xt32", true, 1e-4},
-                                         CloudCase{"qt128", false, 1e-4},
-                                         CloudCase{"qt128", true, 1e-4},
-                                         CloudCase{"os1", false, 0.025},
-                                         CloudCase{"os1", true, 0.011},
-                                         CloudCase{"at128", false, 1e-4},
-                                         CloudCase{"at128", true, 1e-4}),
+                         testing::Values(CloudCase{"vlp16", CloudLayout::kPoints, 1e-4},
+                                         CloudCase{"vlp16", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"vlp16", CloudLayout::kByFiring, 1e-4},
+                                         CloudCase{"vlp32c", CloudLayout::kPoints, 0.1},
+                                         CloudCase{"vlp32c", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"vlp32c", CloudLayout::kByFiring, 1e-4},
+                                         CloudCase{"vls128", CloudLayout::kPoints, 0.016},
+                                         CloudCase{"vls128", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"pandar64", CloudLayout::kPoints, 1e-4},
+                                         CloudCase{"pandar64", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"xt32", CloudLayout::kPoints, 1e-4},
+                                         CloudCase{"xt32", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"qt128", CloudLayout::kPoints, 1e-4},
+                                         CloudCase{"qt128", CloudLayout::kByLaser, 1e-4},
+                                         CloudCase{"os1", CloudLayout::kPoints, 0.025},
+                                         CloudCase{"os1", CloudLayout::kByLaser, 0.011},
+                                         CloudCase{"at128", CloudLayout::kPoints, 1e-4},
+                                         CloudCase{"at128", CloudLayout::kByLaser, 1e-4}),
                          [](const auto& test) {
-                           return std::string(test.param.sensor) +
-                                  (test.param.is_organised ? "Organised" : "Points");
+                           return test.param.sensor + LayoutName(test.param.layout);
                          });
 
 struct OwnCase {

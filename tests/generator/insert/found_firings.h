@@ -42,9 +42,24 @@ inline ScanSpec SensorOfTest(const std::string& name) {
   return {.rate_hz = 10.0, .pattern = sensor};
 }
 
+/// The points alone, or all slots: laser by laser, or firing by firing.
+enum class CloudLayout : std::uint8_t { kPoints, kByLaser, kByFiring };
+
+inline std::string LayoutName(CloudLayout layout) {
+  switch (layout) {
+    case CloudLayout::kPoints:
+      return "Points";
+    case CloudLayout::kByLaser:
+      return "Organised";
+    case CloudLayout::kByFiring:
+      return "OrganisedByFiring";
+  }
+  return "";
+}
+
 /// How a cloud is written.
 struct CloudStyle {
-  bool is_organised = false;  ///< Has all slots, row by row; otherwise the points alone.
+  CloudLayout layout = CloudLayout::kPoints;
   bool has_ring = true;
   bool has_time = true;
 };
@@ -106,10 +121,14 @@ inline void WriteCloudOf(const std::vector<MadeFiring>& firings,
     if (style.has_time) add(firing != nullptr ? 1e-9F * static_cast<float>(firing->time_ns) : 0.0F);
   };
   std::size_t num = 0;
-  if (style.is_organised) {
+  const bool is_by_firing = style.layout == CloudLayout::kByFiring;
+  if (style.layout != CloudLayout::kPoints) {
     std::vector<const MadeFiring*> cells(std::size_t{pattern.rows} * pattern.columns);
     for (const MadeFiring& firing : firings) {
-      cells[std::size_t{firing.row} * pattern.columns + firing.column] = &firing;
+      const std::size_t cell = is_by_firing
+                                   ? std::size_t{firing.column} * pattern.rows + firing.row
+                                   : std::size_t{firing.row} * pattern.columns + firing.column;
+      cells[cell] = &firing;
     }
     for (const MadeFiring* firing : cells) write(firing);
     num = cells.size();
@@ -120,8 +139,10 @@ inline void WriteCloudOf(const std::vector<MadeFiring>& firings,
       ++num;
     }
   }
-  const std::size_t width = style.is_organised ? pattern.columns : num;
-  const std::size_t height = style.is_organised ? pattern.rows : 1;
+  const std::size_t width = style.layout == CloudLayout::kPoints ? num
+                            : is_by_firing                       ? pattern.rows
+                                                                 : pattern.columns;
+  const std::size_t height = num / width;
   const std::string ring = style.has_ring ? " 1" : "";
   const std::string time = style.has_time ? " 1" : "";
   WriteFileWhole(file, std::string("VERSION 0.7\nFIELDS x y z") + (style.has_ring ? " ring" : "") +

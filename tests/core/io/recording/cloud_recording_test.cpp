@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -52,6 +53,37 @@ std::string MessageOfText(const std::string& name, const std::string& text) {
   const std::string message = MessageOf([&] { (void)ReadAll(file); });
   EXPECT_EQ(message.substr(0, file.string().size() + 2), file.string() + ": ");
   return message.size() > file.string().size() + 2 ? message.substr(file.string().size() + 2) : "";
+}
+
+// As drivers for Velodyne make them: a row for each firing, a column for each laser.
+TEST(CloudRecording, TurnsAnOrganisedCloudWhoseColumnsAreRings) {
+  std::string text =
+      "VERSION 0.7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nWIDTH 3\nHEIGHT 4\n"
+      "POINTS 12\nDATA ascii\n";
+  for (int firing = 0; firing < 4; ++firing) {
+    for (const int ring : {1, 0, 2}) {
+      const std::string place = " " + NumberText(firing) + " " + NumberText(ring) + " ";
+      // The rings of lost returns are not stated everywhere.
+      text += firing == 2 && ring == 0 ? "nan nan nan 9\n" : "10" + place + NumberText(ring) + "\n";
+    }
+  }
+  const RecordedFrame recorded = ReadText("a.pcd", text);
+  const Frame& frame = recorded.frame;
+  EXPECT_TRUE(recorded.is_grid);
+  ASSERT_EQ(frame.rows, 3U);
+  ASSERT_EQ(frame.columns, 4U);
+  for (std::uint32_t ring = 0; ring < 3; ++ring) {
+    for (std::uint32_t column = 0; column < 4; ++column) {
+      const std::uint32_t slot = 4 * ring + column;
+      if (ring == 0 && column == 2) {
+        EXPECT_TRUE(std::isnan(frame.x[slot]));
+        continue;
+      }
+      EXPECT_EQ(frame.z[slot], static_cast<float>(ring));
+      EXPECT_EQ(frame.y[slot], static_cast<float>(column));
+      EXPECT_EQ(frame.column[slot], column);
+    }
+  }
 }
 
 // Drivers store the highest ring first.
