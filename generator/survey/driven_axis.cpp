@@ -1,5 +1,6 @@
 #include "generator/survey/driven_axis.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,15 +13,28 @@ namespace {
 /// do not bend it.
 constexpr double kKnotSpacing_m = 8.0;
 
-/// Places at top of rail, at least kKnotSpacing_m apart in plan.
+/// Places at top of rail, at least kKnotSpacing_m apart in plan. Where a recording has driven
+/// what another one has, the places of the first are taken.
 std::vector<Vector3> KnotsOf(const DrivenWay& way) {
   std::vector<Vector3> knots;
   for (const Transform& world_from_body : way.world_from_body) {
     const Vector3 place_m = world_from_body.translation() - way.above_rail_m * Vector3::UnitZ();
-    if (!knots.empty() && (place_m - knots.back()).head<2>().norm() < kKnotSpacing_m) continue;
-    knots.push_back(place_m);
+    const bool is_known = std::ranges::any_of(knots, [&](const Vector3& knot_m) {
+      return (place_m - knot_m).head<2>().norm() < kKnotSpacing_m;
+    });
+    if (!is_known) knots.push_back(place_m);
   }
   return knots;
+}
+
+/// Whether the way never turns back.
+bool GoesOn(const std::vector<Vector3>& knots) {
+  for (std::size_t i = 2; i < knots.size(); ++i) {
+    const Eigen::Vector2d before = (knots[i - 1] - knots[i - 2]).head<2>();
+    const Eigen::Vector2d after = (knots[i] - knots[i - 1]).head<2>();
+    if (before.dot(after) <= 0.0) return false;
+  }
+  return true;
 }
 
 /// Goes on by `beyond_m` in the direction from `inner_m` to `outer_m`, level.
@@ -39,9 +53,10 @@ void Extend(const Vector3& inner_m,
 
 }  // namespace
 
-AlignmentSpec AxisAlong(const DrivenWay& way, double beyond_m) {
+std::optional<AlignmentSpec> AxisAlong(const DrivenWay& way, double beyond_m) {
   Check(!way.world_from_body.empty(), "a way has a place");
   std::vector<Vector3> driven = KnotsOf(way);
+  if (!GoesOn(driven)) return std::nullopt;
   if (driven.size() == 1) {
     Vector3 ahead = way.world_from_body.front().linear().col(0);
     ahead.z() = 0.0;

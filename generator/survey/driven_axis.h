@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "railcast/alignment.h"
@@ -15,8 +16,9 @@ struct DrivenWay {
 };
 
 /// A line along the way: a spline through the places in plan, with gradients through the heights,
-/// that goes on straight at both ends. A vehicle that stood gets a straight line.
+/// that goes on straight at both ends. A vehicle that stood gets a straight line. Nothing if the
+/// way turns back, as where recordings are not in the order in which the way goes through them.
 /// @param beyond_m How far the line goes on.
-[[nodiscard]] AlignmentSpec AxisAlong(const DrivenWay& way, double beyond_m);
+[[nodiscard]] std::optional<AlignmentSpec> AxisAlong(const DrivenWay& way, double beyond_m);
 
 }  // namespace railcast

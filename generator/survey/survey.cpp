@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "generator/survey/moving_things.h"
 #include "generator/survey/survey_voxels.h"
 #include "generator/survey/wire_finder.h"
@@ -65,6 +66,12 @@ Survey MakeSurvey(const FramesOfSurvey& frames,
     if (frame.has_origins) survey.way.world_from_body.push_back(frame.world_from_body);
     survey.is_way_of_vehicle = frame.has_vehicle;
   });
+  if (survey.is_way_of_vehicle && options.sensor_height_m) {
+    throw InputError(
+        "--sensor-height: must be left out for recordings that know it by their sensor's mount "
+        "(got " +
+        ShortText(*options.sensor_height_m) + ")");
+  }
   survey.num_voxels = cloud.voxels().size();
   std::vector<MadeSurfel> surfels = MakeSurfels(cloud, options.surfels);
   survey.num_alone = survey.num_voxels - surfels.size();

@@ -74,10 +74,15 @@ int RunSurvey(const SurveyCommandOptions& options) {
     std::cout << "top of rail is taken to be " << ShortText(survey.way.above_rail_m)
               << " m below the sensor\n";
   }
-  const AlignmentSpec axis = AxisAlong(survey.way, options.source.range_max_m);
-  WriteFileWhole(options.out / kWorldFile, WorldText(axis));
+  const auto axis = AxisAlong(survey.way, options.source.range_max_m);
+  if (!axis) {
+    std::cout << "the way turns back, or the recordings are not named in the order of their way: "
+                 "name an alignment beside \"survey\"\n";
+    return kExitSuccess;
+  }
+  WriteFileWhole(options.out / kWorldFile, WorldText(*axis));
   std::cout << "the line begins " << ShortText(options.source.range_max_m)
-            << " m before the first frame's place and is " << ShortText(Alignment(axis).length_m())
+            << " m before the first frame's place and is " << ShortText(Alignment(*axis).length_m())
             << " m long: " << ShownPath(options.out / kWorldFile) << "\n";
   return kExitSuccess;
 }

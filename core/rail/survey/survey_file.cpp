@@ -193,8 +193,12 @@ SurveyFile::SurveyFile(std::filesystem::path file) : file_(std::move(file)) {
                    place.offset = bytes.Take<std::uint64_t>();
                    place.num_bytes = bytes.Take<std::uint64_t>();
                    tile.ground_m.resize(kGroundCells * kGroundCells);
-                   for (float& height_m : tile.ground_m) height_m = bytes.Take<float>();
                    constexpr double kMost_m = 1e8;
+                   for (float& height_m : tile.ground_m) {
+                     height_m = bytes.Take<float>();
+                     if (std::abs(double{height_m}) > kMost_m)
+                       bytes.Fail("is damaged: ground is nowhere");
+                   }
                    const bool is_somewhere = std::abs(tile.cell[0] * kSurveyTile_m) <= kMost_m &&
                                              std::abs(tile.cell[1] * kSurveyTile_m) <= kMost_m &&
                                              std::abs(tile.base_m) <= kMost_m;
