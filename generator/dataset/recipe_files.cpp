@@ -66,22 +66,6 @@ class FileHashes {
   std::map<std::string, std::string> hashes_;
 };
 
-/// What tells recordings apart without reading all of their points: names and sizes of the files,
-/// and the manifests of railcast's own, which hold hashes.
-std::string TraitsOf(const fs::path& recording) {
-  if (!fs::is_directory(recording)) return NumberText(fs::file_size(recording));
-  std::map<std::string, std::string> traits;
-  for (const auto& entry : fs::recursive_directory_iterator(recording)) {
-    if (!entry.is_regular_file()) continue;
-    const std::string name = entry.path().lexically_relative(recording).generic_string();
-    traits[name] = NumberText(entry.file_size());
-    if (entry.path().filename() == kManifestFile) traits[name] = HashFile(entry.path()).hash;
-  }
-  std::string text;
-  for (const auto& [name, trait] : traits) text += name + '\n' + trait + '\n';
-  return text;
-}
-
 }  // namespace
 
 RecipeBases::RecipeBases(const Recipe& recipe) {
@@ -93,7 +77,7 @@ RecipeBases::RecipeBases(const Recipe& recipe) {
     if (base.run) {
       specs_.push_back(base.run->plan);
       jsons_.push_back(Json::parse(ResolvedScenarioJson(base.run->plan)));
-      hashes_.push_back(ContentHash(base.run->plan_hash + TraitsOf(base.run->recording)));
+      hashes_.push_back(ContentHash(base.run->plan_hash + RecordingTraits(base.run->recording)));
       continue;
     }
     auto spec = Attempt("", errors, [&] { return ReadScenario(shown); });

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/scenario_identity.h"
 #include "railcast/scenario.h"
 #include "railcast/scene.h"
 
@@ -36,10 +37,21 @@ struct InsertPlan {
   /// Recorded intensity of a white Lambertian surface (IntensityScaleFinder).
   double intensity_per_reflectance = 1.0;
   std::vector<PlacedThing> places;  ///< Of the objects, without the vehicles of trains.
-  std::string hash;                 ///< XXH3 of the plan and of every file that it names.
+  /// The plan as it was written, with the recording's sensor if it names none.
+  ScenarioIdentity identity;
   /// What was found or assumed on the way, each in a sentence for the user.
   std::vector<std::string> remarks;
 };
+
+/// The frames of a recording that something is inserted into.
+struct InsertRange {
+  std::uint32_t first{};
+  std::uint32_t num{};
+};
+
+/// Where the sensor is by the plan's way of the vehicle, in world coordinates.
+/// @param time_ns As in InsertPlan::frame_times_ns.
+[[nodiscard]] Transform PlannedPose(const InsertPlan& plan, std::int64_t time_ns);
 
 /// Reads a plan, a scenario whose world is a recording, and the way that the recording's sensor
 /// took.

@@ -72,11 +72,16 @@ class ConvertedClouds : public RecordingOutput {
     return names;
   }
 
-  [[nodiscard]] std::vector<FrameFile> FixedFiles() const override {
-    return format_.dataset ? format_.dataset->fixed_files(table_) : std::vector<FrameFile>();
+  [[nodiscard]] std::vector<FixedFile> FixedFiles() const override {
+    std::vector<FixedFile> files;
+    if (!format_.dataset) return files;
+    for (FrameFile& file : format_.dataset->fixed_files(table_)) {
+      files.push_back({std::move(file.name), std::move(file.bytes), {}});
+    }
+    return files;
   }
 
-  [[nodiscard]] WrittenFrame Encode(const RecordedFirings& firings,
+  [[nodiscard]] WrittenFrame Encode(const RecordedFirings& /*firings*/,
                                     const InsertedFrame& inserted,
                                     std::uint32_t frame) const override {
     const std::set<std::uint32_t> moving = MovingInstances(inserted);
@@ -90,37 +95,25 @@ class ConvertedClouds : public RecordingOutput {
     for (std::uint32_t slot = 0; slot < whole.num_slots(); ++slot) {
       if (format_.has_all_slots || HasPoint(whole.outcome[slot])) output.slots.push_back(slot);
     }
-    output.lines = LinesOf(firings.recorded, frame, output);
+    output.lines = LinesOf(whole, frame, output);
     return output;
   }
 
  private:
-  [[nodiscard]] std::vector<std::string> LinesOf(const RecordedFrame& recorded,
+  [[nodiscard]] std::vector<std::string> LinesOf(const Frame& written,
                                                  std::uint32_t frame,
                                                  const WrittenFrame& output) const {
-    const PoseRecord pose = PoseOf(recorded, frame);
     if (format_.dataset) {
       const std::int64_t first_ns = plan_.frame_times_ns.at(first_frame_);
-      return format_.dataset->record_lines(
-          PlannedPose(first_ns).inverse() * PlannedPose(plan_.frame_times_ns.at(frame)),
-          SecondsFromNs(plan_.frame_times_ns[frame] - first_ns));
+      return format_.dataset->record_lines(PlannedPose(plan_, first_ns).inverse() *
+                                               PlannedPose(plan_, plan_.frame_times_ns.at(frame)),
+                                           SecondsFromNs(plan_.frame_times_ns[frame] - first_ns));
     }
-    std::string line = PoseLine(pose);
+    std::string line = PoseLine(
+        {plan_.first_stamp_ns + plan_.frame_times_ns.at(frame), written.world_from_sensor});
     line.pop_back();
     return {output.files.front().name + ",0," + NumberText(frame) + "," + line + "," +
             NumberText(output.slots.size()) + ",0\n"};
-  }
-
-  // The pose of the sensor as the plan takes it.
-  [[nodiscard]] Transform PlannedPose(std::int64_t time_ns) const {
-    return plan_.world->WorldFromVehicle(time_ns) * VehicleFromSensor(plan_.scenario.lidar.mount);
-  }
-  [[nodiscard]] PoseRecord PoseOf(const RecordedFrame& recorded, std::uint32_t frame) const {
-    if (recorded.has_pose) {
-      return {recorded.frame.stamp_ns, recorded.frame.world_from_sensor};
-    }
-    const std::int64_t time_ns = plan_.frame_times_ns.at(frame);
-    return {plan_.first_stamp_ns + time_ns, PlannedPose(time_ns)};
   }
 
   const InsertPlan& plan_;

@@ -23,11 +23,25 @@ namespace {
 
 constexpr std::size_t kNoCell = std::numeric_limits<std::size_t>::max();
 
+/// Measured values saturate in a type that cannot hold them, as in sensors; numbers of labels and
+/// instances must not.
 template <typename Stored, typename Value>
 Stored Convert(Value value) {
-  if constexpr (std::is_floating_point_v<Value> && !std::is_floating_point_v<Stored>) {
-    return std::isfinite(value) ? static_cast<Stored>(std::llround(value)) : Stored{};
+  using Limits = std::numeric_limits<Stored>;
+  if constexpr (std::is_floating_point_v<Stored>) {
+    return static_cast<Stored>(value);
+  } else if constexpr (std::is_floating_point_v<Value>) {
+    if (std::isnan(value)) return Stored{};
+    // No value of a return comes near the greatest of 64 bits.
+    constexpr double kMost = 9e18;
+    const double least = std::max(-kMost, static_cast<double>(Limits::min()));
+    const double most = std::min(kMost, static_cast<double>(Limits::max()));
+    return static_cast<Stored>(std::llround(std::clamp(double{value}, least, most)));
   } else {
+    if (!std::in_range<Stored>(value)) {
+      throw InputError("a field of the recording cannot hold the number " + NumberText(value) +
+                       "; choose another --format than same");
+    }
     return static_cast<Stored>(value);
   }
 }

@@ -18,10 +18,11 @@
 
 namespace railcast {
 
-/// The frames of a recording that something is inserted into.
-struct InsertRange {
-  std::uint32_t first{};
-  std::uint32_t num{};
+/// A file that stands beside those of the frames.
+struct FixedFile {
+  std::string name;  ///< Relative to the folder of the recording.
+  std::string bytes;
+  std::filesystem::path copy_of;  ///< The file whose bytes it has instead, unless empty.
 };
 
 /// What a frame adds to the recording that is written.
@@ -45,8 +46,7 @@ class RecordingOutput {
   /// The files that get a line of each frame, with their headers; relative to the folder of the
   /// recording.
   [[nodiscard]] virtual std::vector<LineFileName> LineFiles() const { return {}; }
-  /// The files that stand beside those of the frames, relative to that folder.
-  [[nodiscard]] virtual std::vector<FrameFile> FixedFiles() const { return {}; }
+  [[nodiscard]] virtual std::vector<FixedFile> FixedFiles() const { return {}; }
 
   /// Begins, or goes on after an interruption.
   /// @param num_done How many frames an earlier run has written.
@@ -65,10 +65,12 @@ class RecordingOutput {
   virtual void Finish() {}
 };
 
-/// Writes a recording of cloud files as it was; null if it is none.
+/// Writes a recording of cloud files as it was; null if it is none. Beside some of its frames,
+/// poses.txt and times.txt of KITTI have the lines of these.
 /// @throws InputError if the recording has no number for a label of the plan's objects.
 [[nodiscard]] std::unique_ptr<RecordingOutput> MakeSameClouds(const RecordingInfo& info,
-                                                              const InsertPlan& plan);
+                                                              const InsertPlan& plan,
+                                                              const InsertRange& range);
 
 /// Writes a sequence of railcast as it was; null if the recording is none.
 /// @param folder Where it is written.

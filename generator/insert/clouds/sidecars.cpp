@@ -184,25 +184,23 @@ Json InsertEntry(const RecordedFirings& firings,
     num_added += edit.is_added;
     num_weaker += edit.has_point && !edit.is_added && edit.is_weaker;
   }
+  const PoseRecord pose(recorded.frame.stamp_ns, after.world_from_sensor);
   Json entry = {{"frame", frame},
                 {"source", std::filesystem::path(recorded.name).filename().string()},
-                {"plan_xxh3", plan.hash},
+                {"plan_xxh3", plan.identity.scenario_hash},
                 {"seed", plan.scenario.seed},
                 {"stamp_ns", recorded.frame.stamp_ns},
                 {"time_ns", plan.frame_times_ns.at(frame)},
-                {"pose", nullptr},
+                {"pose",
+                 {{"position_m", ListOf(pose.position_m)},
+                  {"quaternion_xyzw",
+                   {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}},
+                  {"is_recorded", recorded.has_pose}}},
                 {"points", std::ranges::count_if(after.x, [](float x) { return !std::isnan(x); })},
                 {"added", num_added},
                 {"removed", LostSlots(inserted).size()},
                 {"weaker", num_weaker},
                 {"are_points_alone", firings.are_points_alone}};
-  if (recorded.has_pose) {
-    const PoseRecord pose(recorded.frame.stamp_ns, recorded.frame.world_from_sensor);
-    entry["pose"] = {
-        {"position_m", ListOf(pose.position_m)},
-        {"quaternion_xyzw",
-         {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}}};
-  }
   Json objects = Json::array();
   for (const RecordedObject& object : inserted.objects) {
     Json& added = objects.emplace_back(ObjectEntry(object, after, inserted));

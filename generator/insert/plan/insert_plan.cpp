@@ -135,7 +135,7 @@ InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec)
   InsertPlan plan;
   ScenarioSpec& scenario = plan.scenario;
   scenario = OnRecordedLine(run, plan_spec);
-  plan.hash = IdentityOf(plan_spec).scenario_hash;
+  plan.identity = IdentityOf(plan_spec);
   plan.remarks = run.remarks;
   for (const ObjectSpec& object : plan_spec.world.objects) {
     plan.places.push_back({.asked = AskedPlace(object)});
@@ -151,12 +151,14 @@ InsertPlan MakeInsertPlan(const RecordedRun& run, const ScenarioSpec& plan_spec)
   return plan;
 }
 
+Transform PlannedPose(const InsertPlan& plan, std::int64_t time_ns) {
+  return plan.world->WorldFromVehicle(time_ns) * VehicleFromSensor(plan.scenario.lidar.mount);
+}
+
 InsertPlan ReadInsertPlan(const std::filesystem::path& plan_file,
                           const std::filesystem::path& recording) {
   const RecordedRun run = ReadRecordedRun(plan_file, recording);
-  InsertPlan plan = MakeInsertPlan(run, run.plan);
-  plan.hash = run.plan_hash;
-  return plan;
+  return MakeInsertPlan(run, run.plan);
 }
 
 }  // namespace railcast

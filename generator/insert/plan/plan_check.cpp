@@ -138,7 +138,9 @@ std::string FoundText(const ThingCheck& thing, const PlanCheck& check) {
 
 }  // namespace
 
-PlanCheck CheckPlan(const InsertPlan& plan, const std::filesystem::path& recording) {
+PlanCheck CheckPlan(const InsertPlan& plan,
+                    const std::filesystem::path& recording,
+                    const InsertRange& range) {
   constexpr std::size_t kMostLooked = 200;
   const LidarSpec& lidar = plan.scenario.lidar;
   const ScanPattern pattern = BuildScanPattern(lidar.scan);
@@ -146,18 +148,19 @@ PlanCheck CheckPlan(const InsertPlan& plan, const std::filesystem::path& recordi
       VehicleFromSensor(lidar.mount) * NominalFromTrue(lidar.mount_error);
   const World& world = *plan.world;
   PlanCheck check;
-  check.num_frames = plan.frame_times_ns.size();
+  check.num_frames = range.num;
   for (const SceneObject& object : world.objects()) check.things.push_back({.name = object.name});
   const std::size_t stride = (check.num_frames + kMostLooked - 1) / kMostLooked;
   const auto opened = OpenRecording(recording);
-  for (std::size_t frame = 0; frame < check.num_frames; ++frame) {
-    const std::int64_t time_ns = plan.frame_times_ns[frame];
+  for (std::uint32_t i = 0; i < range.first; ++i) (void)opened->Next();
+  for (std::size_t frame = range.first; frame < std::size_t{range.first} + range.num; ++frame) {
+    const std::int64_t time_ns = plan.frame_times_ns.at(frame);
     const auto see = [&](std::size_t object, std::int64_t at_ns) {
       return SeeBox(world, object, world.WorldFromVehicle(at_ns) * vehicle_from_sensor, at_ns);
     };
     const auto read = opened->Next();
     std::optional<RecordedFrame> recorded;
-    if (read && frame % stride == 0) recorded = (*read)();
+    if (read && (frame - range.first) % stride == 0) recorded = (*read)();
     check.num_frames_looked += recorded ? 1 : 0;
     for (std::size_t i = 0; i < check.things.size(); ++i) {
       ThingCheck& thing = check.things[i];

@@ -26,16 +26,19 @@ struct ThingCheck {
 };
 
 struct PlanCheck {
-  std::size_t num_frames{};         ///< Of the recording.
+  std::size_t num_frames{};         ///< Of the range.
   std::size_t num_frames_looked{};  ///< Whose points were looked at.
   std::vector<ThingCheck> things;   ///< In the order of the plan's world.
 };
 
-/// Holds a plan against its recording, without simulating: which firings of the sensor's pattern
-/// aim at the bounding box of each object, and what was recorded there. Clouds are read of at most
-/// 200 frames, evenly over the recording. What lies in the lowest 0.1 m of a box counts as ground.
+/// Holds a plan against the range of its recording, without simulating: which firings of the
+/// sensor's pattern aim at the bounding box of each object, and what was recorded there. Clouds are
+/// read of at most 200 frames, evenly over the range. What lies in the lowest 0.1 m of a box counts
+/// as ground.
 /// @throws InputError if the recording cannot be read.
-[[nodiscard]] PlanCheck CheckPlan(const InsertPlan& plan, const std::filesystem::path& recording);
+[[nodiscard]] PlanCheck CheckPlan(const InsertPlan& plan,
+                                  const std::filesystem::path& recording,
+                                  const InsertRange& range);
 
 /// The report of a check, a few lines for each object.
 [[nodiscard]] std::string PlanCheckText(const InsertPlan& plan, const PlanCheck& check);

@@ -36,6 +36,11 @@ struct RecordedRun {
 [[nodiscard]] RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
                                           const std::filesystem::path& recording);
 
+/// What tells recordings apart without reading all of their points: names and sizes of the files,
+/// and the manifests of railcast's own, which hold hashes.
+/// @param source As OpenRecording() takes it.
+[[nodiscard]] std::string RecordingTraits(const std::filesystem::path& source);
+
 /// A plan for the recording as a scenario: with the recording's line in place of that, so that a
 /// world can be made of it.
 /// @param plan With the poses, the line and the sensor's mount and scan of `run.plan`.

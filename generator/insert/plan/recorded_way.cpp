@@ -30,7 +30,7 @@ struct PosedFrame {
   std::uint32_t last_instance{};  ///< The greatest number of its objects.
 };
 
-/// Masts and cantilevers have numbers of their own.
+/// Masts and cantilevers of railcast's sequences have numbers of their own.
 std::uint32_t InstanceOfObject(std::uint32_t instance) {
   return instance < kFirstMastInstance ? instance : 0;
 }
@@ -40,7 +40,7 @@ PosedFrame PosedFrameOf(const RecordedFrame& recorded) {
   PosedFrame posed{.name = recorded.name, .stamp_ns = frame.stamp_ns, .axes = recorded.axes};
   if (recorded.Has("instance")) {
     for (const std::uint32_t instance : frame.instance) {
-      posed.last_instance = std::max(posed.last_instance, InstanceOfObject(instance));
+      posed.last_instance = std::max(posed.last_instance, instance);
     }
   }
   if (!recorded.has_pose) return posed;

@@ -53,7 +53,8 @@ int RunInsertCommand(InsertOptions options) {
   const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
   for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";
   if (options.is_check) {
-    std::cout << ShownLines(PlanCheckText(plan, CheckPlan(plan, choices.recording)));
+    std::cout << ShownLines(
+        PlanCheckText(plan, CheckPlan(plan, choices.recording, RangeOf(choices, plan))));
     return kExitSuccess;
   }
   CatchStopSignals();
@@ -94,23 +95,30 @@ void AddInsert(CLI::App& app, ProgramCommand& command) {
   insert->add_option("PLAN", choices.plan, "Scenario whose world is a recording")
       ->required()
       ->check(NonEmpty());
-  insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
+  CLI::Option* const out =
+      insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
   insert->add_option("--frames", options->frames,
                      "First and last frame, counted from 0: 12..30; default: all");
   std::vector<std::string> formats = {"same"};
   for (const FrameFormat& format : FrameFormats()) {
     if (!format.files.empty()) formats.emplace_back(format.name);
   }
-  insert->add_option("--format", choices.format, "The recording's own format, or one of railcast's")
-      ->check(CLI::IsMember(formats))
-      ->capture_default_str();
-  insert->add_flag("--points-alone", choices.may_use_points_alone,
-                   "Take frames point by point where their firings cannot be found");
-  insert->add_flag("--check", options->is_check,
-                   "Print what the objects meet in the recording, and write nothing");
-  insert->add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
+  CLI::Option* const format = insert
+                                  ->add_option("--format", choices.format,
+                                               "The recording's own format, or one of railcast's")
+                                  ->check(CLI::IsMember(formats))
+                                  ->capture_default_str();
+  CLI::Option* const points_alone =
+      insert->add_flag("--points-alone", choices.may_use_points_alone,
+                       "Take frames point by point where their firings cannot be found");
+  CLI::Option* const threads =
+      insert->add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+          ->transform(Whole({0, 1024}))
+          ->capture_default_str();
+  CLI::Option* const check =
+      insert->add_flag("--check", options->is_check,
+                       "Print what the objects meet in the recording, and write nothing");
+  for (CLI::Option* const other : {out, format, points_alone, threads}) check->excludes(other);
   AddTopic(*insert, options->topic);
   insert->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"

@@ -10,6 +10,7 @@
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
 
@@ -117,12 +118,22 @@ void InsertFolder::Open(std::uint32_t num_kept) {
   }
 }
 
-void InsertFolder::WriteFixed(const FrameFile& file) {
+void InsertFolder::WriteFixed(const FixedFile& file) {
   const fs::path path = spec_.directory / file.name;
   fixed_.push_back(file.name);
-  if (HasContent(spec_.directory, {file.name, file.bytes.size(), ContentHash(file.bytes)})) return;
+  const FileHash wanted = file.copy_of.empty()
+                              ? FileHash{ContentHash(file.bytes), file.bytes.size()}
+                              : HashFile(file.copy_of);
+  if (HasContent(spec_.directory, {file.name, wanted.num_bytes, wanted.hash})) return;
   MakeFolders(path.parent_path());
-  WriteFileWhole(path, file.bytes);
+  if (file.copy_of.empty()) {
+    WriteFileWhole(path, file.bytes);
+    return;
+  }
+  // Beside clouds may stand images and maps of any size.
+  const UnfinishedFile copy(path, 0);
+  copy.AppendFile(file.copy_of);
+  copy.Finish();
 }
 
 void InsertFolder::Write(const std::vector<FrameFile>& files,

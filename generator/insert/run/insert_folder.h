@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/insert/clouds/recording_output.h"
 #include "generator/run/line_walk.h"
 #include "generator/run/run_folder.h"
 #include "railcast/io/cloud_files.h"
@@ -43,7 +44,7 @@ class InsertFolder {
   /// Keeps the lines of the first frames and opens the files for those after them.
   void Open(std::uint32_t num_kept);
   /// Writes a file that is known before the first frame, unless it is there already.
-  void WriteFixed(const FrameFile& file);
+  void WriteFixed(const FixedFile& file);
   /// Writes the next frame.
   /// @param lines One for each of the spec's files.
   /// @param entry The frame's members of its line in insert.jsonl; gets `files` and `records_xxh3`.

@@ -14,8 +14,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
@@ -26,6 +26,7 @@
 #include "generator/insert/firing_finder.h"
 #include "generator/insert/inserter.h"
 #include "generator/insert/packets/same_copy.h"
+#include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_folder.h"
 #include "generator/insert/run/recording_split.h"
 #include "generator/run/run_directory.h"
@@ -36,17 +37,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The frames that are wanted, of those that the plan has found.
-InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
-  const auto num = static_cast<std::uint32_t>(plan.frame_times_ns.size());
-  const std::uint32_t last = choices.last_frame.value_or(num == 0 ? 0 : num - 1);
-  if (choices.first_frame < num && last < num && choices.first_frame <= last) {
-    return {choices.first_frame, last - choices.first_frame + 1};
-  }
-  throw InputError("--frames: must be of the recording's " + NumberText(num) + " frames (got " +
-                   NumberText(choices.first_frame) + ".." + NumberText(last) + ")");
-}
-
 std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
                                           const RecordingInfo& info,
                                           const InsertPlan& plan,
@@ -56,7 +46,7 @@ std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
   }
   const fs::path folder = choices.directory / kRecordingFolder;
   if (auto sequence = MakeSameSequence(info, plan, range, folder)) return sequence;
-  if (auto clouds = MakeSameClouds(info, plan)) return clouds;
+  if (auto clouds = MakeSameClouds(info, plan, range)) return clouds;
   if (auto copy = MakeSameCopy(info, folder)) return copy;
   throw InputError(
       ShownPath(choices.recording) +
@@ -70,9 +60,10 @@ std::string RunJsonOf(const InsertChoices& choices,
                       const InsertRange& range) {
   Json json = {{"version", ProgramVersion()},
                {"embree", EmbreeVersion()},
-               {"recording", choices.recording.generic_string()},
+               {"recording", choices.recording.lexically_normal().generic_string()},
+               {"recording_xxh3", ContentHash(RecordingTraits(info.source))},
                {"kind", info.kind},
-               {"plan_xxh3", plan.hash},
+               {"plan_xxh3", plan.identity.scenario_hash},
                {"seed", plan.scenario.seed},
                {"format", choices.format},
                {"points_alone", choices.may_use_points_alone},
@@ -157,13 +148,13 @@ class InsertRun {
   }
 
   void WriteFixed() {
-    const ScenarioIdentity identity = IdentityOf(plan_.scenario);
-    folder_.WriteFixed({"plan.resolved.json", identity.scenario_json});
-    for (const InputFile& input : identity.inputs) {
-      folder_.WriteFixed({input.CopyName(), input.bytes});
+    folder_.WriteFixed({"plan.resolved.json", plan_.identity.scenario_json, {}});
+    for (const InputFile& input : plan_.identity.inputs) {
+      folder_.WriteFixed({input.CopyName(), input.bytes, {}});
     }
-    for (const FrameFile& file : output_->FixedFiles()) {
-      folder_.WriteFixed({InRecording(file.name), file.bytes});
+    for (FixedFile& file : output_->FixedFiles()) {
+      file.name = InRecording(file.name);
+      folder_.WriteFixed(file);
     }
   }
 
@@ -231,7 +222,12 @@ class InsertRun {
                [&](FrameOnWay& it) { it.firings = finder_.Find(std::exchange(it.read, {})()); });
   }
   std::shared_ptr<FrameOnWay> Insert(const std::shared_ptr<FrameOnWay>& way) {
-    return Try(way, [&](FrameOnWay& it) { it.inserted = inserter_.Insert(it.firings, it.frame); });
+    return Try(way, [&](FrameOnWay& it) {
+      it.inserted = inserter_.Insert(it.firings, it.frame);
+      if (it.firings.recorded.has_pose) return;
+      it.inserted.recorded.frame.world_from_sensor =
+          PlannedPose(plan_, plan_.frame_times_ns.at(it.frame));
+    });
   }
   std::shared_ptr<FrameOnWay> Encode(const std::shared_ptr<FrameOnWay>& way) const {
     return Try(way, [&](FrameOnWay& it) {
@@ -255,13 +251,9 @@ class InsertRun {
     for (FrameFile& file : way.output.files) {
       files.push_back({InRecording(file.name), std::move(file.bytes)});
     }
-    const Frame& frame = way.firings.recorded.frame;
-    const Transform pose = way.firings.recorded.has_pose
-                               ? frame.world_from_sensor
-                               : plan_.world->WorldFromVehicle(plan_.frame_times_ns[way.frame]) *
-                                     VehicleFromSensor(plan_.scenario.lidar.mount);
-    std::vector<std::string> lines = {PoseLine(PoseRecord(frame.stamp_ns, pose)),
-                                      InsertedObjectsLine(way.inserted)};
+    const PoseRecord pose(plan_.first_stamp_ns + plan_.frame_times_ns.at(way.frame),
+                          way.inserted.recorded.frame.world_from_sensor);
+    std::vector<std::string> lines = {PoseLine(pose), InsertedObjectsLine(way.inserted)};
     lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
     folder_.Write(files, lines, way.entry);
     hooks_.on_progress(folder_.num_done(), range_.num);
@@ -320,6 +312,16 @@ std::string ReportOf(const fs::path& directory) {
 }
 
 }  // namespace
+
+InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
+  const auto num = static_cast<std::uint32_t>(plan.frame_times_ns.size());
+  const std::uint32_t last = choices.last_frame.value_or(num == 0 ? 0 : num - 1);
+  if (choices.first_frame < num && last < num && choices.first_frame <= last) {
+    return {choices.first_frame, last - choices.first_frame + 1};
+  }
+  throw InputError("--frames: must be of the recording's " + NumberText(num) + " frames (got " +
+                   NumberText(choices.first_frame) + ".." + NumberText(last) + ")");
+}
 
 void CheckIsApart(const InsertChoices& choices) {
   const fs::path recording = fs::weakly_canonical(choices.recording);

@@ -37,6 +37,10 @@ struct InsertHooks {
   std::function<bool()> is_stopped;
 };
 
+/// The frames that are wanted, of those that the plan has found.
+/// @throws InputError if the recording has not all of them.
+[[nodiscard]] InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan);
+
 /// @throws InputError if what is written would be read as a part of the recording.
 void CheckIsApart(const InsertChoices& choices);
 

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/base/text.h"
 #include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 namespace {
@@ -120,6 +122,31 @@ TEST(EditedPly, LeavesOutLostReturnsAndAddsOthersInOrder) {
   EXPECT_THAT(ColumnOf(files, "instance"), ElementsAre(0, 0, 0, 0, 9));
   // One point was lost and one came.
   EXPECT_EQ(files[0].bytes.size(), before.size());
+}
+
+TEST(EditedPly, SaturatesMeasuredValuesAndRefusesNumbersThatDoNotFit) {
+  const auto edit = [](std::uint32_t instance) {
+    std::vector<FrameFile> files = FilesIn("ply", "x,y,z,intensity,instance");
+    // The same cloud with intensities and instances in a byte each.
+    const PointTable table = FindReader(files[0].name)->parse("cloud", files[0].bytes, {});
+    std::string rows;
+    for (std::size_t i = 0; i < table.num_points(); ++i) {
+      rows += NumberText(10 + i) + " 1 1 64 3\n";
+    }
+    files[0].bytes = "ply\nformat ascii 1.0\nelement vertex " + NumberText(table.num_points()) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n"
+                     "property uchar intensity\nproperty uchar instance\nend_header\n" +
+                     rows;
+    EditedFrame frame(files);
+    frame.inserted.recorded.frame.intensity[5] = 300.0F;
+    frame.inserted.recorded.frame.instance[5] = instance;
+    (void)EditCloud(frame.firings, frame.inserted, {}, files);
+    return files[0].bytes;
+  };
+  EXPECT_NE(edit(255).find("7 2 2 255 255\n"), std::string::npos) << edit(255);
+  EXPECT_EQ(MessageOf([&] { (void)edit(256); }),
+            "a field of the recording cannot hold the number 256; choose another --format than "
+            "same");
 }
 
 TEST(EditedKitti, KeepsPointsAndLabelsTogether) {

@@ -22,7 +22,7 @@ struct CheckedPlan {
                                     R"("s_m": 20.5}, {"name": "far", )" + box + R"("s_m": 900}])",
                                 VelodyneOfPlan());
     plan = ReadInsertPlan(file, source);
-    check = CheckPlan(plan, source);
+    check = CheckPlan(plan, source, {0, static_cast<std::uint32_t>(plan.frame_times_ns.size())});
   }
 
   TemporaryDirectory folder;

@@ -52,6 +52,23 @@ TEST_F(InsertCommand, TellsWithCheckWhatThePlanMeetsAndWritesNothing) {
   EXPECT_FALSE(exists(out()));
 }
 
+TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
+  Make(3);
+  const Ended ended = Insert("--check --frames 1..1");
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.said.find("aimed at in 1 of 1 frames"), std::string::npos) << ended.said;
+  EXPECT_EQ(Insert("--check --frames 1..3").said,
+            std::string(kRemark) + "--frames: must be of the recording's 3 frames (got 1..3)\n");
+  EXPECT_EQ(Insert("--check --out x").status, 2);
+  for (const std::string option : {"--format ply", "--points-alone", "--threads 1"}) {
+    const Ended refused = Insert("--check " + option);
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_NE(refused.said.find(option.substr(0, option.find(' ')) + " excludes --check"),
+              std::string::npos)
+        << refused.said;
+  }
+}
+
 TEST_F(InsertCommand, WritesTheFramesThatAreWantedInTheFormatThatIsWanted) {
   Make(3);
   const Ended ended = Insert("--out " + out().string() + " --frames 1..2 --format ply");

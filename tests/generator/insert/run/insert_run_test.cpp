@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -168,6 +169,93 @@ TEST(InsertRun, SaysWhatIsWrongWithItsFoldersAndFrames) {
   EXPECT_EQ(MessageOf([&] { (void)InsertInto(other); }),
             choices.directory.string() +
                 R"(: holds another run: its format is "same" (got "ply"); choose another --out)");
+}
+
+TEST(InsertRun, IsAnotherRunWhereTheRecordingHasChanged) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path clouds = folder.path() / "clouds";
+  fs::copy(run / "frames", clouds);
+  const InsertChoices choices = {
+      .recording = clouds,
+      .plan = WriteRunPlan(folder.path(), "", R"({"poses": "standing"})"),
+      .directory = folder.path() / "out"};
+  (void)InsertInto(choices);
+  EXPECT_TRUE(InsertInto(choices).was_complete);
+  WriteFileWhole(clouds / "notes.txt", "of another day\n");
+  const std::string message = MessageOf([&] { (void)InsertInto(choices); });
+  EXPECT_TRUE(message.starts_with(choices.directory.string() +
+                                  ": holds another run: its recording_xxh3 is "))
+      << message;
+}
+
+TEST(InsertRun, MakesTheSameOfThePlanThatItWrites) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path first = folder.path() / "first";
+  (void)InsertInto(
+      {.recording = run, .plan = WriteRunPlan(folder.path(), kBox), .directory = first});
+  const fs::path second = folder.path() / "second";
+  (void)InsertInto({.recording = run, .plan = first / "plan.resolved.json", .directory = second});
+  EXPECT_EQ(FilesOf(second), FilesOf(first));
+}
+
+TEST(InsertRun, WritesThePosesAndTimesOfTheFramesThatAreTakenOfKittis) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  MadeSequenceSpec made = RunWith("kitti", "");
+  made.num_frames = 4;
+  (void)MakeSequence(run, made);
+  const fs::path clouds = folder.path() / "clouds";
+  fs::create_directories(clouds);
+  fs::copy(run / "sequences", clouds / "sequences", fs::copy_options::recursive);
+  const fs::path out = folder.path() / "out";
+  const fs::path plan = WriteRunPlan(folder.path(), "", "{}");
+  (void)InsertInto({.recording = clouds,
+                    .plan = plan,
+                    .directory = out,
+                    .first_frame = 1,
+                    .last_frame = 2,
+                    .may_use_points_alone = true});
+  const InsertPlan whole = ReadInsertPlan(plan, clouds);
+  const InsertPlan part = ReadInsertPlan(plan, out / "recording");
+  ASSERT_EQ(part.frame_times_ns.size(), 2U);
+  EXPECT_EQ(part.frame_times_ns[1], whole.frame_times_ns[2] - whole.frame_times_ns[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(PlannedPose(part, part.frame_times_ns[i])
+                    .isApprox(PlannedPose(whole, whole.frame_times_ns[i + 1]), 1e-6))
+        << i;
+  }
+}
+
+TEST(InsertRun, PlacesBoxesInTheWorldWhereARecordingHasNoPoses) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path clouds = folder.path() / "clouds";
+  fs::copy(run / "frames", clouds);
+  const fs::path out = folder.path() / "out";
+  (void)InsertInto(
+      {.recording = clouds,
+       .plan = WriteRunPlan(folder.path(),
+                            R"({"name": "crate", "type": "box", "size_m": [2, 3, 3], "frame": 0, )"
+                            R"("s_m": 40, "d_m": 1, "h_m": 0})",
+                            R"({"poses": "standing"})"),
+       .directory = out});
+  const nlohmann::json objects =
+      nlohmann::json::parse(ReadFileWhole(out / "objects.jsonl")
+                                .substr(0, ReadFileWhole(out / "objects.jsonl").find('\n')));
+  const auto world_m = objects.at("objects").at(0).at("world").at("center_m");
+  EXPECT_NEAR(world_m.at(0).get<double>(), 40.0, 0.01);
+  EXPECT_NEAR(world_m.at(1).get<double>(), 1.0, 0.01);
+  EXPECT_NEAR(world_m.at(2).get<double>(), 1.5, 0.01);
+  const std::string entry = ReadFileWhole(out / "insert.jsonl");
+  EXPECT_NE(entry.find(R"("is_recorded":false)"), std::string::npos) << entry.substr(0, 800);
+  const auto pose = nlohmann::json::parse(entry.substr(0, entry.find('\n'))).at("pose");
+  EXPECT_NEAR(pose.at("position_m").at(0).get<double>(), 2.2, 1e-9);
+  EXPECT_NEAR(pose.at("position_m").at(2).get<double>(), 2.5, 1e-9);
 }
 
 /// A person who walks across the line, 28 m ahead at first.
