@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"
+#include "core/io/verify/insertion_verification.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
@@ -44,7 +45,9 @@ int Report(const std::filesystem::path& directory, const Verify& verify) {
 
 int RunVerify(const std::filesystem::path& directory) {
   return Report(directory, [&](const auto& show) {
-    return IsDataset(directory) ? VerifyDataset(directory, show) : VerifySequence(directory, show);
+    if (IsDataset(directory)) return VerifyDataset(directory, show);
+    if (IsInsertion(directory)) return VerifyInsertion(directory, show);
+    return VerifySequence(directory, show);
   });
 }
 
@@ -67,10 +70,12 @@ void AddVerify(CLI::App& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
   CLI::App* verify = app.add_subcommand(
       "verify",
-      "Check that a sequence directory or a data set is as it was written: one line per fault");
+      "Check that a sequence directory, a data set or a recording with insertions is as it was "
+      "written: one line per fault");
   verify
-      ->add_option("DIR", *directory,
-                   "Directory that railcast-generate sequence or dataset made, any --format")
+      ->add_option(
+          "DIR", *directory,
+          "Directory that railcast-generate sequence, dataset or insert made, any --format")
       ->required()
       ->check(NonEmpty());
   verify->callback([&command, directory] {

@@ -25,6 +25,8 @@ inline constexpr std::string_view kDatasetManifestFile = "manifest.json";
 inline constexpr std::string_view kSequencesFolder = "sequences";
 /// In the folder of a scenario that is a plan: its recording with what was inserted.
 inline constexpr std::string_view kRecordingFolder = "recording";
+/// Beside it: the file with a line for each frame, which makes the frame count as done.
+inline constexpr std::string_view kInsertFile = "insert.jsonl";
 inline constexpr std::array<std::string_view, 3> kSplitFiles = {"split/train.txt", "split/val.txt",
                                                                 "split/test.txt"};
 

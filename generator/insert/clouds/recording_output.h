@@ -63,6 +63,10 @@ class RecordingOutput {
                      const InsertedFrame& /*inserted*/,
                      WrittenFrame& /*output*/) {}
   virtual void Finish() {}
+  /// The names of the files that hold more than a frame and are none of LineFiles() or
+  /// FixedFiles(), as of a capture; not of a sequence, whose own manifest knows its files. After
+  /// Finish().
+  [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
 };
 
 /// Writes a recording of cloud files as it was; null if it is none. Beside some of its frames,

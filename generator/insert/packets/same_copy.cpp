@@ -1,6 +1,8 @@
 #include "generator/insert/packets/same_copy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -56,6 +58,15 @@ class SameCopy : public RecordingOutput {
   void Finish() override {
     copy_->Finish();
     is_finished_ = true;
+  }
+  [[nodiscard]] std::vector<std::string> WholeFiles() const override {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      if (!entry.is_regular_file()) continue;
+      names.push_back(entry.path().lexically_relative(folder_).generic_string());
+    }
+    std::ranges::sort(names);
+    return names;
   }
 
  private:

@@ -48,7 +48,7 @@ int RunInsertCommand(InsertOptions options) {
   if (!options.is_check && choices.directory.empty()) {
     throw InputError("--out: missing (only --check writes nothing)");
   }
-  if (!options.is_check) CheckIsApart(choices);
+  if (!choices.directory.empty()) CheckIsApart(choices);
   choices.recording = WithTopic({choices.recording}, options.topic).front();
   const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
   for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";
@@ -95,8 +95,7 @@ void AddInsert(CLI::App& app, ProgramCommand& command) {
   insert->add_option("PLAN", choices.plan, "Scenario whose world is a recording")
       ->required()
       ->check(NonEmpty());
-  CLI::Option* const out =
-      insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
+  insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
   insert->add_option("--frames", options->frames,
                      "First and last frame, counted from 0: 12..30; default: all");
   std::vector<std::string> formats = {"same"};
@@ -118,7 +117,7 @@ void AddInsert(CLI::App& app, ProgramCommand& command) {
   CLI::Option* const check =
       insert->add_flag("--check", options->is_check,
                        "Print what the objects meet in the recording, and write nothing");
-  for (CLI::Option* const other : {out, format, points_alone, threads}) check->excludes(other);
+  for (CLI::Option* const other : {format, points_alone, threads}) check->excludes(other);
   AddTopic(*insert, options->topic);
   insert->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"

@@ -165,13 +165,14 @@ void InsertFolder::Abandon() noexcept {
   fs::remove_all(spec_.directory, error);
 }
 
-void InsertFolder::Finish(const Json& summary) {
+void InsertFolder::Finish(const Json& summary, const std::vector<std::string>& others) {
   for (LineFile& file : lines_) file.Sync();
   Json manifest = Json::parse(spec_.run_json);
   manifest.update(summary);
   Json hashes = Json::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   names.insert(names.end(), fixed_.begin(), fixed_.end());
+  names.insert(names.end(), others.begin(), others.end());
   for (const LineFileName& file : LineFiles()) names.push_back(file.name);
   for (const std::string& name : names) hashes[name] = HashFile(spec_.directory / name).hash;
   manifest["files_xxh3"] = std::move(hashes);

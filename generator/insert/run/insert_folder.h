@@ -8,15 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/dataset_files.h"
 #include "generator/insert/clouds/recording_output.h"
 #include "generator/run/line_walk.h"
 #include "generator/run/run_folder.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
-
-/// The file with a line for each frame, which makes the frame count as done.
-inline constexpr std::string_view kInsertFile = "insert.jsonl";
 
 /// What a folder of inserted frames is of.
 struct InsertFolderSpec {
@@ -56,7 +54,8 @@ class InsertFolder {
   void Abandon() noexcept;
   /// Writes the manifest: the members of run.json, those of `summary`, and the hashes of all files
   /// but those of frames, which insert.jsonl names.
-  void Finish(const nlohmann::ordered_json& summary);
+  /// @param others Names of files that were written by others.
+  void Finish(const nlohmann::ordered_json& summary, const std::vector<std::string>& others);
 
  private:
   void CheckSameRun(const std::string& found) const;

@@ -261,7 +261,9 @@ class InsertRun {
 
   void Finish() {
     output_->Finish();
-    folder_.Finish({{"remarks", plan_.remarks}});
+    std::vector<std::string> others;
+    for (const std::string& name : output_->WholeFiles()) others.push_back(InRecording(name));
+    folder_.Finish({{"remarks", plan_.remarks}}, others);
   }
 
   const InsertPlan& plan_;

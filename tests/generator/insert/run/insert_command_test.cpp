@@ -59,7 +59,9 @@ TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
   EXPECT_NE(ended.said.find("aimed at in 1 of 1 frames"), std::string::npos) << ended.said;
   EXPECT_EQ(Insert("--check --frames 1..3").said,
             std::string(kRemark) + "--frames: must be of the recording's 3 frames (got 1..3)\n");
-  EXPECT_EQ(Insert("--check --out x").status, 2);
+  EXPECT_EQ(Insert("--check --out " + (run() / "x").string()).status, 1);
+  EXPECT_EQ(Insert("--check --out " + out().string()).status, 0);
+  EXPECT_FALSE(exists(out()));
   for (const std::string option : {"--format ply", "--points-alone", "--threads 1"}) {
     const Ended refused = Insert("--check " + option);
     EXPECT_EQ(refused.status, 2) << option;

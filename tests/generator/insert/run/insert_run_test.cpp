@@ -1,5 +1,6 @@
 #include "generator/insert/run/insert_run.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/io/field_layout.h"
+#include "core/io/verify/insertion_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/insert/clouds/sidecars.h"
@@ -76,6 +78,7 @@ TEST_P(InsertIntoFormat, AnObjectGivesWhatASimulationWithItGives) {
   (void)InsertInto(
       {.recording = run, .plan = WriteRunPlan(folder_.path(), kBox), .directory = out});
   EXPECT_TRUE(VerifySequence(out / "recording", [](double) {}).faults.empty());
+  EXPECT_THAT(VerifyInsertion(out, [](double) {}).faults, testing::IsEmpty());
   const auto recording = OpenRecording(out / "recording");
   for (const Frame& expected : truth.frames) {
     const RecordedFrame got = (*recording->Next())();
@@ -169,6 +172,37 @@ TEST(InsertRun, SaysWhatIsWrongWithItsFoldersAndFrames) {
   EXPECT_EQ(MessageOf([&] { (void)InsertInto(other); }),
             choices.directory.string() +
                 R"(: holds another run: its format is "same" (got "ply"); choose another --out)");
+}
+
+TEST(InsertRun, IsVerifiedWithAllItsFiles) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path clouds = folder.path() / "clouds";
+  fs::copy(run / "frames", clouds);
+  WriteFileWhole(clouds / "notes.txt", "of the first run\n");
+  const fs::path out = folder.path() / "out";
+  (void)InsertInto({.recording = clouds,
+                    .plan = WriteRunPlan(folder.path(), "", R"({"poses": "standing"})"),
+                    .directory = out});
+  const auto faults = [&] { return VerifyInsertion(out, [](double) {}).faults; };
+  EXPECT_THAT(faults(), testing::IsEmpty());
+  EXPECT_EQ(VerifyInsertion(out, [](double) {}).num_frames, 2U);
+  WriteFileWhole(out / "letter.txt", "dear");
+  EXPECT_THAT(faults(), testing::ElementsAre((out / "letter.txt").string() +
+                                             ": is named neither in manifest.json nor in "
+                                             "insert.jsonl"));
+  fs::remove(out / "letter.txt");
+  WriteFileWhole(out / "recording/notes.txt", "of the second run\n");
+  fs::remove(out / "points/000001.npy");
+  EXPECT_THAT(
+      faults(),
+      testing::ElementsAre(
+          testing::StartsWith((out / "recording/notes.txt").string() + ": must have the hash "),
+          testing::StartsWith((out / "points/000001.npy").string() + ": no such file")));
+  fs::remove(out / "manifest.json");
+  EXPECT_THAT(faults(), testing::Contains((out / "manifest.json").string() +
+                                          ": missing: the run is unfinished"));
 }
 
 TEST(InsertRun, IsAnotherRunWhereTheRecordingHasChanged) {

@@ -1,0 +1,127 @@
+#include "core/io/verify/insertion_verification.h"
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/line_reader.h"
+#include "core/io/recording/sequence_check.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
+#include "core/io/verify/findings.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a line of insert.jsonl says of the files of its frame.
+std::vector<KnownFile> FilesOfLine(const PlacedLine& line, std::uint32_t frame) {
+  const std::string fault = LineHashFault(line.text);
+  if (!fault.empty()) throw InputError(line.place + ": " + fault);
+  return ReadRecordedJson<StrictJson>(line.text, line.place, [&](const StrictJson& json) {
+    const auto got = json.at("frame").get<std::uint32_t>();
+    if (got != frame) {
+      throw InputError(line.place + ": /frame: must be " + NumberText(frame) + Got(got));
+    }
+    std::vector<KnownFile> files;
+    for (const StrictJson& file : json.at("files")) {
+      files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
+    }
+    return files;
+  });
+}
+
+class InsertionVerifier : private Findings {
+ public:
+  InsertionVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
+      : directory_(directory), on_progress_(on_progress) {}
+
+  Verification Run() {
+    Try([&] { CheckManifest(); });
+    Try([&] { CheckFrames(); });
+    const fs::path recording = directory_ / kRecordingFolder;
+    const bool is_sequence = IsThere(recording / kRunFile);
+    if (is_sequence) {
+      Verification found = VerifySequence(recording, [](double) {});
+      found.num_frames = 0;  // They have been counted.
+      Add(found);
+    }
+    const NameSet known_folders = is_sequence ? NameSet{std::string(kRecordingFolder)} : NameSet();
+    Try([&] {
+      ForEachFileBelow(directory_, directory_, known_folders, [&](const std::string& name) {
+        if (known_.contains(name)) return;
+        faults_.Add({ShownPath(directory_ / name),
+                     "is named neither in manifest.json nor in insert.jsonl", ""});
+      });
+    });
+    return Take();
+  }
+
+ private:
+  void CheckManifest() {
+    const fs::path file = directory_ / kManifestFile;
+    known_.emplace(kManifestFile);
+    known_.emplace(kRunFile);
+    known_.emplace(kInsertFile);
+    if (!IsThere(file)) {
+      throw InputError({Fault{ShownPath(file), "missing: the run is unfinished", ""}});
+    }
+    const std::string text = ReadFileWhole(file);
+    Try([&] { CheckManifestHash(text, ShownPath(file)); });
+    ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
+      num_frames_ = json.at("num_frames");
+      first_frame_ = json.at("first_frame");
+      for (const auto& [name, hash] : json.at("files_xxh3").items()) {
+        known_.insert(name);
+        CheckHash(directory_ / name, hash, std::string(kManifestFile));
+      }
+      return true;
+    });
+  }
+
+  void CheckFrames() {
+    LineReader lines(directory_ / kInsertFile);
+    std::uint32_t num = 0;
+    for (; const auto line = lines.Next(); ++num) {
+      if (num_frames_ > 0) {
+        on_progress_(static_cast<double>(num) / static_cast<double>(num_frames_));
+      }
+      Try([&] {
+        for (const KnownFile& file : FilesOfLine(*line, first_frame_ + num)) {
+          known_.insert(file.name);
+          CheckHash(directory_ / file.name, file.hash, std::string(kInsertFile));
+        }
+      });
+    }
+    result_.num_frames += num;
+    if (num == num_frames_ || num_frames_ == 0) return;
+    faults_.Add({ShownPath(directory_ / kInsertFile),
+                 "must have a line for each of " + NumberText(num_frames_) + " frames",
+                 NumberText(num)});
+  }
+
+  const fs::path& directory_;
+  const std::function<void(double)>& on_progress_;
+  NameSet known_;
+  std::uint32_t first_frame_ = 0;
+  std::uint32_t num_frames_ = 0;  ///< 0 = not known.
+};
+
+}  // namespace
+
+bool IsInsertion(const fs::path& directory) {
+  return IsThere(directory / kInsertFile);
+}
+
+Verification VerifyInsertion(const fs::path& directory,
+                             const std::function<void(double)>& on_progress) {
+  return InsertionVerifier(directory, on_progress).Run();
+}
+
+}  // namespace railcast
