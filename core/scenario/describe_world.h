@@ -172,6 +172,11 @@ void Describe(Archive& a, RecordingWorldSpec& s) {
              "Where the sensor's poses come from: recorded; standing, for a sensor that does not "
              "move; registered, estimated by laying each cloud on the one before it. Absent = "
              "recorded.");
+  a.Optional("poses_file", s.poses_file,
+             "The sensor's poses in the world, one for each frame: lines of KITTI's; .csv, as "
+             "railcast's poses.csv; .json, OpenLABEL with transforms.",
+             ExistingFile());
+  a.Ensure({"poses_file", "poses"}, !s.poses_file || !s.poses, "must not be given with poses");
   a.Optional("alignment", s.alignment,
              "The line along which chainages count; absent = the way of the sensor's vehicle, from "
              "where it is in the first frame.");

@@ -8,7 +8,7 @@
 #include "core/base/text.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/recorded_motion.h"
-#include "generator/insert/plan/kitti_poses.h"
+#include "generator/insert/plan/pose_file.h"
 
 namespace railcast {
 namespace {
@@ -48,7 +48,7 @@ class PosesBeside {
  public:
   explicit PosesBeside(const SurveySource& source) : file_(source.poses) {
     if (file_.empty()) return;
-    poses_ = ReadPoseLines(file_);
+    poses_ = ReadPoseFile(file_, "lidar").world_from_sensor;
     if (source.recordings.size() != 1) {
       throw InputError("--poses: must belong to one recording" + Got(source.recordings.size()));
     }
@@ -68,8 +68,8 @@ class PosesBeside {
 
  private:
   void Refuse(const std::string& frames) const {
-    throw InputError(ShownPath(file_) + ": must have a line for each frame (got " +
-                     std::to_string(poses_.size()) + " lines and " + frames + ")");
+    throw InputError(ShownPath(file_) + ": must have a pose for each frame (got " +
+                     std::to_string(poses_.size()) + " poses and " + frames + ")");
   }
   std::filesystem::path file_;
   std::vector<Transform> poses_;

@@ -111,7 +111,8 @@ void AddSourceOptions(CLI::App& command, SurveySource& source) {
                                 ->excludes(standing);
   command
       .add_option("--poses", source.poses,
-                  "Poses of the sensor in the world: a line of KITTI's, 12 numbers, for each frame")
+                  "Poses of the sensor in the world, one for each frame: lines of KITTI's, .csv as "
+                  "railcast's poses.csv, or .json of OpenLABEL with the sensor \"lidar\"")
       ->excludes(standing)
       ->excludes(world_axes)
       ->check(NonEmpty());

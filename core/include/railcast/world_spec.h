@@ -203,6 +203,7 @@ inline constexpr auto kEnumNames<PoseSource> =
 /// A recording as a world: what a plan of railcast-generate insert has in place of an alignment.
 struct RecordingWorldSpec {
   std::optional<PoseSource> poses{};         ///< Absent: recorded.
+  std::optional<std::string> poses_file{};   ///< That has the poses instead.
   std::optional<AlignmentSpec> alignment{};  ///< Absent: the line is the way of the vehicle.
 
   bool operator==(const RecordingWorldSpec&) const = default;

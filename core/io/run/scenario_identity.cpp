@@ -58,6 +58,10 @@ class FileNaming {
     Rename(scenario.lidar);
     for (LidarSpec& lidar : scenario.lidars) Rename(lidar);
     if (auto& elevation = scenario.world.terrain.elevation) Rename(elevation->file);
+    if (scenario.world.survey) Rename(*scenario.world.survey);
+    if (auto& recording = scenario.world.recording; recording && recording->poses_file) {
+      Rename(*recording->poses_file);
+    }
     for (ObjectSpec& object : scenario.world.objects) {
       if (object.file) RenameMesh(*object.file);
     }

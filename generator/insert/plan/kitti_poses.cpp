@@ -10,6 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/recording_kinds.h"
+#include "generator/insert/plan/pose_file.h"
 
 namespace railcast {
 namespace {
@@ -18,24 +19,6 @@ namespace fs = std::filesystem;
 
 std::string PlaceInFile(const fs::path& file, std::size_t line) {
   return ShownPath(file) + ":" + NumberText(line);
-}
-
-/// A pose as KITTI writes it: the upper three rows of its matrix.
-Transform ParsePose(const std::vector<std::string_view>& words, const std::string& place) {
-  constexpr std::size_t kNumbers = 12;
-  constexpr double kRounding = 1e-3;
-  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> rows = Eigen::Matrix<double, 3, 4>::Zero();
-  for (std::size_t i = 0; i < words.size() && i < kNumbers; ++i) {
-    const auto number = ParseNumber<double>(words[i]);
-    rows.data()[i] = number.value_or(std::nan(""));
-  }
-  const Eigen::Matrix3d axes = rows.leftCols<3>();
-  const bool is_rotation =
-      (axes.transpose() * axes).isIdentity(kRounding) && axes.determinant() > 0;
-  if (words.size() != kNumbers || !rows.allFinite() || !is_rotation) {
-    throw InputError(place + ": must be the 12 numbers of a pose");
-  }
-  return MakeTransform(Eigen::Quaterniond(axes).normalized().toRotationMatrix(), rows.col(3));
 }
 
 std::vector<std::string> AllLines(const fs::path& file) {
@@ -60,7 +43,7 @@ std::optional<Transform> ReadCalibration(const fs::path& file) {
   std::string_view rest = text;
   for (std::size_t number = 1; const auto line = TakeLine(rest); ++number) {
     if (!line->starts_with("Tr:")) continue;
-    return ParsePose(Words(line->substr(3)), PlaceInFile(file, number));
+    return ReadKittiPose(std::string(line->substr(3)), PlaceInFile(file, number));
   }
   return std::nullopt;
 }
@@ -78,7 +61,7 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
   if (exists(poses) && camera_from_sensor) {
     std::size_t number = 1;
     for (const std::string& line : KittiLinesIn(poses, num_frames)) {
-      const Transform pose = ParsePose(Words(line), PlaceInFile(poses, number++));
+      const Transform pose = ReadKittiPose(line, PlaceInFile(poses, number++));
       read.world_from_sensor.push_back(camera_from_sensor->inverse() * pose * *camera_from_sensor);
     }
   }
@@ -96,14 +79,6 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
     ++number;
   }
   return read;
-}
-
-std::vector<Transform> ReadPoseLines(const fs::path& file) {
-  std::vector<Transform> poses;
-  for (const std::string& line : AllLines(file)) {
-    poses.push_back(ParsePose(Words(line), PlaceInFile(file, poses.size() + 1)));
-  }
-  return poses;
 }
 
 }  // namespace railcast

@@ -23,9 +23,4 @@ struct KittiPoses {
 [[nodiscard]] KittiPoses ReadKittiPoses(const std::filesystem::path& source,
                                         std::size_t num_frames);
 
-/// Reads a file with the poses of a sensor in the world as lines of KITTI's: the 12 numbers of the
-/// upper three rows of a matrix.
-/// @throws InputError "FILE:3: rule" if a line is none, or if the file cannot be read.
-[[nodiscard]] std::vector<Transform> ReadPoseLines(const std::filesystem::path& file);
-
 }  // namespace railcast

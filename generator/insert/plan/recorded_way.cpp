@@ -13,6 +13,7 @@
 #include "core/io/recording/sequence_lines.h"
 #include "core/rail/catenary/catenary.h"
 #include "generator/insert/plan/kitti_poses.h"
+#include "generator/insert/plan/pose_file.h"
 #include "generator/insert/plan/registered_poses.h"
 #include "railcast/io/recording.h"
 
@@ -100,6 +101,21 @@ std::vector<PosedFrame> ReadFrames(const fs::path& source) {
   std::vector<PosedFrame> frames;
   while (const auto read = recording->Next()) frames.push_back(PosedFrameOf((*read)()));
   return frames;
+}
+
+/// Gives frames the poses of a file, and its stamps to those that have none.
+void UsePoseFile(const fs::path& file, const std::string& sensor, std::vector<PosedFrame>& frames) {
+  const PoseFile poses = ReadPoseFile(file, sensor);
+  if (poses.world_from_sensor.size() != frames.size()) {
+    throw InputError(ShownPath(file) + ": must have a pose for each of the " +
+                     NumberText(frames.size()) + " frames" + Got(poses.world_from_sensor.size()));
+  }
+  const bool has_stamps =
+      std::ranges::any_of(frames, [](const PosedFrame& frame) { return frame.stamp_ns != 0; });
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].poses = {{0, poses.world_from_sensor[i]}};
+    if (!has_stamps && !poses.stamps_ns.empty()) frames[i].stamp_ns = poses.stamps_ns[i];
+  }
 }
 
 /// Says in a remark how long nothing was recorded.
@@ -263,6 +279,7 @@ RecordedWay ReadRecordedWay(const fs::path& recording,
   for (const PosedFrame& frame : frames) {
     way.last_instance = std::max(way.last_instance, frame.last_instance);
   }
+  if (world.poses_file) UsePoseFile(*world.poses_file, lidar.name, frames);
   SetTimes(frames, lidar.scan, way, remarks);
   const PoseSource from = world.poses.value_or(PoseSource::kRecorded);
   const Transform vehicle_from_sensor = VehicleFromSensor(lidar.mount);

@@ -98,6 +98,31 @@ TEST(SurveyCommand, TakesPosesOfAFile) {
   }
 }
 
+TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
+  const TemporaryDirectory directory;
+  const std::string poses = "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n";
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), poses)).status, 0);
+  const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
+  WriteFileWhole(directory.path() / "site.json",
+                 R"({"version": 1, "lidar": {"file": ")" + scenarios +
+                     R"(sensors/vlp16.json"}, "world": "out/world.json", "vehicle": )" +
+                     R"({"start_s_m": 60}, "materials": ")" + scenarios +
+                     R"(materials/railway.json", "labels": ")" + scenarios + R"(labels.json"})");
+  const auto make = [&](const std::string& scenario, const std::string& name) {
+    const auto run = directory.path() / name;
+    const Ended ended = Generate("sequence " + (directory.path() / scenario).string() +
+                                 " --frames 1 --out " + run.string() + " 2>&1");
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    return run;
+  };
+  const auto first = make("site.json", "first");
+  std::filesystem::remove_all(directory.path() / "out");
+  const auto again = make("first/scenario.resolved.json", "again");
+  for (const std::string name : {"frames/000000.pcd", "scenario.resolved.json", "manifest.json"}) {
+    EXPECT_EQ(ReadFileWhole(again / name), ReadFileWhole(first / name)) << name;
+  }
+}
+
 TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
   const std::string pose = "1 0 0 100 0 1 0 20 0 0 1 7\n";
   const auto said = [](const std::string& poses) {
@@ -107,11 +132,11 @@ TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
     EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
     return ended.said;
   };
-  EXPECT_THAT(said(pose), testing::HasSubstr("poses.txt: must have a line for each frame (got 1 "
-                                             "lines and more frames)"));
+  EXPECT_THAT(said(pose), testing::HasSubstr("poses.txt: must have a pose for each frame (got 1 "
+                                             "poses and more frames)"));
   EXPECT_THAT(
       said(pose + pose + pose),
-      testing::HasSubstr("poses.txt: must have a line for each frame (got 3 lines and 2 frames)"));
+      testing::HasSubstr("poses.txt: must have a pose for each frame (got 3 poses and 2 frames)"));
   EXPECT_THAT(said(pose + "1 2 3\n"),
               testing::HasSubstr("poses.txt:2: must be the 12 numbers of a pose"));
 }

@@ -236,6 +236,32 @@ TEST(InsertRun, MakesTheSameOfThePlanThatItWrites) {
   EXPECT_EQ(FilesOf(second), FilesOf(first));
 }
 
+TEST(InsertRun, KeepsAFileOfPosesWithThePlan) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path clouds = folder.path() / "clouds";
+  fs::copy(run / "frames", clouds);
+  fs::copy_file(run / "poses.csv", folder.path() / "poses.csv");
+  const fs::path with_file = folder.path() / "with_file";
+  (void)InsertInto(
+      {.recording = clouds,
+       .plan = WriteRunPlan(folder.path(), kBox,
+                            R"({"poses_file": "poses.csv", )" + std::string(kSameLine).substr(1)),
+       .directory = with_file});
+  fs::remove(folder.path() / "poses.csv");
+  const fs::path again = folder.path() / "again";
+  (void)InsertInto(
+      {.recording = clouds, .plan = with_file / "plan.resolved.json", .directory = again});
+  EXPECT_EQ(FilesOf(again), FilesOf(with_file));
+  // What the sequence gives that has the poses itself, but for what it knows of lost returns.
+  const fs::path known = folder.path() / "known";
+  (void)InsertInto(
+      {.recording = run, .plan = WriteRunPlan(folder.path(), kBox), .directory = known});
+  EXPECT_EQ(FilesOf(with_file).at("recording/000001.pcd"),
+            FilesOf(known).at("recording/frames/000001.pcd"));
+}
+
 TEST(InsertRun, WritesThePosesAndTimesOfTheFramesThatAreTakenOfKittis) {
   const TemporaryDirectory folder;
   const fs::path run = folder.path() / "run";

@@ -1,0 +1,137 @@
+#include "generator/insert/plan/pose_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "generator/insert/plan/recorded_way.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+
+/// Turned a quarter to the left, 100 m east and 7 m up; then 2 m further north.
+constexpr const char* kKittiLines = "0 -1 0 100 1 0 0 20 0 0 1 7\n0 -1 0 100 1 0 0 22 0 0 1 7\n";
+constexpr const char* kCsv =
+    "stamp_ns,x,y,z,qx,qy,qz,qw\n"
+    "1000000000,100,20,7,0,0,0.7071067811865476,0.7071067811865476\n"
+    "1100000000,100,22,7,0,0,0.7071067811865476,0.7071067811865476\n";
+
+/// The lidar is 2 m above the vehicle; frames stand in the order of texts, and one says its
+/// transform the other way round.
+std::string OpenLabelOf(const std::string& second_transform) {
+  return R"({"openlabel": {"metadata": {"schema_version": "1.0.0"},
+    "coordinate_systems": {
+      "world": {"type": "scene_cs", "parent": "", "children": ["base"]},
+      "base": {"type": "local", "parent": "world", "children": ["lidar"]},
+      "lidar": {"type": "sensor", "parent": "base",
+                "pose_wrt_parent": {"translation": [0, 0, 2], "quaternion": [0, 0, 0, 1]}}},
+    "frames": {
+      "10": {"frame_properties": {"timestamp": 1.1, "transforms": {)" +
+         second_transform + R"(}}},
+      "9": {"frame_properties": {"timestamp": "1.0", "transforms": {"base_to_world":
+        {"src": "base", "dst": "world", "transform_src_to_dst":
+          {"matrix4x4": [0, -1, 0, 100, 1, 0, 0, 20, 0, 0, 1, 5, 0, 0, 0, 1]}}}}}}}})";
+}
+constexpr const char* kWorldToBase =
+    R"("world_to_base": {"src": "world", "dst": "base", "transform_src_to_dst":
+       {"translation": [-22, 100, -5], "quaternion": [0, 0, -0.7071067811865476,
+        0.7071067811865476]}})";
+
+PoseFile ReadText(const std::string& name, const std::string& text) {
+  const TemporaryDirectory folder;
+  WriteFileWhole(folder.path() / name, text);
+  return ReadPoseFile(folder.path() / name, "lidar");
+}
+
+std::string FaultOf(const std::string& name, const std::string& text) {
+  const TemporaryDirectory folder;
+  WriteFileWhole(folder.path() / name, text);
+  const std::string said = MessageOf([&] { (void)ReadPoseFile(folder.path() / name, "lidar"); });
+  return said.substr(std::min(said.size(), folder.path().string().size() + 1));
+}
+
+TEST(PoseFile, SaysTheSameInEachFormat) {
+  const PoseFile kitti = ReadText("poses.txt", kKittiLines);
+  const PoseFile csv = ReadText("poses.csv", kCsv);
+  const PoseFile label = ReadText("poses.json", OpenLabelOf(kWorldToBase));
+  ASSERT_EQ(kitti.world_from_sensor.size(), 2U);
+  EXPECT_TRUE(kitti.world_from_sensor[1].translation().isApprox(Vector3(100.0, 22.0, 7.0)));
+  EXPECT_TRUE(kitti.stamps_ns.empty());
+  for (const PoseFile* const other : {&csv, &label}) {
+    ASSERT_EQ(other->world_from_sensor.size(), 2U);
+    EXPECT_THAT(other->stamps_ns, ElementsAre(1'000'000'000, 1'100'000'000));
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_TRUE(other->world_from_sensor[i].isApprox(kitti.world_from_sensor[i], 1e-9)) << i;
+    }
+  }
+}
+
+TEST(PoseFile, SaysWhatIsWrong) {
+  EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
+            "a.txt:1: must be the 12 numbers of a pose");
+  EXPECT_EQ(FaultOf("a.csv", "t,x\n"), "a.csv:1: must be stamp_ns,x,y,z,qx,qy,qz,qw (got \"t,x\")");
+  EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\nnow,0,0,0,0,0,0,1\n"),
+            "a.csv:2: stamp_ns: must be a whole number (got \"now\")");
+  EXPECT_EQ(FaultOf("a.json", "{"), "a.json: must be a file of OpenLABEL");
+  EXPECT_EQ(FaultOf("a.json", "{}"), "a.json: /openlabel: missing");
+  EXPECT_EQ(FaultOf("a.json", OpenLabelOf("")),
+            "a.json: /openlabel/frames/10/frame_properties/transforms: must lead from \"lidar\" "
+            "to the world");
+  EXPECT_NE(FaultOf("a.json", OpenLabelOf(
+                                  R"("a": {"src": "base", "dst": "world", "transform_src_to_dst":
+                                     {"matrix4x4": [1, 1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}})"))
+                .find("transform_src_to_dst: must be a rotation and a translation"),
+            std::string::npos);
+  EXPECT_EQ(FaultOf("a.json", R"({"openlabel": {"coordinate_systems": {"base": {}}}})"),
+            "a.json: /openlabel/coordinate_systems: must have that of the sensor \"lidar\"");
+}
+
+TEST(PoseFile, OfOsdarSaysThatItsFramesHaveNoPlace) {
+  const fs::path file =
+      fs::path(RAILCAST_SHARED_DATA_DIR) / "osdar23_openlabel/1_calibration_1.1_labels.json";
+  if (!exists(file)) GTEST_SKIP() << file << " is not there";
+  EXPECT_EQ(MessageOf([&] { (void)ReadPoseFile(file, "lidar"); }),
+            file.string() +
+                ": /openlabel/frames/12/frame_properties/transforms: must lead from \"lidar\" to "
+                "the world");
+}
+
+TEST(PoseFile, GivesCloudsWithoutPosesTheirWay) {
+  const TemporaryDirectory folder;
+  fs::create_directories(folder.path() / "clouds");
+  for (const char* const name : {"a.pcd", "b.pcd"}) {
+    WriteFileWhole(folder.path() / "clouds" / name,
+                   "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\n"
+                   "POINTS 1\nDATA ascii\n5 0 -1\n");
+  }
+  const fs::path file = folder.path() / "poses.csv";
+  WriteFileWhole(file, kCsv);
+  LidarSpec lidar;
+  lidar.mount.position_m = {0.0, 0.0, 2.0};
+  RecordingWorldSpec world;
+  world.poses_file = file.string();
+  std::vector<std::string> remarks;
+  const auto read = [&] {
+    return ReadRecordedWay(folder.path() / "clouds", world, lidar, remarks);
+  };
+  const RecordedWay way = read();
+  EXPECT_THAT(way.frame_times_ns, ElementsAre(0, 100'000'000));
+  EXPECT_EQ(way.first_stamp_ns, 1'000'000'000);
+  EXPECT_TRUE(way.at_frames[1].translation().isApprox(Vector3(100.0, 22.0, 5.0)));
+  WriteFileWhole(folder.path() / "clouds/c.pcd", ReadFileWhole(folder.path() / "clouds/a.pcd"));
+  EXPECT_EQ(MessageOf([&] { (void)read(); }),
+            file.string() + ": must have a pose for each of the 3 frames (got 2)");
+}
+
+}  // namespace
+}  // namespace railcast
