@@ -79,9 +79,9 @@ TEST(PoseFile, SaysTheSameInEachFormat) {
 TEST(PoseFile, SaysWhatIsWrong) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
             "a.txt:1: must be the 12 numbers of a pose");
-  EXPECT_EQ(FaultOf("a.csv", "t,x\n"), "a.csv:1: must be stamp_ns,x,y,z,qx,qy,qz,qw (got \"t,x\")");
+  EXPECT_EQ(FaultOf("a.csv", "t,x\n"), "a.csv:1: must be stamp_ns,x,y,z,qx,qy,qz,qw (got t,x)");
   EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\nnow,0,0,0,0,0,0,1\n"),
-            "a.csv:2: stamp_ns: must be a whole number (got \"now\")");
+            "a.csv:2: stamp_ns: must be a whole number (got now)");
   EXPECT_EQ(FaultOf("a.json", "{"), "a.json: must be a file of OpenLABEL");
   EXPECT_EQ(FaultOf("a.json", "{}"), "a.json: /openlabel: missing");
   EXPECT_EQ(FaultOf("a.json", OpenLabelOf("")),
