@@ -101,7 +101,7 @@ UdpFrameFeed::UdpFrameFeed(FrameSource source,
 
 std::string UdpFrameFeed::Description() const {
   std::string text = name() + ": " + std::string(NameOf(protocol_)) + " to";
-  for (const Endpoint& to : to_) text += " " + EndpointText(to);
+  for (const Endpoint& to : to_) text.append(" ").append(EndpointText(to));
   return text;
 }
 

@@ -32,7 +32,7 @@ std::vector<Endpoint> PacketFeed::ReceiversOf(std::uint16_t port) const {
 
 std::string PacketFeed::Description() const {
   std::string text = name() + ": packets to";
-  for (const Endpoint& to : ReceiversOf(first_port_)) text += " " + EndpointText(to);
+  for (const Endpoint& to : ReceiversOf(first_port_)) text.append(" ").append(EndpointText(to));
   return text;
 }
 
