@@ -85,17 +85,18 @@ TEST(CommandLine, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
 
 TEST(CommandLine, NamesAMisspeltCommand) {
   ExpectUsageError("chek a.json", "unknown command, the nearest is \"check\" (got chek)");
-  ExpectUsageError(
-      "dance",
-      "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", \"world\", "
-      "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got dance)");
+  ExpectUsageError("dance",
+                   "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", "
+                   "\"check\", \"world\", "
+                   "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got dance)");
   ExpectUsageError("", "A subcommand is required");
 }
 
 TEST(CommandLine, PrintsNoArgumentRaw) {
   ExpectUsageError(
       "\"$(printf 'a\\033[2Jb')\"",
-      "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", \"world\", "
+      "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", "
+      "\"world\", "
       "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got a\\u001b[2Jb)");
   ExpectUsageError("sequence a.json --out b \"--$(printf '\\033[2J')\"",
                    "unknown option (got --\\u001b[2J)");

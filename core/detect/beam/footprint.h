@@ -36,7 +36,7 @@ class SubRayParts {
   SubRayPattern pattern_;
   PartBatch batch_;
   std::array<std::uint32_t, kTileSize> firing_{};  // Of the rays in the batch.
-  std::vector<Component> found_;  // Responses of the batches so far.
+  std::vector<Component> found_;                   // Responses of the batches so far.
 };
 
 /// Whether effect `footprint` is on and beams have a width.
