@@ -77,7 +77,8 @@ RecipeBases::RecipeBases(const Recipe& recipe) {
     if (base.run) {
       specs_.push_back(base.run->plan);
       jsons_.push_back(Json::parse(ResolvedScenarioJson(base.run->plan)));
-      hashes_.push_back(ContentHash(base.run->plan_hash + RecordingTraits(base.run->recording)));
+      hashes_.push_back(ContentHash(IdentityOf(base.run->plan).scenario_hash +
+                                    RecordingTraits(base.run->recording)));
       continue;
     }
     auto spec = Attempt("", errors, [&] { return ReadScenario(shown); });

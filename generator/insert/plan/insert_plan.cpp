@@ -114,7 +114,6 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
                             const std::filesystem::path& recording) {
   RecordedRun run{.recording = recording, .plan = ReadScenario(plan_file)};
   CheckSections(run.plan);
-  run.plan_hash = IdentityOf(run.plan).scenario_hash;
   UseSensorOf(OpenRecording(recording)->info(), run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);

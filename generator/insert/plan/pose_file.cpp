@@ -1,19 +1,11 @@
 #include "generator/insert/plan/pose_file.h"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "generator/insert/plan/openlabel_poses.h"
 #include "generator/record/frame_record.h"

@@ -16,8 +16,7 @@ namespace railcast {
 /// A plan beside its recording, of which all is read that other plans for it need, too.
 struct RecordedRun {
   std::filesystem::path recording;
-  ScenarioSpec plan;        ///< As it was written, with the recording's sensor if it names none.
-  std::string plan_hash{};  ///< XXH3 of the plan as it was written and of every file it names.
+  ScenarioSpec plan;  ///< As it was written, with the recording's sensor if it names none.
   RecordedWay way{};
   RecordedLine line{};
   std::vector<std::string> remarks{};  ///< What was found or assumed on the way.

@@ -121,10 +121,12 @@ void InsertFolder::Open(std::uint32_t num_kept) {
 void InsertFolder::WriteFixed(const FixedFile& file) {
   const fs::path path = spec_.directory / file.name;
   fixed_.push_back(file.name);
-  const FileHash wanted = file.copy_of.empty()
-                              ? FileHash{ContentHash(file.bytes), file.bytes.size()}
-                              : HashFile(file.copy_of);
-  if (HasContent(spec_.directory, {file.name, wanted.num_bytes, wanted.hash})) return;
+  if (fs::exists(path)) {  // Else what it is to hold need not be read twice.
+    const FileHash wanted = file.copy_of.empty()
+                                ? FileHash{ContentHash(file.bytes), file.bytes.size()}
+                                : HashFile(file.copy_of);
+    if (HasContent(spec_.directory, {file.name, wanted.num_bytes, wanted.hash})) return;
+  }
   MakeFolders(path.parent_path());
   if (file.copy_of.empty()) {
     WriteFileWhole(path, file.bytes);
