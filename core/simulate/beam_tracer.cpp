@@ -73,6 +73,7 @@ void BeamTracer::AimCenters(const CastFrame& frame,
   tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
   first.frame = frame.index;
   tiles.Describe(tile, first);
+  if (has_wide_beams()) kernels_.pattern_turns(first, spec_.seed, work.turns);
   if (spec_.effects.pointing_jitter && pointing_.sigma_rad > 0.0F) {
     kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
   }
@@ -83,9 +84,7 @@ void BeamTracer::AimSubRays(const Work& work,
                             const BeamFrame& frame,
                             std::size_t lane,
                             BeamRays& beam) const {
-  const DetectTile& first = work.echoes.first;
-  kernels_.aim_sub_rays(work.rays, lane, frame,
-                        AimOfFiring(SubRaysOfBeam(), spec_.seed, first.frame, first.firing[lane]),
+  kernels_.aim_sub_rays(work.rays, lane, frame, AimOfFiring(SubRaysOfBeam(), work.turns, lane),
                         beam);
 }
 
@@ -133,9 +132,14 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
   const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
-  const WideBeams beams{rays,         beam,      frame.caster,
-                        table,        detector_, frame.mirrors ? &*frame.mirrors : nullptr,
-                        frame.screens};
+  const WideBeams beams{.rays = rays,
+                        .frame = beam,
+                        .turns = work.turns,
+                        .caster = frame.caster,
+                        .table = table,
+                        .detector = detector_,
+                        .mirrors = frame.mirrors ? &*frame.mirrors : nullptr,
+                        .screens = frame.screens};
   const bool is_wide = HasFootprint(spec_) || spec_.effects.thin_conductors;
   if (is_wide) {
     work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);

@@ -50,6 +50,7 @@ class BeamTracer {
 
     RayTile rays;
     EchoTiles echoes;
+    PatternTurns turns{};
     Footprint footprint;
     Cover::Drops drops;
     MirrorPaths::Work mirrors;
@@ -71,8 +72,8 @@ class BeamTracer {
                         std::size_t tile,
                         Work& work) const;
 
-  /// Aims the central rays of a tile, as MakeEchoes() does, and describes the firings in
-  /// `work.echoes.first`.
+  /// Aims the central rays of a tile, as MakeEchoes() does, describes the firings in
+  /// `work.echoes.first`, and turns their sub-rays.
   void AimCenters(const CastFrame& frame,
                   const FiringTiles& tiles,
                   std::size_t tile,

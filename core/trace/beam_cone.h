@@ -99,6 +99,30 @@ inline void WidenStretchedCone(Cone& cone) {
   for (float& reach : cone.reach) reach *= cone.widening;
 }
 
+/// A cone with each number once per lane, so that the loops below read whole vectors.
+struct ConeLanes {
+  alignas(64) float origin[3][kMaskLanes], axis[3][kMaskLanes];
+  alignas(64) float half_h[3][kMaskLanes], half_v[3][kMaskLanes];
+  alignas(64) float per_axis[3][kMaskLanes];
+  alignas(64) float reach[3][kMaskLanes];  ///< Cone::reach times the magnitude of `per_axis`.
+  std::size_t near[3];                     ///< The bound of a box that the cone meets first.
+};
+
+inline void FillLanes(const Cone& cone, ConeLanes& lanes) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float reach = cone.reach[i] * std::fabs(cone.per_axis[i]);
+    for (std::size_t k = 0; k < kMaskLanes; ++k) {
+      lanes.origin[i][k] = cone.origin[i];
+      lanes.axis[i][k] = cone.axis[i];
+      lanes.half_h[i][k] = cone.half_h[i];
+      lanes.half_v[i][k] = cone.half_v[i];
+      lanes.per_axis[i][k] = cone.per_axis[i];
+      lanes.reach[i][k] = reach;
+    }
+    lanes.near[i] = cone.per_axis[i] < 0.0F ? 1 : 0;
+  }
+}
+
 /// Distances of a node's children.
 struct ChildDistances {
   alignas(64) float entry[kTreeWidth];
@@ -109,36 +133,43 @@ struct ChildDistances {
 /// `far`, and the parameters along the axis at which it enters them, with the distances of their
 /// farthest corners.
 [[nodiscard]] inline std::uint32_t ChildrenMet(const BeamNode& node,
-                                               const Cone& cone,
+                                               const ConeLanes& c,
                                                float far,
                                                ChildDistances& distances) {
   alignas(64) float outside[kTreeWidth];
-  const Cone c = cone;  // The copy cannot alias the results.
-  for (std::size_t k = 0; k < kTreeWidth; ++k) {
-    const float xl = node.lower[0][k] - c.origin[0];
-    const float xu = node.upper[0][k] - c.origin[0];
-    const float yl = node.lower[1][k] - c.origin[1];
-    const float yu = node.upper[1][k] - c.origin[1];
-    const float zl = node.lower[2][k] - c.origin[2];
-    const float zu = node.upper[2][k] - c.origin[2];
-    const float x = Most(std::fabs(xl), std::fabs(xu));
-    const float y = Most(std::fabs(yl), std::fabs(yu));
-    const float z = Most(std::fabs(zl), std::fabs(zu));
-    const float farthest = std::sqrt(x * x + y * y + z * z);
-    const float rx = farthest * c.reach[0];
-    const float ry = farthest * c.reach[1];
-    const float rz = farthest * c.reach[2];
-    const float ax = (xl - rx) * c.per_axis[0];
-    const float bx = (xu + rx) * c.per_axis[0];
-    const float ay = (yl - ry) * c.per_axis[1];
-    const float by = (yu + ry) * c.per_axis[1];
-    const float az = (zl - rz) * c.per_axis[2];
-    const float bz = (zu + rz) * c.per_axis[2];
-    const float in = Most(Most(Least(ax, bx), Least(ay, by)), Most(Least(az, bz), 0.0F));
-    const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), far));
-    distances.entry[k] = in;
-    distances.farthest[k] = farthest;
-    outside[k] = in <= out ? -1.0F : 1.0F;
+  const float(*const bounds[2])[kTreeWidth] = {node.lower, node.upper};
+  const float* const near_x = bounds[c.near[0]][0];
+  const float* const near_y = bounds[c.near[1]][1];
+  const float* const near_z = bounds[c.near[2]][2];
+  const float* const far_x = bounds[1 - c.near[0]][0];
+  const float* const far_y = bounds[1 - c.near[1]][1];
+  const float* const far_z = bounds[1 - c.near[2]][2];
+  for (std::size_t half = 0; half < kTreeWidth; half += kMaskLanes) {
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
+    for (std::size_t k = 0; k < kMaskLanes; ++k) {
+      const float nx = near_x[half + k] - c.origin[0][k];
+      const float ny = near_y[half + k] - c.origin[1][k];
+      const float nz = near_z[half + k] - c.origin[2][k];
+      const float fx = far_x[half + k] - c.origin[0][k];
+      const float fy = far_y[half + k] - c.origin[1][k];
+      const float fz = far_z[half + k] - c.origin[2][k];
+      const float x = Most(std::fabs(nx), std::fabs(fx));
+      const float y = Most(std::fabs(ny), std::fabs(fy));
+      const float z = Most(std::fabs(nz), std::fabs(fz));
+      const float farthest = std::sqrt(x * x + y * y + z * z);
+      const float rx = farthest * c.reach[0][k];
+      const float ry = farthest * c.reach[1][k];
+      const float rz = farthest * c.reach[2][k];
+      const float in = Most(Most(nx * c.per_axis[0][k] - rx, ny * c.per_axis[1][k] - ry),
+                            Most(nz * c.per_axis[2][k] - rz, 0.0F));
+      const float out = Least(Least(fx * c.per_axis[0][k] + rx, fy * c.per_axis[1][k] + ry),
+                              Least(fz * c.per_axis[2][k] + rz, far));
+      distances.entry[half + k] = in;
+      distances.farthest[half + k] = farthest;
+      outside[half + k] = in <= out ? -1.0F : 1.0F;
+    }
   }
   return NegativeOfTree(outside);
 }
@@ -154,19 +185,22 @@ struct LeafProducts {
   alignas(64) float along[4][kLeafWidth], h[4][kLeafWidth], v[4][kLeafWidth];
   alignas(64) float normal[3][kLeafWidth];
   alignas(64) float offset[kLeafWidth];
+  alignas(64) float nearest[kLeafWidth];  ///< The least range at which the cone can meet the plane.
 };
 
 /// Fills the products and returns those of all lanes that the cone may meet nearer than `far`.
 [[nodiscard]] inline std::uint32_t TrianglesMet(const BeamLeaf& leaf,
-                                                const Cone& cone,
+                                                const ConeLanes& c,
                                                 float far,
                                                 LeafProducts& products) {
   alignas(64) float met[kLeafWidth];
-  const Cone c = cone;
+#ifndef __clang__
+#pragma GCC ivdep
+#endif
   for (std::size_t k = 0; k < kLeafWidth; ++k) {
     float v[3][3];
     for (int corner = 0; corner < 3; ++corner) {
-      for (int i = 0; i < 3; ++i) v[corner][i] = leaf.corner[corner][i][k] - c.origin[i];
+      for (int i = 0; i < 3; ++i) v[corner][i] = leaf.corner[corner][i][k] - c.origin[i][k];
     }
     const float px = v[1][0] - v[0][0];
     const float py = v[1][1] - v[0][1];
@@ -193,25 +227,27 @@ struct LeafProducts {
       const float mx = dy * sz - dz * sy;
       const float my = dz * sx - dx * sz;
       const float mz = dx * sy - dy * sx;
-      const float ax = c.axis[0] * mx;
-      const float ay = c.axis[1] * my;
-      const float az = c.axis[2] * mz;
+      const float ax = c.axis[0][k] * mx;
+      const float ay = c.axis[1][k] * my;
+      const float az = c.axis[2][k] * mz;
       const float along = ax + ay + az;
-      const float h = c.half_h[0] * mx + c.half_h[1] * my + c.half_h[2] * mz;
-      const float w = c.half_v[0] * mx + c.half_v[1] * my + c.half_v[2] * mz;
-      const float reach = kConeMargin * std::sqrt(h * h + w * w) +
-                          kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
+      const float h = c.half_h[0][k] * mx + c.half_h[1][k] * my + c.half_h[2][k] * mz;
+      const float w = c.half_v[0][k] * mx + c.half_v[1][k] * my + c.half_v[2][k] * mz;
+      const float extent = kConeMargin * std::sqrt(h * h + w * w);
+      const float rounding = kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
+      const float reach = extent + rounding;
       products.along[e][k] = way_round * along;
       products.h[e][k] = way_round * h;
       products.v[e][k] = way_round * w;
       may_be_left = may_be_left & (along >= -reach);
       may_be_right = may_be_right & (along <= reach);
     }
-    const float along = c.axis[0] * nx + c.axis[1] * ny + c.axis[2] * nz;
-    const float h = c.half_h[0] * nx + c.half_h[1] * ny + c.half_h[2] * nz;
-    const float w = c.half_v[0] * nx + c.half_v[1] * ny + c.half_v[2] * nz;
+    const float along = c.axis[0][k] * nx + c.axis[1][k] * ny + c.axis[2][k] * nz;
+    const float h = c.half_h[0][k] * nx + c.half_h[1][k] * ny + c.half_h[2][k] * nz;
+    const float w = c.half_v[0][k] * nx + c.half_v[1][k] * ny + c.half_v[2][k] * nz;
     const float steepest = std::fabs(along) + std::sqrt(h * h + w * w);
-    const float nearest = kNearer * std::fabs(offset) / Most(steepest, kLeastSlope);
+    const float nearest = std::fabs(offset) / Most(steepest, kLeastSlope);
+    products.nearest[k] = nearest;
     products.normal[0][k] = nx;
     products.normal[1][k] = ny;
     products.normal[2][k] = nz;
@@ -219,7 +255,7 @@ struct LeafProducts {
     products.along[3][k] = along;
     products.h[3][k] = h;
     products.v[3][k] = w;
-    const bool may_be_met = (may_be_left | may_be_right) & (nearest <= far);
+    const bool may_be_met = (may_be_left | may_be_right) & (kNearer * nearest <= far);
     met[k] = may_be_met ? -1.0F : 1.0F;
   }
   return NegativeLanes(met);

@@ -19,61 +19,27 @@ namespace railcast::RAILCAST_ISA {
 
 /// Sub-rays that are tested together.
 constexpr std::size_t kRayLanes = kMaskLanes;
-/// Sub-rays that are neighbours have one lane.
-constexpr std::size_t kNumGroups = kNumSubRayGroups;
-static_assert(kNumGroups == kRayLanes);
 static_assert(kNumCrowdedSubRays % kRayLanes == 0 && kNumSubRays % kRayLanes == 0);
 
 /// The sub-rays by their places in the beam's cross-section, which are the same in the frame of
-/// every model: a ray's direction is (axis + a half_h + b half_v) / norm. Each group of
-/// neighbours has a disc (in the beam, an ellipse) that contains its places.
+/// every model: a ray's direction is (axis + a half_h + b half_v) / norm.
 struct SubRayPlaces {
   alignas(64) float a[kNumSubRays], b[kNumSubRays];
   alignas(64) float norm[kNumSubRays];
-  alignas(64) float group_a[kNumGroups], group_b[kNumGroups], group_radius[kNumGroups];
-  alignas(64) float group_far[kNumGroups];  ///< The farthest range among the group's rays.
-  bool are_known = false;  ///< Whether all but `group_far` is set, which most beams do not need.
+  bool are_known = false;  ///< Whether they are set, which most beams do not need.
 };
 
-/// Updates the groups' farthest ranges and returns that of the beam.
-inline float FindFarthest(const BeamRays& beam, SubRayPlaces& places) {
-  float far[kNumGroups];
-  for (std::size_t g = 0; g < kNumGroups; ++g) far[g] = beam.range_m[g];
-  for (std::size_t i = kNumGroups; i < beam.num_rays; i += kNumGroups) {
-    for (std::size_t g = 0; g < kNumGroups; ++g) far[g] = Most(far[g], beam.range_m[i + g]);
+/// Returns the farthest range among the sub-rays.
+[[nodiscard]] inline float FindFarthest(const BeamRays& beam) {
+  float far[kRayLanes];
+  for (std::size_t k = 0; k < kRayLanes; ++k) far[k] = beam.range_m[k];
+  for (std::size_t first = kRayLanes; first < beam.num_rays; first += kRayLanes) {
+    for (std::size_t k = 0; k < kRayLanes; ++k) far[k] = Most(far[k], beam.range_m[first + k]);
   }
-  for (std::size_t g = 0; g < kNumGroups; ++g) places.group_far[g] = far[g];
-  for (std::size_t half = kNumGroups / 2; half > 0; half /= 2) {
-    for (std::size_t g = 0; g < half; ++g) far[g] = Most(far[g], far[g + half]);
+  for (std::size_t half = kRayLanes / 2; half > 0; half /= 2) {
+    for (std::size_t k = 0; k < half; ++k) far[k] = Most(far[k], far[k + half]);
   }
   return far[0];
-}
-
-inline void FindDiscs(SubRayPlaces& places) {
-  const SubRayPlaces& all = places;
-  for (std::size_t g = 0; g < kNumGroups; ++g) {
-    float least_a = all.a[g];
-    float most_a = all.a[g];
-    float least_b = all.b[g];
-    float most_b = all.b[g];
-    for (std::size_t i = g + kNumGroups; i < kNumSubRays; i += kNumGroups) {
-      least_a = Least(least_a, all.a[i]);
-      most_a = Most(most_a, all.a[i]);
-      least_b = Least(least_b, all.b[i]);
-      most_b = Most(most_b, all.b[i]);
-    }
-    const float middle_a = 0.5F * (least_a + most_a);
-    const float middle_b = 0.5F * (least_b + most_b);
-    float radius2 = 0.0F;
-    for (std::size_t i = g; i < kNumSubRays; i += kNumGroups) {
-      const float a = all.a[i] - middle_a;
-      const float b = all.b[i] - middle_b;
-      radius2 = Most(radius2, a * a + b * b);
-    }
-    places.group_a[g] = middle_a;
-    places.group_b[g] = middle_b;
-    places.group_radius[g] = std::sqrt(radius2);
-  }
 }
 
 inline void PlaceSubRays(const BeamRays& beam, SubRayPlaces& places) {
@@ -101,77 +67,60 @@ inline void PlaceSubRays(const BeamRays& beam, SubRayPlaces& places) {
     places.b[i] = (dx * v[0] + dy * v[1] + dz * v[2]) * norm;
     places.norm[i] = norm;
   }
-  FindDiscs(places);
   places.are_known = true;
 }
 
-/// Narrow cones from the beam's origin in the frame of a tree, of which boxes are met by one at
-/// least: the groups of sub-rays, or the single sub-rays of a crowd.
+/// The sub-rays of a crowd in the frame of a tree.
 struct Probes {
-  std::size_t num;  ///< A multiple of kRayLanes.
   alignas(64) float per_axis[3][kNumCrowdedSubRays];
-  alignas(64) float reach[3][kNumCrowdedSubRays];
 };
 
-inline void AimProbes(const Cone& cone,
-                      const BeamRays& beam,
-                      const SubRayPlaces& places,
-                      Probes& probes) {
+inline void AimProbes(const Cone& cone, const SubRayPlaces& places, Probes& probes) {
   constexpr float kTiny = 1e-9F;
-  const bool is_crowd = beam.num_rays == kNumCrowdedSubRays;
-  probes.num = is_crowd ? kNumCrowdedSubRays : kNumGroups;
-  const float* const a = is_crowd ? places.a : places.group_a;
-  const float* const b = is_crowd ? places.b : places.group_b;
   for (int i = 0; i < 3; ++i) {
     const float axis = cone.axis[i];
     const float h = cone.half_h[i];
     const float v = cone.half_v[i];
-    const float reach =
-        is_crowd ? 0.0F : kConeMargin * cone.spread[i] * cone.inverse_norm * cone.widening;
-    const float margin = kRoundingMargin * cone.widening;
-    for (std::size_t first = 0; first < probes.num; first += kRayLanes) {
-      for (std::size_t k = 0; k < kRayLanes; ++k) {
-        const float d = axis + a[first + k] * h + b[first + k] * v;
-        probes.per_axis[i][first + k] = 1.0F / (std::fabs(d) < kTiny ? kTiny : d);
-        probes.reach[i][first + k] = places.group_radius[k] * reach + margin;
-      }
+    for (std::size_t k = 0; k < kNumCrowdedSubRays; ++k) {
+      const float d = axis + places.a[k] * h + places.b[k] * v;
+      probes.per_axis[i][k] = 1.0F / (std::fabs(d) < kTiny ? kTiny : d);
     }
   }
 }
 
-/// Whether any sub-ray may pass through the box of a node's child nearer than what it has hit.
+/// Whether any sub-ray of a crowd may pass through the box of a node's child nearer than what it
+/// has hit.
+/// @param margin_m Room for rounding.
 [[nodiscard]] inline bool IsBoxMet(const BeamNode& node,
                                    std::size_t child,
                                    const float* origin,
-                                   float farthest,
+                                   float margin_m,
                                    const Probes& probes,
-                                   const float* probe_far) {
-  const float xl = node.lower[0][child] - origin[0];
-  const float xu = node.upper[0][child] - origin[0];
-  const float yl = node.lower[1][child] - origin[1];
-  const float yu = node.upper[1][child] - origin[1];
-  const float zl = node.lower[2][child] - origin[2];
-  const float zu = node.upper[2][child] - origin[2];
-  for (std::size_t first = 0; first < probes.num; first += kRayLanes) {
+                                   const float* range_m) {
+  const float xl = node.lower[0][child] - origin[0] - margin_m;
+  const float xu = node.upper[0][child] - origin[0] + margin_m;
+  const float yl = node.lower[1][child] - origin[1] - margin_m;
+  const float yu = node.upper[1][child] - origin[1] + margin_m;
+  const float zl = node.lower[2][child] - origin[2] - margin_m;
+  const float zu = node.upper[2][child] - origin[2] + margin_m;
+  std::uint32_t met = 0;
+  for (std::size_t first = 0; first < kNumCrowdedSubRays; first += kRayLanes) {
     alignas(64) float misses[kRayLanes];
     for (std::size_t k = 0; k < kRayLanes; ++k) {
-      const std::size_t g = first + k;
-      const float rx = farthest * probes.reach[0][g];
-      const float ry = farthest * probes.reach[1][g];
-      const float rz = farthest * probes.reach[2][g];
-      const float ax = (xl - rx) * probes.per_axis[0][g];
-      const float bx = (xu + rx) * probes.per_axis[0][g];
-      const float ay = (yl - ry) * probes.per_axis[1][g];
-      const float by = (yu + ry) * probes.per_axis[1][g];
-      const float az = (zl - rz) * probes.per_axis[2][g];
-      const float bz = (zu + rz) * probes.per_axis[2][g];
+      const std::size_t i = first + k;
+      const float ax = xl * probes.per_axis[0][i];
+      const float bx = xu * probes.per_axis[0][i];
+      const float ay = yl * probes.per_axis[1][i];
+      const float by = yu * probes.per_axis[1][i];
+      const float az = zl * probes.per_axis[2][i];
+      const float bz = zu * probes.per_axis[2][i];
       const float in = Most(Most(Least(ax, bx), Least(ay, by)), Most(Least(az, bz), 0.0F));
-      const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), probe_far[g]));
+      const float out = Least(Least(Most(ax, bx), Most(ay, by)), Least(Most(az, bz), range_m[i]));
       misses[k] = kNearer * in <= kFarther * out ? -1.0F : 1.0F;
     }
-    if (NegativeLanes(misses) != 0) return true;
+    met |= NegativeLanes(misses);
   }
-  return false;
+  return met != 0;
 }
 
 /// The first `num` sub-rays that pass through the triangle in a lane of a leaf, as a bit mask.
@@ -200,8 +149,8 @@ template <std::size_t num>
 [[nodiscard]] inline bool HitLanes(const LeafProducts& t,
                                    std::size_t lane,
                                    std::size_t first,
-                                   const SubRayPlaces& places,
                                    std::uint32_t facet,
+                                   const SubRayPlaces& places,
                                    BeamRays& beam) {
   alignas(64) float hits[kRayLanes];
   // The places alias nothing of the beam. Clang finds out by itself.
@@ -227,35 +176,20 @@ template <std::size_t num>
   return NegativeLanes(hits) != 0;
 }
 
-/// The least range at which a beam can meet the plane of the triangle in a lane of a leaf. The
-/// lengths of a cone's axis and of its half extents are those of a unit vector's in the window.
-[[nodiscard]] inline float NearestRange_m(const LeafProducts& t, std::size_t lane) {
-  const float h = t.h[3][lane];
-  const float v = t.v[3][lane];
-  const float steepest = std::fabs(t.along[3][lane]) + std::sqrt(h * h + v * v);
-  return std::fabs(t.offset[lane]) / Most(steepest, kLeastSlope);
-}
-
-/// Intersects the sub-rays with the triangle in a lane of a leaf. Returns whether any hits it
-/// nearer than anything before.
-/// @param is_inside Whether any passes through it, however far away.
+/// Intersects the sub-rays that pass through the triangle in a lane of a leaf, a bit each, with its
+/// plane. Returns whether any hits it nearer than anything before.
 [[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
                                       std::size_t lane,
-                                      std::uint32_t facet,
+                                      std::uint64_t rays,
                                       const SubRayPlaces& places,
-                                      BeamRays& beam,
-                                      bool& is_inside) {
-  std::uint64_t rays = beam.num_rays == kNumCrowdedSubRays
-                           ? RaysInside<kNumCrowdedSubRays>(products, lane, places)
-                           : RaysInside<kNumSubRays>(products, lane, places);
-  is_inside = rays != 0;
+                                      BeamRays& beam) {
   bool is_any_hit = false;
-  // Most triangles are passed by, or met by few rays; only these need divisions.
+  // Most triangles are met by few rays; only these need divisions.
   while (rays != 0) {
     const auto ray = static_cast<std::size_t>(__builtin_ctzll(rays));
     const std::size_t first = ray / kRayLanes * kRayLanes;
     rays &= ~(((std::uint64_t{1} << kRayLanes) - 1U) << first);
-    is_any_hit |= HitLanes(products, lane, first, places, facet, beam);
+    is_any_hit |= HitLanes(products, lane, first, beam.num_facets, places, beam);
   }
   return is_any_hit;
 }

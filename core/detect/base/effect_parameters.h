@@ -27,6 +27,11 @@ struct BeamFrame {
   float sigma_v_rad{};                  ///< Standard deviation of the profile, vertical.
 };
 
+/// Cosine and sine of the angles by which the firings' patterns of sub-rays are turned, by lane.
+struct PatternTurns {
+  float cosine[kTileSize], sine[kTileSize];
+};
+
 /// The sub-rays of a beam and the angle by which they are turned about its axis.
 struct SubRayAim {
   const float* h{};        ///< Horizontal offsets in standard deviations of the profile.

@@ -32,8 +32,6 @@ constexpr float kNumOfAnyStrength = 3.0F;
 // So many cells of sub-rays may be filled with something that none of them meets. With twice as
 // many, a closer look would be taken at two and a half times as many beams of the open line.
 constexpr float kMissedCells = 1.0F;
-// What lies beside all of them fills the margin of the beam at most.
-constexpr float kPassedCells = 0.5F;
 // Where each sub-ray is as strong as this, it does not matter how many they are.
 constexpr float kStrongSubRay = 10.0F;
 // Beams of more parts meet rough surfaces that fill them: four fifths of all beams with a cause for
@@ -46,18 +44,14 @@ constexpr std::size_t kMostFacets = 8;
 FacetParts::FacetParts(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), kernels_(kernels) {}
 
-void FacetParts::Aim(const WideBeams& beams,
-                     const DetectTile& first,
-                     std::size_t lane,
-                     const BeamSubRays& pattern) {
-  kernels_.aim_sub_rays(beams.rays, lane, beams.frame,
-                        AimOfFiring(pattern, spec_.seed, first.frame, first.firing[lane]), beam_);
+void FacetParts::Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays& pattern) {
+  kernels_.aim_sub_rays(beams.rays, lane, beams.frame, AimOfFiring(pattern, beams.turns, lane),
+                        beam_);
   std::fill_n(beam_.range_m, kNumSubRays, static_cast<float>(spec_.range_max_m));
   std::fill_n(beam_.facet, kNumSubRays, 0U);
   beam_.num_rays = static_cast<std::size_t>(spec_.beam.footprint_rays);
   beam_.num_met = 0;
   beam_.missed_m = std::numeric_limits<float>::infinity();
-  beam_.passed_m = std::numeric_limits<float>::infinity();
   beam_.num_facets = 1;
   beam_.facets[0] = {};
 }
@@ -138,17 +132,10 @@ void FacetParts::NoteMissed(const WideBeams& beams, std::size_t lane) {
   missed_ratio_[lane] = 0.0F;
   const bool is_crowd = beam_.num_rays < static_cast<std::size_t>(spec_.beam.footprint_rays);
   if (is_crowd) return;
-  const auto note = [&](float cells, float missed_m) {
-    if (!(missed_m < static_cast<float>(spec_.range_max_m))) return;
-    const float share = cells / static_cast<float>(beam_.num_rays);
-    const float range_m = std::max(missed_m, static_cast<float>(spec_.range_min_m));
-    const float ratio = beams.detector.PowerRatio(share, range_m, 0.0F);
-    if (!(ratio > missed_ratio_[lane])) return;
-    missed_m_[lane] = range_m;
-    missed_ratio_[lane] = ratio;
-  };
-  note(kMissedCells, beam_.missed_m);
-  note(kPassedCells, beam_.passed_m);
+  if (!(beam_.missed_m < static_cast<float>(spec_.range_max_m))) return;
+  const float share = kMissedCells / static_cast<float>(beam_.num_rays);
+  missed_m_[lane] = std::max(beam_.missed_m, static_cast<float>(spec_.range_min_m));
+  missed_ratio_[lane] = beams.detector.PowerRatio(share, missed_m_[lane], 0.0F);
 }
 
 // Notes that a beam lies on one plane, and how much power that sends if something may be before it.
@@ -228,7 +215,7 @@ bool FacetParts::TraceSet(const WideBeams& beams,
                           const DetectTile& first,
                           std::size_t lane,
                           const BeamSubRays& set) {
-  Aim(beams, first, lane, set);
+  Aim(beams, lane, set);
   beam_.num_rays = kNumSubRays;
   Cast(beams, first.firing[lane]);
   return beam_.num_rays == kNumSubRays;  // Else a crowd, after all.
@@ -310,7 +297,7 @@ void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
   share_on_nothing_.fill(0.0F);
   plane_surface_.fill(kSeveralPlanes);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
-    Aim(beams, first, lane, SubRaysOfBeam());
+    Aim(beams, lane, SubRaysOfBeam());
     Cast(beams, first.firing[lane]);
     NoteMissed(beams, lane);
     // So are half of all beams, most of them in the sky; sums would tell no more.
@@ -348,7 +335,7 @@ void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists
     const std::uint32_t surface = plane_surface_[lane];
     if (surface == kSeveralPlanes || surface == beams.rays.surface[lane]) continue;
     // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
-    Aim(beams, first, lane, SubRaysOfBeam());
+    Aim(beams, lane, SubRaysOfBeam());
     Cast(beams, first.firing[lane]);
     sums_.Clear();
     sums_.Add(beam_);

@@ -54,10 +54,7 @@ class FacetParts {
     FacetSums sums{};
   };
 
-  void Aim(const WideBeams& beams,
-           const DetectTile& first,
-           std::size_t lane,
-           const BeamSubRays& pattern);
+  void Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays& pattern);
   /// Casts the beam that is aimed.
   void Cast(const WideBeams& beams, std::uint32_t firing);
   /// Whether all sub-rays are on one facet, or on none.

@@ -80,9 +80,8 @@ void SubRayParts::Find(const WideBeams& beams, const DetectTile& first, PartList
     const float per_unit = 1.0F / baseline::LengthOf(axes);
     const float sigma_h = frame.sigma_h_rad * per_unit;
     const float sigma_v = frame.sigma_v_rad * per_unit;
-    const PatternTurn turn = TurnOfPattern(spec_.seed, first.frame, first.firing[lane]);
     for (const SubRay& sub_ray : pattern_.sub_rays) {
-      const SubRay turned = Turned(sub_ray, turn.cosine, turn.sine);
+      const SubRay turned = Turned(sub_ray, beams.turns.cosine[lane], beams.turns.sine[lane]);
       const baseline::Direction aim =
           baseline::Beside(d, axes, sigma_h * turned.h, sigma_v * turned.v);
       rays.origin_x[num_rays] = beams.rays.origin_x[lane];

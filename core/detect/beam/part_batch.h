@@ -21,6 +21,7 @@ namespace railcast {
 struct WideBeams {
   const RayTile& rays;
   const BeamFrame& frame;
+  const PatternTurns& turns;
   const RayCaster& caster;
   const SurfaceTable& table;
   const Detector& detector;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/base/random.h"
-
 namespace railcast {
 namespace {
 
@@ -36,12 +34,6 @@ std::vector<Place> Spiral(std::size_t count, double skipped) {
 
 }  // namespace
 
-PatternTurn TurnOfPattern(std::uint64_t seed, std::uint32_t frame, std::uint32_t firing) {
-  const auto words = RandomWords(seed, RandomUse::kFootprint, frame, firing);
-  const float turn_rad = 2.0F * std::numbers::pi_v<float> * UnitFloat(words[0]);
-  return {std::cos(turn_rad), std::sin(turn_rad)};
-}
-
 SubRayPattern DenseSubRays(std::size_t count) {
   SubRayPattern pattern;
   const auto share = static_cast<float>(1.0 / static_cast<double>(count + 1));
@@ -52,28 +44,21 @@ SubRayPattern DenseSubRays(std::size_t count) {
   return pattern;
 }
 
-// Sorts places such that equal portions of them, one after another, are the groups of neighbours.
-void SortIntoGroups(std::vector<Place>& places) {
-  // A quarter of the places, the innermost, make two groups: halves of a disc. The others are the
-  // sectors of a ring.
-  const auto inner = static_cast<std::ptrdiff_t>(places.size() / 4);
+// Stores places from `first` on, neighbours one after another: a kernel that tests vectors of
+// sub-rays leaves those out that lie beside a surface. A third of the places, the innermost, come
+// first, and then the ring around them.
+void StoreNeighbours(std::vector<Place> places, std::size_t first, BeamSubRays& all) {
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return std::hypot(a.h, a.v) < std::hypot(b.h, b.v);
   });
   const auto by_angle = [](const Place& a, const Place& b) {
     return std::atan2(a.v, a.h) < std::atan2(b.v, b.h);
   };
+  const auto inner = static_cast<std::ptrdiff_t>(places.size() / 3);
   std::sort(places.begin(), places.begin() + inner, by_angle);
   std::sort(places.begin() + inner, places.end(), by_angle);
-}
-
-// Stores places from `first` on, so that those of a group are kNumSubRayGroups apart.
-void StoreInGroups(std::vector<Place> places, std::size_t first, BeamSubRays& all) {
-  SortIntoGroups(places);
-  const std::size_t num_in_group = places.size() / kNumSubRayGroups;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t group = k / num_in_group;
-    const std::size_t i = first + k % num_in_group * kNumSubRayGroups + group;
+    const std::size_t i = first + k;
     all.h[i] = static_cast<float>(places[k].h);
     all.v[i] = static_cast<float>(places[k].v);
     all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
@@ -83,8 +68,8 @@ void StoreInGroups(std::vector<Place> places, std::size_t first, BeamSubRays& al
 const BeamSubRays& SubRaysOfBeam() {
   static const BeamSubRays sub_rays = [] {
     BeamSubRays all{};
-    StoreInGroups(Spiral(kNumCrowdedSubRays, 0.0), 0, all);
-    StoreInGroups(Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0), kNumCrowdedSubRays, all);
+    StoreNeighbours(Spiral(kNumCrowdedSubRays, 0.0), 0, all);
+    StoreNeighbours(Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0), kNumCrowdedSubRays, all);
     return all;
   }();
   return sub_rays;
@@ -97,21 +82,18 @@ const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook() {
     for (std::size_t k = 0; k < spiral.size(); ++k) places[k % kNumCloserSets].push_back(spiral[k]);
     std::array<BeamSubRays, kNumCloserSets> all{};
     for (std::size_t set = 0; set < kNumCloserSets; ++set) {
-      StoreInGroups(places[set], 0, all[set]);
+      StoreNeighbours(places[set], 0, all[set]);
     }
     return all;
   }();
   return sets;
 }
 
-SubRayAim AimOfFiring(const BeamSubRays& pattern,
-                      std::uint64_t seed,
-                      std::uint32_t frame,
-                      std::uint32_t firing) {
-  const PatternTurn turn = TurnOfPattern(seed, frame, firing);
+SubRayAim AimOfFiring(const BeamSubRays& pattern, const PatternTurns& turns, std::size_t lane) {
   // A little wider than the pattern, because its directions are rounded.
   constexpr float kMargin = 1.0001F;
-  return {pattern.h, pattern.v, kMargin * pattern.largest_offset, turn.cosine, turn.sine};
+  return {pattern.h, pattern.v, kMargin * pattern.largest_offset, turns.cosine[lane],
+          turns.sine[lane]};
 }
 
 }  // namespace railcast

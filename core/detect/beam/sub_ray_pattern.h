@@ -25,16 +25,6 @@ struct SubRay {
           sub_ray.share};
 }
 
-/// Cosine and sine of the angle by which a firing's pattern is turned.
-struct PatternTurn {
-  float cosine{}, sine{};
-};
-
-/// The random turn of a firing's pattern. Effects `footprint` and `dense_footprint` share it.
-[[nodiscard]] PatternTurn TurnOfPattern(std::uint64_t seed,
-                                        std::uint32_t frame,
-                                        std::uint32_t firing);
-
 /// The sub-rays of a beam. All shares, including the central one, add up to 1.
 struct SubRayPattern {
   std::vector<SubRay> sub_rays;
@@ -47,7 +37,7 @@ struct SubRayPattern {
 
 /// The offsets of kNumSubRays sub-rays of equal share, in standard deviations of the profile. The
 /// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others.
-/// Each is divided evenly among the groups of neighbours.
+/// Neighbours stand one after another.
 struct BeamSubRays {
   float h[kNumSubRays], v[kNumSubRays];
   float largest_offset{};  ///< From the axis.
@@ -59,10 +49,9 @@ inline constexpr std::size_t kNumCloserSets = 4;
 /// The sets, each as SubRaysOfBeam().
 [[nodiscard]] const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook();
 
-/// How the kernel aim_sub_rays aims them for a firing, whose pattern is turned.
+/// How the kernel aim_sub_rays aims them for the firing in a lane, whose pattern is turned.
 [[nodiscard]] SubRayAim AimOfFiring(const BeamSubRays& pattern,
-                                    std::uint64_t seed,
-                                    std::uint32_t frame,
-                                    std::uint32_t firing);
+                                    const PatternTurns& turns,
+                                    std::size_t lane);
 
 }  // namespace railcast

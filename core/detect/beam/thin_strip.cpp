@@ -42,11 +42,8 @@ std::array<std::array<StripPlace, kNumSubRays>, kNumStripSets> MakeLattice() {
   for (std::size_t set = 0; set < kNumStripSets; ++set) {
     const double shift = (static_cast<double>(set) + 0.5) / kNumStripSets;
     for (std::size_t k = 0; k < kNumSubRays; ++k) {
-      // Neighbours along the strip belong to the same group.
-      constexpr std::size_t kNumInGroup = kNumSubRays / kNumSubRayGroups;
-      const std::size_t i = k % kNumInGroup * kNumSubRayGroups + k / kNumInGroup;
       const auto place = static_cast<double>(set * kNumSubRays + k);
-      sets[set][i] = {
+      sets[set][k] = {
           static_cast<float>(QuantileOf((static_cast<double>(k) + shift) / kNumSubRays)),
           std::fmod((place + 0.5) * std::numbers::phi, 1.0)};
     }

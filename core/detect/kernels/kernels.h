@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -18,6 +19,9 @@ namespace railcast {
   KERNEL(uniforms, DrawUniforms, void(const DetectTile&, const DrawKey&, float*))                \
   KERNEL(pointing, ApplyPointing,                                                                \
          void(RayTile&, const DetectTile&, const BeamFrame&, const PointingParameters&))         \
+  /* The random turns of the firings' patterns. Both effects of beams share them. */             \
+  KERNEL(pattern_turns, DrawPatternTurns,                                                        \
+         void(const DetectTile&, std::uint64_t seed, PatternTurns&))                             \
   KERNEL(aim_sub_rays, AimSubRays,                                                               \
          void(const RayTile&, std::size_t lane, const BeamFrame&, const SubRayAim&, BeamRays&))  \
   KERNEL(incidence, ApplyIncidence, void(const RayTile&, DetectTile&))                           \

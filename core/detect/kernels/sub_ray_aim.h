@@ -3,13 +3,25 @@
 #define RAILCAST_DETECT_SUB_RAY_AIM_H_
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/detect/base/beam_axes.h"
+#include "core/detect/base/detect_tile.h"
 #include "core/detect/base/effect_parameters.h"
+#include "core/detect/base/lane_random.h"
 #include "core/detect/base/vector_math.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast::RAILCAST_ISA {
+
+/// Draws the turns of a tile's firings.
+inline void DrawPatternTurns(const DetectTile& tile, std::uint64_t seed, PatternTurns& turns) {
+  const LaneKey key{seed, RandomUse::kFootprint, tile.frame};
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float turn = LaneUnit(LaneWords(key, tile.firing[i], 0).a);
+    CosSinTurn(turn, turns.cosine[i], turns.sine[i]);
+  }
+}
 
 /// Aims the sub-rays of the beam in a lane of a tile: its pattern, turned about its axis.
 inline void AimSubRays(const RayTile& tile,

@@ -50,9 +50,6 @@ inline constexpr std::size_t kNumSubRays = 64;
 /// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces, or
 /// every beam if the sensor's spec says so.
 inline constexpr std::size_t kNumCrowdedSubRays = 16;
-/// Sub-rays i and i + kNumSubRayGroups are neighbours: they belong to the same of so many groups,
-/// each of which fills a piece of the beam's cross-section.
-inline constexpr std::size_t kNumSubRayGroups = 8;
 
 /// A flat piece of a surface that sub-rays of a beam hit.
 struct Facet {
@@ -82,9 +79,6 @@ struct alignas(64) BeamRays {
   /// At least this far away is whatever the ellipse of the sub-rays may meet, but none of them
   /// does: something thin, or an edge. A caster that knows of such things lowers it.
   float missed_m = std::numeric_limits<float>::infinity();
-  /// At least this far away are surfaces that the ellipse may meet and that lie beside all groups
-  /// of sub-rays. A caster that leaves such surfaces out lowers it.
-  float passed_m = std::numeric_limits<float>::infinity();
   float origin[3]{};  ///< m
   float axis[3]{};    ///< Direction of the beam's axis; unit length.
   /// The semi-axes of the ellipse that contains all sub-rays: every direction is a multiple of

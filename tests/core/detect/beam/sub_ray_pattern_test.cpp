@@ -90,19 +90,17 @@ TEST(SubRays, OfABeamHaveThePatternsRadius) {
   EXPECT_NEAR(sum2 / kNumSubRays, 2.0, 0.05);
 }
 
-// What a group's ellipse meets, all of its sub-rays are taken to meet.
-TEST(SubRays, OfAGroupAreNeighbours) {
+// Of a vector of sub-rays, few lie on a small surface unless they are neighbours.
+TEST(SubRays, OfAVectorAreNeighbours) {
+  constexpr std::size_t kNumInVector = 8;
   const BeamSubRays& all = SubRaysOfBeam();
-  for (std::size_t group = 0; group < kNumSubRayGroups; ++group) {
-    float longest = 0.0F;
-    for (std::size_t i = group; i < kNumSubRays; i += kNumSubRayGroups) {
-      for (std::size_t k = group; k < i; k += kNumSubRayGroups) {
-        longest = std::max(longest, std::hypot(all.h[i] - all.h[k], all.v[i] - all.v[k]));
-      }
+  for (std::size_t first = 0; first < kNumSubRays; first += kNumInVector) {
+    float length = 0.0F;
+    for (std::size_t i = first + 1; i < first + kNumInVector; ++i) {
+      length += std::hypot(all.h[i] - all.h[i - 1], all.v[i] - all.v[i - 1]);
     }
-    // A ring's sector of 60 degrees is as long as the ring's radius; sub-rays of two spirals
-    // overlap.
-    EXPECT_LT(longest, 1.2F * all.largest_offset) << group;
+    // In no order, they would be 1.8 standard deviations apart in the mean.
+    EXPECT_LT(length / (kNumInVector - 1), 1.2F) << first;
   }
 }
 
