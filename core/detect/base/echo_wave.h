@@ -22,13 +22,17 @@ struct WavePeak {
   float value{};
 };
 
-/// Peaks that earlier climbs have found, which a further climb need not reach again.
-struct WaveKnown {
-  const WavePeak* peaks{};
-  std::size_t num_peaks{};
-  /// A climb that heads towards a known peak within this distance ends there, because no valley can
-  /// lie between.
-  float reach_m{};
+/// Number of climbs to maxima that go side by side.
+inline constexpr std::size_t kClimbLanes = 8;
+
+/// Climbs on waves, a lane each. Values of components are those of the first component of all
+/// lanes, then those of the second, and so on; where a wave has fewer, peak is 0.
+struct WaveClimbs {
+  std::size_t num_components{};
+  const float* range_m{};
+  const float* peak{};
+  const float* inverse_variance_per_m2{};
+  float from_m[kClimbLanes]{};
 };
 
 }  // namespace railcast

@@ -61,20 +61,40 @@ EchoFinder::EchoFinder(const DetectorSpec& spec, float least_ratio, const Kernel
       least_ratio_(least_ratio),
       kernels_(kernels) {}
 
-void EchoFinder::MakeWave(const std::vector<Component>& components) {
-  const std::size_t size = (components.size() + kWaveLanes - 1) / kWaveLanes * kWaveLanes;
-  range_m_.assign(size, components.front().range_m);
-  peak_.assign(size, 0.0F);
-  inverse_variance_.assign(size, 1.0F);
+void EchoFinder::Clear() {
+  beams_.clear();
+  components_.clear();
+  climbs_.clear();
+  for (std::vector<float>* values : {&range_m_, &peak_, &inverse_variance_}) values->clear();
+}
+
+void EchoFinder::Add(std::vector<Component>& components) {
+  std::sort(components.begin(), components.end(), &IsNearer);
+  beams_.push_back({.begin = components_.size(),
+                    .end = components_.size() + components.size(),
+                    .wave = range_m_.size(),
+                    .first_climb = climbs_.size()});
+  components_.insert(components_.end(), components.begin(), components.end());
+  if (components.empty()) return;
+  AppendWave(components);
+  if (!is_sampled_) AppendClimbs(components);
+  beams_.back().num_climbs = climbs_.size() - beams_.back().first_climb;
+}
+
+void EchoFinder::AppendWave(const std::vector<Component>& components) {
   const float pulse2 = pulse_sigma_m_ * pulse_sigma_m_;
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    const float spread_m = has_stretch_ ? components[i].spread_m : 0.0F;
-    range_m_[i] = components[i].range_m;
-    peak_[i] = components[i].power_ratio;
-    inverse_variance_[i] = 1.0F / (pulse2 + spread_m * spread_m);
-    if (is_energy_) peak_[i] *= pulse_sigma_m_ * std::sqrt(inverse_variance_[i]);
+  for (const Component& component : components) {
+    const float spread_m = has_stretch_ ? component.spread_m : 0.0F;
+    const float inverse = 1.0F / (pulse2 + spread_m * spread_m);
+    const float weight = is_energy_ ? pulse_sigma_m_ * std::sqrt(inverse) : 1.0F;
+    range_m_.push_back(component.range_m);
+    peak_.push_back(component.power_ratio * weight);
+    inverse_variance_.push_back(inverse);
   }
-  wave_ = {size, range_m_.data(), peak_.data(), inverse_variance_.data()};
+  const std::size_t size = (range_m_.size() + kWaveLanes - 1) / kWaveLanes * kWaveLanes;
+  range_m_.resize(size, components.front().range_m);
+  peak_.resize(size, 0.0F);
+  inverse_variance_.resize(size, 1.0F);
 }
 
 void EchoFinder::AddPeak(const WavePeak& peak) {
@@ -84,7 +104,7 @@ void EchoFinder::AddPeak(const WavePeak& peak) {
   if (!is_known) peaks_.push_back(peak);
 }
 
-void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
+void EchoFinder::AppendClimbs(const std::vector<Component>& components) {
   // Start a climb from the mean of every run of components that is at most one pulse sigma long.
   // The basin of attraction of a maximum is wider, so that no maximum is missed.
   std::size_t begin = 0;
@@ -99,19 +119,48 @@ void EchoFinder::ClimbToPeaks(const std::vector<Component>& components) {
       ++end;
     }
     if (power > 0.0F) {
-      // Two equal pulses have two peaks only if they are more than 2 sigma apart. At that distance
-      // their common peak is 1 sigma from either.
-      const WaveKnown known{peaks_.data(), peaks_.size(), pulse_sigma_m_};
-      AddPeak(kernels_.climb_wave(wave_, begin_m + moment / power, known));
+      climbs_.push_back({.beam = beams_.size() - 1, .from_m = begin_m + moment / power});
     }
     begin = end;
   }
 }
 
-void EchoFinder::SamplePeaks(const std::vector<Component>& components) {
+void EchoFinder::ClimbTogether(std::span<Climb> climbs) {
+  std::size_t most = 0;
+  for (const Climb& climb : climbs) {
+    most = std::max(most, beams_[climb.beam].end - beams_[climb.beam].begin);
+  }
+  lane_range_m_.assign(most * kClimbLanes, 0.0F);
+  lane_peak_.assign(most * kClimbLanes, 0.0F);
+  lane_inverse_variance_.assign(most * kClimbLanes, 1.0F);
+  WaveClimbs together{most, lane_range_m_.data(), lane_peak_.data(), lane_inverse_variance_.data()};
+  for (std::size_t k = 0; k < climbs.size(); ++k) {
+    const Beam& beam = beams_[climbs[k].beam];
+    for (std::size_t i = 0; i < beam.end - beam.begin; ++i) {
+      lane_range_m_[i * kClimbLanes + k] = range_m_[beam.wave + i];
+      lane_peak_[i * kClimbLanes + k] = peak_[beam.wave + i];
+      lane_inverse_variance_[i * kClimbLanes + k] = inverse_variance_[beam.wave + i];
+    }
+    together.from_m[k] = climbs[k].from_m;
+  }
+  WavePeak peaks[kClimbLanes];
+  kernels_.climb_waves(together, peaks);
+  for (std::size_t k = 0; k < climbs.size(); ++k) climbs[k].peak = peaks[k];
+}
+
+void EchoFinder::FindPeaks() {
+  const std::span<Climb> climbs(climbs_);
+  for (std::size_t first = 0; first < climbs.size(); first += kClimbLanes) {
+    ClimbTogether(climbs.subspan(first, std::min(kClimbLanes, climbs.size() - first)));
+  }
+}
+
+void EchoFinder::SamplePeaks(std::span<const Component> components) {
   const float step_m = 0.125F * pulse_sigma_m_;
   const float margin_m = 2.0F * pulse_sigma_m_;
-  const auto reach_m = [&](std::size_t i) { return 2.0F / std::sqrt(inverse_variance_[i]); };
+  const auto reach_m = [&](std::size_t i) {
+    return 2.0F / std::sqrt(wave_.inverse_variance_per_m2[i]);
+  };
   std::size_t begin = 0;
   while (begin < components.size()) {
     // Sample components together that may have a peak between them.
@@ -182,7 +231,7 @@ void EchoFinder::MeltShallowPeaks() {
   }
 }
 
-void EchoFinder::TakeEnergies(const std::vector<Component>& components) {
+void EchoFinder::TakeEnergies(std::span<const Component> components) {
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
@@ -192,16 +241,18 @@ void EchoFinder::TakeEnergies(const std::vector<Component>& components) {
   }
 }
 
-void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& echoes) {
+void EchoFinder::EchoesOf(std::size_t beam, std::vector<Echo>& echoes) {
   echoes.clear();
   peaks_.clear();
+  const Beam& its = beams_[beam];
+  const std::span<const Component> components(components_.data() + its.begin, its.end - its.begin);
   if (components.empty()) return;
-  std::sort(components.begin(), components.end(), &IsNearer);
-  MakeWave(components);
+  const std::size_t end = beam + 1 < beams_.size() ? beams_[beam + 1].wave : range_m_.size();
+  wave_ = {end - its.wave, &range_m_[its.wave], &peak_[its.wave], &inverse_variance_[its.wave]};
   if (is_sampled_) {
     SamplePeaks(components);
   } else {
-    ClimbToPeaks(components);
+    for (std::size_t i = 0; i < its.num_climbs; ++i) AddPeak(climbs_[its.first_climb + i].peak);
   }
   if (peaks_.empty()) return;
   std::sort(peaks_.begin(), peaks_.end(),
@@ -214,9 +265,9 @@ void EchoFinder::Find(std::vector<Component>& components, std::vector<Echo>& ech
   const Component* begin = components.data();
   const Component* const last = begin + components.size();
   for (std::size_t i = 0; i < peaks_.size(); ++i) {
-    const Component* const end = EndOfPeak(i, begin, last);
-    if (begin != end) echoes.push_back(Gather(peaks_[i], begin, end));
-    begin = end;
+    const Component* const end_of_peak = EndOfPeak(i, begin, last);
+    if (begin != end_of_peak) echoes.push_back(Gather(peaks_[i], begin, end_of_peak));
+    begin = end_of_peak;
   }
 }
 

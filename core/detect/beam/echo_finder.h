@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/detect/kernels/kernels.h"
@@ -33,9 +34,17 @@ struct Echo {
   std::uint32_t surface{};
 };
 
-/// Finds the echoes of a beam: the maxima of the waveform to which its components add up. Two equal
-/// echoes closer together than about 0.85 pulse lengths merge into one, whose range lies between
-/// the surfaces (a mixed pixel). Not thread-safe: keeps its working memory.
+/// Finds the echoes of beams: the maxima of the waveform to which a beam's components add up. Two
+/// equal echoes closer together than about 0.85 pulse lengths merge into one, whose range lies
+/// between the surfaces (a mixed pixel). Beams are looked at together, since climbs to their maxima
+/// go side by side:
+///
+///   finder.Clear();
+///   for (std::vector<Component>& components : beams) finder.Add(components);
+///   finder.FindPeaks();
+///   finder.EchoesOf(0, echoes);  // Of the beam that was added first.
+///
+/// Not thread-safe: keeps its working memory.
 class EchoFinder {
  public:
   /// With effect `sampled_waveform`, samples the waveform at an eighth of the pulse's sigma and
@@ -43,19 +52,39 @@ class EchoFinder {
   /// maximum with derivatives in closed form.
   EchoFinder(const DetectorSpec& spec, float least_ratio, const Kernels& kernels);
 
-  /// Fills `echoes`, sorted by range, with the strongest echo and all that reach `least_ratio`
-  /// times the least detectable power. Sorts `components` by range.
-  void Find(std::vector<Component>& components, std::vector<Echo>& echoes);
+  /// Forgets all beams.
+  void Clear();
+  /// Adds a beam, whose components it sorts by range.
+  void Add(std::vector<Component>& components);
+  /// Climbs to the peaks of all beams.
+  void FindPeaks();
+  /// Fills `echoes`, sorted by range, with the strongest echo of a beam and all that reach
+  /// `least_ratio` times the least detectable power.
+  /// @param beam How many were added before it.
+  void EchoesOf(std::size_t beam, std::vector<Echo>& echoes);
 
  private:
-  void MakeWave(const std::vector<Component>& components);
-  void ClimbToPeaks(const std::vector<Component>& components);
-  void SamplePeaks(const std::vector<Component>& components);
+  struct Beam {
+    std::size_t begin{}, end{};  ///< In `components_`.
+    std::size_t wave{};          ///< Where its wave begins.
+    std::size_t first_climb{}, num_climbs{};
+  };
+  /// A climb, and where it led.
+  struct Climb {
+    std::size_t beam{};
+    float from_m{};
+    WavePeak peak{};
+  };
+
+  void AppendWave(const std::vector<Component>& components);
+  void AppendClimbs(const std::vector<Component>& components);
+  void ClimbTogether(std::span<Climb> climbs);
+  void SamplePeaks(std::span<const Component> components);
   void AddPeak(const WavePeak& peak);
   void DropWeakPeaks();
   [[nodiscard]] bool HasValley(const WavePeak& near, const WavePeak& far);
   void MeltShallowPeaks();
-  void TakeEnergies(const std::vector<Component>& components);
+  void TakeEnergies(std::span<const Component> components);
   [[nodiscard]] const Component* EndOfPeak(std::size_t peak,
                                            const Component* begin,
                                            const Component* last) const;
@@ -66,7 +95,14 @@ class EchoFinder {
   bool is_sampled_;
   float least_ratio_;
   const Kernels& kernels_;
+  // Of all beams.
+  std::vector<Beam> beams_;
+  std::vector<Component> components_;
   std::vector<float> range_m_, peak_, inverse_variance_;
+  std::vector<Climb> climbs_;
+  // Of climbs side by side, by component and lane.
+  std::vector<float> lane_range_m_, lane_peak_, lane_inverse_variance_;
+  // Of one beam.
   EchoWave wave_;
   std::vector<WavePeak> peaks_;
   std::vector<float> samples_;

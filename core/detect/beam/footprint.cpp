@@ -218,6 +218,8 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
   FindParts(beams, echoes.first);
   const WireCapture* capture = captures_.data();
   const WireCapture* const last_capture = capture + captures_.size();
+  finder_.Clear();
+  lanes_.clear();
   for (std::size_t lane = 0; lane < echoes.first.num_rays; ++lane) {
     const WireCapture* const first_capture = capture;
     while (capture != last_capture && capture->lane == lane) ++capture;
@@ -242,8 +244,13 @@ void Footprint::Resolve(const WideBeams& beams, EchoTiles& echoes) {
     beam_parts_.insert(beam_parts_.end(), wires_.begin(), wires_.end());
     echoes.mixed_share[lane] = MixedShare(beam_parts_);
     if (components_.empty()) continue;  // The outcome of the central ray explains why.
-    finder_.Find(components_, found_);
-    StoreEchoes(lane, echoes);
+    finder_.Add(components_);
+    lanes_.push_back(lane);
+  }
+  finder_.FindPeaks();
+  for (std::size_t i = 0; i < lanes_.size(); ++i) {
+    finder_.EchoesOf(i, found_);
+    StoreEchoes(lanes_[i], echoes);
   }
 }
 

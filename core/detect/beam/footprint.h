@@ -84,6 +84,7 @@ class Footprint {
   std::vector<Component> beam_parts_;       // All parts of one beam, also those that send nothing.
   std::vector<Component> wires_;
   std::vector<Component> components_;  // The parts of one beam that send light back, with wires.
+  std::vector<std::size_t> lanes_;     // Of the beams whose echoes are looked for.
   std::vector<Echo> found_;
 };
 

@@ -48,7 +48,7 @@ namespace railcast {
          void(DetectTile&, const struct DetectionParameters&))                                   \
   KERNEL(fog_peaks, FindFogPeaks,                                                                \
          void(const FogBeams&, const struct FogEchoParameters&, FogPeaks&))                      \
-  KERNEL(climb_wave, ClimbWave, WavePeak(const EchoWave&, float from_m, const WaveKnown&))       \
+  KERNEL(climb_waves, ClimbWaves, void(const WaveClimbs&, WavePeak*))                            \
   KERNEL(sample_wave, SampleWave,                                                                \
          void(const EchoWave&, float first_m, float step_m, std::size_t num, float* samples))    \
   KERNEL(measure_exact, ApplyMeasurement<RangeErrors::kNone>,                                    \

@@ -26,7 +26,9 @@ std::vector<Echo> Find(std::vector<Component> components,
                           .receiver = {.signal = signal}};
   EchoFinder finder(spec, kLeastRatio, AvailableKernels().back());
   std::vector<Echo> echoes;
-  finder.Find(components, echoes);
+  finder.Add(components);
+  finder.FindPeaks();
+  finder.EchoesOf(0, echoes);
   return echoes;
 }
 

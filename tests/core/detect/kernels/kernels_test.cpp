@@ -134,11 +134,12 @@ std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile&
   measurement.channel_bias_m = bias_m.data();
   kernels.measure_by_signal(tile, measurement);
   const EchoWave wave{32, rays.range_m, tile.share, tile.specular_f0};
-  for (float from_m = 10.0F; from_m < 300.0F; from_m += 10.0F) {
-    const WavePeak peak = kernels.climb_wave(wave, from_m, {});
-    values.push_back(peak.range_m);
-    values.push_back(peak.value);
-  }
+  WaveClimbs climbs{kTileSize / kClimbLanes, rays.range_m, tile.share, tile.specular_f0};
+  for (std::size_t i = 0; i < kClimbLanes; ++i) climbs.from_m[i] = 30.0F * static_cast<float>(i);
+  WavePeak peaks_of_waves[kClimbLanes];
+  kernels.climb_waves(climbs, peaks_of_waves);
+  for (const WavePeak& peak : peaks_of_waves)
+    values.insert(values.end(), {peak.range_m, peak.value});
   values.resize(values.size() + 1000);
   kernels.sample_wave(wave, 0.0F, 0.3F, 1000, &values[values.size() - 1000]);
   return values;
