@@ -5,8 +5,8 @@
 
 Without a PART, measures all parts of which the file has no figures of this revision and an idle machine, so that the
 same command goes on where it was stopped. --again measures all; --list says what there is and how long each takes.
-Needs a release build of everything, gnuplot, valgrind and Xvfb. For figures worth quoting nothing else may run on the
-machine: a part that is measured beside other programs says so on its page.
+Needs a release build of everything, gnuplot, valgrind and Xvfb. Times are measured on an idle machine: the script waits
+until nothing else runs, refuses if that does not come, and keeps no figure beside which other programs ran.
 """
 
 import argparse
@@ -18,6 +18,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -28,8 +29,12 @@ import results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FILE = ROOT / results.FILE
-IDLE_LOAD = 0.5
-BUSY = "other programs ran, to be measured again"
+MOST_OTHER_CORES = 0.05  # What other programs may use while times are measured.
+PAUSE_S = 5.0
+MOST_PAUSES = 24  # A load of its own last part goes down within two minutes.
+STEADY_PERCENT = 3.0
+# Student's t for 95 % by degrees of freedom, from 2 on.
+T_95 = (4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306)
 SCENES = ("open_line", "parallel_wagons", "forest_rain", "fog_yard")
 SENSORS = {"pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette"}
 
@@ -124,11 +129,37 @@ def instructions(build):
     return {"firing": table(1, ["what", "instructions"], [[f"`{name}`", f"{int(num):,}"] for name, num in counted])}
 
 
+class NotSteadyError(Exception):
+    """Says what varies too much to be a figure."""
+
+
+def interval_percent(values):
+    """Half of the 95 % interval of the mean of at least three values, in percent of it."""
+    mean = statistics.fmean(values)
+    return 100.0 * T_95[len(values) - 3] * statistics.stdev(values) / math.sqrt(len(values)) / mean
+
+
 def bench(build):
-    lines = re.findall(r"^(\S+)/(demo|demo-without-plants)/threads:2\S* +([\d.]+) +([\d.]+) +([\d.]+)$",
-                       said(build / "tests/bench/railcast-bench"), re.M)
-    return {"scan": table(2, ["what", "scene", "p50 ms", "p99 ms", "time x raw trace"],
-                          [[f"`{what}`", scene, *cells] for what, scene, *cells in lines])}
+    """Runs until the ratios are known to 3 %, whose medians are given with their intervals."""
+    runs = {}
+    for turn in range(len(T_95) + 2):
+        lines = re.findall(r"^(\S+)/(demo|demo-without-plants)/threads:2\S* +([\d.]+) +([\d.]+) +([\d.]+)$",
+                           said(build / "tests/bench/railcast-bench", "--benchmark_filter=/threads:2/"), re.M)
+        for what, scene, *cells in lines:
+            runs.setdefault((what, scene), []).append([float(cell) for cell in cells])
+        if turn < 2:
+            continue
+        intervals = {row: interval_percent([ratio for *_, ratio in of]) for row, of in runs.items()}
+        if max(intervals.values()) < STEADY_PERCENT:
+            break
+    else:
+        row = max(intervals, key=intervals.get)
+        raise NotSteadyError(f"{' of '.join(row)} varies by {intervals[row]:.1f} % in {turn + 1} runs")
+    rows = []
+    for (what, scene), of in runs.items():
+        p50, p99, ratio = (statistics.median(values) for values in zip(*of))
+        rows.append([f"`{what}`", scene, f"{p50:.3f}", f"{p99:.3f}", f"{ratio:.3f}", f"{intervals[what, scene]:.1f}"])
+    return {"scan": table(2, ["what", "scene", "p50 ms", "p99 ms", "time x raw trace", "± %"], rows)}
 
 
 def largest_change(cells):
@@ -288,7 +319,7 @@ def situations(build):
 
 
 # Each with the minutes that it takes on two cores.
-PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 5), "detail": (detail, 15),
+PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 15), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
          "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "insertion": (insertion, 5),
          "situations": (situations, 10),
@@ -315,8 +346,36 @@ def write(measured):
     FILE.write_text(text + "\n", encoding="utf-8")
 
 
-def keep(measured, name, tables, load):
-    note = "counts and errors, no times" if name in UNTIMED else "nothing else ran" if load < IDLE_LOAD else BUSY
+def used_s():
+    """What all programs and what this one, with its children, have used of the processors so far."""
+    user, nice, system, _, _, interrupts, soft_interrupts, stolen = map(
+        int, pathlib.Path("/proc/stat").read_text(encoding="utf-8").split()[1:9])
+    all_s = (user + nice + system + interrupts + soft_interrupts + stolen) / os.sysconf("SC_CLK_TCK")
+    return all_s, sum(os.times()[:4])
+
+
+def other_cores(begin, end, elapsed_s):
+    """How many cores other programs have used between two results of used_s()."""
+    return max(end[0] - begin[0] - (end[1] - begin[1]), 0.0) / elapsed_s
+
+
+def cores_of_others_during(work):
+    begin, begin_s = used_s(), time.monotonic()
+    result = work()
+    return result, other_cores(begin, used_s(), time.monotonic() - begin_s)
+
+
+def wait_until_idle():
+    """Returns None, or what other programs use if they do not end."""
+    for _ in range(MOST_PAUSES):
+        _, others = cores_of_others_during(lambda: time.sleep(PAUSE_S))
+        if others < MOST_OTHER_CORES:
+            return None
+    return f"other programs use {others:.2f} of {len(os.sched_getaffinity(0))} cores, {os.getloadavg()[0]:.1f} wait or run"
+
+
+def keep(measured, name, tables):
+    note = "counts and errors, no times" if name in UNTIMED else "nothing else ran"
     measured[name] = {"made": {"machine": machine(), "date": str(datetime.date.today()), "revision": revision(),
                                "note": note}, "tables": tables}
     write(measured)
@@ -325,7 +384,26 @@ def keep(measured, name, tables, load):
 
 def is_done(measured, name):
     made = measured.get(name, {}).get("made", {})
-    return made.get("revision") == revision() and made.get("note") != BUSY
+    return made.get("revision") == revision()
+
+
+def measure(measured, name, build):
+    """Measures a part. Returns why it was not, or None."""
+    part, _ = PARTS[name]
+    if name in UNTIMED:
+        keep(measured, name, part(build))
+        return None
+    busy = wait_until_idle()
+    if busy:
+        return f"{name}: must be measured on an idle machine ({busy})"
+    try:
+        tables, others = cores_of_others_during(lambda: part(build))
+    except NotSteadyError as error:
+        return f"{name}: not kept, since {error}"
+    if others >= MOST_OTHER_CORES:
+        return f"{name}: not kept, since other programs used {others:.2f} cores meanwhile"
+    keep(measured, name, tables)
+    return None
 
 
 def main():
@@ -339,15 +417,16 @@ def main():
         if name not in PARTS:
             parser.error(f"PART: must be one of {', '.join(PARTS)} (got {name})")
     measured = json.loads(FILE.read_text(encoding="utf-8")) if FILE.exists() else {}
-    load = os.getloadavg()[0]  # Before, since the parts themselves make some.
+    refused = []
     for name in options.parts or PARTS:
-        part, minutes = PARTS[name]
+        minutes = PARTS[name][1]
         done = is_done(measured, name) and not options.parts and not options.again
         print(f"{name}: {'measured' if done else f'to be measured, some {minutes} minutes'}", flush=True)
         if done or options.list:
             continue
-        keep(measured, name, part(options.build), load)
-    faults = list(results.lint(ROOT))
+        refusal = measure(measured, name, options.build)
+        refused += [refusal] if refusal else []
+    faults = refused + list(results.lint(ROOT))
     print("\n".join(faults))
     return 1 if faults else 0
 

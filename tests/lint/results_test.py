@@ -103,6 +103,17 @@ class Measured(unittest.TestCase):
         self.assertEqual(measure_results.largest_change(cells), "-1.5 ± 0.2 from 30 m")
         self.assertEqual(measure_results.largest_change([("0 m", "")]), "-")
 
+    def test_the_interval_of_runs_is_that_of_student(self):
+        # A standard deviation of 1 % of the mean, and 4.303 / sqrt(3) of it.
+        self.assertAlmostEqual(measure_results.interval_percent([0.99, 1.0, 1.01]), 2.484, places=3)
+        self.assertEqual(measure_results.interval_percent([2.0, 2.0, 2.0, 2.0]), 0.0)
+
+    def test_what_other_programs_use_is_told_from_what_this_one_does(self):
+        # In 10 s all used 13 s of two cores, this program and its children 9 s of them.
+        self.assertAlmostEqual(measure_results.other_cores((100.0, 5.0), (113.0, 14.0), 10.0), 0.4)
+        _, others = measure_results.cores_of_others_during(lambda: sum(range(10 ** 6)))
+        self.assertGreaterEqual(others, 0.0)
+
     def test_tables_of_a_text_are_found(self):
         self.assertEqual(measure_results.tables_in("x\n| a | b |\n|---|---|\n| 1 | 2 |\n\ny\n"),
                          [[["a", "b"], ["1", "2"]]])
