@@ -29,6 +29,7 @@ class Chart:
         self.options = more.get("options", ["--turns", "15", "--threads", "1"])
         self.shape = more.get("shape", "power")  # Of the fit: power or line.
         self.table = more.get("table", [])  # Further columns of the table.
+        self.prepare = more.get("prepare", lambda: None)  # Writes what the scenarios name.
 
 
 def all_threads():
@@ -59,6 +60,10 @@ def charts():
         "sensors": Chart("sensors", "sensors", "sensors",
                          [(None, scenarios.sensors(n)) for n in (1, 2, 4, 8)],
                          table=["memory_mb"]),
+        "yardstick": Chart("sensors", "lidars of 128 x 4,096 firings", "sensors",
+                           [(None, scenarios.yardstick(n)) for n in (1, 2, 4, 8)],
+                           options=["--turns", "5", "--threads", "0"], table=["triangles", "build_s", "memory_mb"],
+                           prepare=scenarios.write_dense_ball),
         "line": Chart("length of the line", "km", "length_km",
                       [(n, scenarios.line(n)) for n in (1, 10, 100, 1000)],
                       table=["build_s", "memory_mb"]),
@@ -67,6 +72,7 @@ def charts():
 
 def measure_scaling(build, chart):
     """Runs railcast-scaling on a chart's scenarios; a dictionary of numbers for each line."""
+    chart.prepare()
     with tempfile.TemporaryDirectory() as folder:
         files = []
         for i, (_, scenario) in enumerate(chart.rows):

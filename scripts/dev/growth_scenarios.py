@@ -73,6 +73,49 @@ def sensors(count):
     return scenario
 
 
+# A ball of 224 x 224 cells, two triangles each.
+DENSE_BALL = ROOT / "out/dense_ball.obj"
+BALL_CELLS = 224
+BALLS = 90
+
+
+def write_dense_ball():
+    """The mesh of yardstick(): a ball of 1 m with waves, of 100,352 triangles."""
+    DENSE_BALL.parent.mkdir(exist_ok=True)
+    with open(DENSE_BALL, "w", encoding="utf-8") as file:
+        for i in range(BALL_CELLS + 1):
+            down = math.pi * i / BALL_CELLS
+            for k in range(BALL_CELLS):
+                round_ = 2.0 * math.pi * k / BALL_CELLS
+                radius_m = 1.0 + 0.02 * math.sin(20.0 * down) * math.sin(20.0 * round_)
+                x, y = (radius_m * math.sin(down) * turn for turn in (math.cos(round_), math.sin(round_)))
+                file.write(f"v {x:.6f} {y:.6f} {radius_m * math.cos(down):.6f}\n")
+        for i in range(BALL_CELLS):
+            for k in range(BALL_CELLS):
+                a, b = 1 + BALL_CELLS * i + k, 1 + BALL_CELLS * i + (k + 1) % BALL_CELLS
+                file.write(f"f {a} {a + BALL_CELLS} {b}\nf {b} {a + BALL_CELLS} {b + BALL_CELLS}\n")
+
+
+def yardstick(count):
+    """So many lidars of 128 x 4,096 firings, and 22 million triangles, of which 9 million move: the sizes of a published
+    comparison (GRCA, arXiv 2605.10457)."""
+    scenario = demo()
+    del scenario["lidar"]
+    one = json.loads((SCENARIOS / "sensors/vls128.json").read_text())
+    sensor = {key: one[key] for key in ("range_min_m", "range_max_m", "plausibility", "beam", "receiver")}
+    sensor["scan"] = {"rate_hz": 10, "pattern": {
+        "type": "spinning", "cycle_us": 24.414, "columns": 4096,
+        "channels": [{"elevation_deg": round(-25.0 + 40.0 * i / 127, 4), "azimuth_deg": 0.0, "time_us": 0.0}
+                     for i in range(128)]}}
+    scenario["lidars"] = [{"name": f"sensor_{i}", **sensor,
+                           "mount": {"position_m": [0.5 * (i // 2), 0.8 * (i % 2) - 0.4, 4.6]}} for i in range(count)]
+    scenario["world"]["objects"] += [
+        {"name": f"ball_{i}", "type": "mesh", "file": str(DENSE_BALL), "s_m": 2190 + 6 * (i // 6),
+         "d_m": (6.0 + 5.0 * (i % 3)) * (1 if i % 6 < 3 else -1), "motion": {"profile": [{"time_s": 0, "speed_mps": 1 + i % 3}]}}
+        for i in range(BALLS)]
+    return scenario
+
+
 def line(length_km):
     """The demo's sensor in alternating curves, one left and one right a kilometre."""
     curves = []
