@@ -1,6 +1,5 @@
 #include "generator/dataset/scenario_turns.h"
 
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include <condition_variable>
 #include <exception>
 #include <map>
-#include <memory>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -17,28 +15,6 @@
 
 namespace railcast {
 namespace {
-
-/// Leaves to TBB's workers those of a run's threads that make no scenario.
-class SpareThreads {
- public:
-  explicit SpareThreads(int num_threads) : num_threads_(num_threads) {}
-
-  /// Says that so many more threads make scenarios; fewer if it is negative.
-  void Change(int num_more) {
-    const std::lock_guard lock(mutex_);
-    num_busy_ += num_more;
-    // TBB counts one thread that calls it. The new limit holds before the old one ends.
-    limit_ = std::make_unique<tbb::global_control>(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(std::max(1, num_threads_ - num_busy_ + 1)));
-  }
-
- private:
-  std::mutex mutex_;
-  int num_threads_;
-  int num_busy_ = 0;
-  std::unique_ptr<tbb::global_control> limit_;
-};
 
 /// Threads that are waited for.
 struct Crew {
@@ -58,8 +34,7 @@ class Turns {
       : num_(num),
         num_threads_(num_threads),
         num_at_once_(std::min({num, num_at_once, static_cast<std::uint32_t>(num_threads)})),
-        work_(work),
-        spare_(num_threads) {}
+        work_(work) {}
 
   void Run() {
     {
@@ -79,7 +54,6 @@ class Turns {
 
  private:
   void TakeTurns() {
-    spare_.Change(1);
     while (const std::optional<std::uint32_t> index = Begin()) {
       try {
         Keep(*index, work_.make(TurnOf(*index)));
@@ -87,7 +61,6 @@ class Turns {
         Fail(*index, std::current_exception());
       }
     }
-    spare_.Change(-1);
   }
 
   // Begins the next scenario; nothing if none is left or the run is over.
@@ -118,22 +91,16 @@ class Turns {
   ScenarioTurn TurnOf(std::uint32_t index) {
     ScenarioTurn turn;
     turn.index = index;
-    turn.num_threads = std::max(1, num_threads_ / static_cast<int>(num_ - index));
+    turn.num_threads = num_threads_ / static_cast<int>(num_at_once_);
     turn.num_threads_of_run = num_threads_;
     turn.is_alone = num_at_once_ == 1;
-    if (turn.is_alone) turn.num_threads = num_threads_;
     turn.on_progress = [this, index](double done) {
       const std::lock_guard lock(mutex_);
       shares_[index] = done;
       ShowProgress();
     };
     turn.is_stopped = [this, index] { return index > first_fault_ || work_.is_stopped(); };
-    turn.await_memory = [this] {
-      spare_.Change(-1);
-      std::unique_lock lock(memory_);
-      spare_.Change(1);
-      return lock;
-    };
+    turn.await_memory = [this] { return std::unique_lock(memory_); };
     return turn;
   }
 
@@ -180,7 +147,6 @@ class Turns {
   int num_threads_;
   std::uint32_t num_at_once_;
   const ScenarioWork& work_;
-  SpareThreads spare_;
   std::mutex memory_;
   std::mutex mutex_;
   std::condition_variable changed_;

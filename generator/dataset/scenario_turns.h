@@ -39,11 +39,10 @@ struct ScenarioWork {
   std::function<bool()> is_stopped;
 };
 
-/// Makes `num` scenarios on as many threads as the run has, in their order, and keeps their lines
-/// in that order. A scenario gets more than one thread when there are fewer scenarios than threads,
-/// and all threads that have nothing left to do help with those that are still being made. If
-/// making one throws, those after it are stopped, those before it are kept, and the exception is
-/// passed on: what a run leaves and says does not depend on the number of threads.
+/// Makes `num` scenarios, in their order, one on each of the run's threads, and keeps their lines
+/// in that order. If there are fewer scenarios than threads, each gets as many of them. If making
+/// one throws, those after it are stopped, those before it are kept, and the exception is passed
+/// on: what a run leaves and says does not depend on the number of threads.
 /// @param num_threads 0 = all cores.
 /// @param num_at_once The most scenarios that are made at once.
 void TakeTurns(std::uint32_t num,

@@ -67,6 +67,17 @@ TEST(ScenarioTurns, MakeAsManyAtOnceAsThereAreThreads) {
   EXPECT_THAT(numbered.kept, ElementsAre(0, 1, 2));
 }
 
+TEST(ScenarioTurns, ShareTheThreadsAmongFewScenarios) {
+  NumberedWork numbered;
+  numbered.work.make = [&](const ScenarioTurn& turn) {
+    EXPECT_FALSE(turn.is_alone);
+    return Json(turn.num_threads);
+  };
+  TakeTurns(2, 6, kAny, numbered.work);
+  TakeTurns(9, 3, kAny, numbered.work);
+  EXPECT_THAT(numbered.kept, ElementsAre(3, 3, 1, 1, 1, 1, 1, 1, 1, 1, 1));
+}
+
 TEST(ScenarioTurns, GiveAllThreadsToTheOnlyScenario) {
   NumberedWork numbered;
   std::vector<int> num_threads;
