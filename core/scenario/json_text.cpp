@@ -181,6 +181,14 @@ class TreeBuilder {
 }  // namespace
 
 std::string PointerStep(std::string_view key) {
+  // Nearly all keys are words, which are shown as they are; there are many in every scenario.
+  constexpr std::size_t kMostOfWord = 60;
+  const auto is_of_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  if (key.size() <= kMostOfWord && std::ranges::all_of(key, is_of_word)) {
+    return "/" + std::string(key);
+  }
   std::string step = "/";
   for (const char c : ShownText(key)) {
     if (c == '~') {

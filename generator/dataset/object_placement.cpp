@@ -60,6 +60,16 @@ std::string AtFrame(std::uint32_t frame) {
   return " in frame " + std::to_string(frame);
 }
 
+// The line without its plants, whose models take longer to make than all that may be in the way.
+std::shared_ptr<const RailWorld> LineWithoutPlants(ScenarioSpec scenario) {
+  VegetationSpec& vegetation = scenario.world.vegetation;
+  vegetation.trees_per_hectare = 0.0;
+  vegetation.bushes_per_hectare = 0.0;
+  vegetation.grass = false;
+  scenario.world.objects.clear();
+  return MakeWorld(scenario);
+}
+
 /// Looks whether an object of a world may stand where it stands.
 class PlaceCheck {
  public:
@@ -188,7 +198,9 @@ class ObjectPlacer {
     if (auto fault = check.Collision()) return *fault;
     // What stands beside the line of a recording is known to its points alone.
     if (!trial.is_plan()) {
-      if (!structures_) structures_.emplace(world_, LabelTable(scenario.labels));
+      if (!structures_) {
+        structures_.emplace(LineWithoutPlants(scenario), LabelTable(scenario.labels));
+      }
       if (auto fault = check.StructureFault(object, *structures_)) return *fault;
     }
     world_ = std::move(world);

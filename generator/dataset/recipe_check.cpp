@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -260,6 +261,7 @@ class ExtremesCheck {
   void Run() {
     CheckPins();
     for (base_ = 0; base_ < recipe_.bases.size(); ++base_) {
+      usual_.reset();
       Try({});
       for (const PointedDraw& draw : recipe_.draws.draws) {
         for (const Json& value : ExtremesOf(draw.distribution)) Try({{draw.pointer, value}});
@@ -345,7 +347,8 @@ class ExtremesCheck {
 
   void TryObject(std::size_t index, const ForcedValues& forced) {
     static_cast<void>(Attempt("", errors_, [&] {
-      DraftedScenario draft = Draft({});
+      if (!usual_) usual_ = Draft({});
+      DraftedScenario draft = *usual_;
       ForcedValues all = forced;
       for (const PointedDraw& draw : recipe_.objects[index].draws.draws) {
         all.emplace(draw.pointer, ExtremesOf(draw.distribution).front());
@@ -361,6 +364,7 @@ class ExtremesCheck {
   KeyedDraws draws_;
   ErrorList& errors_;
   std::size_t base_ = 0;
+  std::optional<DraftedScenario> usual_;  ///< The base to which objects are added.
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "generator/dataset/run_dataset.h"
 
+#include <atomic>
 #include <chrono>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "generator/dataset/dataset_files.h"
 #include "generator/dataset/inserted_item.h"
 #include "generator/dataset/recipe_files.h"
+#include "generator/dataset/scenario_turns.h"
 #include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_run.h"
 #include "generator/run/all_sensors.h"
@@ -72,7 +75,7 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   }
 }
 
-/// Makes the sequences of a shard.
+/// Makes the sequences of a shard, of several scenarios at once.
 class DatasetRun {
  public:
   DatasetRun(const Recipe& recipe, const DatasetChoices& choices, const DatasetHooks& hooks)
@@ -87,11 +90,8 @@ class DatasetRun {
     result_.num_scenarios = choices_.shard.NumOf(recipe_.num_scenarios);
     result_.num_resumed = directory_.num_done();
     result_.was_complete = directory_.is_complete();
-    bool goes_on = !result_.was_complete;
-    while (goes_on && directory_.num_done() < result_.num_scenarios) {
-      ShowProgress(0.0);
-      goes_on = !hooks_.is_stopped() && MakeNext();
-    }
+    if (!result_.was_complete) MakeMissing();
+    result_.num_frames = num_frames_;
     result_.num_done = directory_.num_done();
     const bool has_all = result_.num_done == result_.num_scenarios;
     if (has_all && !result_.was_complete) {
@@ -109,22 +109,34 @@ class DatasetRun {
   }
 
  private:
-  void ShowProgress(double done_of_next) const {
-    hooks_.on_progress({directory_.num_done(), result_.num_scenarios, done_of_next});
+  void MakeMissing() {
+    const std::uint32_t num_done = directory_.num_done();
+    const ScenarioWork work = {
+        .make = [&](const ScenarioTurn& turn) { return Make(num_done + turn.index, turn); },
+        .keep = [this](const Json& line) { directory_.Append(line); },
+        .on_progress =
+            [this](double num_beyond) {
+              hooks_.on_progress({directory_.num_done(), result_.num_scenarios, num_beyond});
+            },
+        .is_stopped = hooks_.is_stopped};
+    // Putting things into a recording takes all threads for itself.
+    const std::uint32_t num_at_once =
+        recipe_.has_plans() ? 1 : std::numeric_limits<std::uint32_t>::max();
+    TakeTurns(result_.num_scenarios - num_done, choices_.num_threads, num_at_once, work);
   }
 
-  // Returns whether the next scenario is done; not if the run was stopped.
-  bool MakeNext() {
-    const std::uint32_t number = choices_.shard.ScenarioAt(directory_.num_done());
+  // Returns the line of one of the shard's scenarios; nothing if it was stopped.
+  std::optional<Json> Make(std::uint32_t of_shard, const ScenarioTurn& turn) {
+    const std::uint32_t number = choices_.shard.ScenarioAt(of_shard);
     DrawnScenario drawn = drawer_.Draw(number);
-    if (drawn.run) return MakeNextOfPlan(number, drawn);
+    if (drawn.run) return MakeOfPlan(number, drawn, turn);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    FrameMaker maker(plan.scenario, choices_.num_threads, plan.sensors.front().spec.isa);
+    FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
     if (plan.is_merged) CheckCanMerge(maker, plan);
-    if (!MakeScenario(maker, plan)) return false;
+    if (!MakeScenario(turn, maker, plan)) return std::nullopt;
     if (plan.is_in_folders()) {
       drawn.record["sensors_xxh3"] = ContentHash(ReadFileWhole(plan.directory / kSensorsFile));
     }
@@ -132,43 +144,51 @@ class DatasetRun {
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
       drawn.record["sequences"].push_back(RecordOf(maker, maker.pattern(i), plan.sensors[i]));
     }
-    directory_.Append(drawn.record);
-    return true;
+    return std::move(drawn.record);
   }
 
-  // As MakeNext().
-  bool MakeNextOfPlan(std::uint32_t number, DrawnScenario& drawn) {
+  // As Make().
+  std::optional<Json> MakeOfPlan(std::uint32_t number,
+                                 DrawnScenario& drawn,
+                                 const ScenarioTurn& turn) {
     const auto directory = choices_.directory / SequenceFolderOf(number);
     const InsertHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
-                                 ShowProgress(static_cast<double>(num_done) / num_frames);
+                                 turn.on_progress(static_cast<double>(num_done) / num_frames);
                                },
-                               hooks_.is_stopped};
+                               turn.is_stopped};
     const InsertResult made =
         AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
                 [&] { return MakeInserted(drawn, choices_, directory, hooks); });
-    result_.num_frames += made.num_done - made.num_resumed;
-    if (!made.is_complete) return false;
+    num_frames_ += made.num_done - made.num_resumed;
+    if (!made.is_complete) return std::nullopt;
     drawn.record["sequences"] =
         Json::array({RecordOfInserted(drawn, choices_.directory, directory)});
-    directory_.Append(drawn.record);
-    return true;
+    return std::move(drawn.record);
   }
 
   // Returns whether all of it is there; not if the run was stopped.
-  [[nodiscard]] bool MakeScenario(FrameMaker& maker, RunPlan& plan) {
-    const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
-    if (!ChooseFidelities(maker, ignore, hooks_.is_stopped, plan)) return false;
+  [[nodiscard]] bool MakeScenario(const ScenarioTurn& turn, FrameMaker& maker, RunPlan& plan) {
+    // Frames so large that they are made one after another keep all threads busy.
+    std::unique_lock<std::mutex> memory;
+    if (!turn.is_alone && maker.NumAtOnce() == 1) {
+      memory = turn.await_memory();
+      for (std::size_t i = 0; i < maker.num_sensors(); ++i) {
+        maker.simulator(i).UseThreads(turn.num_threads_of_run);
+      }
+    }
     const SequenceHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
-                                   ShowProgress(static_cast<double>(num_done) / num_frames);
+                                   turn.on_progress(static_cast<double>(num_done) / num_frames);
                                  },
-                                 hooks_.is_stopped};
+                                 turn.is_stopped, turn.is_alone};
+    const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
+    if (!ChooseFidelities(maker, ignore, hooks, plan)) return false;
     bool is_complete = true;
     for (const SequenceResult& made : MakeFrames(maker, plan, hooks)) {
-      result_.num_frames += made.num_done - made.num_resumed;
+      num_frames_ += made.num_done - made.num_resumed;
       is_complete = is_complete && made.is_complete;
     }
     return is_complete && FinishRun(
-                              maker, plan, [](double) {}, hooks_.is_stopped);
+                              maker, plan, [](double) {}, turn.is_stopped);
   }
 
   // What scenarios.jsonl says of a sequence.
@@ -206,6 +226,7 @@ class DatasetRun {
   const DatasetHooks& hooks_;
   ScenarioDrawer drawer_;
   DatasetDirectory directory_;
+  std::atomic<std::uint64_t> num_frames_ = 0;
   DatasetResult result_;
 };
 

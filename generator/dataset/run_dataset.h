@@ -22,17 +22,17 @@ struct DatasetChoices : RunChoices {
 struct DatasetProgress {
   std::uint32_t num_done{};       ///< Of the shard's scenarios.
   std::uint32_t num_scenarios{};  ///< Of the shard.
-  double done_of_next{};          ///< Share of the next scenario's frames, in [0, 1].
+  double num_beyond{};            ///< Of those that are under way: the sum of their shares.
 
   /// Share of the shard, in [0, 1].
-  [[nodiscard]] double done() const { return (num_done + done_of_next) / num_scenarios; }
+  [[nodiscard]] double done() const { return (num_done + num_beyond) / num_scenarios; }
 };
 
 /// Callbacks of a run.
 struct DatasetHooks {
-  /// Called before every scenario and after every frame.
+  /// Called before every scenario and after every frame, by one thread at a time.
   std::function<void(const DatasetProgress& progress)> on_progress;
-  std::function<bool()> is_stopped;
+  std::function<bool()> is_stopped;  ///< Called by several threads at once.
 };
 
 struct DatasetResult {
@@ -47,8 +47,8 @@ struct DatasetResult {
   double elapsed_s{};
 };
 
-/// Makes the scenarios of a shard that its folder does not hold yet; of a whole data set then the
-/// files about all of them (WriteDatasetFiles).
+/// Makes the scenarios of a shard that its folder does not hold yet, one on each thread; of a whole
+/// data set then the files about all of them (WriteDatasetFiles).
 /// @throws InputError as DatasetDirectory and ScenarioDrawer do.
 [[nodiscard]] DatasetResult RunDataset(const Recipe& recipe,
                                        const DatasetChoices& choices,

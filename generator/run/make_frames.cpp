@@ -414,21 +414,36 @@ struct NoDeadlineAfterwards {
   NoDeadlineAfterwards& operator=(const NoDeadlineAfterwards&) = delete;
 };
 
+/// Lets the building of scenes end once the run is stopped.
+void Watch(Simulator& simulator, const SequenceHooks& hooks) {
+  if (hooks.is_alone) return WatchBuilding(simulator, hooks.is_stopped, true);
+  StopBuilding(simulator, hooks.is_stopped);
+}
+
+FidelityChoice ChooseFor(const SensorPlan& sensor,
+                         Simulator& simulator,
+                         const SequenceHooks& hooks) {
+  if (hooks.is_alone) return UseChosenFidelity(simulator, sensor.scenario);
+  return UseChosenFidelity(simulator, sensor.scenario, [&](double /*done*/) {
+    if (hooks.is_stopped()) throw RunStopped();
+  });
+}
+
 }  // namespace
 
 bool ChooseFidelities(
     const FrameMaker& maker,
     const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
-    const std::function<bool()>& is_stopped,
+    const SequenceHooks& hooks,
     RunPlan& plan) {
   for (std::size_t i = 0; i < maker.num_sensors(); ++i) {
-    WatchBuilding(maker.simulator(i), is_stopped, true);
+    Watch(maker.simulator(i), hooks);
   }
   if (plan.scenario.fidelity != Fidelity::kAuto) return true;
   try {
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
       SensorPlan& sensor = plan.sensors[i];
-      const FidelityChoice choice = UseChosenFidelity(maker.simulator(i), sensor.scenario);
+      const FidelityChoice choice = ChooseFor(sensor, maker.simulator(i), hooks);
       sensor.spec.fidelity_choice_json = ChoiceJson(choice);
       on_choice(sensor, choice);
     }
@@ -448,7 +463,8 @@ std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
     simulator.UseLastStamp(maker.pattern(i).StampNs(spec.FrameAt(spec.num_frames - 1)));
     // Frames are begun by whichever thread is free: from then on the terminal shows what this one
     // waits for.
-    const auto begin = [&maker, &simulator, i](std::uint32_t index) {
+    const auto begin = [&maker, &simulator, &hooks, i](std::uint32_t index) {
+      if (!hooks.is_alone) return maker.Begin(i, index);
       const NoDeadlineAfterwards guard;
       WatchBuilding(simulator, StopRequested, true);
       return maker.Begin(i, index);

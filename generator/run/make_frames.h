@@ -30,6 +30,9 @@ struct SequenceHooks {
   std::function<void(std::uint32_t num_done, std::uint32_t num_frames)> on_progress;
   /// Called before every frame; if it returns true, the run ends after the frames under way.
   std::function<bool()> is_stopped;
+  /// Whether nothing else is made beside it: then the terminal shows what it waits for, and
+  /// stopping it has a deadline meanwhile (WatchBuilding()).
+  bool is_alone = true;
 };
 
 struct SequenceResult {
@@ -48,7 +51,7 @@ struct SequenceResult {
 [[nodiscard]] bool ChooseFidelities(
     const FrameMaker& maker,
     const std::function<void(const SensorPlan& sensor, const FidelityChoice& choice)>& on_choice,
-    const std::function<bool()>& is_stopped,
+    const SequenceHooks& hooks,
     RunPlan& plan);
 
 /// Makes the missing frames of a plan in one pass through simulation time: of all sensors, the

@@ -75,6 +75,12 @@ void WatchBuilding(Simulator& simulator,
   });
 }
 
+void StopBuilding(Simulator& simulator, const std::function<bool()>& is_stopped) {
+  simulator.UseProgress([=](std::size_t /*num_done*/, std::size_t /*num_steps*/) {
+    if (is_stopped()) throw RunStopped();
+  });
+}
+
 FidelityChoice UseChosenFidelity(Simulator& simulator, const ScenarioSpec& scenario) {
   const TerminalLine line;
   FidelityChoice choice = UseChosenFidelity(simulator, scenario, [&](double done) {

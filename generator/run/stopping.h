@@ -34,6 +34,10 @@ void WatchBuilding(Simulator& simulator,
                    const std::function<bool()>& is_stopped,
                    bool has_deadline);
 
+/// The same without the terminal and without a deadline, for simulators that are used beside
+/// others.
+void StopBuilding(Simulator& simulator, const std::function<bool()>& is_stopped);
+
 /// Makes fidelity auto's choice and applies it to the simulator, showing the progress on the
 /// terminal.
 /// @pre The scenario's fidelity is `auto`; the simulator is the scenario's.

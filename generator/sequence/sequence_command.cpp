@@ -135,13 +135,15 @@ int RunSequenceCommand(const SequenceOptions& options) {
     if (plan.is_in_folders()) std::cout << ShownLines(sensor.name) << ":\n";
     std::cout << ChoiceText(choice) << std::flush;
   };
-  if (!ChooseFidelities(maker, say_choice, StopRequested, plan)) {
+  ProgressDisplay display;
+  const SequenceHooks hooks = {
+      [&](std::uint32_t num_done, std::uint32_t num) { display.Show(num_done, num); },
+      StopRequested};
+  if (!ChooseFidelities(maker, say_choice, hooks, plan)) {
     std::cerr << "interrupted before the first frame\n";
     return kExitInterrupted;
   }
-  ProgressDisplay display;
-  const auto show = [&](std::uint32_t num_done, std::uint32_t num) { display.Show(num_done, num); };
-  const std::vector<SequenceResult> results = MakeFrames(maker, plan, {show, StopRequested});
+  const std::vector<SequenceResult> results = MakeFrames(maker, plan, hooks);
   if (!std::ranges::all_of(results, &SequenceResult::is_complete)) display.Break();
   if (!Report(options.summary, plan, results)) return kExitInterrupted;
   const ProgressLine progress;

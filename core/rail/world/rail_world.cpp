@@ -46,6 +46,12 @@ namespace {
 // Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
 
+// Without any, their models are not made, which takes longer than a chunk.
+bool HasPlants(const VegetationSpec& vegetation) {
+  return vegetation.trees_per_hectare > 0.0 || vegetation.bushes_per_hectare > 0.0 ||
+         vegetation.grass;
+}
+
 }  // namespace
 
 /// The part of the world that commands cannot change.
@@ -110,7 +116,7 @@ struct RailWorld::Line {
                    AddTracks(context, track_models, built);
                    AddCatenary(context, catenary_plan, mast_model, built);
                    AddStructures(context, built);
-                   AddVegetation(context, plants.get(), built);
+                   if (HasPlants(world.vegetation)) AddVegetation(context, plants.get(), built);
                  });
     return built;
   }

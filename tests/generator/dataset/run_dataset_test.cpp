@@ -133,6 +133,30 @@ TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
   }
 }
 
+TEST_F(RunDatasetTest, AnyNumberOfThreadsGivesTheSameBytes) {
+  (void)MakeDataset(recipe_, Path("1"));
+  for (const int num_threads : {2, 4, 0}) {
+    DatasetChoices choices = OnOneThread(Path("threads_" + std::to_string(num_threads)));
+    choices.num_threads = num_threads;
+    EXPECT_TRUE(RunDataset(recipe_, choices, NoDatasetHooks()).is_complete);
+    EXPECT_EQ(FilesOfDataset(choices.directory), FilesOfDataset(Path("1")));
+  }
+}
+
+TEST_F(RunDatasetTest, AStoppedRunOnThreeThreadsContinuesOnOneWithTheSameBytes) {
+  (void)MakeDataset(recipe_, Path("whole"));
+  for (const int after : {3, 9, 15}) {
+    std::atomic<int> num_asked = 0;
+    const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > after; }};
+    DatasetChoices choices = OnOneThread(Path("stopped_" + std::to_string(after)));
+    choices.num_threads = 3;
+    (void)RunDataset(recipe_, choices, hooks);
+    choices.num_threads = 1;
+    EXPECT_TRUE(RunDataset(recipe_, choices, NoDatasetHooks()).is_complete);
+    EXPECT_EQ(FilesOfDataset(choices.directory), FilesOfDataset(Path("whole")));
+  }
+}
+
 TEST_F(RunDatasetTest, MergingContinuesWhereItWasInterrupted) {
   (void)MakeDataset(recipe_, Path("a"), {1, 2});
   (void)MakeDataset(recipe_, Path("b"), {2, 2});

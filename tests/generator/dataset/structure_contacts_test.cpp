@@ -101,6 +101,31 @@ TEST_F(StructureContactsTest, AreNotInTheTrackOrTheGround) {
   }
 }
 
+// Objects are placed with the help of a line that has none, since making them takes long.
+TEST_F(StructureContactsTest, AreTheSameOnALineWithoutPlants) {
+  VegetationSpec& plants = scenario_.world.vegetation;
+  ASSERT_GT(plants.trees_per_hectare, 0.0);
+  plants.trees_per_hectare = plants.bushes_per_hectare = 0.0;
+  plants.grass = false;
+  StructureContacts with_plants(world_, LabelTable(scenario_.labels));
+  StructureContacts without(MakeWorld(scenario_), LabelTable(scenario_.labels));
+  ObjectSpec box;
+  box.name = "box";
+  box.type = ObjectType::kBox;
+  box.size_m = {1.0, 1.0, 3.0};
+  int num_found = 0;
+  for (box.s_m = 415.0; box.s_m < 470.0; box.s_m += 5.0) {
+    for (box.d_m = -12.0; box.d_m <= 12.0; box.d_m += 0.75) {
+      const auto world = world_->WithObject(box, 0);
+      const std::size_t index = world->objects().size() - 1;
+      const auto found = with_plants.Find(*world, index, 0);
+      EXPECT_EQ(without.Find(*world, index, 0), found) << box.s_m << ' ' << box.d_m;
+      if (found) ++num_found;
+    }
+  }
+  EXPECT_GT(num_found, 20);
+}
+
 TEST_F(StructureContactsTest, ComeAndGoWithTheObjectsMotion) {
   ObjectSpec box;
   box.name = "box";
