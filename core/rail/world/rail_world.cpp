@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,8 +63,7 @@ struct RailWorld::Line {
   CatenaryPlan catenary_plan;
   TrackModels track_models;
   std::shared_ptr<const Model> mast_model;
-  /// Made by whoever needs them first: a world that is only looked into has no plants.
-  std::shared_future<PlantModels> plants;
+  std::unique_ptr<const PlantsOnDemand> plants;
   Landform land;
   std::optional<Ride> ride;                     ///< Of the sensor's vehicle.
   std::shared_ptr<const SurveyedScene> survey;  ///< Null: the line is built from the spec.
@@ -110,7 +108,7 @@ struct RailWorld::Line {
                    AddTracks(context, track_models, built);
                    AddCatenary(context, catenary_plan, mast_model, built);
                    AddStructures(context, built);
-                   AddVegetation(context, plants.get(), built);
+                   AddVegetation(context, plants->Get(), built);
                  });
     return built;
   }
@@ -180,7 +178,7 @@ RailWorld::RailWorld(const WorldSpec& world,
            std::move(network), std::move(turnouts), std::move(diamonds), grid,
            std::move(*draft.catenary_plan), MakeTrackModels(world.alignment, surfaces),
            std::make_shared<const Model>(MakeMast(world.catenary, surfaces)),
-           std::async(std::launch::deferred, MakePlantModels, surfaces, seed).share(),
+           std::make_unique<const PlantsOnDemand>(surfaces, seed),
            Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
            RideOf(vehicle, world.seed), std::move(draft.survey), std::move(surveyed)});
 
