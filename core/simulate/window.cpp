@@ -238,11 +238,9 @@ WindowSource::Chunks WindowSource::GetChunks(int home_chunk, const Purpose& purp
   const auto get = [&](std::size_t i) {
     if (pace == Pace::kAhead && stopping_) throw Abandoned();
     purpose.progress(num_done, NumSteps(reach.size()));
-    const std::optional<CoarserSurfaces> coarser = world.CoarserSurfacesOf(reach[i]);
-    const bool is_coarser =
-        coarser &&
-        choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(reach[i]));
-    built[i] = store_->GetChunk({reach[i], !purpose.wind_blows, is_coarser});
+    const std::size_t level = choice.LevelOf(world.CoarserSurfacesOf(reach[i]),
+                                             window_from_world * world.WorldFromChunk(reach[i]));
+    built[i] = store_->GetChunk({reach[i], !purpose.wind_blows, level});
     ++num_done;
   };
   ForEach(reach.size(), pace, get);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -45,11 +46,18 @@ struct Window {
   mutable std::shared_ptr<const TraceScene> standing_alone_;
 };
 
+/// The azimuths in the vehicle's frame to which a sensor's firings go.
+struct ScanSector {
+  double middle_rad = 0.0;
+  double half_width_rad = std::numbers::pi;  ///< A right angle or more counts as all around.
+};
+
 /// How coarse the models in a window may be for its sensor; DetailChoice applies it.
 struct DetailRule {
   Transform vehicle_from_sensor = Transform::Identity();
   double ray_spacing_rad = 0.0;  ///< Angle between neighbouring firings; 0 = full detail.
   double beam_width_rad = 0.0;   ///< The lesser divergence; 0 = rays without width.
+  ScanSector sector{};           ///< What no firing can meet may always be coarse.
 };
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.

@@ -111,8 +111,8 @@ class RailWorld final : public World {
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const override;
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;
-  [[nodiscard]] std::optional<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
-  [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override;
+  [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
+  [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<Transform> WorldFromPieces(std::size_t object,

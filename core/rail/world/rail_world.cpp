@@ -434,14 +434,14 @@ Chunk RailWorld::BuildChunk(int chunk) const {
   return line_->Build(line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse()));
 }
 
-Chunk RailWorld::BuildCoarserChunk(int chunk) const {
+Chunk RailWorld::BuildCoarserChunk(int chunk, std::size_t level) const {
   ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
-  context.is_coarse = true;
+  context.level = level;
   return line_->Build(context);
 }
 
-std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
-  if (line_->survey) return std::nullopt;
+std::vector<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
+  if (line_->survey) return {};
   return CoarserSurfacesBetween({line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk)},
                                 line_->alignment, line_->land.width(),
                                 line_->grid.WorldFromChunk(chunk).inverse());
