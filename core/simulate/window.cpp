@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/scene/object_pieces.h"
 #include "core/simulate/detail_choice.h"
 
 namespace railcast {
@@ -54,6 +56,20 @@ void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
   }
 }
 
+/// Prepares the models of all objects, on all of the caller's TBB threads.
+void PrepareObjects(SceneStore& store) {
+  std::vector<std::shared_ptr<const Model>> distinct;
+  std::unordered_set<const Model*> known;
+  for (const SceneObject& object : store.world()->objects()) {
+    for (std::size_t i = 0; i < NumPieces(object); ++i) {
+      const std::shared_ptr<const Model>& piece = PieceOf(object, i);
+      if (known.insert(piece.get()).second) distinct.push_back(piece);
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, distinct.size(),
+                    [&](std::size_t i) { static_cast<void>(store.GetModel(distinct[i], true)); });
+}
+
 /// Thrown when a window that is built ahead is not needed any more.
 struct Abandoned {};
 
@@ -75,6 +91,7 @@ WindowSource::WindowSource(std::shared_ptr<SceneStore> store,
                            double range_max_m,
                            const DetailRule& detail)
     : store_(std::move(store)), range_max_m_(range_max_m), detail_(detail) {
+  PrepareObjects(*store_);
   fixed_surfaces_.emplace_back();
   std::vector<std::size_t> standing;
   for (const SceneObject& object : store_->world()->objects()) {

@@ -57,6 +57,9 @@ class RailWorld final : public World {
             std::uint64_t seed);
   ~RailWorld() override;
 
+  /// Makes the plants of which all chunks are planted, as the first BuildChunk() would otherwise.
+  void PreparePlants() const;
+
   /// Returns this world as it is from `from_ns` on if the vehicle changes its speed: it accelerates
   /// at a constant rate to `speed_mps` and then keeps that speed. Its direction does not change.
   /// @pre from_ns >= 0 and not before an earlier change, speed_mps >= 0, acceleration_mps2 > 0

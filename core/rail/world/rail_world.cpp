@@ -85,6 +85,10 @@ struct RailWorld::Line {
             .diamonds = diamonds,
             .survey = survey.get()};
   }
+  [[nodiscard]] bool has_plants() const {
+    const VegetationSpec& spec = world.vegetation;
+    return !survey && (spec.grass || spec.trees_per_hectare > 0.0 || spec.bushes_per_hectare > 0.0);
+  }
   [[nodiscard]] static ClearedAreas UnballastedAbout(const ChunkContext& context) {
     // Cross-sections beyond are few.
     constexpr double kBeyond_m = 10.0;
@@ -108,7 +112,7 @@ struct RailWorld::Line {
                    AddTracks(context, track_models, built);
                    AddCatenary(context, catenary_plan, mast_model, built);
                    AddStructures(context, built);
-                   AddVegetation(context, plants->Get(), built);
+                   if (has_plants()) AddVegetation(context, plants->Get(), built);
                  });
     return built;
   }
@@ -221,6 +225,10 @@ RailWorld::RailWorld(const WorldSpec& world,
 }
 
 RailWorld::~RailWorld() = default;
+
+void RailWorld::PreparePlants() const {
+  if (line_->has_plants()) static_cast<void>(line_->plants->Get());
+}
 
 std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_ns,
                                                              double speed_mps,
