@@ -33,8 +33,8 @@ void AddDiamonds(const ChunkContext& context, Chunk& chunk);
 /// track. The sheet ends well below the ground.
 ///
 /// In the first coarser form, cells are up to 0.48 m wide across, where that keeps the mean height
-/// within 5 mm, and as long along as ever: what beams along the track see stays. In the second, they
-/// are up to 0.96 m wide and 3 m long.
+/// within 5 mm, and as long along as ever: what beams along the track see stays. In the second,
+/// they are up to 0.96 m wide and 3 m long.
 void AddBallast(const ChunkContext& context, Chunk& chunk);
 
 /// Adds every track of the chunk: rails, sleepers and ballast, all with the line's cant.
