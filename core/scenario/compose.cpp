@@ -1,3 +1,6 @@
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -160,26 +163,31 @@ std::vector<std::unique_ptr<Simulator>> MakeSimulators(const ScenarioSpec& spec,
   const MaterialLibrary materials(spec.materials);
   const auto store = MakeSceneStore(*world, materials, isa);
   std::vector<std::unique_ptr<Simulator>> simulators;
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    const LidarSpec& lidar = sensors[i].lidar;
-    SimulatorSpec simulator{.detector = DetectorSpecOf(spec, lidar, *effects),
-                            .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
-                            .nominal_from_true = NominalFromTrue(lidar.mount_error),
-                            .output = spec.output,
-                            .origin_place = spec.sources.Place("/output/origin_m"),
-                            .snow_material = names->snow_material,
-                            .has_full_detail = spec.world.detail == SceneDetail::kFull,
-                            .isa = isa};
-    simulator.detector.clutter_labels = names->labels;
-    const std::size_t num_firings = patterns[i]->num_firings();
-    const auto doing = [&] {
-      return "making the simulator of " + std::to_string(num_firings) + " firings a frame";
-    };
-    simulators.push_back(WithinMemory(doing, [&] {
-      return std::make_unique<Simulator>(store, std::move(*patterns[i]), materials, simulator,
-                                         num_threads);
-    }));
-  }
+  const auto make = [&] {
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+      const LidarSpec& lidar = sensors[i].lidar;
+      SimulatorSpec simulator{.detector = DetectorSpecOf(spec, lidar, *effects),
+                              .vehicle_from_sensor = VehicleFromSensor(lidar.mount),
+                              .nominal_from_true = NominalFromTrue(lidar.mount_error),
+                              .output = spec.output,
+                              .origin_place = spec.sources.Place("/output/origin_m"),
+                              .snow_material = names->snow_material,
+                              .has_full_detail = spec.world.detail == SceneDetail::kFull,
+                              .isa = isa};
+      simulator.detector.clutter_labels = names->labels;
+      const std::size_t num_firings = patterns[i]->num_firings();
+      const auto doing = [&] {
+        return "making the simulator of " + std::to_string(num_firings) + " firings a frame";
+      };
+      simulators.push_back(WithinMemory(doing, [&] {
+        return std::make_unique<Simulator>(store, std::move(*patterns[i]), materials, simulator,
+                                           num_threads);
+      }));
+    }
+  };
+  // The first frame needs the plants, too. They are made by threads that have nothing else to do.
+  tbb::task_arena arena(num_threads > 0 ? num_threads : tbb::task_arena::automatic);
+  arena.execute([&] { tbb::parallel_invoke([&] { (*world)->PreparePlants(); }, make); });
   return simulators;
 }
 

@@ -1,9 +1,11 @@
 #include "core/simulate/detail_choice.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "core/base/units.h"
@@ -25,7 +27,8 @@ DetailRule DetailOf(const SimulatorSpec& spec, const ScanPattern& pattern) {
       detector.effects.footprint ? std::min(horizontal_mrad, vertical_mrad) : 0.0;
   return {.vehicle_from_sensor = spec.vehicle_from_sensor,
           .ray_spacing_rad = RaySpacing_rad(pattern),
-          .beam_width_rad = 1e-3 * beam_mrad};
+          .beam_width_rad = 1e-3 * beam_mrad,
+          .sector = SectorOf(pattern, spec.vehicle_from_sensor)};
 }
 
 double RaySpacing_rad(const ScanPattern& pattern) {
@@ -52,13 +55,48 @@ double RaySpacing_rad(const ScanPattern& pattern) {
   return 0.0;
 }
 
+ScanSector SectorOf(const ScanPattern& pattern, const Transform& vehicle_from_sensor) {
+  constexpr double kSteepest = 0.5;
+  constexpr double kMargin_rad = RadFromDeg(5.0);
+  constexpr int kNumCells = 360;
+  if (!pattern.repeats()) return {};
+  std::array<bool, kNumCells> is_seen{};
+  for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
+    const Vector3 direction =
+        vehicle_from_sensor.linear() *
+        Eigen::Vector3f(pattern.direction_x[i], pattern.direction_y[i], pattern.direction_z[i])
+            .cast<double>();
+    if (std::abs(direction.z()) > kSteepest) return {};
+    const double turns = std::atan2(direction.y(), direction.x()) / (2.0 * std::numbers::pi);
+    const auto cell = static_cast<int>(std::floor(kNumCells * (turns + 1.0)));
+    is_seen[static_cast<std::size_t>(cell % kNumCells)] = true;
+  }
+  // The longest gap, whose other side is the sector.
+  int longest = 0;
+  int end_of_longest = 0;
+  int length = 0;
+  for (int cell = 0; cell < 2 * kNumCells; ++cell) {
+    length = is_seen[static_cast<std::size_t>(cell % kNumCells)] ? 0 : length + 1;
+    if (length <= longest || length > kNumCells) continue;
+    longest = length;
+    end_of_longest = cell + 1;
+  }
+  const double cell_rad = 2.0 * std::numbers::pi / kNumCells;
+  const double half_rad = 0.5 * (kNumCells - longest) * cell_rad;
+  return {.middle_rad = end_of_longest * cell_rad + half_rad,
+          .half_width_rad = half_rad + kMargin_rad};
+}
+
 DetailChoice::DetailChoice(const World& world, int home_chunk, const DetailRule& rule)
     : rule_(rule) {
   if (!(rule.ray_spacing_rad > 0.0)) return;
   const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
   for (const Transform& world_from_vehicle : world.VehiclePosesIn(home_chunk)) {
-    sensors_window_m_.emplace_back(
-        (window_from_world * world_from_vehicle * rule.vehicle_from_sensor).translation());
+    const Transform window_from_vehicle = window_from_world * world_from_vehicle;
+    sensors_window_m_.emplace_back((window_from_vehicle * rule.vehicle_from_sensor).translation());
+    sights_window_.emplace_back(
+        window_from_vehicle.linear() *
+        Vector3(std::cos(rule.sector.middle_rad), std::sin(rule.sector.middle_rad), 0.0));
   }
 }
 
@@ -81,15 +119,50 @@ bool DetailChoice::Permits(double ray_spacing_m, double beam_width_m, double dis
 }
 
 bool DetailChoice::TakesCoarser(const CoarserSurfaces& surfaces,
-                                const Transform& window_from_chunk) const {
-  const Transform chunk_from_window = window_from_chunk.inverse();
+                                const Transform& chunk_from_window) const {
   const auto permits = [&](const Vector3& sensor_window_m) {
     const Eigen::Vector2d place_m = (chunk_from_window * sensor_window_m).head<2>();
     return std::abs(place_m.y()) <= std::tan(surfaces.sight_angle_rad) * std::abs(place_m.x()) &&
            Permits(surfaces.ray_spacing_m, surfaces.beam_width_m,
                    surfaces.area_m.exteriorDistance(place_m));
   };
-  return !sensors_window_m_.empty() && std::ranges::all_of(sensors_window_m_, permits);
+  return std::ranges::all_of(sensors_window_m_, permits);
+}
+
+bool DetailChoice::IsInSight(const Eigen::AlignedBox2d& area_m,
+                             const Transform& chunk_from_window) const {
+  if (rule_.sector.half_width_rad >= 0.5 * std::numbers::pi) return true;
+  const double sine = std::sin(rule_.sector.half_width_rad);
+  const double cosine = std::cos(rule_.sector.half_width_rad);
+  for (std::size_t i = 0; i < sensors_window_m_.size(); ++i) {
+    const Eigen::Vector2d place_m = (chunk_from_window * sensors_window_m_[i]).head<2>();
+    const Eigen::Vector2d ahead = (chunk_from_window.linear() * sights_window_[i]).head<2>();
+    // Whether the whole area lies behind the sensor, or beyond one of the sector's sides.
+    double nearest_ahead_m = -std::numeric_limits<double>::infinity();
+    double beyond_left_m = std::numeric_limits<double>::infinity();
+    double beyond_right_m = beyond_left_m;
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector2d corner_m =
+          area_m.corner(static_cast<Eigen::AlignedBox2d::CornerType>(k)) - place_m;
+      const double ahead_m = corner_m.dot(ahead);
+      const double left_m = ahead.x() * corner_m.y() - ahead.y() * corner_m.x();
+      nearest_ahead_m = std::max(nearest_ahead_m, ahead_m);
+      beyond_left_m = std::min(beyond_left_m, cosine * left_m - sine * ahead_m);
+      beyond_right_m = std::min(beyond_right_m, -cosine * left_m - sine * ahead_m);
+    }
+    if (nearest_ahead_m > 0.0 && beyond_left_m < 0.0 && beyond_right_m < 0.0) return true;
+  }
+  return false;
+}
+
+std::size_t DetailChoice::LevelOf(std::span<const CoarserSurfaces> forms,
+                                  const Transform& window_from_chunk) const {
+  if (forms.empty() || sensors_window_m_.empty()) return 0;
+  const Transform chunk_from_window = window_from_chunk.inverse();
+  if (!IsInSight(forms.back().area_m, chunk_from_window)) return forms.size();
+  const auto too_coarse = std::ranges::find_if_not(
+      forms, [&](const CoarserSurfaces& form) { return TakesCoarser(form, chunk_from_window); });
+  return static_cast<std::size_t>(too_coarse - forms.begin());
 }
 
 std::size_t DetailChoice::LevelOf(const Placement& placement,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/simulate/window.h"
@@ -22,6 +23,11 @@ namespace railcast {
 /// angle per firing, in cells of one square degree, that one firing in ten falls below.
 [[nodiscard]] double RaySpacing_rad(const ScanPattern& pattern);
 
+/// The sector of the firings, widened by what the vehicle's motion on its springs, cant and errors
+/// of the mount may turn them: all around if some go steeply up or down or the pattern does not
+/// repeat.
+[[nodiscard]] ScanSector SectorOf(const ScanPattern& pattern, const Transform& vehicle_from_sensor);
+
 /// Chooses the models of the placements in a window, and the form of its chunks. They depend on
 /// nothing but the placement or chunk, the home chunk and the rule: what counts is the least
 /// distance to the places that the sensor can have while the vehicle is in the home chunk.
@@ -33,19 +39,25 @@ class DetailChoice {
   /// finest, k is placement.coarser[k - 1].
   [[nodiscard]] std::size_t LevelOf(const Placement& placement,
                                     const Eigen::Affine3d& window_from_model);
-  /// Whether the rule permits a chunk's coarser surfaces, by the least distance in plan between
-  /// them and the sensor.
-  [[nodiscard]] bool TakesCoarser(const CoarserSurfaces& surfaces,
-                                  const Transform& window_from_chunk) const;
+  /// The level of the coarsest of a chunk's forms that the rule permits, by the least distance in
+  /// plan between its surfaces and the sensor: 0 is the finest, k is forms[k - 1]. Of a chunk that
+  /// no firing can meet, the coarsest of all.
+  [[nodiscard]] std::size_t LevelOf(std::span<const CoarserSurfaces> forms,
+                                    const Transform& window_from_chunk) const;
   /// @pre The rule is not for full detail, and the vehicle's poses are known.
   [[nodiscard]] double Distance_m(const Placement& placement,
                                   const Eigen::Affine3d& window_from_model);
 
  private:
   [[nodiscard]] bool Permits(double ray_spacing_m, double beam_width_m, double distance_m) const;
+  [[nodiscard]] bool TakesCoarser(const CoarserSurfaces& surfaces,
+                                  const Transform& chunk_from_window) const;
+  [[nodiscard]] bool IsInSight(const Eigen::AlignedBox2d& area_m,
+                               const Transform& chunk_from_window) const;
 
   DetailRule rule_;
   std::vector<Vector3> sensors_window_m_;
+  std::vector<Vector3> sights_window_;  ///< The middle of the scan's sector, for each of them.
   std::map<const Model*, Eigen::AlignedBox3d> boxes_;
 };
 

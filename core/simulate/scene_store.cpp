@@ -62,8 +62,8 @@ std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::GetChunk(const ChunkFo
 }
 
 std::shared_ptr<const SceneStore::BuiltChunk> SceneStore::BuildChunk(const ChunkForm& form) const {
-  Chunk made =
-      form.is_coarser ? world_->BuildCoarserChunk(form.chunk) : world_->BuildChunk(form.chunk);
+  Chunk made = form.level > 0 ? world_->BuildCoarserChunk(form.chunk, form.level)
+                              : world_->BuildChunk(form.chunk);
   if (!form.has_tubes) {
     for (Part& part : made.ground.parts) {
       if (part.is_wire) part.mesh = {};

@@ -35,8 +35,8 @@ class SceneStore {
   /// A chunk in one of its forms.
   struct ChunkForm {
     int chunk{};
-    bool has_tubes = true;    ///< Whether `ground` holds the wires as tubes.
-    bool is_coarser = false;  ///< Whether it is World::BuildCoarserChunk()'s.
+    bool has_tubes = true;  ///< Whether `ground` holds the wires as tubes.
+    std::size_t level = 0;  ///< Of World::BuildCoarserChunk(); 0 = the finest.
     auto operator<=>(const ChunkForm&) const = default;
   };
   /// Returns a chunk; builds it, or waits for another thread that is building it, if necessary.

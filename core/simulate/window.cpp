@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/scene/object_pieces.h"
 #include "core/simulate/detail_choice.h"
 
 namespace railcast {
@@ -53,6 +56,20 @@ void AddSwayingWires(const SceneStore::BuiltChunk& chunk,
   }
 }
 
+/// Prepares the models of all objects, on all of the caller's TBB threads.
+void PrepareObjects(SceneStore& store) {
+  std::vector<std::shared_ptr<const Model>> distinct;
+  std::unordered_set<const Model*> known;
+  for (const SceneObject& object : store.world()->objects()) {
+    for (std::size_t i = 0; i < NumPieces(object); ++i) {
+      const std::shared_ptr<const Model>& piece = PieceOf(object, i);
+      if (known.insert(piece.get()).second) distinct.push_back(piece);
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, distinct.size(),
+                    [&](std::size_t i) { static_cast<void>(store.GetModel(distinct[i], true)); });
+}
+
 /// Thrown when a window that is built ahead is not needed any more.
 struct Abandoned {};
 
@@ -74,6 +91,7 @@ WindowSource::WindowSource(std::shared_ptr<SceneStore> store,
                            double range_max_m,
                            const DetailRule& detail)
     : store_(std::move(store)), range_max_m_(range_max_m), detail_(detail) {
+  PrepareObjects(*store_);
   fixed_surfaces_.emplace_back();
   std::vector<std::size_t> standing;
   for (const SceneObject& object : store_->world()->objects()) {
@@ -138,8 +156,45 @@ void WindowSource::AddObjects(int home_chunk,
   }
 }
 
-void WindowSource::AddChunks(int home_chunk,
-                             const Chunks& chunks,
+template <typename Work>
+void WindowSource::ForEach(std::size_t num, Pace pace, const Work& work) {
+  if (pace == Pace::kAwaited) {
+    // Isolated, so that a thread that waits here takes up no frame that needs this window.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, num, work); });
+  } else {
+    for (std::size_t i = 0; i < num; ++i) work(i);
+  }
+}
+
+WindowSource::Models WindowSource::GetModels(int home_chunk,
+                                             const Chunks& chunks,
+                                             Pace pace) const {
+  const World& world = *store_->world();
+  const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
+  DetailChoice choice(world, home_chunk, detail_);
+  std::vector<std::shared_ptr<const Model>> distinct;
+  std::unordered_map<const Model*, std::size_t> index_of;
+  std::vector<std::size_t> indices;  // In `distinct`, of all placements.
+  for (const auto& [index, chunk] : chunks) {
+    const Eigen::Affine3d window_from_chunk =
+        ToAffine(window_from_world * world.WorldFromChunk(index));
+    for (const Placement& placement : chunk->placements) {
+      const std::shared_ptr<const Model>& model = ModelAt(
+          placement, choice.LevelOf(placement, window_from_chunk * placement.chunk_from_model));
+      const auto [entry, is_new] = index_of.try_emplace(model.get(), distinct.size());
+      if (is_new) distinct.push_back(model);
+      indices.push_back(entry->second);
+    }
+  }
+  Models made(distinct.size());
+  ForEach(distinct.size(), pace, [&](std::size_t i) { made[i] = store_->GetModel(distinct[i]); });
+  Models models;
+  for (const std::size_t index : indices) models.push_back(made[index]);
+  return models;
+}
+
+void WindowSource::AddChunks(const Chunks& chunks,
+                             const Models& models,
                              bool wind_blows,
                              Window& window,
                              std::vector<TracePlacement>& placements) const {
@@ -152,7 +207,7 @@ void WindowSource::AddChunks(int home_chunk,
     }
     return first;
   };
-  DetailChoice choice(*store_->world(), home_chunk, detail_);
+  auto model = models.begin();
   for (const auto& [index, chunk] : chunks) {
     const Transform world_from_chunk = store_->world()->WorldFromChunk(index);
     const Transform window_from_chunk = window.window_from_world * world_from_chunk;
@@ -172,10 +227,7 @@ void WindowSource::AddChunks(int home_chunk,
       }
       const Eigen::Affine3d window_from_model =
           ToAffine(window_from_chunk) * placement.chunk_from_model;
-      TracePlacement placed{
-          store_->GetModel(ModelAt(placement, choice.LevelOf(placement, window_from_model))),
-          {window_from_model},
-          it->second};
+      TracePlacement placed{*model++, {window_from_model}, it->second};
       ++number;
       if (wind_blows && placement.sway_height_m > 0.0) {
         window.swaying.trees.push_back(
@@ -203,19 +255,12 @@ WindowSource::Chunks WindowSource::GetChunks(int home_chunk, const Purpose& purp
   const auto get = [&](std::size_t i) {
     if (pace == Pace::kAhead && stopping_) throw Abandoned();
     purpose.progress(num_done, NumSteps(reach.size()));
-    const std::optional<CoarserSurfaces> coarser = world.CoarserSurfacesOf(reach[i]);
-    const bool is_coarser =
-        coarser &&
-        choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(reach[i]));
-    built[i] = store_->GetChunk({reach[i], !purpose.wind_blows, is_coarser});
+    const std::size_t level = choice.LevelOf(world.CoarserSurfacesOf(reach[i]),
+                                             window_from_world * world.WorldFromChunk(reach[i]));
+    built[i] = store_->GetChunk({reach[i], !purpose.wind_blows, level});
     ++num_done;
   };
-  if (pace == Pace::kAwaited) {
-    // Isolated, so that a thread that waits here takes up no frame that needs this window.
-    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, reach.size(), get); });
-  } else {
-    for (std::size_t i = 0; i < reach.size(); ++i) get(i);
-  }
+  ForEach(reach.size(), pace, get);
   Chunks chunks;
   for (std::size_t i = 0; i < reach.size(); ++i) chunks.emplace(reach[i], std::move(built[i]));
   return chunks;
@@ -234,7 +279,7 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   Chunks chunks = GetChunks(home_chunk, purpose, pace);
   const std::size_t num_steps = NumSteps(chunks.size());
   progress(chunks.size(), num_steps);
-  AddChunks(home_chunk, chunks, purpose.wind_blows, *window, placements);
+  AddChunks(chunks, GetModels(home_chunk, chunks, pace), purpose.wind_blows, *window, placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
   if (store_->uses_beams()) window->scene->PrepareBeams();
   progress(num_steps, num_steps);

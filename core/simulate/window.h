@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -45,11 +46,18 @@ struct Window {
   mutable std::shared_ptr<const TraceScene> standing_alone_;
 };
 
+/// The azimuths in the vehicle's frame to which a sensor's firings go.
+struct ScanSector {
+  double middle_rad = 0.0;
+  double half_width_rad = std::numbers::pi;  ///< A right angle or more counts as all around.
+};
+
 /// How coarse the models in a window may be for its sensor; DetailChoice applies it.
 struct DetailRule {
   Transform vehicle_from_sensor = Transform::Identity();
   double ray_spacing_rad = 0.0;  ///< Angle between neighbouring firings; 0 = full detail.
   double beam_width_rad = 0.0;   ///< The lesser divergence; 0 = rays without width.
+  ScanSector sector{};           ///< What no firing can meet may always be coarse.
 };
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
@@ -101,6 +109,8 @@ class WindowSource {
   using Standing = std::shared_ptr<const std::vector<std::size_t>>;
   using Chunks = std::map<int, std::shared_ptr<const SceneStore::BuiltChunk>>;
 
+  using Models = std::vector<std::shared_ptr<const TraceModel>>;
+
   /// What windows are made for.
   struct Purpose {
     Standing standing;
@@ -108,17 +118,22 @@ class WindowSource {
     WindowProgress progress;
   };
 
-  /// Whether a frame waits for a window, whose chunks are then built on all of the caller's TBB
+  /// Whether a frame waits for a window, whose parts are then built on all of the caller's TBB
   /// threads, or it is built ahead by one thread beside the frames.
   enum class Pace { kAwaited, kAhead };
 
+  /// Calls `work(i)` for each i below `num`.
+  template <typename Work>
+  static void ForEach(std::size_t num, Pace pace, const Work& work);
   [[nodiscard]] Chunks GetChunks(int home_chunk, const Purpose& purpose, Pace pace);
   [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk,
                                                     const Purpose& purpose,
                                                     Pace pace);
   void AddObjects(int home_chunk, const std::vector<std::size_t>& standing, Window& window) const;
-  void AddChunks(int home_chunk,
-                 const Chunks& chunks,
+  /// The models in which the placements of all chunks are traced, in their order.
+  [[nodiscard]] Models GetModels(int home_chunk, const Chunks& chunks, Pace pace) const;
+  void AddChunks(const Chunks& chunks,
+                 const Models& models,
                  bool wind_blows,
                  Window& window,
                  std::vector<TracePlacement>& placements) const;

@@ -178,7 +178,7 @@ std::string DetailText(const DetailAudit& audit, const LabelTable& labels) {
   std::string text = ReportLine(
       "detail", "of surfaces, as traced: " + count(audit.traced_surfaces) + " of " +
                     count(audit.full_surfaces) + " triangles; " + count(audit.num_coarser_chunks) +
-                    " of " + count(audit.num_chunks) + " chunks in their coarser form");
+                    " of " + count(audit.num_chunks) + " chunks in coarser forms");
   if (audit.levels.empty()) return text;
   text += ReportLine("", "of plants, as traced: " + count(audit.traced_triangles) + " of " +
                              count(audit.full_triangles) + " triangles");

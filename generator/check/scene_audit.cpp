@@ -86,17 +86,16 @@ DetailAudit AuditDetail(const World& world,
   const int home_chunk = world.HomeChunk(time_ns);
   const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
   DetailChoice choice(world, home_chunk, rule);
-  std::vector<int> coarser_chunks;
+  std::vector<std::pair<int, std::size_t>> coarser_chunks;  // With their levels.
   for (const auto& [index, chunk] : chunks) {
     const Eigen::Affine3d window_from_chunk(
         (window_from_world * world.WorldFromChunk(index)).matrix());
-    const auto coarser = world.CoarserSurfacesOf(index);
-    const bool is_coarser =
-        coarser && choice.TakesCoarser(*coarser, window_from_world * world.WorldFromChunk(index));
+    const std::size_t surface_level = choice.LevelOf(
+        world.CoarserSurfacesOf(index), window_from_world * world.WorldFromChunk(index));
     ++audit.num_chunks;
     audit.full_surfaces += chunk.ground.num_triangles();
-    if (is_coarser) {
-      coarser_chunks.push_back(index);
+    if (surface_level > 0) {
+      coarser_chunks.emplace_back(index, surface_level);
     } else {
       audit.traced_surfaces += chunk.ground.num_triangles();
     }
@@ -115,7 +114,8 @@ DetailAudit AuditDetail(const World& world,
   }
   std::vector<std::size_t> coarser_triangles(coarser_chunks.size());
   oneapi::tbb::parallel_for(std::size_t{0}, coarser_chunks.size(), [&](std::size_t i) {
-    coarser_triangles[i] = world.BuildCoarserChunk(coarser_chunks[i]).ground.num_triangles();
+    const auto& [index, level] = coarser_chunks[i];
+    coarser_triangles[i] = world.BuildCoarserChunk(index, level).ground.num_triangles();
   });
   audit.num_coarser_chunks = coarser_chunks.size();
   for (const std::size_t num_triangles : coarser_triangles) audit.traced_surfaces += num_triangles;

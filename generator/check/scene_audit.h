@@ -51,7 +51,7 @@ struct SceneAudit {
 /// How coarse a window is for a sensor.
 struct DetailAudit {
   std::size_t num_chunks{};          ///< Of which ...
-  std::size_t num_coarser_chunks{};  ///< ... this many are traced in their coarser form.
+  std::size_t num_coarser_chunks{};  ///< ... this many are traced in a coarser form.
   std::size_t full_surfaces{};       ///< Triangles of the chunks' own surfaces in full detail.
   std::size_t traced_surfaces{};     ///< The same as they are traced.
   struct Level {

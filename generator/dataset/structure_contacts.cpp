@@ -68,7 +68,7 @@ const std::vector<StructureContacts::Triangle>& StructureContacts::TrianglesOf(i
   const auto [entry, is_new] = chunks_.try_emplace(chunk);
   if (!is_new) return entry->second;
   // Coarser are ballast, ground and rails alone.
-  const Chunk built = world_->BuildCoarserChunk(chunk);
+  const Chunk built = world_->BuildCoarserChunk(chunk, 1);
   const Eigen::Affine3d world_from_chunk(world_->WorldFromChunk(chunk).matrix());
   AddTriangles(built.ground, world_from_chunk, entry->second);
   for (const Placement& placement : built.placements) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@ namespace railcast {
 namespace {
 
 constexpr int kNumChunks = 8;
+constexpr std::size_t kLevels[] = {1, 2};
 
 /// A line, and the first of the chunks.
 struct Place {
@@ -31,18 +33,19 @@ Eigen::Affine3d Placed(const Transform& transform) {
   return Eigen::Affine3d(transform.matrix());
 }
 
-/// The surfaces of some chunks, every other one in its coarser form, without anything on them.
+/// The surfaces of some chunks, every other one in a coarser form, without anything on them.
 class Seams {
  public:
-  Seams(const Place& place, bool begins_coarse)
+  Seams(const Place& place, bool begins_coarse, std::size_t level)
       : home_(place.home),
         world_(MakeWorld(
             ReadScenario(std::string(RAILCAST_SOURCE_DIR "/scenarios/") + place.scenario))) {
     const Transform window_from_world = world_->WorldFromChunk(home_).inverse();
     std::vector<TracePlacement> placements;
     for (int i = 0; i < kNumChunks; ++i) {
-      const Chunk chunk = (i % 2 == 0) == begins_coarse ? world_->BuildCoarserChunk(home_ + i)
-                                                        : world_->BuildChunk(home_ + i);
+      const Chunk chunk = (i % 2 == 0) == begins_coarse
+                              ? world_->BuildCoarserChunk(home_ + i, level)
+                              : world_->BuildChunk(home_ + i);
       placements.push_back({std::make_shared<TraceModel>(device_, chunk.ground),
                             {Placed(window_from_world * world_->WorldFromChunk(home_ + i))},
                             1});
@@ -98,20 +101,25 @@ class Seams {
 };
 
 TEST(SurfaceSeams, LetNoBeamThroughWhereTheFormOfChunksChanges) {
-  RecordRegime("seams between fine and coarse ground", {"-", "none of 400,000 beams escapes"});
-  for (const bool begins_coarse : {false, true}) {
-    const Seams seams(kDemo, begins_coarse);
-    EXPECT_EQ(seams.CountEscapes(200'000, [&](std::uint64_t beam) { return seams.Aim(beam); }), 0U)
-        << begins_coarse;
+  RecordRegime("seams between fine and coarse ground", {"-", "none of 800,000 beams escapes"});
+  for (const std::size_t level : kLevels) {
+    for (const bool begins_coarse : {false, true}) {
+      const Seams seams(kDemo, begins_coarse, level);
+      EXPECT_EQ(seams.CountEscapes(200'000, [&](std::uint64_t beam) { return seams.Aim(beam); }),
+                0U)
+          << begins_coarse << ' ' << level;
+    }
   }
 }
 
 TEST(SurfaceSeams, LetNoBeamThroughWideGroundInATightCurve) {
-  for (const bool begins_coarse : {false, true}) {
-    const Seams seams(kHills, begins_coarse);
-    EXPECT_EQ(seams.CountEscapes(200'000, [&](std::uint64_t beam) { return seams.AimDown(beam); }),
-              0U)
-        << begins_coarse;
+  for (const std::size_t level : kLevels) {
+    for (const bool begins_coarse : {false, true}) {
+      const Seams seams(kHills, begins_coarse, level);
+      EXPECT_EQ(
+          seams.CountEscapes(200'000, [&](std::uint64_t beam) { return seams.AimDown(beam); }), 0U)
+          << begins_coarse << ' ' << level;
+    }
   }
 }
 

@@ -57,6 +57,9 @@ class RailWorld final : public World {
             std::uint64_t seed);
   ~RailWorld() override;
 
+  /// Makes the plants of which all chunks are planted, as the first BuildChunk() would otherwise.
+  void PreparePlants() const;
+
   /// Returns this world as it is from `from_ns` on if the vehicle changes its speed: it accelerates
   /// at a constant rate to `speed_mps` and then keeps that speed. Its direction does not change.
   /// @pre from_ns >= 0 and not before an earlier change, speed_mps >= 0, acceleration_mps2 > 0
@@ -111,8 +114,8 @@ class RailWorld final : public World {
   [[nodiscard]] std::vector<int> ChunksInReach(int home_chunk, double range_m) const override;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const override;
   [[nodiscard]] Chunk BuildChunk(int chunk) const override;
-  [[nodiscard]] std::optional<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
-  [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override;
+  [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int chunk) const override;
+  [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override;
   [[nodiscard]] const std::vector<SceneObject>& objects() const override;
   [[nodiscard]] Transform WorldFromObject(std::size_t object, std::int64_t time_ns) const override;
   [[nodiscard]] std::vector<Transform> WorldFromPieces(std::size_t object,

@@ -142,13 +142,16 @@ class World {
   [[nodiscard]] virtual std::vector<int> ChunksInReach(int home_chunk, double range_m) const = 0;
   [[nodiscard]] virtual Transform WorldFromChunk(int chunk) const = 0;
   [[nodiscard]] virtual Chunk BuildChunk(int chunk) const = 0;
-  /// What is needed to trace a chunk as BuildCoarserChunk() makes it; absent if it has one form
-  /// only.
-  [[nodiscard]] virtual std::optional<CoarserSurfaces> CoarserSurfacesOf(int /*chunk*/) const {
-    return std::nullopt;
+  /// What is needed to trace a chunk in its coarser forms, each coarser than the one before; empty
+  /// if it has one form only.
+  [[nodiscard]] virtual std::vector<CoarserSurfaces> CoarserSurfacesOf(int /*chunk*/) const {
+    return {};
   }
   /// The chunk with fewer triangles in its `ground`, and with the same placements and wires.
-  [[nodiscard]] virtual Chunk BuildCoarserChunk(int chunk) const { return BuildChunk(chunk); }
+  /// @param level 1 is the first of CoarserSurfacesOf().
+  [[nodiscard]] virtual Chunk BuildCoarserChunk(int chunk, std::size_t /*level*/) const {
+    return BuildChunk(chunk);
+  }
 
   [[nodiscard]] virtual const std::vector<SceneObject>& objects() const = 0;
   [[nodiscard]] virtual Transform WorldFromObject(std::size_t object,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -23,6 +24,9 @@ class SurveyedScene;
 /// (docs/accuracy.md).
 inline constexpr double kChunkOverlap_m = 1e-3;
 
+/// How many coarser forms ballast, ground and rails have. The coarsest is for what no firing meets.
+inline constexpr std::size_t kMostCoarse = 2;
+
 /// Input of every chunk builder. Builders are pure functions of it.
 struct ChunkContext {
   const WorldSpec& spec;
@@ -36,9 +40,9 @@ struct ChunkContext {
   double begin_s_m{};
   double end_s_m{};  ///< Swept surfaces extend kChunkOverlap_m / 2 beyond either end.
   Transform chunk_from_world;
-  /// Whether ballast, ground and rails are built in their coarser form (docs/detail.md), which
-  /// begins and ends with the same points as the finest one.
-  bool is_coarse = false;
+  /// How coarse ballast, ground and rails are built (docs/detail.md), at most kMostCoarse. All
+  /// forms begin and end with the same points as the finest one.
+  std::size_t level = 0;
   /// The shape of the land; null: as high as the formation, and equally wide everywhere.
   const Landform* land = nullptr;
   std::span<const LaidDiamond> diamonds{};

@@ -1,12 +1,17 @@
 #include "core/rail/ground/plant_models.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/units.h"
 #include "core/rail/base/rail_surfaces.h"
@@ -265,29 +270,41 @@ PlantModel MakeSpruce(const TreeForm& form, const RailSurfaces& surfaces, PlantD
 }  // namespace
 
 PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed) {
-  std::uint32_t plant = 0;
-  PlantModels plants;
-  const std::vector<TreeForm> broadleaves = {{"broadleaf_low", 7.5, 1.6, 2.1, 0.10},
-                                             {"broadleaf_high", 11.0, 2.8, 2.3, 0.14}};
-  for (const TreeForm& form : broadleaves) {
-    plants.broadleaves.push_back(MakeBroadleaf(form, surfaces, PlantDice(seed, plant++)));
-  }
-  const std::vector<TreeForm> spruces = {{"spruce_low", 7.0, 0.6, 1.6, 0.09},
-                                         {"spruce_high", 12.0, 1.4, 2.0, 0.15}};
-  for (const TreeForm& form : spruces) {
-    plants.conifers.push_back(MakeSpruce(form, surfaces, PlantDice(seed, plant++)));
-  }
-  for (const char* name : {"grass_a", "grass_b", "grass_c"}) {
-    plants.grass.push_back(MakeGrassPatch(name, surfaces, PlantDice(seed, plant++)));
-  }
   RailSurfaces of_bushes = surfaces;
   of_bushes.leaf = surfaces.bush_leaf;
   of_bushes.bark = surfaces.bush_bark;
-  const std::vector<TreeForm> bushes = {{"bush_low", 1.0, 0.05, 0.6, 0.015},
-                                        {"bush_high", 2.0, 0.1, 1.0, 0.025}};
-  for (const TreeForm& form : bushes) {
-    plants.bushes.push_back(MakeBroadleaf(form, of_bushes, PlantDice(seed, plant++)));
-  }
+  const TreeForm broadleaves[] = {{"broadleaf_low", 7.5, 1.6, 2.1, 0.10},
+                                  {"broadleaf_high", 11.0, 2.8, 2.3, 0.14}};
+  const TreeForm spruces[] = {{"spruce_low", 7.0, 0.6, 1.6, 0.09},
+                              {"spruce_high", 12.0, 1.4, 2.0, 0.15}};
+  const TreeForm bushes[] = {{"bush_low", 1.0, 0.05, 0.6, 0.015},
+                             {"bush_high", 2.0, 0.1, 1.0, 0.025}};
+  const char* const grass[] = {"grass_a", "grass_b", "grass_c"};
+  PlantModels plants{
+      std::vector<PlantModel>(std::size(broadleaves)), std::vector<PlantModel>(std::size(spruces)),
+      std::vector<PlantModel>(std::size(grass)), std::vector<PlantModel>(std::size(bushes))};
+  std::uint32_t plant = 0;
+  std::vector<std::function<void()>> works;
+  const auto make = [&](std::vector<PlantModel>& kind, const auto& make_one) {
+    for (std::size_t i = 0; i < kind.size(); ++i) {
+      works.emplace_back(
+          [&kind, i, dice = PlantDice(seed, plant++), make_one] { kind[i] = make_one(i, dice); });
+    }
+  };
+  make(plants.broadleaves, [&](std::size_t i, const PlantDice& dice) {
+    return MakeBroadleaf(broadleaves[i], surfaces, dice);
+  });
+  make(plants.conifers, [&](std::size_t i, const PlantDice& dice) {
+    return MakeSpruce(spruces[i], surfaces, dice);
+  });
+  make(plants.grass, [&](std::size_t i, const PlantDice& dice) {
+    return MakeGrassPatch(grass[i], surfaces, dice);
+  });
+  make(plants.bushes, [&](std::size_t i, const PlantDice& dice) {
+    return MakeBroadleaf(bushes[i], of_bushes, dice);
+  });
+  tbb::parallel_for(
+      std::size_t{0}, works.size(), [&](std::size_t i) { works[i](); }, tbb::simple_partitioner{});
   return plants;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/collaborative_call_once.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -80,6 +82,27 @@ struct PlantModels {
 /// Coarser trees have 1/2 to 1/16 of the leaves, which are larger.
 ///
 /// Of vertical beams, 18 to 26 % pass through the crowns (measured); exp(-G index) is 20 %.
+///
+/// Plants are made on all threads of the caller's TBB arena.
 [[nodiscard]] PlantModels MakePlantModels(const RailSurfaces& surfaces, std::uint64_t seed);
+
+/// The plants of a world, made by whoever needs them first: a world that is only looked into has
+/// none. Whoever needs them meanwhile helps to make them. Thread-safe.
+class PlantsOnDemand {
+ public:
+  PlantsOnDemand(const RailSurfaces& surfaces, std::uint64_t seed)
+      : surfaces_(surfaces), seed_(seed) {}
+
+  [[nodiscard]] const PlantModels& Get() const {
+    tbb::collaborative_call_once(once_, [this] { plants_ = MakePlantModels(surfaces_, seed_); });
+    return plants_;
+  }
+
+ private:
+  RailSurfaces surfaces_;
+  std::uint64_t seed_;
+  mutable tbb::collaborative_once_flag once_;
+  mutable PlantModels plants_;
+};
 
 }  // namespace railcast

@@ -28,12 +28,14 @@ constexpr double kFarReach_m = 100.0;
 constexpr double kFarAcross_m = 8.0;
 constexpr double kFarAlong_m = 4.0;
 
-/// Of the coarser form: the widest cells across. Where ballast may cover them, all are kept.
+/// Of the coarser forms: the widest cells across. Where ballast may cover them, all are kept.
 constexpr double kWholeReach_m = 3.0;
 /// A shorter roughness would be lost between rows 1 m apart.
 constexpr double kShortWavelength_m = 2.0;
-constexpr double kCoarseNearAcross_m = 1.1;
-constexpr double kCoarseGroundAcross_m = 2.1;
+constexpr double kCoarseNearAcross_m[kMostCoarse] = {1.1, 2.1};
+constexpr double kCoarseGroundAcross_m[kMostCoarse] = {2.1, 4.2};
+/// Of the coarsest form: the distance of its rows.
+constexpr double kCoarsestAlong_m = 5.0;
 /// Cuttings and embankments need their edges: the lesser cells reach farther there.
 constexpr double kShapedReach_m = 25.0;
 
@@ -87,12 +89,14 @@ std::vector<double> LateralLines(const ChunkContext& context, bool is_wide) {
   return lines_m;
 }
 
-/// Rows of the coarser form. Beams at grazing incidence see the slopes along the track, which must
+/// Rows of the coarser forms. Beams at grazing incidence see the slopes along the track, which must
 /// stay. Between two points of its lattice, roughness rises as an S (NoiseField), which is nearly
 /// straight between its quarters: rows there keep the steep middles and the level rest. A longer
 /// lattice is resolved by any rows a metre apart, a shorter one by none but the finest.
-std::vector<double> CoarseStations(const ChainageRange& range, double wavelength_m) {
+std::vector<double> CoarseStations(const ChainageRange& range, const ChunkContext& context) {
   constexpr double kCoarseAlong_m = 1.0;
+  const double wavelength_m = context.spec.terrain.roughness_wavelength_m;
+  if (context.level == kMostCoarse) return GridStations(range, kCoarsestAlong_m);
   if (wavelength_m < kShortWavelength_m) return GridStations(range, kGridAlong_m);
   if (wavelength_m >= 4.0 * kCoarseAlong_m) return GridStations(range, kCoarseAlong_m);
   const double quarter_m = 0.25 * wavelength_m;
@@ -208,7 +212,8 @@ class GroundGrid {
       // Only the finest grid resolves a roughness as short as this, across as along.
       const bool is_short = context_.spec.terrain.roughness_wavelength_m < kShortWavelength_m;
       if (beside_m < (is_short ? kFineReach_m : kWholeReach_m)) return 0.0;
-      return beside_m < near_reach_m ? kCoarseNearAcross_m : kCoarseGroundAcross_m;
+      return (beside_m < near_reach_m ? kCoarseNearAcross_m
+                                      : kCoarseGroundAcross_m)[context_.level - 1];
     };
     const std::span<const double> lines_m(columns_.lines_m().data() + first_, num_columns_);
     return MeshOfCoarseGrid(
@@ -366,10 +371,9 @@ void AddTerrain(const ChunkContext& context, Chunk& chunk) {
   const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
                             .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
   const GroundGrid grid(context);
-  const bool is_coarse = context.is_coarse && !grid.has_steps();
+  const bool is_coarse = context.level > 0 && !grid.has_steps();
   const std::vector<double> stations_m =
-      is_coarse ? CoarseStations(range, context.spec.terrain.roughness_wavelength_m)
-                : GridStations(range, kGridAlong_m);
+      is_coarse ? CoarseStations(range, context) : GridStations(range, kGridAlong_m);
   Mesh ground = is_coarse ? grid.CoarseMesh(stations_m) : grid.WholeMesh(stations_m);
   ground.Append(grid.FarMesh(stations_m));
   AddGround(context, ground, chunk);

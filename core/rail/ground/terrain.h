@@ -21,11 +21,12 @@ namespace railcast {
 ///
 /// Behind retaining walls the ground is as high as their tops (retained_ground.h). The step is
 /// inside the wall, in cells of its own; chunks near such walls have all columns in their coarser
-/// form.
+/// forms.
 ///
-/// In the coarser form, inner rows are 1 m apart, or half the wavelength of the roughness if that
+/// In the coarser forms, inner rows are 1 m apart, or half the wavelength of the roughness if that
 /// is from 2 to 4 m; below, they are those of the finest, and so are the columns up to 10 m from
-/// the tracks. Cells are up to 2 m wide across.
+/// the tracks. Cells are up to 2 m wide across. The coarsest form has rows 5 m apart and cells up
+/// to 4 m wide.
 void AddTerrain(const ChunkContext& context, Chunk& chunk);
 
 }  // namespace railcast

@@ -22,9 +22,12 @@ namespace {
 constexpr double kBallastGridAlong_m = kSleeperSpacing_m / 3.0;
 constexpr double kGridAcross_m = 0.16;
 
-/// Of the coarser form: the widest cells across, and how far their mean height may deviate.
-constexpr double kCoarseBallastAcross_m = 3.1 * kGridAcross_m;
-constexpr double kCoarseBallastTolerance_m = 0.005;
+/// Of the coarser forms: the widest cells across, and how far their mean height may deviate.
+constexpr double kCoarseBallastAcross_m[kMostCoarse] = {3.1 * kGridAcross_m, 6.1 * kGridAcross_m};
+constexpr double kCoarseBallastTolerances_m[kMostCoarse] = {0.005, 0.05};
+
+/// Of the coarsest form: the distance of its rows, as a multiple of that of the others.
+constexpr double kCoarsestRows = 15.0;
 
 /// Standard deviation of the heights: sigma_z of docs/physics.md 7.1.
 constexpr double kGrainSigma_m = 0.020;
@@ -83,7 +86,9 @@ class BallastSheet {
         grain_(context.seed, RandomUse::kBallastRoughness, 0),
         stations_m_(GridStations({.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
                                   .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m},
-                                 kBallastGridAlong_m)) {}
+                                 context.level < kMostCoarse
+                                     ? kBallastGridAlong_m
+                                     : kCoarsestRows * kBallastGridAlong_m)) {}
 
   [[nodiscard]] std::size_t num_columns() const {
     return static_cast<std::size_t>(columns_.last - columns_.first + 1);
@@ -106,7 +111,7 @@ class BallastSheet {
             ballast_m - formation_m > lowest_m_};
   }
 
-  /// The columns of the coarser form: as far apart as kCoarseBallastAcross_m, but for those that
+  /// The columns of a coarser form: as far apart as kCoarseBallastAcross_m, but for those that
   /// the shape of the ballast needs, at and between the sleepers.
   [[nodiscard]] std::vector<std::size_t> CoarseColumns() const {
     std::vector<double> places_m;
@@ -122,8 +127,8 @@ class BallastSheet {
             std::max(section.BallastHeight_m(d_m), section.FormationHeight_m(d_m) + lowest_m_));
       }
     }
-    return ColumnsAlong(places_m, profiles_m, kCoarseBallastTolerance_m,
-                        [](double) { return kCoarseBallastAcross_m; });
+    return ColumnsAlong(places_m, profiles_m, kCoarseBallastTolerances_m[context_.level - 1],
+                        [this](double) { return kCoarseBallastAcross_m[context_.level - 1]; });
   }
 
  private:
@@ -189,11 +194,11 @@ Mesh CoarseBallast(const ChunkContext& context, const BallastSheet& sheet) {
 
 void AddBallast(const ChunkContext& context, Chunk& chunk) {
   const BallastSheet sheet(context);
-  // The coarser form has straight columns, which tracks that wander across them do not permit.
+  // The coarser forms have straight columns, which tracks that wander across them do not permit.
   const bool is_straight = std::ranges::all_of(context.tracks, [&](const TrackCourse& track) {
     return track.IsLevelIn(context.begin_s_m, context.end_s_m);
   });
-  const bool is_coarse = context.is_coarse && is_straight && sheet.stations_m().size() > 2;
+  const bool is_coarse = context.level > 0 && is_straight && sheet.stations_m().size() > 2;
   const Mesh mesh = is_coarse ? CoarseBallast(context, sheet) : WholeBallast(context, sheet);
   if (!mesh.triangles.empty()) MeshOf(context.surfaces.ballast, chunk.ground).Append(mesh);
 }

@@ -62,10 +62,9 @@ void AddDrive(const ChunkContext& context,
   MeshOf(context.surfaces.turnouts.rail, chunk.ground).Append(bar, chunk_from_track);
 }
 
-constexpr double kRailTolerance_m = 1e-3;
-constexpr double kLongestRailChord_m = 2.5;
-constexpr double kCoarseRailTolerance_m = 4e-3;
-constexpr double kLongestCoarseRailChord_m = 5.0;
+/// By level.
+constexpr double kRailTolerances_m[1 + kMostCoarse] = {1e-3, 4e-3, 16e-3};
+constexpr double kLongestRailChords_m[1 + kMostCoarse] = {2.5, 5.0, 10.0};
 
 void AddRail(const ChunkContext& context,
              const TrackCourse& track,
@@ -73,8 +72,8 @@ void AddRail(const ChunkContext& context,
              const ChainageRange& range,
              Chunk& chunk) {
   std::vector<RailStation> stations;
-  const double tolerance_m = context.is_coarse ? kCoarseRailTolerance_m : kRailTolerance_m;
-  const double chord_m = context.is_coarse ? kLongestCoarseRailChord_m : kLongestRailChord_m;
+  const double tolerance_m = kRailTolerances_m[context.level];
+  const double chord_m = kLongestRailChords_m[context.level];
   const double shift_m = RailShift_m(context.spec.alignment);
   for (const double s_m : SweepStations(context.alignment, range, track, tolerance_m, chord_m)) {
     stations.push_back({context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m) *

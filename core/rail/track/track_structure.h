@@ -32,16 +32,17 @@ void AddDiamonds(const ChunkContext& context, Chunk& chunk);
 /// and finer grain is part of the material's roughness. It takes 36 k triangles per 100 m of single
 /// track. The sheet ends well below the ground.
 ///
-/// In the coarser form, cells are up to 0.48 m wide across, where that keeps the mean height within
-/// 5 mm, and as long along as ever: what beams along the track see stays.
+/// In the first coarser form, cells are up to 0.48 m wide across, where that keeps the mean height
+/// within 5 mm, and as long along as ever: what beams along the track see stays. In the second,
+/// they are up to 0.96 m wide and 3 m long.
 void AddBallast(const ChunkContext& context, Chunk& chunk);
 
 /// Adds every track of the chunk: rails, sleepers and ballast, all with the line's cant.
 ///
 /// - Rails: the 60E1 section (RailSection) swept along each track's own frame. Chords deviate from
 ///   the true line by at most 1 mm and are no longer than 2.5 m, so that a kink of 1:400 in a cant
-///   ramp is also met within 1 mm; in the coarser form 4 mm and 5 m. The running band is a separate
-///   surface. Rails are closed where the track ends.
+///   ramp is also met within 1 mm; in the first coarser form 4 mm and 5 m, in the second 16 mm and
+///   10 m. The running band is a separate surface. Rails are closed where the track ends.
 /// - Sleepers: placements at every integer multiple of 0.6 m of chainage (of the axis, for all
 ///   tracks).
 /// - Ballast: AddBallast.

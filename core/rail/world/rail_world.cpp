@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,12 +45,6 @@ namespace {
 // Maximum extent of tree crowns and cantilevers beyond the ground of their chunk.
 constexpr double kOverhang_m = 8.0;
 
-// Without any, their models are not made, which takes longer than a chunk.
-bool HasPlants(const VegetationSpec& vegetation) {
-  return vegetation.trees_per_hectare > 0.0 || vegetation.bushes_per_hectare > 0.0 ||
-         vegetation.grass;
-}
-
 }  // namespace
 
 /// The part of the world that commands cannot change.
@@ -70,8 +63,7 @@ struct RailWorld::Line {
   CatenaryPlan catenary_plan;
   TrackModels track_models;
   std::shared_ptr<const Model> mast_model;
-  /// Made by whoever needs them first: a world that is only looked into has no plants.
-  std::shared_future<PlantModels> plants;
+  std::unique_ptr<const PlantsOnDemand> plants;
   Landform land;
   std::optional<Ride> ride;                     ///< Of the sensor's vehicle.
   std::shared_ptr<const SurveyedScene> survey;  ///< Null: the line is built from the spec.
@@ -92,6 +84,10 @@ struct RailWorld::Line {
             .land = &land,
             .diamonds = diamonds,
             .survey = survey.get()};
+  }
+  [[nodiscard]] bool has_plants() const {
+    const VegetationSpec& spec = world.vegetation;
+    return !survey && (spec.grass || spec.trees_per_hectare > 0.0 || spec.bushes_per_hectare > 0.0);
   }
   [[nodiscard]] static ClearedAreas UnballastedAbout(const ChunkContext& context) {
     // Cross-sections beyond are few.
@@ -116,7 +112,7 @@ struct RailWorld::Line {
                    AddTracks(context, track_models, built);
                    AddCatenary(context, catenary_plan, mast_model, built);
                    AddStructures(context, built);
-                   if (HasPlants(world.vegetation)) AddVegetation(context, plants.get(), built);
+                   if (has_plants()) AddVegetation(context, plants->Get(), built);
                  });
     return built;
   }
@@ -186,7 +182,7 @@ RailWorld::RailWorld(const WorldSpec& world,
            std::move(network), std::move(turnouts), std::move(diamonds), grid,
            std::move(*draft.catenary_plan), MakeTrackModels(world.alignment, surfaces),
            std::make_shared<const Model>(MakeMast(world.catenary, surfaces)),
-           std::async(std::launch::deferred, MakePlantModels, surfaces, seed).share(),
+           std::make_unique<const PlantsOnDemand>(surfaces, seed),
            Landform(world.terrain, std::move(*draft.strip_width), std::move(draft.elevation), seed),
            RideOf(vehicle, world.seed), std::move(draft.survey), std::move(surveyed)});
 
@@ -229,6 +225,10 @@ RailWorld::RailWorld(const WorldSpec& world,
 }
 
 RailWorld::~RailWorld() = default;
+
+void RailWorld::PreparePlants() const {
+  if (line_->has_plants()) static_cast<void>(line_->plants->Get());
+}
 
 std::shared_ptr<const RailWorld> RailWorld::WithVehicleSpeed(std::int64_t from_ns,
                                                              double speed_mps,
@@ -442,14 +442,14 @@ Chunk RailWorld::BuildChunk(int chunk) const {
   return line_->Build(line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse()));
 }
 
-Chunk RailWorld::BuildCoarserChunk(int chunk) const {
+Chunk RailWorld::BuildCoarserChunk(int chunk, std::size_t level) const {
   ChunkContext context = line_->ContextOf(chunk, line_->grid.WorldFromChunk(chunk).inverse());
-  context.is_coarse = true;
+  context.level = level;
   return line_->Build(context);
 }
 
-std::optional<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
-  if (line_->survey) return std::nullopt;
+std::vector<CoarserSurfaces> RailWorld::CoarserSurfacesOf(int chunk) const {
+  if (line_->survey) return {};
   return CoarserSurfacesBetween({line_->grid.BeginOf(chunk), line_->grid.EndOf(chunk)},
                                 line_->alignment, line_->land.width(),
                                 line_->grid.WorldFromChunk(chunk).inverse());

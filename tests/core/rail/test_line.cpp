@@ -55,10 +55,10 @@ ChunkContext TestLine::Context(int chunk) const {
           .diamonds = diamonds_};
 }
 
-Chunk TestLine::Build(int chunk, bool is_coarse) const {
+Chunk TestLine::Build(int chunk, std::size_t level) const {
   Chunk built;
   ChunkContext context = Context(chunk);
-  context.is_coarse = is_coarse;
+  context.level = level;
   AddTracks(context, models_, built);
   AddCatenary(context, plan_, mast_model_, built);
   AddTerrain(context, built);

@@ -33,7 +33,7 @@ class TestLine {
   [[nodiscard]] ChunkContext Context(int chunk) const;
   [[nodiscard]] Transform WorldFromChunk(int chunk) const;
   /// Builds tracks, contact line, ground and structures of a chunk.
-  [[nodiscard]] Chunk Build(int chunk, bool is_coarse = false) const;
+  [[nodiscard]] Chunk Build(int chunk, std::size_t level = 0) const;
 
  private:
   WorldSpec spec_;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -102,11 +104,20 @@ CoarserSurfaces TestSurface() {
           .sight_angle_rad = RadFromDeg(45.0)};
 }
 
-bool TakesSurfaceAt(const DetailRule& rule, double x_m, double y_m = 0.0, double yaw_deg = 0.0) {
+/// With a second form for rays 0.08 m apart.
+std::size_t SurfaceLevelAt(const DetailRule& rule,
+                           double x_m,
+                           double y_m = 0.0,
+                           double yaw_deg = 0.0) {
+  std::vector<CoarserSurfaces> forms(2, TestSurface());
+  forms[1].ray_spacing_m = 0.08;
   return DetailChoice(TestWay(), 0, rule)
-      .TakesCoarser(TestSurface(),
-                    MakeTransform(RotationFromYawPitchRoll(RadFromDeg(yaw_deg), 0.0, 0.0),
-                                  Vector3(x_m, y_m, 30.0)));
+      .LevelOf(forms, MakeTransform(RotationFromYawPitchRoll(RadFromDeg(yaw_deg), 0.0, 0.0),
+                                    Vector3(x_m, y_m, 30.0)));
+}
+
+bool TakesSurfaceAt(const DetailRule& rule, double x_m, double y_m = 0.0, double yaw_deg = 0.0) {
+  return SurfaceLevelAt(rule, x_m, y_m, yaw_deg) > 0;
 }
 
 TEST(DetailChoice, TakesTheCoarserFormOfAChunkByItsNearestPointInPlan) {
@@ -126,9 +137,32 @@ TEST(DetailChoice, TakesTheCoarserFormOnlyOfChunksThatAreSeenAlongTheTrack) {
   EXPECT_TRUE(TakesSurfaceAt(Rays(), 200.0, 151.0, 20.0));
   EXPECT_FALSE(TakesSurfaceAt(Rays(), 400.0, 0.0, 90.0));
   EXPECT_FALSE(TakesSurfaceAt({}, 1000.0));
-  EXPECT_FALSE(DetailChoice(SimpleWorld{}, 0, Rays())
-                   .TakesCoarser(TestSurface(), MakeTransform(Eigen::Matrix3d::Identity(),
-                                                              Vector3(1000.0, 0.0, 0.0))));
+  EXPECT_EQ(DetailChoice(SimpleWorld{}, 0, Rays())
+                .LevelOf(std::vector{TestSurface()},
+                         MakeTransform(Eigen::Matrix3d::Identity(), Vector3(1000.0, 0.0, 0.0))),
+            0U);
+}
+
+TEST(DetailChoice, TakesTheCoarsestFormOfAChunkThatTheSpacingOfTheRaysPermits) {
+  EXPECT_EQ(SurfaceLevelAt(Rays(), 50.0 + kHalfLength_m + 19.9), 1U);
+  EXPECT_EQ(SurfaceLevelAt(Rays(), 50.0 + kHalfLength_m + 20.1), 2U);
+}
+
+// The chunk is 160 m wide, and the vehicle moves along x from 0 to 50 m.
+TEST(DetailChoice, TakesTheCoarsestFormOfAChunkThatNoFiringMeets) {
+  DetailRule ahead = Rays();
+  ahead.sector.half_width_rad = RadFromDeg(30.0);
+  EXPECT_EQ(SurfaceLevelAt(ahead, -kHalfLength_m - 0.1), 2U);
+  EXPECT_EQ(SurfaceLevelAt(ahead, -kHalfLength_m + 0.1), 0U);
+  EXPECT_EQ(SurfaceLevelAt(ahead, 50.0 + kHalfLength_m), 0U);
+  // Seen from x = 0, 30 degrees to the left are 58 m to the left at x = 100 m.
+  EXPECT_EQ(SurfaceLevelAt(ahead, 100.0 - kHalfLength_m, 80.0 + 57.0), 0U);
+  EXPECT_EQ(SurfaceLevelAt(ahead, 100.0 - kHalfLength_m, 80.0 + 58.0), 2U);
+  EXPECT_EQ(SurfaceLevelAt(ahead, 100.0 - kHalfLength_m, -80.0 - 58.0), 2U);
+  DetailRule back = ahead;
+  back.sector.middle_rad = RadFromDeg(180.0);
+  EXPECT_EQ(SurfaceLevelAt(back, 50.0 + kHalfLength_m + 0.1), 2U);
+  EXPECT_EQ(SurfaceLevelAt(back, -kHalfLength_m - 0.1), 0U);
 }
 
 ScanPattern Raster(double resolution_deg) {
@@ -136,6 +170,23 @@ ScanPattern Raster(double resolution_deg) {
                            .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
                                                  .vertical_fov_deg = 30.0,
                                                  .angular_resolution_deg = resolution_deg}});
+}
+
+TEST(SectorOf, HoldsTheFiringsWithAMargin) {
+  const ScanSector ahead = SectorOf(Raster(0.25), Transform::Identity());
+  EXPECT_NEAR(std::remainder(ahead.middle_rad, 2.0 * std::numbers::pi), 0.0, RadFromDeg(1.0));
+  EXPECT_NEAR(DegFromRad(ahead.half_width_rad), 30.0 + 5.0, 1.0);
+  const ScanSector left = SectorOf(
+      Raster(0.25), MakeTransform(RotationFromYawPitchRoll(RadFromDeg(100.0), RadFromDeg(5.0), 0.0),
+                                  Vector3::Zero()));
+  EXPECT_NEAR(DegFromRad(std::remainder(left.middle_rad, 2.0 * std::numbers::pi)), 100.0, 1.0);
+}
+
+TEST(SectorOf, IsAllAroundForFiringsThatGoSteeplyDown) {
+  const ScanSector down = SectorOf(
+      Raster(0.25),
+      MakeTransform(RotationFromYawPitchRoll(0.0, RadFromDeg(20.0), 0.0), Vector3::Zero()));
+  EXPECT_DOUBLE_EQ(down.half_width_rad, std::numbers::pi);
 }
 
 TEST(RaySpacing, IsTheResolutionOfARaster) {

@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/units.h"
 #include "core/scene/shapes.h"
 #include "core/simulate/frame_scene.h"
 #include "tests/support/analytic_meshes.h"
@@ -45,6 +47,7 @@ class LineWorld final : public World {
   std::atomic<int> delay_ms = 0;
   mutable std::atomic<int> num_built[kNumChunks] = {};
   mutable std::atomic<int> num_coarser[kNumChunks] = {};  ///< Not counted in `num_built`.
+  mutable std::atomic<int> num_coarsest[kNumChunks] = {};
   mutable std::atomic<int> num_windows = 0;
   mutable std::weak_ptr<const Model> tree_of_chunk_0;
 
@@ -88,16 +91,19 @@ class LineWorld final : public World {
     }
     return poses;
   }
-  [[nodiscard]] std::optional<CoarserSurfaces> CoarserSurfacesOf(int) const override {
-    if (!has_coarser_chunks) return std::nullopt;
-    return CoarserSurfaces{.area_m = {Eigen::Vector2d(-0.5 * kChunkLength_m, -10.0),
-                                      Eigen::Vector2d(0.5 * kChunkLength_m, 10.0)},
-                           .ray_spacing_m = 0.04,
-                           .beam_width_m = 0.0,
-                           .sight_angle_rad = 0.5};
+  [[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesOf(int) const override {
+    if (!has_coarser_chunks) return {};
+    CoarserSurfaces coarser{.area_m = {Eigen::Vector2d(-0.5 * kChunkLength_m, -10.0),
+                                       Eigen::Vector2d(0.5 * kChunkLength_m, 10.0)},
+                            .ray_spacing_m = 0.04,
+                            .beam_width_m = 0.0,
+                            .sight_angle_rad = 0.5};
+    CoarserSurfaces coarsest = coarser;
+    coarsest.ray_spacing_m = 1.0;
+    return {coarser, coarsest};
   }
-  [[nodiscard]] Chunk BuildCoarserChunk(int chunk) const override {
-    ++num_coarser[chunk];
+  [[nodiscard]] Chunk BuildCoarserChunk(int chunk, std::size_t level) const override {
+    ++(level == 1 ? num_coarser : num_coarsest)[chunk];
     return {{"coarser ground", {{MakeFloor(-2.0F, 25.0F), 1, 1}}}, {}};
   }
   [[nodiscard]] const std::vector<SceneObject>& objects() const override { return objects_; }
@@ -349,6 +355,28 @@ TEST(WindowSource, TakesTheCoarserFormOfChunksFarFromTheHomeChunk) {
   for (const int chunk : {10, 11}) EXPECT_EQ(built(chunk), std::pair(1, 0)) << chunk;
   for (const int chunk : {9, 12}) EXPECT_EQ(built(chunk), std::pair(1, 1)) << chunk;
   EXPECT_EQ(built(13), std::pair(0, 1));
+}
+
+TEST(WindowSource, TakesTheCoarsestFormOfChunksThatNoFiringMeets) {
+  const auto world = std::make_shared<LineWorld>();
+  world->has_coarser_chunks = true;
+  DetailRule ahead{.vehicle_from_sensor = Transform::Identity(), .ray_spacing_rad = 0.04 / 49.0};
+  ahead.sector = {.middle_rad = 0.0, .half_width_rad = RadFromDeg(30.0)};
+  WindowSource windows(std::make_shared<SceneStore>(world, TestMaterials()), kRange_m, ahead);
+  static_cast<void>(windows.Get(10));
+  const auto built = [&](int chunk) {
+    return std::array{world->num_built[chunk].load(), world->num_coarser[chunk].load(),
+                      world->num_coarsest[chunk].load()};
+  };
+  const std::array in_full{1, 0, 0};
+  const std::array coarser{0, 1, 0};
+  const std::array coarsest{0, 0, 1};
+  EXPECT_EQ(built(8), coarsest);
+  // The sensor at the beginning of its chunk is above the end of this one.
+  EXPECT_EQ(built(9), coarsest);
+  EXPECT_EQ(built(10), in_full);
+  EXPECT_EQ(built(11), in_full);
+  EXPECT_EQ(built(12), coarser);
 }
 
 TEST(SceneStore, BuildsChunksOnceForSensorsOfDifferentReach) {

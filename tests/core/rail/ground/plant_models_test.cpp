@@ -1,6 +1,7 @@
 #include "core/rail/ground/plant_models.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -304,6 +305,18 @@ TEST_F(PlantModelsTest, DependOnTheSeedAlone) {
   const auto& vertices = plants_.conifers[0].model->parts[1].mesh.vertices;
   EXPECT_EQ(vertices, again.conifers[0].model->parts[1].mesh.vertices);
   EXPECT_NE(vertices, other.conifers[0].model->parts[1].mesh.vertices);
+}
+
+TEST(PlantsOnDemand, AreMadeOnceForAllThreads) {
+  const PlantsOnDemand plants(TestSurfaces(), 42);
+  std::vector<const Model*> trees(8);
+  tbb::parallel_for(
+      std::size_t{0}, trees.size(),
+      [&](std::size_t i) { trees[i] = plants.Get().broadleaves[0].model.get(); },
+      tbb::simple_partitioner{});
+  EXPECT_EQ(std::ranges::count(trees, trees[0]), 8);
+  EXPECT_EQ(trees[0]->parts[1].mesh.vertices,
+            MakePlantModels(TestSurfaces(), 42).broadleaves[0].model->parts[1].mesh.vertices);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ WorldSpec TightBend() {
 
 Mesh GroundMesh(const TestLine& line, int chunk_index, bool is_coarse) {
   ChunkContext context = line.Context(chunk_index);
-  context.is_coarse = is_coarse;
+  context.level = is_coarse ? 1 : 0;
   Chunk chunk;
   AddTerrain(context, chunk);
   return MeshOfSurface(chunk, line.surfaces().ground);
