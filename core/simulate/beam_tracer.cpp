@@ -70,7 +70,7 @@ void BeamTracer::AimCenters(const CastFrame& frame,
                             Work& work) const {
   RayTile& rays = work.rays;
   DetectTile& first = work.echoes.first;
-  tiles.Aim(tile, frame.poses, static_cast<float>(spec_.range_max_m), rays);
+  tiles.Aim(tile, frame.poses, range_max_m(), rays);
   first.frame = frame.index;
   tiles.Describe(tile, first);
   if (has_wide_beams()) kernels_.pattern_turns(first, spec_.seed, work.turns);
@@ -98,8 +98,7 @@ void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& 
   if (beams.screens != nullptr) {
     beams.screens->Meet(work.echoes.first.firing, work.echoes.first.num_rays, rays);
   }
-  const auto range_max_m = static_cast<float>(spec_.range_max_m);
-  for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m : range_m;
+  for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m() : range_m;
 }
 
 void BeamTracer::Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const {
@@ -140,7 +139,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
                         .detector = detector_,
                         .mirrors = frame.mirrors ? &*frame.mirrors : nullptr,
                         .screens = frame.screens};
-  const bool is_wide = HasFootprint(spec_) || spec_.effects.thin_conductors;
+  const bool is_wide = !casts_all_centers();
   if (is_wide) {
     work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);
   }

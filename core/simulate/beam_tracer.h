@@ -94,6 +94,12 @@ class BeamTracer {
   [[nodiscard]] bool has_beams() const { return is_physical_; }
   /// Whether surfaces are met by beams with a width.
   [[nodiscard]] bool has_wide_beams() const { return HasFootprint(spec_); }
+  /// Whether MakeEchoes() casts the central rays of all firings at all surfaces, so that it leaves
+  /// in `work.rays` what each of them meets first.
+  [[nodiscard]] bool casts_all_centers() const {
+    return !HasFootprint(spec_) && !spec_.effects.thin_conductors;
+  }
+  [[nodiscard]] float range_max_m() const { return static_cast<float>(spec_.range_max_m); }
   /// Whether it passes beams to RayCaster::CastBeam().
   [[nodiscard]] bool casts_beams() const {
     return HasFootprint(spec_) && !spec_.effects.dense_footprint;

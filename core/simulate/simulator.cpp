@@ -27,6 +27,7 @@
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
+#include "core/simulate/story_echoes.h"
 #include "core/simulate/velocity_meter.h"
 #include "core/simulate/view_counter.h"
 
@@ -48,30 +49,6 @@ CastFrame CastOf(const FrameScene& scene,
   cast.takes_no_rays = true;
   if (scene.motion) cast.motion = &*scene.motion;
   return cast;
-}
-
-void TellEchoes(const std::vector<Surface>& surfaces,
-                const ReturnRule& rule,
-                std::size_t beam,
-                EchoTiles& echoes,
-                FiringStory& story) {
-  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  const auto returns = ReturnsOf(rule, echoes, beam);
-  for (const auto& [tile, lane] : EchoesOf(echoes, beam)) {
-    const bool is_clutter = tile.clutter[lane] != kNoClutter;
-    story.echoes.push_back(
-        {.label = is_clutter ? tile.clutter[lane] : surfaces[tile.surface[lane]].label,
-         .true_range_m = tile.true_range_m[lane],
-         .range_m = tile.range_m[lane],
-         .power_ratio = tile.power_ratio[lane],
-         .footprint_share = tile.surface[lane] != 0 ? tile.share[lane] : kNaN,
-         .outcome = static_cast<Outcome>(tile.outcome[lane]),
-         .slot = {}});
-    for (std::uint32_t r = 0; r < returns.size(); ++r) {
-      const bool is_this = &returns[r].tile == &tile && returns[r].lane == lane;
-      if (is_this) story.echoes.back().slot = story.slot + r;
-    }
-  }
 }
 
 void CheckSimulatorSpec(const SimulatorSpec& spec, const std::vector<Material>& materials) {
@@ -149,12 +126,22 @@ struct Simulator::Parts {
   }
   void UseSpec();
   /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
-  void ForAllEchoes(const CastFrame& cast, const FiringTiles& firings, const EchoUse& use);
+  /// @param views Receives what every firing sees; may be null.
+  void ForAllEchoes(const CastFrame& cast,
+                    const FiringTiles& firings,
+                    ViewCounter* views,
+                    const EchoUse& use);
   [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast,
                                                         const FiringTiles& firings);
-  void Scan(const CastFrame& cast, const FiringTiles& firings, Frame& frame);
+  void Scan(const CastFrame& cast,
+            const FiringTiles& firings,
+            Frame& frame,
+            ViewCounter* views = nullptr);
   [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene,
                                                     const FiringTiles& firings);
+  [[nodiscard]] CastFrame CastOf(const FrameScene& scene, const FiringTiles& firings) const {
+    return railcast::CastOf(scene, scenes.world(), spec.detector, *tracer, firings.duration_ns());
+  }
   /// Calls `work(tile)` for every tile, on the run's threads.
   template <typename Job>
   void ForEachTile(const Job& job) {
@@ -267,6 +254,7 @@ void Simulator::UseLastStamp(std::int64_t stamp_ns) {
 
 void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
                                     const FiringTiles& firings,
+                                    ViewCounter* views,
                                     const EchoUse& use) {
   // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
   // one pass; otherwise the tiles that halos reach are made a second time.
@@ -276,6 +264,7 @@ void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
     tracer->MakeEchoes(cast, firings, tile, mine);
     if (halo) halo->CollectSources(mine.echoes, found[tile]);
     use(tile, mine);
+    if (views != nullptr) views->AddTraced(*tracer, firings, tile, mine);
   });
   const std::vector<HaloSource> sources = Joined(found);
   if (sources.empty()) return;
@@ -300,7 +289,10 @@ std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast,
   return Joined(found);
 }
 
-void Simulator::Parts::Scan(const CastFrame& cast, const FiringTiles& firings, Frame& frame) {
+void Simulator::Parts::Scan(const CastFrame& cast,
+                            const FiringTiles& firings,
+                            Frame& frame,
+                            ViewCounter* views) {
   frame.index = cast.index;
   frame.stamp_ns = pattern.StampNs(cast.index);
   frame.world_from_sensor = ReportedPose(frame.stamp_ns);
@@ -322,7 +314,7 @@ void Simulator::Parts::Scan(const CastFrame& cast, const FiringTiles& firings, F
   std::optional<VelocityMeter> velocities;
   if (frame.has_velocity) velocities.emplace(spec.detector, cast);
 
-  ForAllEchoes(cast, firings, [&](std::size_t tile, BeamTracer::Work& mine) {
+  ForAllEchoes(cast, firings, views, [&](std::size_t tile, BeamTracer::Work& mine) {
     tracer->detector().Detect({mine.rays, world_from_window, time_s}, mine.echoes);
     firings.MoveToOrigins(tile, mine.echoes);
     axes.Apply(cast.poses, firings.times_ns(tile), mine.echoes);
@@ -352,8 +344,18 @@ void Simulator::Scan(BegunFrame& begun, Frame& frame) {
   WithinMemory(parts_->Making(begun.index), [&] {
     const FrameScene& scene = parts_->SceneOf(begun);
     const FiringTiles& firings = parts_->TilesOf(begun);
-    parts_->Scan(CastOf(scene, world(), spec().detector, *parts_->tracer, firings.duration_ns()),
-                 firings, frame);
+    parts_->Scan(parts_->CastOf(scene, firings), firings, frame);
+  });
+}
+
+void Simulator::Scan(BegunFrame& begun, Frame& frame, std::vector<ObjectView>& views) {
+  WithinMemory(parts_->Making(begun.index), [&] {
+    const FrameScene& scene = parts_->SceneOf(begun);
+    const FiringTiles& firings = parts_->TilesOf(begun);
+    const CastFrame cast = parts_->CastOf(scene, firings);
+    ViewCounter counter(cast, world(), parts_->scenes.ObjectsAlone(scene));
+    parts_->Scan(cast, firings, frame, &counter);
+    views = counter.Total();
   });
 }
 
@@ -405,8 +407,7 @@ FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) 
   BegunFrame begun = parts.Begin(frame_index);
   const FrameScene& scene = parts.SceneOf(begun);
   const FiringTiles& firings = parts.TilesOf(begun);
-  const CastFrame cast =
-      CastOf(scene, world(), spec().detector, *parts.tracer, firings.duration_ns());
+  const CastFrame cast = parts.CastOf(scene, firings);
   const FiringTiles::Place place = firings.PlaceOf(firing);
   const std::size_t tile = place.tile;
   const std::size_t lane = place.lane;

@@ -42,42 +42,76 @@ void ViewCounter::Add(const BeamTracer& tracer,
                       BeamTracer::Work& work) {
   if (alone_.empty()) return;
   tracer.AimCenters(frame_, tiles, tile, work);
-  const float range_max_m = work.rays.range_m[0];
   const std::size_t num_firings = tiles.num_firings(tile);
+  if (!tracer.has_wide_beams()) {
+    AddCenters(work, tracer.range_max_m(), num_firings, false);
+    return;
+  }
   Packet packet;
   packet.rays.num_rays = kPacketSize;
   packet.rays.mask = kAllSurfaces;
-  packet.is_one_beam = tracer.has_wide_beams();
-  if (packet.is_one_beam) {
-    const BeamFrame beam_frame = tracer.BeamFrameOf(frame_, tiles, tile);
-    BeamRays beam;
-    packet.lanes = (1U << kPacketSize) - 1U;
-    for (std::size_t lane = 0; lane < num_firings; ++lane) {
-      tracer.AimSubRays(work, beam_frame, lane, beam);
-      CopySubRays(beam, kPacketSize, packet.rays);
-      ForgetHits(packet.rays, range_max_m);
-      packet.firings.fill(work.echoes.first.firing[lane]);
-      Count(packet);
-    }
-    return;
+  packet.is_one_beam = true;
+  packet.lanes = (1U << kPacketSize) - 1U;
+  const BeamFrame beam_frame = tracer.BeamFrameOf(frame_, tiles, tile);
+  BeamRays beam;
+  for (std::size_t lane = 0; lane < num_firings; ++lane) {
+    tracer.AimSubRays(work, beam_frame, lane, beam);
+    CopySubRays(beam, kPacketSize, packet.rays);
+    ForgetHits(packet.rays, tracer.range_max_m());
+    packet.firings.fill(work.echoes.first.firing[lane]);
+    if (!FindAlone(packet)) continue;
+    Cast(packet);
+    Count(packet);
   }
+}
+
+void ViewCounter::AddTraced(const BeamTracer& tracer,
+                            const FiringTiles& tiles,
+                            std::size_t tile,
+                            BeamTracer::Work& work) {
+  if (!tracer.casts_all_centers()) {
+    Add(tracer, tiles, tile, work);
+  } else if (!alone_.empty()) {
+    AddCenters(work, tracer.range_max_m(), tiles.num_firings(tile), true);
+  }
+}
+
+void ViewCounter::AddCenters(const BeamTracer::Work& work,
+                             float range_max_m,
+                             std::size_t num_firings,
+                             bool are_known) {
+  Packet packet;
+  packet.rays.num_rays = kPacketSize;
+  packet.rays.mask = kAllSurfaces;
+  packet.is_one_beam = false;
   for (std::size_t first = 0; first < num_firings; first += kPacketSize) {
     packet.lanes = (1U << std::min(kPacketSize, num_firings - first)) - 1U;
     CopyPacket(work.rays, first, packet.rays);
     std::copy_n(work.echoes.first.firing + first, kPacketSize, packet.firings.begin());
     ForgetHits(packet.rays, range_max_m);
+    if (!FindAlone(packet)) continue;
+    if (are_known) {
+      std::copy_n(work.rays.surface + first, kPacketSize, packet.rays.surface);
+    } else {
+      Cast(packet);
+    }
     Count(packet);
   }
 }
 
-void ViewCounter::Count(Packet& packet) {
+bool ViewCounter::FindAlone(Packet& packet) const {
   packet.hits.clear();
   for (const LoneObjects& objects : alone_) objects.AddHits(packet.rays, 0, packet.hits);
-  if (packet.hits.empty()) return;
+  return !packet.hits.empty();
+}
+
+void ViewCounter::Cast(Packet& packet) const {
   frame_.caster.Cast(packet.rays);
-  if (frame_.screens != nullptr) {
-    frame_.screens->Meet(packet.firings.data(), kPacketSize, packet.rays);
-  }
+  if (frame_.screens == nullptr) return;
+  frame_.screens->Meet(packet.firings.data(), kPacketSize, packet.rays);
+}
+
+void ViewCounter::Count(const Packet& packet) {
   for (const ObjectHits& hit : packet.hits) {
     const std::uint32_t alone = hit.lanes & packet.lanes;
     if (alone == 0) continue;

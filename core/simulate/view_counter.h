@@ -31,6 +31,11 @@ class ViewCounter {
            const FiringTiles& tiles,
            std::size_t tile,
            BeamTracer::Work& work);
+  /// The same in less time, of a tile whose echoes MakeEchoes() has made last with this `work`.
+  void AddTraced(const BeamTracer& tracer,
+                 const FiringTiles& tiles,
+                 std::size_t tile,
+                 BeamTracer::Work& work);
 
   /// By index into World::objects().
   [[nodiscard]] std::vector<ObjectView> Total() const;
@@ -48,7 +53,16 @@ class ViewCounter {
     std::atomic<std::uint32_t> firings_alone, firings_visible, rays_alone, rays_visible;
   };
 
-  void Count(Packet& packet);
+  /// Adds what central rays see, whose first surfaces are known or are yet to be sought.
+  void AddCenters(const BeamTracer::Work& work,
+                  float range_max_m,
+                  std::size_t num_firings,
+                  bool are_known);
+  /// Finds the objects that rays hit alone.
+  /// @return Whether there are any.
+  [[nodiscard]] bool FindAlone(Packet& packet) const;
+  void Cast(Packet& packet) const;
+  void Count(const Packet& packet);
 
   const CastFrame& frame_;
   const std::vector<SceneObject>& objects_;

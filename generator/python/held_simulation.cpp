@@ -174,13 +174,15 @@ void HeldSimulation::Make(std::uint32_t frame,
                           RecordedFrame& made) {
   Simulator& simulator = maker_.At(sensor, frame);
   const auto begun = simulator.Begin(frame);
-  simulator.Scan(*begun, made.frame);
   made.objects.clear();
   if (has_objects) {
+    std::vector<ObjectInFrame> objects = maker_.ScanAndDescribe(sensor, *begun, made.frame);
     const Transform sensor_from_world = made.frame.world_from_sensor.inverse();
-    for (ObjectInFrame& object : maker_.Describe(sensor, *begun, made.frame)) {
+    for (ObjectInFrame& object : objects) {
       made.objects.push_back(RecordedOf(std::move(object), sensor_from_world));
     }
+  } else {
+    simulator.Scan(*begun, made.frame);
   }
   if (!made.fields.empty()) return;
   made.fields = NamesOfFields(made.frame);

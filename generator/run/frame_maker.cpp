@@ -118,23 +118,21 @@ FrameJob FrameMaker::Begin(std::size_t sensor, std::uint32_t frame_index) {
   const RigidMotion vehicle = StateAt(stamp_ns).world->VehicleMotion(stamp_ns);
   return [this, sensor, &simulator, begun = simulator.Begin(frame_index), has_image,
           vehicle](MadeFrame& made) {
-    simulator.Scan(*begun, made.frame);
+    made.objects = ScanAndDescribe(sensor, *begun, made.frame);
     made.vehicle = vehicle;
-    made.objects = Describe(sensor, *begun, made.frame);
     made.has_image = has_image;
     if (has_image) camera_->Render(simulator, *begun, made.image);
     made.motion = sensor == 0 ? SampleMotion(*begun) : MotionSamples{};
   };
 }
 
-std::vector<ObjectInFrame> FrameMaker::Describe(std::size_t sensor,
-                                                BegunFrame& begun,
-                                                const Frame& frame) {
+std::vector<ObjectInFrame> FrameMaker::ScanAndDescribe(std::size_t sensor,
+                                                       BegunFrame& begun,
+                                                       Frame& frame) {
   Simulator& simulator = *simulators_[sensor];
-  return surveys_[sensor]
-      .local()
-      .Of(simulator, labels_)
-      .Describe(frame, simulator.ViewObjects(begun));
+  std::vector<ObjectView> views;
+  simulator.Scan(begun, frame, views);
+  return surveys_[sensor].local().Of(simulator, labels_).Describe(frame, views);
 }
 
 MotionSamples FrameMaker::SampleMotion(BegunFrame& begun) const {

@@ -71,11 +71,11 @@ class FrameMaker {
   /// @throws InputError as At() does.
   [[nodiscard]] FrameJob Begin(std::size_t sensor, std::uint32_t frame_index);
 
-  /// What a frame shows of the world's objects. Thread-safe.
+  /// Scans a frame, and finds what it shows of the world's objects. Thread-safe.
   /// @param begun The frame as the sensor's simulator began it.
-  [[nodiscard]] std::vector<ObjectInFrame> Describe(std::size_t sensor,
-                                                    BegunFrame& begun,
-                                                    const Frame& frame);
+  [[nodiscard]] std::vector<ObjectInFrame> ScanAndDescribe(std::size_t sensor,
+                                                           BegunFrame& begun,
+                                                           Frame& frame);
 
   /// The samples of the scenario's motion sensors in the time of a begun frame; none if it has no
   /// motion sensors. Thread-safe.

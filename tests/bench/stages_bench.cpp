@@ -81,7 +81,7 @@ int RunStages(const StagesOptions& options) {
     raw_trace();  // Warms the caches.
     times.Take("raw trace", raw_trace);
     times.Take("scan", [&] { simulator->Scan(*begun, frame); });
-    times.Take("views of objects", [&] { views = simulator->ViewObjects(*begun); });
+    times.Take("scan with views of objects", [&] { simulator->Scan(*begun, frame, views); });
     times.Take("objects' places and contacts", [&] { objects = survey.Describe(frame, views); });
     times.Take("objects' line", [&] { static_cast<void>(ObjectsLine(frame, objects)); });
     times.Take("counts", [&] { static_cast<void>(CountFrame(frame, labels)); });

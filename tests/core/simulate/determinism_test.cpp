@@ -74,10 +74,8 @@ TEST(Determinism, FramesMadeAtOnceAreThoseMadeOneAfterAnother) {
   std::vector<std::shared_ptr<BegunFrame>> begun;
   for (std::uint32_t i = 0; i < kNumFrames; ++i) begun.push_back(simulator.Begin(i));
   simulator.Execute([&] {
-    tbb::parallel_for(0U, kNumFrames, [&](std::uint32_t i) {
-      simulator.Scan(*begun[i], frames[i]);
-      views[i] = simulator.ViewObjects(*begun[i]);
-    });
+    tbb::parallel_for(0U, kNumFrames,
+                      [&](std::uint32_t i) { simulator.Scan(*begun[i], frames[i], views[i]); });
   });
   Simulator one(world, pattern, TestMaterials(), EverythingOn(), 1);
   Frame frame;

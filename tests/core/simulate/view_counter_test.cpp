@@ -10,6 +10,7 @@
 #include "core/base/random.h"
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/same_frames.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -210,6 +211,37 @@ TEST(ViewCounter, CountsAWideBeamAsOneFiring) {
                       WithWideBeams(), 1);
   // 2 x 2 beams, all of whose rays meet the board and, before it, the screen.
   EXPECT_EQ(simulator.ViewObjects(0), (std::vector<ObjectView>{{4, 0, 64, 0}, {4, 4, 64, 64}}));
+}
+
+// What is off, what only aims the rays otherwise, what leaves out surfaces, what makes tiles twice,
+// and what casts more rays than one for a beam.
+std::vector<SimulatorSpec> SpecsWithOtherRays() {
+  std::vector<SimulatorSpec> specs(5);
+  specs[1].detector.effects = EffectsOfRung(Fidelity::kSurface);
+  specs[1].detector.effects.pointing_jitter = true;
+  specs[1].detector.receiver.pointing_jitter_deg = 0.1;
+  specs[2].detector.effects = EffectsOfRung(Fidelity::kSurface);
+  specs[2].detector.effects.thin_conductors = true;
+  specs[3].detector.effects = EffectsOfRung(Fidelity::kSurface);
+  specs[3].detector.effects.halo = true;
+  specs[3].detector.receiver.halo_share_at_1_deg = 1e-3;
+  specs[4] = WithWideBeams();
+  return specs;
+}
+
+TEST(ViewCounter, CountsTheSameWithTheRaysOfTheFrame) {
+  auto world = WorldOf(Crowd());
+  world->ground.parts = {{MakeWall(60.0F, 10.0F), 1, 1}};
+  for (const SimulatorSpec& spec : SpecsWithOtherRays()) {
+    Simulator simulator(world, Pattern(), TestMaterials(), spec, 3);
+    Frame expected;
+    simulator.Scan(2, expected);
+    Frame frame;
+    std::vector<ObjectView> views;
+    simulator.Scan(*simulator.Begin(2), frame, views);
+    EXPECT_EQ(views, simulator.ViewObjects(2));
+    ExpectSameBytes(frame, expected);
+  }
 }
 
 }  // namespace
