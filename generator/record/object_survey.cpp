@@ -197,7 +197,8 @@ std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& ob
     if (&object != objects.data()) line += ',';
     AppendObject(object, sensor_from_world, line);
   }
-  return line + "]}\n";
+  line += "]}\n";
+  return line;
 }
 
 ObjectSurvey::ObjectSurvey(const World& world,
