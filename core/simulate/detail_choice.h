@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -22,12 +23,24 @@ namespace railcast {
 /// angle per firing, in cells of one square degree, that one firing in ten falls below.
 [[nodiscard]] double RaySpacing_rad(const ScanPattern& pattern);
 
+/// How far apart in time the poses of an object that bends may be at a distance from the sensor.
+/// Poses that are `pose_step_ns` apart keep every point within 0.6 mm of where it is between them,
+/// others within the square of the ratio. It may be an eighth of the spacing of the firings there,
+/// and of the beams' width, if they have any.
+[[nodiscard]] std::int64_t CoarserPoseStep_ns(const DetailRule& rule,
+                                              double distance_m,
+                                              std::int64_t pose_step_ns);
+
 /// Chooses the models of the placements in a window, and the form of its chunks. They depend on
 /// nothing but the placement or chunk, the home chunk and the rule: what counts is the least
 /// distance to the places that the sensor can have while the vehicle is in the home chunk.
 class DetailChoice {
  public:
   DetailChoice(const World& world, int home_chunk, const DetailRule& rule);
+
+  /// Whether anything may be coarser: the rule is not for full detail, and the vehicle's poses are
+  /// known.
+  [[nodiscard]] bool may_be_coarser() const { return !sensors_window_m_.empty(); }
 
   /// The level of the coarsest model that the rule permits at the placement's distance: 0 is the
   /// finest, k is placement.coarser[k - 1].
@@ -37,7 +50,7 @@ class DetailChoice {
   /// them and the sensor.
   [[nodiscard]] bool TakesCoarser(const CoarserSurfaces& surfaces,
                                   const Transform& window_from_chunk) const;
-  /// @pre The rule is not for full detail, and the vehicle's poses are known.
+  /// @pre may_be_coarser()
   [[nodiscard]] double Distance_m(const Placement& placement,
                                   const Eigen::Affine3d& window_from_model);
 

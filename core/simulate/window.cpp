@@ -127,13 +127,13 @@ void WindowSource::AddObjects(int home_chunk,
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
     const std::vector<Transform> world_from_pieces = world.WorldFromPieces(i, 0);
-    for (std::size_t piece = 0; piece < objects_[i].pieces.size(); ++piece) {
+    const std::vector<TracePiece>& pieces = *objects_[i].pieces;
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
       const Transform window_from_piece = window.window_from_world * world_from_pieces[piece];
       window.standing.push_back(i);
-      window.standing_placements.push_back(
-          {objects_[i].pieces[piece].model,
-           {ToAffine(window_from_piece)},
-           object_surfaces_[i] + objects_[i].pieces[piece].first_surface});
+      window.standing_placements.push_back({pieces[piece].model,
+                                            {ToAffine(window_from_piece)},
+                                            object_surfaces_[i] + pieces[piece].first_surface});
     }
   }
 }
@@ -153,6 +153,7 @@ void WindowSource::AddChunks(int home_chunk,
     return first;
   };
   DetailChoice choice(*store_->world(), home_chunk, detail_);
+  window.may_be_coarser = choice.may_be_coarser();
   for (const auto& [index, chunk] : chunks) {
     const Transform world_from_chunk = store_->world()->WorldFromChunk(index);
     const Transform window_from_chunk = window.window_from_world * world_from_chunk;

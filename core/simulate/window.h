@@ -31,6 +31,7 @@ struct Window {
   std::unique_ptr<const TraceScene> scene;
   WireSet wires;  ///< The wires that `scene` also contains as tubes.
   SwayingThings swaying;
+  bool may_be_coarser{};  ///< Whether its rule permits anything but full detail in it.
   /// The pieces of the stationary objects: their objects' indices in the store's world, and their
   /// places.
   std::vector<std::size_t> standing;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -136,6 +138,19 @@ ScanPattern Raster(double resolution_deg) {
                            .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
                                                  .vertical_fov_deg = 30.0,
                                                  .angular_resolution_deg = resolution_deg}});
+}
+
+TEST(CoarserPoseStep, KeepsTheErrorWithinAnEighthOfWhatTheSensorCanTell) {
+  constexpr std::int64_t kStep_ns = 10'000'000;
+  // Rays are 0.04 m apart at 10 m: 5 mm is 8.3 times 0.6 mm.
+  EXPECT_NEAR(static_cast<double>(CoarserPoseStep_ns(Rays(), 10.0, kStep_ns)),
+              1e7 * std::sqrt(0.005 / 0.0006), 1.0);
+  // Beams are half as wide.
+  EXPECT_NEAR(static_cast<double>(CoarserPoseStep_ns(Beams(), 20.0, kStep_ns)),
+              1e7 * std::sqrt(0.005 / 0.0006), 1.0);
+  EXPECT_EQ(CoarserPoseStep_ns(Rays(), 1.0, kStep_ns), kStep_ns);
+  EXPECT_EQ(CoarserPoseStep_ns(Rays(), -1.0, kStep_ns), kStep_ns);
+  EXPECT_EQ(CoarserPoseStep_ns({}, 100.0, kStep_ns), kStep_ns);
 }
 
 TEST(RaySpacing, IsTheResolutionOfARaster) {

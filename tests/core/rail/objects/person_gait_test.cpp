@@ -181,6 +181,32 @@ TEST(WalkingPerson, MovesItsPiecesSmoothly) {
   }
 }
 
+// core/simulate chooses by it how far apart in time poses are.
+TEST(WalkingPerson, IsOffByTheSquareOfTheStepBetweenItsPoses) {
+  for (const Physique physique : {Physique::kMan, Physique::kWoman, Physique::kChild}) {
+    const double height_m = StandardHeight_m(physique);
+    const double pace_mps = NaturalPace_mps(height_m);
+    const WalkingPerson person({{.physique = physique}, height_m, pace_mps});
+    for (const double step_s : {0.01, 0.02, 0.05, 0.1}) {
+      const double bound_m = 0.6e-3 * step_s * step_s / (0.01 * 0.01);
+      double most_m = 0.0;
+      for (double begin_m = 0.0; begin_m < person.stride_length_m(); begin_m += 0.01) {
+        const double way_m = pace_mps * step_s;
+        const auto begin = person.ObjectFromPieces(begin_m, pace_mps);
+        const auto middle = person.ObjectFromPieces(begin_m + 0.5 * way_m, pace_mps);
+        const auto end = person.ObjectFromPieces(begin_m + way_m, pace_mps);
+        for (std::size_t piece = 0; piece < begin.size(); ++piece) {
+          for (const Vector3& point : {Vector3(0.0, 0.0, 0.0), Vector3(0.15, 0.0, -0.3)}) {
+            const Vector3 between = 0.5 * (begin[piece] * point + end[piece] * point);
+            most_m = std::max(most_m, (middle[piece] * point - between).norm());
+          }
+        }
+      }
+      EXPECT_LT(most_m, bound_m) << NameOf(physique) << " at steps of " << step_s << " s";
+    }
+  }
+}
+
 /// Expects that the model at rest contains the pieces at 24 phases and three speeds.
 void ExpectWithinBoundsAtRest(const PersonSpec& look, double steady_mps) {
   const PersonBuild build{look, StandardHeight_m(look.physique), steady_mps};
