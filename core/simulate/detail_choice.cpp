@@ -55,7 +55,7 @@ double RaySpacing_rad(const ScanPattern& pattern) {
 std::int64_t CoarserPoseStep_ns(const DetailRule& rule,
                                 double distance_m,
                                 std::int64_t pose_step_ns) {
-  constexpr double kPoseError_m = 0.6e-3;
+  constexpr double kPoseError_m = 2e-3;
   constexpr double kShare = 1.0 / 8.0;
   const double angle_rad = rule.beam_width_rad > 0.0
                                ? std::min(rule.beam_width_rad, rule.ray_spacing_rad)

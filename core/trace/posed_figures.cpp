@@ -1,5 +1,7 @@
 #include "core/trace/posed_figures.h"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -56,8 +58,10 @@ const std::vector<PosedFigures::PlacedPiece>& PosedFigures::PoseAt(std::size_t f
   std::call_once(pose.once, [&] {
     const TraceFigure& its = figures_.figures[figure];
     const std::vector<TracePiece>& pieces = *its.pieces;
-    const std::vector<Eigen::Affine3d> places =
-        figures_.window_from_pieces(figure, step, its.num_steps);
+    // Isolated, so that a thread that waits for tasks of a world does not take up a tile of the
+    // frame that needs this pose.
+    const std::vector<Eigen::Affine3d> places = tbb::this_task_arena::isolate(
+        [&] { return figures_.window_from_pieces(figure, step, its.num_steps); });
     Check(places.size() == pieces.size(), "every piece of a figure has a place");
     pose.pieces.reserve(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -79,8 +79,8 @@ TEST(BendingObjects, AreOffByAnEighthOfTheFiringsSpacingAtMost) {
     most_m = std::max(most_m, off_m);
   }
   EXPECT_LT(most_m, spacing_m / 8.0);
-  // A turning plane stays a plane whose angle lags: by less, but more than in full detail.
-  EXPECT_GT(most_m, 1e-4);
+  // Of a leaf that turns, little can be seen of it.
+  EXPECT_GT(most_m, 1e-5);
 }
 
 TEST(BendingObjects, ShowAllTheirPiecesUnderOneInstance) {
