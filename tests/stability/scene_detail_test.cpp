@@ -116,7 +116,9 @@ Frame CrowdIn(SceneDetail detail) {
   spec.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 0.0}};
   spec.lidar.receiver.return_mode = ReturnMode::kStrongest;
   for (int i = 0; i < 60; ++i) {
-    ObjectSpec person{.name = "person " + std::to_string(i), .type = ObjectType::kPerson};
+    ObjectSpec person;
+    person.name = "person " + std::to_string(i);
+    person.type = ObjectType::kPerson;
     person.s_m = spec.vehicle.start_s_m + 6.0 + 2.4 * i;
     person.d_m = 1.5 * (i % 7 - 3);
     person.motion = MotionSpec{.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 1.3}}};
