@@ -87,6 +87,19 @@ ScanSector SectorOf(const ScanPattern& pattern, const Transform& vehicle_from_se
           .half_width_rad = half_rad + kMargin_rad};
 }
 
+std::int64_t CoarserPoseStep_ns(const DetailRule& rule,
+                                double distance_m,
+                                std::int64_t pose_step_ns) {
+  constexpr double kPoseError_m = 2e-3;
+  constexpr double kShare = 1.0 / 8.0;
+  const double angle_rad = rule.beam_width_rad > 0.0
+                               ? std::min(rule.beam_width_rad, rule.ray_spacing_rad)
+                               : rule.ray_spacing_rad;
+  const double error_m = kShare * angle_rad * std::max(distance_m, 0.0);
+  return static_cast<std::int64_t>(static_cast<double>(pose_step_ns) *
+                                   std::sqrt(std::max(1.0, error_m / kPoseError_m)));
+}
+
 DetailChoice::DetailChoice(const World& world, int home_chunk, const DetailRule& rule)
     : rule_(rule) {
   if (!(rule.ray_spacing_rad > 0.0)) return;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/simulate/detail_choice.h"
 
 namespace railcast {
 namespace {
@@ -26,6 +27,36 @@ constexpr std::int64_t kLookAheadStep_ns = 500'000'000;
 double SensorReachOf(const FrameSceneSpec& spec) {
   return spec.range_max_m + spec.vehicle_from_sensor.translation().norm() +
          kSpeedMax_mps * SecondsFromNs(spec.duration_ns);
+}
+
+// Whether an object bends so fast that its poses are closer than those of others: who walks.
+bool BendsFast(const SceneObject& object) {
+  return object.moves && !object.pieces.empty() && object.pose_step_ns < SceneObject{}.pose_step_ns;
+}
+
+std::vector<Eigen::Affine3d> PiecesIn(const World& world,
+                                      std::size_t object,
+                                      std::int64_t time_ns,
+                                      const Transform& window_from_world) {
+  std::vector<Eigen::Affine3d> places;
+  for (const Transform& world_from_piece : world.WorldFromPieces(object, time_ns)) {
+    const Transform window_from_piece = window_from_world * world_from_piece;
+    places.emplace_back(window_from_piece.matrix());
+  }
+  return places;
+}
+
+// The box around an object in a window during a frame. What happens to it between the ends of the
+// frame is not known: the margin is more than what a curve, a corner or rough ground moves it.
+Eigen::AlignedBox3f BoxBetween(const Eigen::AlignedBox3d& bounds_m,
+                               const Transform& begin,
+                               const Transform& end) {
+  constexpr double kMargin_m = 0.05;
+  const double margin_m = kMargin_m + 0.5 * (end.translation() - begin.translation()).norm();
+  Eigen::AlignedBox3d box_m = bounds_m.transformed(begin).merged(bounds_m.transformed(end));
+  box_m.min().array() -= margin_m;
+  box_m.max().array() += margin_m;
+  return box_m.cast<float>();
 }
 
 }  // namespace
@@ -85,11 +116,14 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
       const std::size_t i = found->second;
       const bool stands = !object.moves && !first[i].moves;
       if (stands) standing.emplace(i, objects.size());
-      objects.push_back({windows_.object(i), windows_.object_surface(i), true, stands});
+      objects.push_back({windows_.object(i), windows_.object_surface(i), true, stands, {}});
       continue;
     }
-    objects.push_back({store_->MakeObject(object), static_cast<std::uint32_t>(more_surfaces.size()),
-                       false, false});
+    objects.push_back({store_->MakeObject(object),
+                       static_cast<std::uint32_t>(more_surfaces.size()),
+                       false,
+                       false,
+                       {}});
     const std::vector<Surface>& surfaces = objects.back().stored.surfaces;
     more_surfaces.insert(more_surfaces.end(), surfaces.begin(), surfaces.end());
   }
@@ -97,6 +131,10 @@ void FrameScenes::UseWorld(std::shared_ptr<const World> world) {
   for (const auto& [i, object] : standing) stored.push_back(i);
   windows_.UseStanding(std::move(stored));
   standing_ = std::move(standing);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const SceneObject& object = world->objects()[i];
+    if (BendsFast(object)) objects[i].figure_bounds_m = object.model->Bounds();
+  }
   objects_ = std::move(objects);
   more_surfaces_ = std::move(more_surfaces);
   world_ = std::move(world);
@@ -127,16 +165,18 @@ std::unique_ptr<const FrameScene> FrameScenes::MakeScene(const BegunFrame& begun
   FrameScene& scene = *made;
   scene.index = begun.index;
   scene.stamp_ns = stamp_ns;
-  std::vector<TracePlacement> moving = MovingObjects(stamp_ns, *window, scene.moving_objects);
+  MovingThings moving = MovingObjects(stamp_ns, *window);
+  scene.moving_objects = std::move(moving.objects);
   if (has_motion_) scene.motion = MotionOf(scene, *window);
   if (!more_surfaces_.empty()) {
     scene.more_surfaces = window->surfaces;
     scene.more_surfaces.insert(scene.more_surfaces.end(), more_surfaces_.begin(),
                                more_surfaces_.end());
   }
-  if (wind_.blows()) AddSwayed(scene, *window, moving);
-  if (!moving.empty()) {
-    scene.moving = std::make_shared<const TraceScene>(store_->device(), moving);
+  if (wind_.blows()) AddSwayed(scene, *window, moving.placements);
+  if (!moving.placements.empty() || !moving.figures.figures.empty()) {
+    scene.moving = std::make_shared<const TraceScene>(store_->device(), moving.placements,
+                                                      std::move(moving.figures));
   }
   scene.poses = PosesIn(window->window_from_world, stamp_ns);
   scene.window = window;
@@ -179,14 +219,14 @@ FrameMotion FrameScenes::MotionOf(const FrameScene& scene, const Window& window)
         [&](std::int64_t since_stamp_ns) {
           return PiecesAt(objects[i], scene.stamp_ns + since_stamp_ns, window);
         },
-        spec_.duration_ns, NumPoseIntervals(objects[i]));
+        spec_.duration_ns, NumOwnIntervals(objects[i]));
   });
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Object& object = objects_[objects[i]];
     const std::uint32_t first_surface = FirstSurface(object, window);
     auto end = static_cast<std::uint32_t>(object.stored.surfaces.size());
     for (std::size_t piece = fields[i].size(); piece-- > 0;) {
-      const std::uint32_t begin = object.stored.pieces[piece].first_surface;
+      const std::uint32_t begin = (*object.stored.pieces)[piece].first_surface;
       motion.surfaces.Add({.first_surface = first_surface + begin,
                            .num_surfaces = end - begin,
                            .fields = std::move(fields[i][piece])});
@@ -207,11 +247,11 @@ std::vector<TracePlacement> FrameScenes::Place(std::size_t object,
                                                const Window& window) const {
   const std::uint32_t first_surface = FirstSurface(objects_[object], window);
   std::vector<TracePlacement> placements;
-  for (const SceneStore::StoredObject::Piece& piece : objects_[object].stored.pieces) {
+  for (const TracePiece& piece : *objects_[object].stored.pieces) {
     placements.push_back({piece.model, {}, first_surface + piece.first_surface});
   }
   const std::int64_t duration_ns = spec_.duration_ns;
-  const std::int64_t num_intervals = NumPoseIntervals(object);
+  const std::int64_t num_intervals = NumOwnIntervals(object);
   for (std::int64_t step = 0; step <= num_intervals; ++step) {
     const std::int64_t since_stamp_ns = num_intervals > 0 ? duration_ns * step / num_intervals : 0;
     const std::vector<Eigen::Affine3d> places = PiecesAt(object, stamp_ns + since_stamp_ns, window);
@@ -225,52 +265,95 @@ std::vector<TracePlacement> FrameScenes::Place(std::size_t object,
 std::vector<Eigen::Affine3d> FrameScenes::PiecesAt(std::size_t object,
                                                    std::int64_t time_ns,
                                                    const Window& window) const {
-  std::vector<Eigen::Affine3d> places;
-  for (const Transform& world_from_piece : world_->WorldFromPieces(object, time_ns)) {
-    const Transform window_from_piece = window.window_from_world * world_from_piece;
-    places.emplace_back(window_from_piece.matrix());
-  }
-  return places;
+  return PiecesIn(*world_, object, time_ns, window.window_from_world);
 }
 
-std::int64_t FrameScenes::NumPoseIntervals(std::size_t object) const {
+std::int64_t FrameScenes::NumPoseIntervals(std::int64_t pose_step_ns) const {
+  return std::max<std::int64_t>(1, (spec_.duration_ns + pose_step_ns - 1) / pose_step_ns);
+}
+
+std::int64_t FrameScenes::NumOwnIntervals(std::size_t object) const {
   const SceneObject& its = world_->objects()[object];
-  if (!its.moves) return 0;
-  return std::max<std::int64_t>(1, (spec_.duration_ns + its.pose_step_ns - 1) / its.pose_step_ns);
+  return its.moves ? NumPoseIntervals(its.pose_step_ns) : 0;
 }
 
-bool FrameScenes::IsInReach(const TracePlacement& placement,
-                            std::size_t object,
-                            const Vector3& sensor_window_m) const {
-  const auto& steps = placement.window_from_model;
-  const double travel_m = (steps.back().translation() - steps.front().translation()).norm() +
-                          kSpeedMax_mps * SecondsFromNs(spec_.duration_ns);
+bool FrameScenes::IsInReach(std::size_t object, const Ends& ends, const Moment& moment) const {
+  const double travel_m =
+      (ends.end_m - ends.begin_m).norm() + kSpeedMax_mps * SecondsFromNs(spec_.duration_ns);
   // The first piece's origin may be up to the object's radius away from the object's own.
-  return (steps.front().translation() - sensor_window_m).norm() <=
+  return (ends.begin_m - moment.sensor.begin_m).norm() <=
          spec_.range_max_m + 2.0 * objects_[object].stored.radius_m + travel_m;
 }
 
-std::vector<TracePlacement> FrameScenes::MovingObjects(std::int64_t stamp_ns,
-                                                       const Window& window,
-                                                       std::vector<std::size_t>& objects) const {
-  std::vector<std::vector<TracePlacement>> pieces(objects_.size());
-  const Vector3 sensor_window_m = SensorInWindow(stamp_ns, window);
+FrameScenes::PlacedObject FrameScenes::PlaceInReach(std::size_t object,
+                                                    const Moment& moment) const {
+  if (objects_[object].is_in_windows) return {};
+  if (moment.window.may_be_coarser && objects_[object].figure_bounds_m) {
+    return PlaceFigure(object, moment);
+  }
+  PlacedObject placed{{}, Place(object, moment.stamp_ns, moment.window)};
+  const auto& steps = placed.pieces.front().window_from_model;
+  const Ends ends{steps.front().translation(), steps.back().translation()};
+  return IsInReach(object, ends, moment) ? placed : PlacedObject{};
+}
+
+FrameScenes::PlacedObject FrameScenes::PlaceFigure(std::size_t object, const Moment& moment) const {
+  const Object& its = objects_[object];
+  const auto place = [&](std::int64_t time_ns) -> Transform {
+    return moment.window.window_from_world * world_->WorldFromObject(object, time_ns);
+  };
+  const Transform begin = place(moment.stamp_ns);
+  const Transform end = place(moment.stamp_ns + spec_.duration_ns);
+  const Ends ends{begin.translation(), end.translation()};
+  if (!IsInReach(object, ends, moment)) return {};
+  const double distance_m = std::min((ends.begin_m - moment.sensor.begin_m).norm(),
+                                     (ends.end_m - moment.sensor.end_m).norm()) -
+                            its.stored.radius_m;
+  const std::int64_t num_intervals = NumPoseIntervals(
+      CoarserPoseStep_ns(spec_.detail, distance_m, world_->objects()[object].pose_step_ns));
+  if (num_intervals == NumOwnIntervals(object)) {
+    return {{}, Place(object, moment.stamp_ns, moment.window)};
+  }
+  return {TraceFigure{.pieces = its.stored.pieces,
+                      .window_box_m = BoxBetween(*its.figure_bounds_m, begin, end),
+                      .num_steps = static_cast<std::uint32_t>(num_intervals + 1),
+                      .first_surface = FirstSurface(its, moment.window)},
+          {}};
+}
+
+FrameScenes::MovingThings FrameScenes::MovingObjects(std::int64_t stamp_ns,
+                                                     const Window& window) const {
+  const Moment moment{
+      stamp_ns,
+      window,
+      {SensorInWindow(stamp_ns, window), SensorInWindow(stamp_ns + spec_.duration_ns, window)}};
+  std::vector<PlacedObject> placed(objects_.size());
   constexpr std::size_t kGrain = 16;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, objects_.size(), kGrain),
                     [&](const tbb::blocked_range<std::size_t>& some) {
                       for (std::size_t i = some.begin(); i < some.end(); ++i) {
-                        if (objects_[i].is_in_windows) continue;
-                        std::vector<TracePlacement> placed = Place(i, stamp_ns, window);
-                        if (!IsInReach(placed.front(), i, sensor_window_m)) continue;
-                        pieces[i] = std::move(placed);
+                        placed[i] = PlaceInReach(i, moment);
                       }
                     });
-  std::vector<TracePlacement> placements;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    objects.insert(objects.end(), pieces[i].size(), i);
-    std::ranges::move(pieces[i], std::back_inserter(placements));
+  MovingThings moving;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (!placed[i].figure) continue;
+    moving.figures.figures.push_back(std::move(*placed[i].figure));
+    moving.objects.push_back(i);
   }
-  return placements;
+  // It lasts as long as the scene, and longer than the world may be in use here.
+  moving.figures.window_from_pieces =
+      [world = world_, objects = moving.objects, stamp_ns,
+       duration_ns = std::int64_t{spec_.duration_ns}, window_from_world = window.window_from_world](
+          std::size_t figure, std::int64_t step, std::int64_t num_steps) {
+        return PiecesIn(*world, objects[figure], stamp_ns + duration_ns * step / (num_steps - 1),
+                        window_from_world);
+      };
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    moving.objects.insert(moving.objects.end(), placed[i].pieces.size(), i);
+    std::ranges::move(placed[i].pieces, std::back_inserter(moving.placements));
+  }
+  return moving;
 }
 
 SwayedThings FrameScenes::Swayed(std::int64_t stamp_ns, const Window& window) const {
@@ -297,9 +380,9 @@ std::vector<LoneObjects> FrameScenes::ObjectsAlone(const FrameScene& frame) cons
   alone.push_back({frame.moving, frame.moving_objects});
   if (wind_.blows()) {
     // Rays would go through all leaves that sway.
-    std::vector<std::size_t> objects;
-    alone.back().scene = std::make_shared<const TraceScene>(
-        store_->device(), MovingObjects(frame.stamp_ns, window, objects));
+    MovingThings moving = MovingObjects(frame.stamp_ns, window);
+    alone.back().scene = std::make_shared<const TraceScene>(store_->device(), moving.placements,
+                                                            std::move(moving.figures));
   }
   return alone;
 }

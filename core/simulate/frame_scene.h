@@ -29,8 +29,8 @@ struct ObjectHits {
 /// Objects of a frame in a scene of their own.
 struct LoneObjects {
   std::shared_ptr<const TraceScene> scene;
-  /// Indices into World::objects() of the first placements of the scene, each of which is a piece
-  /// of its object. Further placements are something else.
+  /// Indices into World::objects() of the first placements of the scene, each of which is a figure
+  /// or a piece of its object. Further placements are something else.
   std::vector<std::size_t> objects;
 
   /// Appends the objects that rays of the packet beginning at `first` hit within range, whatever
@@ -46,7 +46,7 @@ struct FrameScene final : public RayCaster {
   /// Objects that move or were added later, and what the wind moves; null if none is within reach.
   std::shared_ptr<const TraceScene> moving;
   /// The objects among them, by index into World::objects(), of the first placements of `moving`,
-  /// which are their pieces.
+  /// which are figures and pieces.
   std::vector<std::size_t> moving_objects;
   FramePoses poses;  ///< Poses of the sensor in the window frame.
   /// Surfaces of the window, of objects that windows do not know, and of what sways if it has its
@@ -140,24 +140,47 @@ class FrameScenes {
   [[nodiscard]] std::vector<TracePlacement> Place(std::size_t object,
                                                   std::int64_t stamp_ns,
                                                   const Window& window) const;
-  /// Returns whether a beam of the frame may hit an object whose first piece is placed so.
-  [[nodiscard]] bool IsInReach(const TracePlacement& placement,
-                               std::size_t object,
-                               const Vector3& sensor_window_m) const;
+  /// A place in the window at the begin and the end of a frame.
+  struct Ends {
+    Vector3 begin_m;
+    Vector3 end_m;
+  };
+  /// A frame in which objects are placed.
+  struct Moment {
+    std::int64_t stamp_ns{};
+    const Window& window;
+    Ends sensor;
+  };
+  /// Returns whether a beam of the frame may hit an object.
+  /// @param ends Of the object or of its first piece.
+  [[nodiscard]] bool IsInReach(std::size_t object, const Ends& ends, const Moment& moment) const;
+  /// What moves in a frame or was added later, as far as it is in reach.
+  struct MovingThings {
+    std::vector<TracePlacement> placements;
+    TraceFigures figures;
+    std::vector<std::size_t> objects;  ///< Of each figure, then of each placement.
+  };
+  /// An object in reach: a figure, its pieces, or nothing.
+  struct PlacedObject {
+    std::optional<TraceFigure> figure;
+    std::vector<TracePlacement> pieces;
+  };
+  [[nodiscard]] PlacedObject PlaceInReach(std::size_t object, const Moment& moment) const;
+  /// @param object Bends, so that it may be a figure.
+  [[nodiscard]] PlacedObject PlaceFigure(std::size_t object, const Moment& moment) const;
   [[nodiscard]] Vector3 SensorInWindow(std::int64_t stamp_ns, const Window& window) const {
     return (window.window_from_world * WorldFromSensor(stamp_ns)).translation();
   }
-  /// The pieces of all objects that move or were added later, as far as they are in reach.
-  /// @param objects Receives the index of each placement's object.
-  [[nodiscard]] std::vector<TracePlacement> MovingObjects(std::int64_t stamp_ns,
-                                                          const Window& window,
-                                                          std::vector<std::size_t>& objects) const;
+  [[nodiscard]] MovingThings MovingObjects(std::int64_t stamp_ns, const Window& window) const;
   /// The places of an object's pieces, which are not those of `window` alone, in its frame.
   [[nodiscard]] std::vector<Eigen::Affine3d> PiecesAt(std::size_t object,
                                                       std::int64_t time_ns,
                                                       const Window& window) const;
-  /// Into how many equal parts a frame is divided, between which an object moves linearly.
-  [[nodiscard]] std::int64_t NumPoseIntervals(std::size_t object) const;
+  /// Into how many equal parts a frame is divided, between which an object moves linearly, if its
+  /// poses may be so far apart.
+  [[nodiscard]] std::int64_t NumPoseIntervals(std::int64_t pose_step_ns) const;
+  /// The same at the object's own step; 0 if it does not move.
+  [[nodiscard]] std::int64_t NumOwnIntervals(std::size_t object) const;
   [[nodiscard]] FrameMotion MotionOf(const FrameScene& scene, const Window& window) const;
   [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
   /// Of what sways, where scenes have their motion: after those of all else.
@@ -179,6 +202,8 @@ class FrameScenes {
     std::uint32_t first_surface{};
     bool is_known_to_windows{};
     bool is_in_windows{};
+    /// Bounds of the model of an object that may be a figure.
+    std::optional<Eigen::AlignedBox3d> figure_bounds_m{};
   };
   [[nodiscard]] std::uint32_t FirstSurface(const Object& object, const Window& window) const {
     const auto num_windows = static_cast<std::uint32_t>(window.surfaces.size());

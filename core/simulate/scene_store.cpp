@@ -99,14 +99,15 @@ void SceneStore::ForgetUnusedModels() {
 
 SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
   StoredObject stored{{}, {}, RadiusAboutOrigin(*object.model)};
+  std::vector<TracePiece> pieces;
   for (std::size_t i = 0; i < NumPieces(object); ++i) {
     const std::shared_ptr<const Model>& piece = PieceOf(object, i);
-    stored.pieces.push_back(
-        {GetModel(piece, true), static_cast<std::uint32_t>(stored.surfaces.size())});
+    pieces.push_back({GetModel(piece, true), static_cast<std::uint32_t>(stored.surfaces.size())});
     for (const Part& part : piece->parts) {
       stored.surfaces.push_back(MakeSurface(part, object.instance, object.is_ego));
     }
   }
+  stored.pieces = std::make_shared<const std::vector<TracePiece>>(std::move(pieces));
   return stored;
 }
 

@@ -51,11 +51,8 @@ class SceneStore {
 
   /// An object prepared for tracing.
   struct StoredObject {
-    struct Piece {
-      std::shared_ptr<const TraceModel> model;
-      std::uint32_t first_surface{};  ///< Index in `surfaces` of its first part.
-    };
-    std::vector<Piece> pieces;      ///< See NumPieces().
+    /// See NumPieces(). Their first surfaces are indices in `surfaces`.
+    std::shared_ptr<const std::vector<TracePiece>> pieces;
     std::vector<Surface> surfaces;  ///< Surfaces of the parts of all pieces.
     double radius_m{};              ///< Radius of a sphere about its origin that contains it.
   };

@@ -145,13 +145,13 @@ void WindowSource::AddObjects(int home_chunk,
     const double distance_m = (world_from_object * box.center() - home_world).norm();
     if (distance_m > range_max_m_ + kHomeRadius_m + 0.5 * box.diagonal().norm()) continue;
     const std::vector<Transform> world_from_pieces = world.WorldFromPieces(i, 0);
-    for (std::size_t piece = 0; piece < objects_[i].pieces.size(); ++piece) {
+    const std::vector<TracePiece>& pieces = *objects_[i].pieces;
+    for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
       const Transform window_from_piece = window.window_from_world * world_from_pieces[piece];
       window.standing.push_back(i);
-      window.standing_placements.push_back(
-          {objects_[i].pieces[piece].model,
-           {ToAffine(window_from_piece)},
-           object_surfaces_[i] + objects_[i].pieces[piece].first_surface});
+      window.standing_placements.push_back({pieces[piece].model,
+                                            {ToAffine(window_from_piece)},
+                                            object_surfaces_[i] + pieces[piece].first_surface});
     }
   }
 }
@@ -168,10 +168,10 @@ void WindowSource::ForEach(std::size_t num, Pace pace, const Work& work) {
 
 WindowSource::Models WindowSource::GetModels(int home_chunk,
                                              const Chunks& chunks,
+                                             DetailChoice& choice,
                                              Pace pace) const {
   const World& world = *store_->world();
   const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
-  DetailChoice choice(world, home_chunk, detail_);
   std::vector<std::shared_ptr<const Model>> distinct;
   std::unordered_map<const Model*, std::size_t> index_of;
   std::vector<std::size_t> indices;  // In `distinct`, of all placements.
@@ -245,10 +245,12 @@ void WindowSource::AddChunks(const Chunks& chunks,
   if (!window.swaying.wires.empty()) window.swaying.tube = store_->GetUnitTube();
 }
 
-WindowSource::Chunks WindowSource::GetChunks(int home_chunk, const Purpose& purpose, Pace pace) {
+WindowSource::Chunks WindowSource::GetChunks(int home_chunk,
+                                             const Purpose& purpose,
+                                             const DetailChoice& choice,
+                                             Pace pace) {
   const World& world = *store_->world();
   const Transform window_from_world = world.WorldFromChunk(home_chunk).inverse();
-  const DetailChoice choice(world, home_chunk, detail_);
   const std::vector<int> reach = world.ChunksInReach(home_chunk, range_max_m_);
   std::vector<std::shared_ptr<const SceneStore::BuiltChunk>> built(reach.size());
   std::atomic<std::size_t> num_done = 0;
@@ -276,10 +278,13 @@ std::shared_ptr<const Window> WindowSource::Build(int home_chunk,
   std::vector<TracePlacement> placements;
   AddObjects(home_chunk, *purpose.standing, *window);
   placements = window->standing_placements;
-  Chunks chunks = GetChunks(home_chunk, purpose, pace);
+  DetailChoice choice(*store_->world(), home_chunk, detail_);
+  window->may_be_coarser = choice.may_be_coarser();
+  Chunks chunks = GetChunks(home_chunk, purpose, choice, pace);
   const std::size_t num_steps = NumSteps(chunks.size());
   progress(chunks.size(), num_steps);
-  AddChunks(chunks, GetModels(home_chunk, chunks, pace), purpose.wind_blows, *window, placements);
+  AddChunks(chunks, GetModels(home_chunk, chunks, choice, pace), purpose.wind_blows, *window,
+            placements);
   window->scene = std::make_unique<TraceScene>(store_->device(), placements);
   if (store_->uses_beams()) window->scene->PrepareBeams();
   progress(num_steps, num_steps);

@@ -32,6 +32,7 @@ struct Window {
   std::unique_ptr<const TraceScene> scene;
   WireSet wires;  ///< The wires that `scene` also contains as tubes.
   SwayingThings swaying;
+  bool may_be_coarser{};  ///< Whether its rule permits anything but full detail in it.
   /// The pieces of the stationary objects: their objects' indices in the store's world, and their
   /// places.
   std::vector<std::size_t> standing;
@@ -45,6 +46,8 @@ struct Window {
   mutable std::once_flag standing_once_;
   mutable std::shared_ptr<const TraceScene> standing_alone_;
 };
+
+class DetailChoice;
 
 /// The azimuths in the vehicle's frame to which a sensor's firings go.
 struct ScanSector {
@@ -125,13 +128,19 @@ class WindowSource {
   /// Calls `work(i)` for each i below `num`.
   template <typename Work>
   static void ForEach(std::size_t num, Pace pace, const Work& work);
-  [[nodiscard]] Chunks GetChunks(int home_chunk, const Purpose& purpose, Pace pace);
+  [[nodiscard]] Chunks GetChunks(int home_chunk,
+                                 const Purpose& purpose,
+                                 const DetailChoice& choice,
+                                 Pace pace);
   [[nodiscard]] std::shared_ptr<const Window> Build(int home_chunk,
                                                     const Purpose& purpose,
                                                     Pace pace);
   void AddObjects(int home_chunk, const std::vector<std::size_t>& standing, Window& window) const;
   /// The models in which the placements of all chunks are traced, in their order.
-  [[nodiscard]] Models GetModels(int home_chunk, const Chunks& chunks, Pace pace) const;
+  [[nodiscard]] Models GetModels(int home_chunk,
+                                 const Chunks& chunks,
+                                 DetailChoice& choice,
+                                 Pace pace) const;
   void AddChunks(const Chunks& chunks,
                  const Models& models,
                  bool wind_blows,

@@ -80,6 +80,11 @@ struct TraceModel::Handle {
   std::string name;
   bool is_foliage{};
   std::vector<PartSize> parts;
+  struct Sphere {
+    Eigen::Vector3f center_m = Eigen::Vector3f::Zero();
+    float radius_m{};
+  };
+  Sphere sphere;  ///< Contains the model.
 
   ~Handle() {
     if (scene != nullptr) rtcReleaseScene(scene);

@@ -7,11 +7,14 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/trace/beam_kernels.h"
+#include "core/trace/posed_figures.h"
 #include "core/trace/trace_handles.h"
 #include "railcast/lidar.h"
 
@@ -44,18 +47,25 @@ RotationColumns ToColumns(const Eigen::Matrix3d& matrix) {
   return columns;
 }
 
+Rows RowsOf(const Eigen::Matrix<float, 3, 4>& matrix) {
+  Rows rows{};
+  Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(rows.m) = matrix;
+  return rows;
+}
+
 }  // namespace
 
 struct TraceScene::Parts {
   std::shared_ptr<TraceDevice::Handle> device;
   // Referenced by the scene; kept alive here.
-  std::vector<std::shared_ptr<const TraceModel>> models;
-  std::vector<InstanceRecord> instances;
+  std::vector<std::shared_ptr<const TraceModel>> models;  ///< By placement.
+  std::unique_ptr<const PosedFigures> figures;            ///< Null if there are none.
+  std::vector<InstanceRecord> instances;                  ///< Of figures, then of placements.
   RTCScene scene{};
   bool has_foliage = false;
 
-  std::vector<Rows> steps;               ///< Places of all instances, one after another.
-  std::vector<std::uint32_t> num_steps;  ///< By instance.
+  std::vector<Rows> steps;               ///< Places of all placements, one after another.
+  std::vector<std::uint32_t> num_steps;  ///< By placement.
 
   Parts() = default;
   ~Parts() {
@@ -64,6 +74,7 @@ struct TraceScene::Parts {
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
+  void AttachFigures(TraceFigures those);
   void AttachInstance(const TracePlacement& placement);
   void StoreHits(const RTCRayHit16& packet, RayTile& tile, std::size_t first) const;
   /// Placed models for beams: all but wires, or wires.
@@ -80,11 +91,34 @@ struct TraceScene::Parts {
   [[nodiscard]] const BeamParts& beams() const;
 
  private:
-  void BuildBeams(BeamTree BeamTrees::*tree, Beams& beams) const;
+  /// A model and its places, as beams need them.
+  struct BeamPlace {
+    const TraceModel* model{};
+    std::uint32_t first_surface{};
+    const Rows* steps{};
+    std::uint32_t num_steps{};
+  };
+  [[nodiscard]] std::vector<BeamPlace> BeamPlaces() const;
+  void BuildBeams(const std::vector<BeamPlace>& places,
+                  BeamTree BeamTrees::*tree_of,
+                  Beams& beams) const;
 
   mutable std::once_flag beams_once_;
+  mutable std::vector<Rows> figure_steps_;  ///< Places of their pieces, for beams.
   mutable BeamParts beams_;
 };
+
+void TraceScene::Parts::AttachFigures(TraceFigures those) {
+  if (those.figures.empty()) return;
+  figures = std::make_unique<const PosedFigures>(std::move(those));
+  figures->AttachTo(device->device, scene);
+  for (const TraceFigure& figure : figures->figures()) {
+    instances.push_back({.rotation = ToColumns(Eigen::Matrix3d::Identity()),
+                         .rotation_change = {},
+                         .first_surface = figure.first_surface,
+                         .moves = false});
+  }
+}
 
 void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
   const auto& places = placement.window_from_model;
@@ -97,8 +131,7 @@ void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
     const Eigen::Matrix<float, 3, 4> matrix = places[step].matrix().topRows<3>().cast<float>();
     rtcSetGeometryTransform(geometry, static_cast<unsigned>(step), RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
                             matrix.data());
-    Rows& rows = steps.emplace_back();
-    Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(rows.m) = matrix;
+    steps.push_back(RowsOf(matrix));
   }
   num_steps.push_back(static_cast<std::uint32_t>(places.size()));
   rtcCommitGeometry(geometry);
@@ -114,13 +147,16 @@ void TraceScene::Parts::AttachInstance(const TracePlacement& placement) {
   has_foliage = has_foliage || placement.model->handle().is_foliage;
 }
 
-TraceScene::TraceScene(const TraceDevice& device, const std::vector<TracePlacement>& placements) {
+TraceScene::TraceScene(const TraceDevice& device,
+                       const std::vector<TracePlacement>& placements,
+                       TraceFigures figures) {
   auto parts = std::make_unique<Parts>();
   parts->device = device.handle();
   const auto doing = [&] {
     return "building a scene for ray tracing (" + std::to_string(placements.size()) + " places)";
   };
   BuildScene(parts->device->device, kWatertight, parts->scene, doing, [&] {
+    parts->AttachFigures(std::move(figures));
     for (const TracePlacement& placement : placements) parts->AttachInstance(placement);
   });
   parts_ = std::move(parts);
@@ -173,19 +209,49 @@ Rows InverseOf(const Rows& rows) {
 
 }  // namespace
 
-void TraceScene::Parts::BuildBeams(BeamTree BeamTrees::*tree_of, Beams& beams) const {
+std::vector<TraceScene::Parts::BeamPlace> TraceScene::Parts::BeamPlaces() const {
+  std::vector<BeamPlace> places;
+  const std::size_t num_figures = instances.size() - models.size();
+  const Rows* next = steps.data();
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    places.push_back(
+        {models[i].get(), instances[num_figures + i].first_surface, next, num_steps[i]});
+    next += num_steps[i];
+  }
+  if (figures == nullptr) return places;
+  std::size_t num_rows = 0;
+  for (const TraceFigure& figure : figures->figures()) {
+    num_rows += figure.pieces->size() * figure.num_steps;
+  }
+  figure_steps_.clear();
+  figure_steps_.reserve(num_rows);  // They are pointed to.
+  for (std::size_t i = 0; i < num_figures; ++i) {
+    const TraceFigure& figure = figures->figures()[i];
+    for (std::size_t piece = 0; piece < figure.pieces->size(); ++piece) {
+      const auto& [model, first_surface] = (*figure.pieces)[piece];
+      places.push_back({model.get(), figure.first_surface + first_surface,
+                        figure_steps_.data() + figure_steps_.size(), figure.num_steps});
+      for (std::uint32_t step = 0; step < figure.num_steps; ++step) {
+        figure_steps_.push_back(RowsOf(figures->PoseAt(i, step)[piece].window_from_piece));
+      }
+    }
+  }
+  return places;
+}
+
+void TraceScene::Parts::BuildBeams(const std::vector<BeamPlace>& places,
+                                   BeamTree BeamTrees::*tree_of,
+                                   Beams& beams) const {
   std::vector<Eigen::AlignedBox3f> boxes;
-  const Rows* places = steps.data();
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    const BeamTree& tree = models[i]->handle().beam_trees().*tree_of;
-    boxes.push_back(BoxOf(tree.bounds(), places, num_steps[i]));
+  for (const BeamPlace& place : places) {
+    const BeamTree& tree = place.model->handle().beam_trees().*tree_of;
+    boxes.push_back(BoxOf(tree.bounds(), place.steps, place.num_steps));
     beams.instances.push_back({.root = tree.root(),
-                               .first_surface = instances[i].first_surface,
-                               .num_steps = num_steps[i],
-                               .is_stretched = IsStretched(places[0]),
-                               .window_from_model = places,
-                               .model_from_window = InverseOf(places[0])});
-    places += num_steps[i];
+                               .first_surface = place.first_surface,
+                               .num_steps = place.num_steps,
+                               .is_stretched = IsStretched(place.steps[0]),
+                               .window_from_model = place.steps,
+                               .model_from_window = InverseOf(place.steps[0])});
   }
   const auto doing = [this] {
     return "building a scene for tracing beams (" + std::to_string(instances.size()) + " places)";
@@ -199,14 +265,15 @@ const TraceScene::Parts::BeamParts& TraceScene::Parts::beams() const {
   std::call_once(beams_once_, [this] {
     // Isolated, so that a thread that waits here does not take up a tile of the frame that needs
     // this scene.
-    tbb::this_task_arena::isolate([this] {
-      tbb::parallel_for(std::size_t{0}, models.size(), [this](std::size_t i) {
-        static_cast<void>(models[i]->handle().beam_trees());
+    const std::vector<BeamPlace> places = BeamPlaces();
+    tbb::this_task_arena::isolate([&places] {
+      tbb::parallel_for(std::size_t{0}, places.size(), [&places](std::size_t i) {
+        static_cast<void>(places[i].model->handle().beam_trees());
       });
     });
     beams_ = {};
-    BuildBeams(&BeamTrees::solid, beams_.solid);
-    BuildBeams(&BeamTrees::wires, beams_.wires);
+    BuildBeams(places, &BeamTrees::solid, beams_.solid);
+    BuildBeams(places, &BeamTrees::wires, beams_.wires);
   });
   return beams_;
 }

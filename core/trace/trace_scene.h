@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,16 +57,42 @@ struct TracePlacement {
   std::uint32_t first_surface{};                   ///< Surface index of the model's part 0.
 };
 
+/// A rigid piece of something that bends.
+struct TracePiece {
+  std::shared_ptr<const TraceModel> model;
+  std::uint32_t first_surface{};  ///< Of its part 0, counted from the first surface of the whole.
+};
+
+/// Something that bends, such as a person who walks.
+struct TraceFigure {
+  std::shared_ptr<const std::vector<TracePiece>> pieces;
+  Eigen::AlignedBox3f window_box_m;  ///< Contains the pieces as long as the shutter is open.
+  std::uint32_t num_steps{};         ///< Of its poses, at equal time steps: two or more.
+  std::uint32_t first_surface{};
+};
+
+/// Figures, which are posed when a ray first comes near them: most of a crowd are hidden, and the
+/// rays that meet one figure come at nearly the same time.
+struct TraceFigures {
+  std::vector<TraceFigure> figures;
+  /// The places of a figure's pieces at one of its `num_steps`, without any scale. Thread-safe.
+  std::function<std::vector<Eigen::Affine3d>(
+      std::size_t figure, std::uint32_t step, std::uint32_t num_steps)>
+      window_from_pieces;
+};
+
 /// A placement that rays of a packet hit.
 struct PlacementHits {
-  std::uint32_t placement{};  ///< Its index.
+  std::uint32_t placement{};  ///< Its index: figures count first, each as one placement.
   std::uint32_t lanes{};      ///< Bit i: the packet's ray i hits it.
 };
 
 /// Placed models, prepared for tracing in packets of 16.
 class TraceScene final : public RayCaster {
  public:
-  TraceScene(const TraceDevice& device, const std::vector<TracePlacement>& placements);
+  TraceScene(const TraceDevice& device,
+             const std::vector<TracePlacement>& placements,
+             TraceFigures figures = {});
   ~TraceScene() override;
   TraceScene(const TraceScene&) = delete;
   TraceScene& operator=(const TraceScene&) = delete;

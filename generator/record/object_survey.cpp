@@ -1,7 +1,9 @@
 #include "generator/record/object_survey.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <unordered_map>
@@ -16,15 +18,45 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The line is put together as text: of hundreds of objects, a tree of JSON values costs as much as
-// tracing the frame.
+// The line is put together as text: of thousands of objects, a tree of JSON values costs several
+// times as much as tracing the frame.
 
 std::string Dumped(const Json& value) {
   return value.dump();
 }
 
-std::string List(const Vector3& vector) {
-  return Dumped({vector.x(), vector.y(), vector.z()});
+// As Dumped(), which writes finite numbers with this function, too.
+void AppendNumber(double number, std::string& line) {
+  if (!std::isfinite(number)) {
+    line.append("null");
+    return;
+  }
+  std::array<char, 64> digits{};
+  const char* const end =
+      nlohmann::detail::to_chars(digits.data(), digits.data() + digits.size(), number);
+  line.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+// As Dumped(), without its detour for text in which nothing is escaped.
+void AppendText(const std::string& text, std::string& line) {
+  const bool is_plain = std::ranges::all_of(text, [](char letter) {
+    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
+  });
+  if (is_plain) {
+    line.append(1, '"').append(text).append(1, '"');
+  } else {
+    line.append(Dumped(text));
+  }
+}
+
+template <int kSize>
+void AppendList(const Eigen::Matrix<double, kSize, 1>& numbers, std::string& line) {
+  line += '[';
+  for (Eigen::Index i = 0; i < kSize; ++i) {
+    if (i > 0) line += ',';
+    AppendNumber(numbers[i], line);
+  }
+  line += ']';
 }
 
 double ToTenthOfMillimetre(double length_m) {
@@ -33,49 +65,73 @@ double ToTenthOfMillimetre(double length_m) {
   return std::round(length_m * kSteps_per_m) / kSteps_per_m + 0.0;
 }
 
-// @param size The list of the box's size.
-void AppendBox(const char* key,
-               const Transform& to_from_box,
-               const std::string& size,
-               std::string& line) {
-  const Eigen::Quaterniond turn = CanonicalRotation(to_from_box);
-  line.append(",\"").append(key).append("\":{\"center_m\":");
-  line.append(List(to_from_box.translation())).append(",\"size_m\":").append(size);
+void AppendBox(const Transform& to_from_box, const Vector3& size_m, std::string& line) {
+  line.append("{\"center_m\":");
+  AppendList<3>(to_from_box.translation(), line);
+  line.append(",\"size_m\":");
+  AppendList<3>(size_m, line);
   line.append(",\"quaternion_xyzw\":");
-  line.append(Dumped({turn.x(), turn.y(), turn.z(), turn.w()})).append("}");
+  AppendList<4>(CanonicalRotation(to_from_box).coeffs(), line);
+  line += '}';
 }
 
-std::string Contacts(const ObjectInFrame& object) {
-  Json contacts = Json::array();
-  for (const ContactInFrame& contact : object.contacts) {
-    contacts.push_back({{"with", contact.with},
-                        {"overlap", contact.is_overlap},
-                        {"gap_m", ToTenthOfMillimetre(contact.gap_m)}});
+void AppendBoxes(const ObjectInFrame& object,
+                 const Transform& sensor_from_world,
+                 std::string& line) {
+  line.append(",\"world\":");
+  AppendBox(object.world_from_box, object.size_m, line);
+  line.append(",\"sensor\":");
+  const Transform sensor_from_box = sensor_from_world * object.world_from_box;
+  const std::size_t begin = line.size();
+  AppendBox(sensor_from_box, object.size_m, line);
+  const std::size_t length = line.size() - begin;
+  line.append(",\"output\":");
+  // Unless the scenario chooses other axes, it is the same box.
+  if (object.output_from_box.matrix() == sensor_from_box.matrix()) {
+    line.append(line, begin, length);
+  } else {
+    AppendBox(object.output_from_box, object.size_m, line);
   }
-  return Dumped(contacts);
+}
+
+void AppendContacts(const ObjectInFrame& object, std::string& line) {
+  line += '[';
+  for (const ContactInFrame& contact : object.contacts) {
+    if (&contact != object.contacts.data()) line += ',';
+    line.append("{\"with\":");
+    AppendText(contact.with, line);
+    line.append(contact.is_overlap ? ",\"overlap\":true" : ",\"overlap\":false");
+    line.append(",\"gap_m\":");
+    AppendNumber(ToTenthOfMillimetre(contact.gap_m), line);
+    line += '}';
+  }
+  line += ']';
 }
 
 void AppendObject(const ObjectInFrame& object,
                   const Transform& sensor_from_world,
                   std::string& line) {
-  const std::string size = List(object.size_m);
-  line.append("{\"name\":").append(Dumped(object.name));
-  line.append(",\"type\":").append(Dumped(object.type));
-  line.append(",\"label\":").append(Dumped(object.label));
+  line.append("{\"name\":");
+  AppendText(object.name, line);
+  line.append(",\"type\":");
+  AppendText(object.type, line);
+  line.append(",\"label\":");
+  AppendText(object.label, line);
   line.append(",\"instance\":").append(std::to_string(object.instance));
-  AppendBox("world", object.world_from_box, size, line);
-  AppendBox("sensor", sensor_from_world * object.world_from_box, size, line);
-  AppendBox("output", object.output_from_box, size, line);
-  line.append(",\"velocity_mps\":").append(List(object.velocity_world_mps));
+  AppendBoxes(object, sensor_from_world, line);
+  line.append(",\"velocity_mps\":");
+  AppendList<3>(object.velocity_world_mps, line);
   line.append(",\"points\":").append(std::to_string(object.points));
   line.append(",\"points_time_ns\":");
   line.append(object.points > 0 ? std::to_string(object.points_time_ns) : "null");
   line.append(",\"firings_visible\":").append(std::to_string(object.view.firings_visible));
   line.append(",\"firings_alone\":").append(std::to_string(object.view.firings_alone));
-  Json occlusion;  // Default-constructed, it is written as null.
-  if (const auto hidden = object.view.occlusion()) occlusion = *hidden;
-  line.append(",\"occlusion\":").append(Dumped(occlusion));
-  line.append(",\"contacts\":").append(Contacts(object)).append("}");
+  line.append(",\"occlusion\":");
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // Written as null.
+  AppendNumber(object.view.occlusion().value_or(kUnknown), line);
+  line.append(",\"contacts\":");
+  AppendContacts(object, line);
+  line += '}';
 }
 
 struct Seen {
@@ -103,6 +159,17 @@ std::unordered_map<std::uint32_t, Seen> CountPoints(const Frame& frame) {
   return points;
 }
 
+// The contacts that each of so many objects has, in their order.
+std::vector<std::vector<ObjectContact>> ContactsByObject(const std::vector<ObjectContact>& contacts,
+                                                         std::size_t num_objects) {
+  std::vector<std::vector<ObjectContact>> by_object(num_objects);
+  for (const ObjectContact& contact : contacts) {
+    by_object[contact.one].push_back(contact);
+    by_object[contact.other].push_back(contact);
+  }
+  return by_object;
+}
+
 // Returns the smallest distance between the origin and the straight path from `begin` to `end`.
 double NearestApproach_m(const Vector3& begin, const Vector3& end) {
   const Vector3 way = end - begin;
@@ -124,11 +191,14 @@ std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& ob
   const Transform sensor_from_world = frame.world_from_sensor.inverse();
   std::string line = "{\"frame\":" + std::to_string(frame.index) +
                      ",\"stamp_ns\":" + std::to_string(frame.stamp_ns) + ",\"objects\":[";
+  constexpr std::size_t kUsualLength = 1000;
+  line.reserve(line.size() + kUsualLength * objects.size());
   for (const ObjectInFrame& object : objects) {
     if (&object != objects.data()) line += ',';
     AppendObject(object, sensor_from_world, line);
   }
-  return line + "]}\n";
+  line += "]}\n";
+  return line;
 }
 
 ObjectSurvey::ObjectSurvey(const World& world,
@@ -188,7 +258,7 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
   Check(views.size() == all.size(), "one view for each object");
   const auto points = CountPoints(frame);
   const Transform output_from_world = OutputFromWorld(frame);
-  const std::vector<ObjectContact> contacts = contacts_.FindAll(frame.stamp_ns);
+  const auto contacts = ContactsByObject(contacts_.FindAll(frame.stamp_ns), all.size());
   std::vector<ObjectInFrame> described;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const SceneObject& object = all[i];
@@ -207,8 +277,7 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
       entry.points = found->second.points;
       entry.points_time_ns = MeanTime_ns(found->second);
     }
-    for (const ObjectContact& contact : contacts) {
-      if (contact.one != i && contact.other != i) continue;
+    for (const ObjectContact& contact : contacts[i]) {
       const std::size_t other = contact.one == i ? contact.other : contact.one;
       entry.contacts.push_back({all[other].name, contact.is_overlap(), contact.gap_m});
     }

@@ -430,7 +430,8 @@ std::string RunDirectory::ManifestJson() const {
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
   for (const std::string& name : names) {
-    const std::string hash = ContentHash(ReadFileWhole(spec_.directory / name));
+    // Of thousands of objects, their file is larger than the memory may be.
+    const std::string hash = HashFile(spec_.directory / name).hash;
     files[name] = hash;
     known.push_back({name, hash, {}});
   }

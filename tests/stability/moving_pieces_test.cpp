@@ -62,7 +62,7 @@ RangeErrors ErrorsOn(const ObjectSpec& spec) {
   EXPECT_GT(object.pieces.size(), 1U);
   const ScanPattern pattern = MakeRaster(36.0, 24.0, 0.2);
   const std::int64_t stamp_ns = pattern.StampNs(kPassingFrame);
-  SimulatorSpec simulator;
+  SimulatorSpec simulator{.has_full_detail = true};
   simulator.vehicle_from_sensor =
       VehicleFromSensorAimedAt(world->WorldFromVehicle(0).inverse() *
                                    (world->WorldFromObject(0, stamp_ns) * Vector3(0, 0, 1.0)),

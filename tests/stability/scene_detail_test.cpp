@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/units.h"
 #include "railcast/scenario.h"
 #include "tests/stability/regime.h"
 
@@ -107,6 +108,49 @@ TEST(SceneDetail, HoldsForTreesThatSwayInTheWind) {
   full.weather.wind_speed_mps = 10.0;
   coarser.weather.wind_speed_mps = 10.0;
   ExpectAlike(EchoesOf(full, 4), EchoesOf(coarser, 4));
+}
+
+/// The demo's vehicle, standing, before 60 persons who walk up to 150 m ahead of it.
+Frame CrowdIn(SceneDetail detail) {
+  ScenarioSpec spec = Demo(Fidelity::kGeometry, detail);
+  spec.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 0.0}};
+  spec.lidar.receiver.return_mode = ReturnMode::kStrongest;
+  for (int i = 0; i < 60; ++i) {
+    ObjectSpec person;
+    person.name = "person " + std::to_string(i);
+    person.type = ObjectType::kPerson;
+    person.s_m = spec.vehicle.start_s_m + 6.0 + 2.4 * i;
+    person.d_m = 1.5 * (i % 7 - 3);
+    person.motion = MotionSpec{.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 1.3}}};
+    spec.world.objects.push_back(std::move(person));
+  }
+  Frame frame;
+  MakeSimulator(spec, 2)->Scan(3, frame);
+  return frame;
+}
+
+// The spacing is 0.25 degrees. Where a beam meets a limb's edge, it may meet the other limb or the
+// ground instead, or a surface that it grazes: these are few.
+TEST(SceneDetail, KeepsWhoWalksWithinAnEighthOfTheSpacing) {
+  const Frame full = CrowdIn(SceneDetail::kFull);
+  const Frame coarser = CrowdIn(SceneDetail::kAuto);
+  double num_full = 0.0;
+  double num_coarser = 0.0;
+  double num_common = 0.0;
+  double num_near = 0.0;
+  for (std::size_t slot = 0; slot < full.num_slots(); ++slot) {
+    if (full.instance[slot] != 0) ++num_full;
+    if (coarser.instance[slot] != 0) ++num_coarser;
+    if (full.instance[slot] == 0 || coarser.instance[slot] != full.instance[slot]) continue;
+    ++num_common;
+    const auto range_m = static_cast<double>(full.true_range_m[slot]);
+    const double off_m = std::abs(static_cast<double>(coarser.true_range_m[slot]) - range_m);
+    if (off_m <= RadFromDeg(0.25) * range_m / 8.0) ++num_near;
+  }
+  ASSERT_GT(num_full, 500.0);
+  EXPECT_NEAR(num_coarser / num_full, 1.0, 0.01);
+  EXPECT_GT(num_common, 0.97 * num_full);
+  EXPECT_GT(num_near, 0.97 * num_common);
 }
 
 }  // namespace

@@ -46,8 +46,8 @@ struct PersonBuild {
 /// Moves the pieces of a walking person. Thread-safe.
 class WalkingPerson {
  public:
-  /// How far apart in time poses may be between which pieces move linearly: a swinging foot
-  /// accelerates by at most 40 m/s^2, so that it is 0.5 mm off at most.
+  /// How far apart in time poses may be between which pieces move linearly: at 2 m/s, 98 % of all
+  /// points are 2 mm off at most, and a knee at the moment in which it is stretched 14 mm (tested).
   static constexpr std::int64_t kPoseStep_ns = 10'000'000;
 
   explicit WalkingPerson(const PersonBuild& build);

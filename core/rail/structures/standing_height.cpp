@@ -58,27 +58,6 @@ double Floors::HeightAt_m(double s_m, double d_m) const {
   return height_m;
 }
 
-double SurfaceHeight_m(const ChunkContext& context,
-                       const CrossSection& section,
-                       const Floors& floors,
-                       double s_m,
-                       double d_m) {
-  if (context.survey != nullptr) {
-    const Vector3 place_m = context.alignment.WorldFromTrack(s_m, d_m).translation();
-    if (const auto ground_m = context.survey->GroundHeight_m(place_m.head<2>())) {
-      return std::max(*ground_m, floors.HeightAt_m(s_m, d_m));
-    }
-  }
-  Vector3 surface = GroundPoint(context, section, s_m, d_m);
-  const double ballast_m = section.BallastHeight_m(d_m);
-  if (std::isfinite(ballast_m)) {
-    const Vector3 ballast = section.PointAt(d_m, ballast_m);
-    if (ballast.z() > surface.z()) surface = ballast;
-  }
-  const double height_m = (context.chunk_from_world.inverse() * surface).z();
-  return std::max(height_m, floors.HeightAt_m(s_m, d_m));
-}
-
 /// Heights of the ground below points of an object.
 class GroundBelow {
  public:
@@ -87,7 +66,9 @@ class GroundBelow {
         place_(place),
         turn_(place.heading_rad),
         reach_m_(place.area_m.min().norm() + place.area_m.max().norm()),
-        floors_(context, {place.s_m - reach_m_, place.s_m + reach_m_}) {}
+        world_from_chunk_(context.chunk_from_world.inverse()),
+        floors_(context, {place.s_m - reach_m_, place.s_m + reach_m_}),
+        rise_(context) {}
 
   /// @param point_m In the object's frame.
   double At_m(const Eigen::Vector2d& point_m) {
@@ -96,15 +77,33 @@ class GroundBelow {
     // Posing a person consists of little else, and along the line two corners share a section.
     if (!section_ || s_m != section_s_m_) section_.emplace(context_, s_m);
     section_s_m_ = s_m;
-    return SurfaceHeight_m(context_, *section_, floors_, s_m, place_.d_m + offset_m.y());
+    return SurfaceHeight_m(s_m, place_.d_m + offset_m.y());
   }
 
  private:
+  [[nodiscard]] double SurfaceHeight_m(double s_m, double d_m) const {
+    if (context_.survey != nullptr) {
+      const Vector3 place_m = context_.alignment.WorldFromTrack(s_m, d_m).translation();
+      if (const auto ground_m = context_.survey->GroundHeight_m(place_m.head<2>())) {
+        return std::max(*ground_m, floors_.HeightAt_m(s_m, d_m));
+      }
+    }
+    Vector3 surface = rise_.PointAt(*section_, s_m, d_m);
+    const double ballast_m = section_->BallastHeight_m(d_m);
+    if (std::isfinite(ballast_m)) {
+      const Vector3 ballast = section_->PointAt(d_m, ballast_m);
+      if (ballast.z() > surface.z()) surface = ballast;
+    }
+    return std::max((world_from_chunk_ * surface).z(), floors_.HeightAt_m(s_m, d_m));
+  }
+
   const ChunkContext& context_;
   const StandingPlace& place_;
   Eigen::Rotation2Dd turn_;
   double reach_m_;
+  Transform world_from_chunk_;
   Floors floors_;
+  GroundRise rise_;
   std::optional<CrossSection> section_;
   double section_s_m_ = 0.0;
 };

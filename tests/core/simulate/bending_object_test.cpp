@@ -17,7 +17,7 @@ constexpr double kDistance_m = TurningLeaf::kDistance_m;
 constexpr double kTurn_radps = TurningLeaf::kTurn_radps;
 
 /// With a second leaf that stands still, `gap_m` behind the hinge.
-class HingedWorld final : public TurningLeaf {
+class HingedWorld : public TurningLeaf {
  public:
   explicit HingedWorld(double gap_m, bool moves = true) : TurningLeaf(moves), gap_m_(gap_m) {
     objects_.front().pieces = {objects_.front().model, objects_.front().model};
@@ -54,6 +54,33 @@ TEST(BendingObjects, AreHitWhereEachPieceIsWhenTheBeamComes) {
   }
   EXPECT_EQ(num_hits, pattern.num_firings());
   EXPECT_GT(latest_s - earliest_s, 0.05) << "the sweep sees the piece turn by more than 0.2 rad";
+}
+
+/// HingedWorld whose sensor's place is known, so that it may be coarser far away.
+class KnownHingedWorld final : public HingedWorld {
+ public:
+  using HingedWorld::HingedWorld;
+  [[nodiscard]] std::vector<Transform> VehiclePosesIn(int) const override {
+    return {Transform::Identity()};
+  }
+};
+
+TEST(BendingObjects, AreOffByAnEighthOfTheFiringsSpacingAtMost) {
+  const ScanPattern pattern = MakeRaster(10.0, 5.0, 0.5);
+  const auto world = std::make_shared<KnownHingedWorld>(1000.0);
+  const Frame coarser = ScanOnce(world, pattern);
+  const Frame full = ScanOnce(world, pattern, {.has_full_detail = true});
+  const double spacing_m = RadFromDeg(0.5) * kDistance_m;
+  double most_m = 0.0;
+  for (std::size_t slot = 0; slot < full.num_slots(); ++slot) {
+    ASSERT_EQ(coarser.instance[slot], full.instance[slot]) << slot;
+    if (full.instance[slot] != 1) continue;
+    const double off_m = std::abs(static_cast<double>(coarser.range_m[slot] - full.range_m[slot]));
+    most_m = std::max(most_m, off_m);
+  }
+  EXPECT_LT(most_m, spacing_m / 8.0);
+  // Of a leaf that turns, little can be seen of it.
+  EXPECT_GT(most_m, 1e-5);
 }
 
 TEST(BendingObjects, ShowAllTheirPiecesUnderOneInstance) {

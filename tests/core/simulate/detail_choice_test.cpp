@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -187,6 +188,19 @@ TEST(SectorOf, IsAllAroundForFiringsThatGoSteeplyDown) {
       Raster(0.25),
       MakeTransform(RotationFromYawPitchRoll(0.0, RadFromDeg(20.0), 0.0), Vector3::Zero()));
   EXPECT_DOUBLE_EQ(down.half_width_rad, std::numbers::pi);
+}
+
+TEST(CoarserPoseStep, KeepsTheErrorWithinAnEighthOfWhatTheSensorCanTell) {
+  constexpr std::int64_t kStep_ns = 10'000'000;
+  // Rays are 0.04 m apart at 10 m: 5 mm is 2.5 times 2 mm.
+  EXPECT_NEAR(static_cast<double>(CoarserPoseStep_ns(Rays(), 10.0, kStep_ns)),
+              1e7 * std::sqrt(0.005 / 0.002), 1.0);
+  // Beams are half as wide.
+  EXPECT_NEAR(static_cast<double>(CoarserPoseStep_ns(Beams(), 20.0, kStep_ns)),
+              1e7 * std::sqrt(0.005 / 0.002), 1.0);
+  EXPECT_EQ(CoarserPoseStep_ns(Rays(), 1.0, kStep_ns), kStep_ns);
+  EXPECT_EQ(CoarserPoseStep_ns(Rays(), -1.0, kStep_ns), kStep_ns);
+  EXPECT_EQ(CoarserPoseStep_ns({}, 100.0, kStep_ns), kStep_ns);
 }
 
 TEST(RaySpacing, IsTheResolutionOfARaster) {

@@ -169,6 +169,18 @@ TEST(ObjectsLine, GivesBoxesVelocityAndOcclusion) {
   EXPECT_TRUE(line.at("objects").at(1).at("occlusion").is_null());
 }
 
+// Numbers of all lengths, -0 and text with what JSON escapes.
+TEST(ObjectsLine, IsWhatAJsonLibraryWouldWrite) {
+  const Frame frame = FrameWithFiveFiringsOnInstanceThree();
+  std::vector<ObjectInFrame> objects = Survey(frame);
+  objects[0].name = "n\u00e4her \"1\"\\\n\x7f";
+  objects[0].size_m = Vector3(1e-9, 0.1 + 0.2, 1e22);
+  objects[0].velocity_world_mps = Vector3(-0.0, 1.0 / 3.0, -123456.75);
+  objects[0].contacts = {{"a\tb", true, -0.5}, {"plain", false, 0.0}};
+  const std::string line = ObjectsLine(frame, objects);
+  EXPECT_EQ(nlohmann::ordered_json::parse(line).dump() + "\n", line);
+}
+
 TEST(ObjectsLine, SaysWhatTouchesAnObject) {
   // The far object and the vehicle are the same flat model at the same place.
   const Frame frame = FrameWithFiveFiringsOnInstanceThree();

@@ -181,6 +181,48 @@ TEST(WalkingPerson, MovesItsPiecesSmoothly) {
   }
 }
 
+/// How far the corners of all pieces are off between poses so far apart in time, in a whole stride:
+/// in ascending order.
+std::vector<double> ErrorsBetweenPoses_m(Physique physique, double speed_mps, double step_s) {
+  const PersonBuild build{{.physique = physique}, StandardHeight_m(physique), speed_mps};
+  const WalkingPerson person(build);
+  const PersonSurfaces surfaces = FindPersonSurfaces(build.look, RailLabels(), RailMaterials());
+  const std::vector<Model> pieces = MakePersonPieces(surfaces, build);
+  std::vector<double> errors_m;
+  const double way_m = speed_mps * step_s;
+  for (double begin_m = 0.0; begin_m < person.stride_length_m(); begin_m += 0.01) {
+    const auto begin = person.ObjectFromPieces(begin_m, speed_mps);
+    const auto middle = person.ObjectFromPieces(begin_m + 0.5 * way_m, speed_mps);
+    const auto end = person.ObjectFromPieces(begin_m + way_m, speed_mps);
+    for (std::size_t piece = 0; piece < begin.size(); ++piece) {
+      const Eigen::AlignedBox3d box_m = pieces[piece].Bounds();
+      for (int i = 0; i < 8; ++i) {
+        const Vector3 corner_m = box_m.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+        const Vector3 between_m = 0.5 * (begin[piece] * corner_m + end[piece] * corner_m);
+        errors_m.push_back((middle[piece] * corner_m - between_m).norm());
+      }
+    }
+  }
+  std::ranges::sort(errors_m);
+  return errors_m;
+}
+
+// core/simulate/detail_choice.h chooses by it how far apart in time poses are. A knee that is
+// nearly stretched is fast for an instant, which makes the greatest errors.
+TEST(WalkingPerson, IsHardlyOffBetweenItsPoses) {
+  constexpr double kFast_mps = 2.0;
+  for (const Physique physique : {Physique::kMan, Physique::kWoman, Physique::kChild}) {
+    for (const double step_s : {0.01, 0.02, 0.05, 0.1}) {
+      const std::vector<double> errors_m = ErrorsBetweenPoses_m(physique, kFast_mps, step_s);
+      const double steps = step_s / 0.01;
+      EXPECT_LT(errors_m[errors_m.size() * 98 / 100], 2e-3 * steps * steps)
+          << NameOf(physique) << " with poses " << step_s << " s apart";
+      EXPECT_LT(errors_m.back(), 14e-3 * steps)
+          << NameOf(physique) << " with poses " << step_s << " s apart";
+    }
+  }
+}
+
 /// Expects that the model at rest contains the pieces at 24 phases and three speeds.
 void ExpectWithinBoundsAtRest(const PersonSpec& look, double steady_mps) {
   const PersonBuild build{look, StandardHeight_m(look.physique), steady_mps};
