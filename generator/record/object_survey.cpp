@@ -260,6 +260,7 @@ std::vector<ObjectInFrame> ObjectSurvey::Describe(const Frame& frame,
   const Transform output_from_world = OutputFromWorld(frame);
   const auto contacts = ContactsByObject(contacts_.FindAll(frame.stamp_ns), all.size());
   std::vector<ObjectInFrame> described;
+  described.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const SceneObject& object = all[i];
     if (object.is_ego) continue;

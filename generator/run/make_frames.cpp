@@ -264,6 +264,8 @@ class MissingFrames {
         slot.directory->Encode(made, slot.encoded);
         if (bag_ != nullptr) bag_->Encode(slot.sensor, made, slot.encoded);
       });
+      // Of thousands of objects, they would take megabytes in every frame that waits to be written.
+      made.objects = {};
     } catch (...) {
       slot.fault = std::current_exception();
     }

@@ -394,6 +394,9 @@ void RunDirectory::Write(const EncodedFrame& frame) {
   if (trace_) trace_->Append(record.stamp_ns, frame.sensor_view);
   const std::vector<std::string> lines = RecordLines(frame);
   std::string all_lines;
+  std::size_t num_bytes = 0;
+  for (const std::string& line : lines) num_bytes += line.size();
+  all_lines.reserve(num_bytes);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     line_files_[i].Append(lines[i]);
     all_lines += lines[i];
