@@ -147,8 +147,8 @@ class World {
   [[nodiscard]] virtual std::vector<CoarserSurfaces> CoarserSurfacesOf(int /*chunk*/) const {
     return {};
   }
-  /// The chunk with fewer triangles in its `ground`, and with the same placements and wires.
-  /// @param level 1 is the first of CoarserSurfacesOf().
+  /// The chunk with fewer triangles in its `ground`, and with the same placements and wires. Level
+  /// 1 is the first of CoarserSurfacesOf().
   [[nodiscard]] virtual Chunk BuildCoarserChunk(int chunk, std::size_t /*level*/) const {
     return BuildChunk(chunk);
   }

@@ -208,7 +208,10 @@ class GroundGrid {
     const bool is_shaped = context_.land != nullptr && context_.land->has_terrain();
     const double near_reach_m = is_shaped ? kShapedReach_m : kFineReach_m;
     const auto widest_m = [&](double d_m) {
-      const double beside_m = sections.front().DistanceFromTracks_m(d_m);
+      // Lines lie at whole distances from the tracks, which rounding must not put on either side
+      // of a limit.
+      constexpr double kRounding_m = 1e-6;
+      const double beside_m = sections.front().DistanceFromTracks_m(d_m) + kRounding_m;
       // Only the finest grid resolves a roughness as short as this, across as along.
       const bool is_short = context_.spec.terrain.roughness_wavelength_m < kShortWavelength_m;
       if (beside_m < (is_short ? kFineReach_m : kWholeReach_m)) return 0.0;
