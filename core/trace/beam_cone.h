@@ -233,9 +233,8 @@ struct LeafProducts {
       const float along = ax + ay + az;
       const float h = c.half_h[0][k] * mx + c.half_h[1][k] * my + c.half_h[2][k] * mz;
       const float w = c.half_v[0][k] * mx + c.half_v[1][k] * my + c.half_v[2][k] * mz;
-      const float extent = kConeMargin * std::sqrt(h * h + w * w);
-      const float rounding = kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
-      const float reach = extent + rounding;
+      const float reach = kConeMargin * std::sqrt(h * h + w * w) +
+                          kRoundingMargin * (std::fabs(ax) + std::fabs(ay) + std::fabs(az));
       products.along[e][k] = way_round * along;
       products.h[e][k] = way_round * h;
       products.v[e][k] = way_round * w;
