@@ -84,7 +84,7 @@ void BeamTracer::AimSubRays(const Work& work,
                             const BeamFrame& frame,
                             std::size_t lane,
                             BeamRays& beam) const {
-  kernels_.aim_sub_rays(work.rays, lane, frame, AimOfFiring(SubRaysOfBeam(), work.turns, lane),
+  kernels_.aim_sub_rays(work.rays, lane, frame, AimOfFiring(SubRaysOfCrowd(), work.turns, lane),
                         beam);
 }
 

@@ -81,7 +81,7 @@ class BeamTracer {
   [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
                                       const FiringTiles& tiles,
                                       std::size_t tile) const;
-  /// Aims the sub-rays about a central ray of `work`; everything else of `beam` stays as it is.
+  /// Aims kNumCrowdedSubRays about a central ray of `work`; all else of `beam` stays as it is.
   void AimSubRays(const Work& work, const BeamFrame& frame, std::size_t lane, BeamRays& beam) const;
 
   /// CastFrame::mirrors of a frame with these surfaces.

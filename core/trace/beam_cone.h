@@ -99,6 +99,27 @@ inline void WidenStretchedCone(Cone& cone) {
   for (float& reach : cone.reach) reach *= cone.widening;
 }
 
+/// Whether the cone may meet a box nearer than `far`.
+[[nodiscard]] inline bool IsBoxMet(const BeamBox& box, const Cone& cone, float far) {
+  float farthest2 = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    const float most =
+        Most(std::fabs(box.lower[i] - cone.origin[i]), std::fabs(box.upper[i] - cone.origin[i]));
+    farthest2 += most * most;
+  }
+  const float farthest = std::sqrt(farthest2);
+  float in = 0.0F;
+  float out = far;
+  for (int i = 0; i < 3; ++i) {
+    const float a = (box.lower[i] - cone.origin[i]) * cone.per_axis[i];
+    const float b = (box.upper[i] - cone.origin[i]) * cone.per_axis[i];
+    const float reach = farthest * cone.reach[i] * std::fabs(cone.per_axis[i]);
+    in = Most(in, Least(a, b) - reach);
+    out = Least(out, Most(a, b) + reach);
+  }
+  return in <= out;
+}
+
 /// A cone with each number once per lane, so that the loops below read whole vectors.
 struct ConeLanes {
   alignas(64) float origin[3][kMaskLanes], axis[3][kMaskLanes];

@@ -44,6 +44,11 @@ struct Rows {
   float m[12];
 };
 
+/// A box along the axes of its frame.
+struct BeamBox {
+  float lower[3], upper[3];
+};
+
 /// A placed model.
 struct BeamInstance {
   TreePointer root{};             ///< The model's tree.
@@ -52,6 +57,7 @@ struct BeamInstance {
   bool is_stretched{};  ///< Whether it is scaled by more in one direction than in another.
   const Rows* window_from_model{};  ///< At `num_steps` equal steps of the shutter; 1 = stationary.
   Rows model_from_window{};         ///< If stationary.
+  const BeamBox* window_boxes{};    ///< About the model at these steps; null if stationary.
 };
 
 /// A scene: a tree of instances.

@@ -29,8 +29,8 @@ void RayCaster::CastBeam(BeamRays& beam) const {
   RayTile tile{};
   tile.num_rays = beam.num_rays;
   tile.mask = beam.mask;
-  CopySubRays(beam, kNumSubRays, tile);
-  std::copy_n(beam.range_m, kNumSubRays, tile.range_m);
+  CopySubRays(beam, beam.num_rays, tile);
+  std::copy_n(beam.range_m, beam.num_rays, tile.range_m);
   Cast(tile);
   for (std::size_t i = 0; i < beam.num_rays; ++i) {
     if (tile.surface[i] == 0) continue;

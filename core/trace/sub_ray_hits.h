@@ -24,9 +24,11 @@ static_assert(kNumCrowdedSubRays % kRayLanes == 0 && kNumSubRays % kRayLanes == 
 /// The sub-rays by their places in the beam's cross-section, which are the same in the frame of
 /// every model: a ray's direction is (axis + a half_h + b half_v) / norm.
 struct SubRayPlaces {
-  alignas(64) float a[kNumSubRays], b[kNumSubRays];
-  alignas(64) float norm[kNumSubRays];
+  alignas(64) float a[kNumCloserSubRays], b[kNumCloserSubRays];
+  alignas(64) float norm[kNumCloserSubRays];
   bool are_known = false;  ///< Whether they are set, which most beams do not need.
+  /// In units of so much of the beam's semi-axes.
+  float part = 1.0F;
 };
 
 /// Returns the farthest range among the sub-rays.
@@ -54,7 +56,7 @@ inline void PlaceSubRays(const BeamRays& beam, SubRayPlaces& places) {
   const float axis[3] = {beam.axis[0], beam.axis[1], beam.axis[2]};
   const float h[3] = {beam.half_h[0] * per_h2, beam.half_h[1] * per_h2, beam.half_h[2] * per_h2};
   const float v[3] = {beam.half_v[0] * per_v2, beam.half_v[1] * per_v2, beam.half_v[2] * per_v2};
-  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+  for (std::size_t i = 0; i < beam.num_rays; ++i) {
     const float x = beam.direction_x[i];
     const float y = beam.direction_y[i];
     const float z = beam.direction_z[i];
@@ -68,6 +70,22 @@ inline void PlaceSubRays(const BeamRays& beam, SubRayPlaces& places) {
     places.norm[i] = norm;
   }
   places.are_known = true;
+}
+
+/// Narrows the beam to the sub-rays of a crowd.
+/// @pre The places are known.
+inline void NarrowToCrowd(SubRayPlaces& places) {
+  float largest2 = 0.0F;
+  for (std::size_t i = 0; i < kNumCrowdedSubRays; ++i) {
+    largest2 = Most(largest2, places.a[i] * places.a[i] + places.b[i] * places.b[i]);
+  }
+  const float part = Least(kConeMargin * std::sqrt(largest2), 1.0F);
+  const float per_part = 1.0F / part;
+  for (std::size_t i = 0; i < kNumCrowdedSubRays; ++i) {
+    places.a[i] *= per_part;
+    places.b[i] *= per_part;
+  }
+  places.part *= part;
 }
 
 /// The sub-rays of a crowd in the frame of a tree.
@@ -123,17 +141,19 @@ inline void AimProbes(const Cone& cone, const SubRayPlaces& places, Probes& prob
   return met != 0;
 }
 
-/// The first `num` sub-rays that pass through the triangle in a lane of a leaf, as a bit mask.
+/// Those of `num` sub-rays from `begin` on that pass through the triangle in a lane of a leaf, as a
+/// bit mask.
 template <std::size_t num>
 [[nodiscard]] inline std::uint64_t RaysInside(const LeafProducts& t,
                                               std::size_t lane,
-                                              const SubRayPlaces& places) {
+                                              const SubRayPlaces& places,
+                                              std::size_t begin) {
   std::uint64_t outside = 0;
   for (std::size_t first = 0; first < num; first += kRayLanes) {
     alignas(64) float least[kRayLanes];
     for (std::size_t k = 0; k < kRayLanes; ++k) {
-      const float a = places.a[first + k];
-      const float b = places.b[first + k];
+      const float a = places.a[begin + first + k];
+      const float b = places.b[begin + first + k];
       const float u = t.along[0][lane] + a * t.h[0][lane] + b * t.v[0][lane];
       const float v = t.along[1][lane] + a * t.h[1][lane] + b * t.v[1][lane];
       const float w = t.along[2][lane] + a * t.h[2][lane] + b * t.v[2][lane];
@@ -176,11 +196,12 @@ template <std::size_t num>
   return NegativeLanes(hits) != 0;
 }
 
-/// Intersects the sub-rays that pass through the triangle in a lane of a leaf, a bit each, with its
-/// plane. Returns whether any hits it nearer than anything before.
+/// Intersects the sub-rays that pass through the triangle in a lane of a leaf, a bit each from
+/// `begin` on, with its plane. Returns whether any hits it nearer than anything before.
 [[nodiscard]] inline bool HitTriangle(const LeafProducts& products,
                                       std::size_t lane,
                                       std::uint64_t rays,
+                                      std::size_t begin,
                                       const SubRayPlaces& places,
                                       BeamRays& beam) {
   bool is_any_hit = false;
@@ -189,7 +210,7 @@ template <std::size_t num>
     const auto ray = static_cast<std::size_t>(__builtin_ctzll(rays));
     const std::size_t first = ray / kRayLanes * kRayLanes;
     rays &= ~(((std::uint64_t{1} << kRayLanes) - 1U) << first);
-    is_any_hit |= HitLanes(products, lane, first, beam.num_facets, places, beam);
+    is_any_hit |= HitLanes(products, lane, begin + first, beam.num_facets, places, beam);
   }
   return is_any_hit;
 }

@@ -2,12 +2,12 @@
 #ifndef RAILCAST_TRACE_TRACE_BEAM_H_
 #define RAILCAST_TRACE_TRACE_BEAM_H_
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include "core/trace/beam_cone.h"
 #include "core/trace/beam_tree.h"
+#include "core/trace/instance_place.h"
 #include "core/trace/sub_ray_hits.h"
 #include "railcast/ray_caster.h"
 
@@ -67,57 +67,6 @@ class Stack {
   Entry entries_[kTreeDepth * kTreeWidth];
   std::size_t size_ = 0;
 };
-
-/// The transforms between the window and an instance's model at one time.
-struct InstancePlace {
-  Rows window_from_model;
-  Rows model_from_window;
-};
-
-/// Interpolates a moving instance's matrix between its steps, as Embree does.
-[[nodiscard]] inline InstancePlace PlaceAt(const BeamInstance& instance, float shutter) {
-  if (instance.num_steps == 1) return {instance.window_from_model[0], instance.model_from_window};
-  InstancePlace place{};
-  const float last = static_cast<float>(instance.num_steps - 1);
-  const float at = Least(Most(shutter, 0.0F), 1.0F) * last;
-  const float step = Least(std::floor(at), last - 1.0F);
-  const float part = at - step;
-  const Rows& a = instance.window_from_model[static_cast<std::size_t>(step)];
-  const Rows& b = instance.window_from_model[static_cast<std::size_t>(step) + 1];
-  double m[12];
-  for (int i = 0; i < 12; ++i) {
-    place.window_from_model.m[i] = (1.0F - part) * a.m[i] + part * b.m[i];
-    m[i] = static_cast<double>(place.window_from_model.m[i]);
-  }
-  // The inverse by cofactors, in double, since the translation may be large.
-  double inverse[9];
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const int r1 = (k + 1) % 3;
-      const int r2 = (k + 2) % 3;
-      const int c1 = (i + 1) % 3;
-      const int c2 = (i + 2) % 3;
-      inverse[3 * i + k] = m[4 * r1 + c1] * m[4 * r2 + c2] - m[4 * r1 + c2] * m[4 * r2 + c1];
-    }
-  }
-  const double det = m[0] * inverse[0] + m[1] * inverse[3] + m[2] * inverse[6];
-  for (int i = 0; i < 3; ++i) {
-    double shift = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      const double value = inverse[3 * i + k] / det;
-      place.model_from_window.m[4 * i + k] = static_cast<float>(value);
-      shift -= value * m[4 * k + 3];
-    }
-    place.model_from_window.m[4 * i + 3] = static_cast<float>(shift);
-  }
-  return place;
-}
-
-inline void Turn(const Rows& rows, const float* from, float* to) {
-  for (int i = 0; i < 3; ++i) {
-    to[i] = rows.m[4 * i] * from[0] + rows.m[4 * i + 1] * from[1] + rows.m[4 * i + 2] * from[2];
-  }
-}
 
 /// What facets of an instance need.
 struct InstanceSurface {
@@ -216,20 +165,32 @@ constexpr std::uint32_t kCrowd = 96;
   if (is_changed) beam.num_rays = kNumCrowdedSubRays;
   // The first of two passes branches little.
   const bool is_crowd = beam.num_rays == kNumCrowdedSubRays;
-  std::uint64_t rays[kLeafWidth];
+  const std::size_t num_blocks = is_crowd ? 1 : beam.num_rays / kNumSubRays;
+  std::uint64_t rays[kLeafWidth][kNumCloserSubRays / kNumSubRays];
+  std::uint64_t is_inside[kLeafWidth];
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
-    rays[lane] = is_crowd ? RaysInside<kNumCrowdedSubRays>(products, lane, places)
-                          : RaysInside<kNumSubRays>(products, lane, places);
+    is_inside[lane] = 0;
+    for (std::size_t block = 0; block < num_blocks; ++block) {
+      const std::size_t begin = block * kNumSubRays;
+      rays[lane][block] = is_crowd ? RaysInside<kNumCrowdedSubRays>(products, lane, places, begin)
+                                   : RaysInside<kNumSubRays>(products, lane, places, begin);
+      is_inside[lane] |= rays[lane][block];
+    }
   }
   for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(__builtin_ctz(left));
-    if (rays[lane] == 0) {
+    if (is_inside[lane] == 0) {
       beam.missed_m = Least(beam.missed_m, products.nearest[lane]);
       continue;
     }
     if (beam.num_facets == BeamRays::kMaxFacets) DropHiddenFacets(beam);
-    if (!HitTriangle(products, lane, rays[lane], places, beam)) continue;
+    bool is_hit = false;
+    for (std::size_t block = 0; block < num_blocks; ++block) {
+      const std::size_t begin = block * kNumSubRays;
+      is_hit |= HitTriangle(products, lane, rays[lane][block], begin, places, beam);
+    }
+    if (!is_hit) continue;
     AddFacet(surface.window_from_model, surface.first + leaf.part[lane], products, lane, beam);
     is_changed = true;
   }
@@ -237,12 +198,21 @@ constexpr std::uint32_t kCrowd = 96;
 }
 
 /// Traces the beam through one instance.
+/// @param window_cone The beam's in the window frame.
 /// @param far The farthest range among the sub-rays; lowered where they hit.
 inline void TraceInstance(const BeamInstance& instance,
+                          const Cone& window_cone,
                           SubRayPlaces& places,
                           BeamRays& beam,
                           float& far) {
-  const InstancePlace place = PlaceAt(instance, beam.shutter);
+  InstancePlace place;
+  if (instance.num_steps == 1) {
+    place = {instance.window_from_model[0], instance.model_from_window};
+  } else {
+    const BetweenSteps steps = StepsAt(instance, beam.shutter);
+    if (!MayMeetMoving(instance, steps, window_cone, far)) return;
+    place = PlaceAt(instance, steps);
+  }
   const Rows& model_from_window = place.model_from_window;
   ModelBeam model;
   Cone& cone = model.cone;
@@ -251,6 +221,10 @@ inline void TraceInstance(const BeamInstance& instance,
   Turn(model_from_window, beam.axis, cone.axis);
   Turn(model_from_window, beam.half_h, cone.half_h);
   Turn(model_from_window, beam.half_v, cone.half_v);
+  for (int i = 0; i < 3; ++i) {
+    cone.half_h[i] *= places.part;
+    cone.half_v[i] *= places.part;
+  }
   FinishCone(cone);
   if (instance.is_stretched) WidenStretchedCone(cone);
   FillLanes(cone, model.lanes);
@@ -268,13 +242,14 @@ inline void TraceInstance(const BeamInstance& instance,
   }
 }
 
-inline Cone ConeOf(const BeamRays& beam) {
+/// The beam's cone in the window frame, with so much of its semi-axes.
+inline Cone ConeOf(const BeamRays& beam, float part) {
   Cone cone;
   for (int i = 0; i < 3; ++i) {
     cone.origin[i] = beam.origin[i];
     cone.axis[i] = beam.axis[i];
-    cone.half_h[i] = beam.half_h[i];
-    cone.half_v[i] = beam.half_v[i];
+    cone.half_h[i] = part * beam.half_h[i];
+    cone.half_v[i] = part * beam.half_v[i];
   }
   FinishCone(cone);
   return cone;
@@ -283,10 +258,11 @@ inline Cone ConeOf(const BeamRays& beam) {
 /// Traces the sub-rays of a beam through a scene, as RayCaster::CastBeam() says.
 inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
   if (scene.root == 0) return;
-  const Cone cone = ConeOf(beam);
+  Cone cone = ConeOf(beam, 1.0F);
   ConeLanes lanes;
   FillLanes(cone, lanes);
   SubRayPlaces places;
+  const std::size_t num_rays = beam.num_rays;
   float far = FindFarthest(beam);
   const std::uint32_t num_facets = beam.num_facets;
   ChildDistances distances;
@@ -294,7 +270,12 @@ inline void TraceBeam(const BeamScene& scene, BeamRays& beam) {
     const Stack::Entry top = stack.Pop();
     if (top.entry > far) continue;
     if (IsLeaf(top.pointer)) {
-      TraceInstance(scene.instances[top.pointer >> kNumShift], places, beam, far);
+      TraceInstance(scene.instances[top.pointer >> kNumShift], cone, places, beam, far);
+      if (beam.num_rays != num_rays && places.part == 1.0F) {
+        NarrowToCrowd(places);
+        cone = ConeOf(beam, places.part);
+        FillLanes(cone, lanes);
+      }
       continue;
     }
     const BeamNode& node = NodeAt(top.pointer);

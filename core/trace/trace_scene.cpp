@@ -81,6 +81,7 @@ struct TraceScene::Parts {
   struct Beams {
     BeamTree tree;
     std::vector<BeamInstance> instances;
+    std::vector<BeamBox> moving_boxes;  ///< Of those that move, at each of their steps.
     BeamScene scene;
   };
   struct BeamParts {
@@ -166,22 +167,25 @@ TraceScene::~TraceScene() = default;
 
 namespace {
 
-// The box around a model at all of its places. Between two of them, Embree interpolates the matrix
+// The box around a model at one of its places. Between two of them, Embree interpolates the matrix
 // linearly, so that every point stays on the straight line between its ends.
-Eigen::AlignedBox3f BoxOf(const Eigen::AlignedBox3f& model, const Rows* steps, std::size_t num) {
+Eigen::AlignedBox3f BoxOf(const Eigen::AlignedBox3f& model, const Rows& step) {
   Eigen::AlignedBox3f box;
   if (model.isEmpty()) return box;
-  for (std::size_t step = 0; step < num; ++step) {
-    const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> rows(steps[step].m);
-    for (int k = 0; k < 8; ++k) {
-      const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(k);
-      box.extend(rows.leftCols<3>() * model.corner(corner) + rows.col(3));
-    }
+  const Eigen::Map<const Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> rows(step.m);
+  for (int k = 0; k < 8; ++k) {
+    const auto corner = static_cast<Eigen::AlignedBox3f::CornerType>(k);
+    box.extend(rows.leftCols<3>() * model.corner(corner) + rows.col(3));
   }
   constexpr float kRounding_m = 1e-3F;  // float32 is ten times as exact at 1 km.
   box.extend((box.min().array() - kRounding_m).matrix());
   box.extend((box.max().array() + kRounding_m).matrix());
   return box;
+}
+
+BeamBox ToBeamBox(const Eigen::AlignedBox3f& box) {
+  return {{box.min().x(), box.min().y(), box.min().z()},
+          {box.max().x(), box.max().y(), box.max().z()}};
 }
 
 // Leaning trees are not, though interpolating their matrices shortens them by some 1e-5.
@@ -242,16 +246,28 @@ std::vector<TraceScene::Parts::BeamPlace> TraceScene::Parts::BeamPlaces() const 
 void TraceScene::Parts::BuildBeams(const std::vector<BeamPlace>& places,
                                    BeamTree BeamTrees::*tree_of,
                                    Beams& beams) const {
+  std::size_t num_moving_boxes = 0;
+  for (const BeamPlace& place : places) {
+    num_moving_boxes += place.num_steps > 1 ? place.num_steps : 0;
+  }
+  beams.moving_boxes.reserve(num_moving_boxes);  // They are pointed to.
   std::vector<Eigen::AlignedBox3f> boxes;
   for (const BeamPlace& place : places) {
     const BeamTree& tree = place.model->handle().beam_trees().*tree_of;
-    boxes.push_back(BoxOf(tree.bounds(), place.steps, place.num_steps));
+    Eigen::AlignedBox3f& box = boxes.emplace_back();
+    const BeamBox* const first_box = beams.moving_boxes.data() + beams.moving_boxes.size();
+    for (std::uint32_t step = 0; step < place.num_steps; ++step) {
+      const Eigen::AlignedBox3f at_step = BoxOf(tree.bounds(), place.steps[step]);
+      box.extend(at_step);
+      if (place.num_steps > 1) beams.moving_boxes.push_back(ToBeamBox(at_step));
+    }
     beams.instances.push_back({.root = tree.root(),
                                .first_surface = place.first_surface,
                                .num_steps = place.num_steps,
                                .is_stretched = IsStretched(place.steps[0]),
                                .window_from_model = place.steps,
-                               .model_from_window = InverseOf(place.steps[0])});
+                               .model_from_window = InverseOf(place.steps[0]),
+                               .window_boxes = place.num_steps > 1 ? first_box : nullptr});
   }
   const auto doing = [this] {
     return "building a scene for tracing beams (" + std::to_string(instances.size()) + " places)";

@@ -44,12 +44,17 @@ constexpr std::size_t kMostFacets = 8;
 FacetParts::FacetParts(const DetectorSpec& spec, const Kernels& kernels)
     : spec_(spec), kernels_(kernels) {}
 
+const BeamSubRays& FacetParts::Pattern() const {
+  const bool is_sparse = spec_.beam.footprint_rays < static_cast<int>(kNumSubRays);
+  return is_sparse ? SubRaysOfCrowd() : SubRaysOfBeam();
+}
+
 void FacetParts::Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays& pattern) {
   kernels_.aim_sub_rays(beams.rays, lane, beams.frame, AimOfFiring(pattern, beams.turns, lane),
                         beam_);
-  std::fill_n(beam_.range_m, kNumSubRays, static_cast<float>(spec_.range_max_m));
-  std::fill_n(beam_.facet, kNumSubRays, 0U);
-  beam_.num_rays = static_cast<std::size_t>(spec_.beam.footprint_rays);
+  std::fill_n(beam_.range_m, pattern.num, static_cast<float>(spec_.range_max_m));
+  std::fill_n(beam_.facet, pattern.num, 0U);
+  beam_.num_rays = pattern.num;
   beam_.num_met = 0;
   beam_.missed_m = std::numeric_limits<float>::infinity();
   beam_.num_facets = 1;
@@ -211,30 +216,28 @@ bool FacetParts::NeedsCloserLook(const WideBeams& beams, std::size_t lane) const
   return false;
 }
 
-bool FacetParts::TraceSet(const WideBeams& beams,
+bool FacetParts::TraceAll(const WideBeams& beams,
                           const DetectTile& first,
                           std::size_t lane,
-                          const BeamSubRays& set) {
-  Aim(beams, lane, set);
-  beam_.num_rays = kNumSubRays;
+                          const BeamSubRays& sub_rays) {
+  Aim(beams, lane, sub_rays);
   Cast(beams, first.firing[lane]);
-  return beam_.num_rays == kNumSubRays;  // Else a crowd, after all.
+  return beam_.num_rays == sub_rays.num;  // Else a crowd, after all.
 }
 
 void FacetParts::LookCloser(const WideBeams& beams, const DetectTile& first, std::size_t lane) {
+  const BeamSubRays& sub_rays = SubRaysOfCloserLook();
+  if (!TraceAll(beams, first, lane, sub_rays)) return;
   sums_.Clear();
+  sums_.Add(beam_);
   met_.clear();
-  for (const BeamSubRays& set : SubRaysOfCloserLook()) {
-    if (!TraceSet(beams, first, lane, set)) return;
-    sums_.Add(beam_);
-    for (std::size_t i = 0; i < kNumSubRays; ++i) {
-      const std::uint32_t surface = beam_.facets[beam_.facet[i]].surface;
-      if (surface != 0) met_[surface].push_back({set.h[i], set.v[i]});
-    }
+  for (std::size_t i = 0; i < sub_rays.num; ++i) {
+    const std::uint32_t surface = beam_.facets[beam_.facet[i]].surface;
+    if (surface != 0) met_[surface].push_back({sub_rays.h[i], sub_rays.v[i]});
   }
   thin_.clear();
   float share = 1.0F;
-  std::size_t num_rays = kNumCloserSets * kNumSubRays;
+  std::size_t num_rays = sub_rays.num;
   for (const auto& [surface, places] : met_) {
     if (places.size() > kMostRaysOnThin || num_rays < 2 * kMostRaysOnThin) continue;
     ThinSurface thin{.surface = surface};
@@ -263,30 +266,27 @@ bool FacetParts::LookAcross(const WideBeams& beams,
                             std::size_t lane,
                             std::vector<BeamPlace> places,
                             ThinSurface& thin) {
-  float share_of_one = 1.0F / (kNumCloserSets * kNumSubRays);
-  for (std::size_t set = 0; set < kNumStripSets; ++set) {
-    // The first set shows where in the strip the surface lies, the others how much of it.
-    if (set < 2) {
-      const std::optional<ThinStrip> strip =
-          FitStrip(places, share_of_one * static_cast<float>(places.size()));
-      if (!strip) return false;
-      strip_ = *strip;
-      share_of_one = strip_.Share() / kNumSubRays;
-      places.clear();
-    }
-    const BeamSubRays rays = SubRaysIn(strip_, set);
-    if (!TraceSet(beams, first, lane, rays)) return false;
-    for (std::size_t i = 0; i < kNumSubRays; ++i) {
+  // The first set shows where in the strip the surface lies, the others how much of it.
+  std::optional<ThinStrip> strip;
+  float share_of_one = 1.0F / static_cast<float>(kNumCloserSubRays);
+  for (const std::size_t first_set : {0, 1}) {
+    strip = FitStrip(places, share_of_one * static_cast<float>(places.size()));
+    if (!strip) return false;
+    const BeamSubRays rays = SubRaysIn(*strip, first_set, first_set == 0 ? 1 : kNumStripSets - 1);
+    if (!TraceAll(beams, first, lane, rays)) return false;
+    share_of_one = strip->Share() / static_cast<float>(rays.num);
+    places.clear();
+    for (std::size_t i = 0; i < rays.num; ++i) {
       if (beam_.facets[beam_.facet[i]].surface != thin.surface) continue;
       places.push_back({rays.h[i], rays.v[i]});
     }
-    if (set > 0) thin.sums.Add(beam_);
   }
-  const auto is_at_side = [&](const BeamPlace& place) { return strip_.IsAtSide(place); };
+  thin.sums.Add(beam_);
+  const auto is_at_side = [&](const BeamPlace& place) { return strip->IsAtSide(place); };
   if (places.empty() || std::ranges::any_of(places, is_at_side)) return false;
   thin.sums.RemoveOthers(thin.surface);
   thin.num_rays = places.size();
-  thin.share = share_of_one * static_cast<float>(places.size()) / (kNumStripSets - 1);
+  thin.share = share_of_one * static_cast<float>(places.size());
   return true;
 }
 
@@ -297,7 +297,7 @@ void FacetParts::Trace(const WideBeams& beams, const DetectTile& first) {
   share_on_nothing_.fill(0.0F);
   plane_surface_.fill(kSeveralPlanes);
   for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
-    Aim(beams, lane, SubRaysOfBeam());
+    Aim(beams, lane, Pattern());
     Cast(beams, first.firing[lane]);
     NoteMissed(beams, lane);
     // So are half of all beams, most of them in the sky; sums would tell no more.
@@ -335,7 +335,7 @@ void FacetParts::Find(const WideBeams& beams, const DetectTile& first, PartLists
     const std::uint32_t surface = plane_surface_[lane];
     if (surface == kSeveralPlanes || surface == beams.rays.surface[lane]) continue;
     // The central ray meets something else, which is thin. That is rare, so that nothing was kept.
-    Aim(beams, lane, SubRaysOfBeam());
+    Aim(beams, lane, Pattern());
     Cast(beams, first.firing[lane]);
     sums_.Clear();
     sums_.Add(beam_);

@@ -23,7 +23,7 @@ namespace railcast {
 /// The sub-rays on one facet make one part, since the surface responds the same all over it. Its
 /// range is their mean, and its spread has the variance among them and the one within the cell of a
 /// sub-ray. Where a small share decides, because few sub-rays or none have met something that may
-/// be detected for its share alone, a closer look with kNumCloserSets times as many finds it, and
+/// be detected for its share alone, a closer look with four times as many finds it, and
 /// sub-rays across a thin surface tell how much of the beam it takes
 /// (core/detect/beam/thin_strip.h). A beam that lies on one plane as a whole is left to its central
 /// ray. Most others need none, so that the sub-rays come first: Trace(), central rays of those that
@@ -54,6 +54,8 @@ class FacetParts {
     FacetSums sums{};
   };
 
+  /// The sub-rays of a beam that is not looked at closer.
+  [[nodiscard]] const BeamSubRays& Pattern() const;
   void Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays& pattern);
   /// Casts the beam that is aimed.
   void Cast(const WideBeams& beams, std::uint32_t firing);
@@ -66,11 +68,11 @@ class FacetParts {
   [[nodiscard]] static float RatioOfFacing(const WideBeams& beams, const Component& part);
   [[nodiscard]] bool NeedsCloserLook(const WideBeams& beams, std::size_t lane) const;
   void LookCloser(const WideBeams& beams, const DetectTile& first, std::size_t lane);
-  /// Traces a set of a closer look. Returns whether all of its sub-rays count.
-  bool TraceSet(const WideBeams& beams,
+  /// Traces sub-rays of a closer look. Returns whether all of them count.
+  bool TraceAll(const WideBeams& beams,
                 const DetectTile& first,
                 std::size_t lane,
-                const BeamSubRays& set);
+                const BeamSubRays& sub_rays);
   /// Traces sub-rays across a surface that the sub-rays at some places meet.
   /// @return whether the surface is thin and `thin` describes it.
   bool LookAcross(const WideBeams& beams,
@@ -88,7 +90,6 @@ class FacetParts {
   // Of a closer look: where sub-rays meet surfaces, and those surfaces that are thin.
   std::map<std::uint32_t, std::vector<BeamPlace>> met_;
   std::vector<ThinSurface> thin_;
-  ThinStrip strip_;
   PartBatch batch_;
   std::size_t num_in_batch_{};
   std::vector<Component> found_;  // Responses of the batches so far.

@@ -44,10 +44,10 @@ SubRayPattern DenseSubRays(std::size_t count) {
   return pattern;
 }
 
-// Stores places from `first` on, neighbours one after another: a kernel that tests vectors of
-// sub-rays leaves those out that lie beside a surface. A third of the places, the innermost, come
-// first, and then the ring around them.
-void StoreNeighbours(std::vector<Place> places, std::size_t first, BeamSubRays& all) {
+// Adds places, neighbours one after another: a kernel that tests vectors of sub-rays leaves those
+// out that lie beside a surface. A third of the places, the innermost, come first, and then the
+// ring around them.
+void AddNeighbours(std::vector<Place> places, BeamSubRays& all) {
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return std::hypot(a.h, a.v) < std::hypot(b.h, b.v);
   });
@@ -57,43 +57,46 @@ void StoreNeighbours(std::vector<Place> places, std::size_t first, BeamSubRays& 
   const auto inner = static_cast<std::ptrdiff_t>(places.size() / 3);
   std::sort(places.begin(), places.begin() + inner, by_angle);
   std::sort(places.begin() + inner, places.end(), by_angle);
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t i = first + k;
-    all.h[i] = static_cast<float>(places[k].h);
-    all.v[i] = static_cast<float>(places[k].v);
+  for (const Place& place : places) {
+    const std::size_t i = all.num++;
+    all.h[i] = static_cast<float>(place.h);
+    all.v[i] = static_cast<float>(place.v);
     all.largest_offset = std::max(all.largest_offset, std::hypot(all.h[i], all.v[i]));
   }
 }
 
 const BeamSubRays& SubRaysOfBeam() {
   static const BeamSubRays sub_rays = [] {
-    BeamSubRays all{};
-    StoreNeighbours(Spiral(kNumCrowdedSubRays, 0.0), 0, all);
-    StoreNeighbours(Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0), kNumCrowdedSubRays, all);
+    BeamSubRays all = SubRaysOfCrowd();
+    AddNeighbours(Spiral(kNumSubRays - kNumCrowdedSubRays, 0.0), all);
     return all;
   }();
   return sub_rays;
 }
 
-const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook() {
-  static const auto sets = [] {
-    std::array<std::vector<Place>, kNumCloserSets> places;
-    const std::vector<Place> spiral = Spiral(kNumCloserSets * kNumSubRays, 0.0);
-    for (std::size_t k = 0; k < spiral.size(); ++k) places[k % kNumCloserSets].push_back(spiral[k]);
-    std::array<BeamSubRays, kNumCloserSets> all{};
-    for (std::size_t set = 0; set < kNumCloserSets; ++set) {
-      StoreNeighbours(places[set], 0, all[set]);
-    }
+const BeamSubRays& SubRaysOfCrowd() {
+  static const BeamSubRays sub_rays = [] {
+    BeamSubRays all{};
+    AddNeighbours(Spiral(kNumCrowdedSubRays, 0.0), all);
     return all;
   }();
-  return sets;
+  return sub_rays;
+}
+
+const BeamSubRays& SubRaysOfCloserLook() {
+  static const BeamSubRays sub_rays = [] {
+    BeamSubRays all{};
+    AddNeighbours(Spiral(kNumCloserSubRays, 0.0), all);
+    return all;
+  }();
+  return sub_rays;
 }
 
 SubRayAim AimOfFiring(const BeamSubRays& pattern, const PatternTurns& turns, std::size_t lane) {
   // A little wider than the pattern, because its directions are rounded.
   constexpr float kMargin = 1.0001F;
-  return {pattern.h, pattern.v, kMargin * pattern.largest_offset, turns.cosine[lane],
-          turns.sine[lane]};
+  return {pattern.num,        pattern.h,       pattern.v, kMargin * pattern.largest_offset,
+          turns.cosine[lane], turns.sine[lane]};
 }
 
 }  // namespace railcast

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -35,19 +34,21 @@ struct SubRayPattern {
 /// quantile of the radius, turned by the golden angle from the one before (Vogel 1979).
 [[nodiscard]] SubRayPattern DenseSubRays(std::size_t count);
 
-/// The offsets of kNumSubRays sub-rays of equal share, in standard deviations of the profile. The
-/// first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves, and so are the others.
-/// Neighbours stand one after another.
+/// The offsets of sub-rays of equal share, in standard deviations of the profile. Neighbours stand
+/// one after another.
 struct BeamSubRays {
-  float h[kNumSubRays], v[kNumSubRays];
+  std::size_t num{};
+  float h[kNumCloserSubRays], v[kNumCloserSubRays];
   float largest_offset{};  ///< From the axis.
 };
-[[nodiscard]] const BeamSubRays& SubRaysOfBeam();
 
-/// The sub-rays of a closer look: one pattern of Vogel's kind, dealt out to this many sets.
-inline constexpr std::size_t kNumCloserSets = 4;
-/// The sets, each as SubRaysOfBeam().
-[[nodiscard]] const std::array<BeamSubRays, kNumCloserSets>& SubRaysOfCloserLook();
+/// kNumSubRays sub-rays. The first kNumCrowdedSubRays are a pattern of Vogel's kind by themselves,
+/// and so are the others.
+[[nodiscard]] const BeamSubRays& SubRaysOfBeam();
+/// The first kNumCrowdedSubRays of them.
+[[nodiscard]] const BeamSubRays& SubRaysOfCrowd();
+/// kNumCloserSubRays sub-rays: one pattern of Vogel's kind.
+[[nodiscard]] const BeamSubRays& SubRaysOfCloserLook();
 
 /// How the kernel aim_sub_rays aims them for the firing in a lane, whose pattern is turned.
 [[nodiscard]] SubRayAim AimOfFiring(const BeamSubRays& pattern,

@@ -31,24 +31,22 @@ double QuantileOf(double probability) {
 
 /// A sub-ray's place in a strip: along it as a place in the profile, and across it in 0..1.
 struct StripPlace {
-  float along{};
-  double across{};
+  float along{}, across{};
 };
 
-// A lattice of the golden ratio, whose projection across the strip is even however many sets there
-// are (Kronecker sequence).
-std::array<std::array<StripPlace, kNumSubRays>, kNumStripSets> MakeLattice() {
-  std::array<std::array<StripPlace, kNumSubRays>, kNumStripSets> sets{};
-  for (std::size_t set = 0; set < kNumStripSets; ++set) {
+// The places of all sets: lattices of the golden ratio, whose projection across the strip is even
+// however many sets there are (Kronecker sequence).
+std::array<StripPlace, kNumStripSets * kNumSubRays> MakeLattice() {
+  std::array<StripPlace, kNumStripSets * kNumSubRays> places{};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::size_t set = i / kNumSubRays;
+    const std::size_t k = i % kNumSubRays;
     const double shift = (static_cast<double>(set) + 0.5) / kNumStripSets;
-    for (std::size_t k = 0; k < kNumSubRays; ++k) {
-      const auto place = static_cast<double>(set * kNumSubRays + k);
-      sets[set][k] = {
-          static_cast<float>(QuantileOf((static_cast<double>(k) + shift) / kNumSubRays)),
-          std::fmod((place + 0.5) * std::numbers::phi, 1.0)};
-    }
+    places[i] = {
+        static_cast<float>(QuantileOf((static_cast<double>(k) + shift) / kNumSubRays)),
+        static_cast<float>(std::fmod((static_cast<double>(i) + 0.5) * std::numbers::phi, 1.0))};
   }
-  return sets;
+  return places;
 }
 
 }  // namespace
@@ -115,20 +113,25 @@ std::optional<ThinStrip> FitStrip(std::span<const BeamPlace> places, float share
   return strip;
 }
 
-BeamSubRays SubRaysIn(const ThinStrip& strip, std::size_t set) {
+BeamSubRays SubRaysIn(const ThinStrip& strip, std::size_t first_set, std::size_t num_sets) {
   static const auto lattice = MakeLattice();
   // The profile's lower side has the exact probabilities.
-  const double sign = strip.begin + strip.end > 0.0F ? -1.0 : 1.0;
-  const double first = NormalShare(-kNormalReach, sign < 0.0 ? -strip.end : strip.begin);
-  const double last = NormalShare(-kNormalReach, sign < 0.0 ? -strip.begin : strip.end);
-  BeamSubRays rays{};
-  for (std::size_t i = 0; i < kNumSubRays; ++i) {
-    const StripPlace& place = lattice[set][i];
-    const auto aside = static_cast<float>(sign * QuantileOf(first + place.across * (last - first)));
+  const float sign = strip.begin + strip.end > 0.0F ? -1.0F : 1.0F;
+  const double from = sign < 0.0F ? -strip.end : strip.begin;
+  const double to = sign < 0.0F ? -strip.begin : strip.end;
+  const auto first = static_cast<float>(NormalShare(-kNormalReach, from));
+  const auto share = static_cast<float>(NormalShare(from, to));
+  BeamSubRays rays;
+  rays.num = num_sets * kNumSubRays;
+  float largest2 = 0.0F;
+  for (std::size_t i = 0; i < rays.num; ++i) {
+    const StripPlace& place = lattice[first_set * kNumSubRays + i];
+    const float aside = sign * Eigen::numext::ndtri(first + place.across * share);
     rays.h[i] = strip.direction.h * place.along - strip.direction.v * aside;
     rays.v[i] = strip.direction.v * place.along + strip.direction.h * aside;
-    rays.largest_offset = std::max(rays.largest_offset, std::hypot(rays.h[i], rays.v[i]));
+    largest2 = std::max(largest2, rays.h[i] * rays.h[i] + rays.v[i] * rays.v[i]);
   }
+  rays.largest_offset = std::sqrt(largest2);
   return rays;
 }
 

@@ -36,8 +36,10 @@ struct ThinStrip {
 [[nodiscard]] std::optional<ThinStrip> FitStrip(std::span<const BeamPlace> places, float share);
 
 /// So many sets of sub-rays cover a strip, each by itself.
-inline constexpr std::size_t kNumStripSets = 4;
-/// A set of sub-rays that have an equal share of a strip.
-[[nodiscard]] BeamSubRays SubRaysIn(const ThinStrip& strip, std::size_t set);
+inline constexpr std::size_t kNumStripSets = kNumCloserSubRays / kNumSubRays;
+/// The sub-rays of sets, each of kNumSubRays that have an equal share of a strip.
+[[nodiscard]] BeamSubRays SubRaysIn(const ThinStrip& strip,
+                                    std::size_t first_set,
+                                    std::size_t num_sets);
 
 }  // namespace railcast

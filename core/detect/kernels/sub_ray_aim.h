@@ -49,7 +49,7 @@ inline void AimSubRays(const RayTile& tile,
   }
   const float cosine = aim.cosine;
   const float sine = aim.sine;
-  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+  for (std::size_t i = 0; i < aim.num; ++i) {
     const float turned_h = cosine * aim.h[i] - sine * aim.v[i];
     const float turned_v = sine * aim.h[i] + cosine * aim.v[i];
     const Direction ray = Beside(d, axes, sigma_h * turned_h, sigma_v * turned_v);

@@ -50,6 +50,9 @@ inline constexpr std::size_t kNumSubRays = 64;
 /// The number of sub-rays, the first ones, that sample a beam among a crowd of small surfaces, or
 /// every beam if the sensor's spec says so.
 inline constexpr std::size_t kNumCrowdedSubRays = 16;
+/// The number of sub-rays that a closer look at a beam takes at most.
+inline constexpr std::size_t kNumCloserSubRays = 4 * kNumSubRays;
+static_assert(kNumCloserSubRays <= kTileSize);
 
 /// A flat piece of a surface that sub-rays of a beam hit.
 struct Facet {
@@ -66,13 +69,13 @@ struct Facet {
 /// "nothing". Entries may be left without a sub-ray.
 struct alignas(64) BeamRays {
   /// More facets than sub-rays, so that a caster need not look for entries to reuse at every hit.
-  static constexpr std::size_t kMaxFacets = 4 * kNumSubRays;
+  static constexpr std::size_t kMaxFacets = kNumCloserSubRays + kNumSubRays;
 
   std::uint32_t mask = kAllSurfaces;  ///< As RayTile::mask.
   float shutter{};                    ///< As RayTile::shutter, for the whole beam.
-  /// kNumSubRays or kNumCrowdedSubRays. A caster may lower it to kNumCrowdedSubRays where the beam
-  /// meets so many small surfaces that these sample it well enough; the other sub-rays then have no
-  /// meaning.
+  /// A multiple of kNumSubRays, or kNumCrowdedSubRays. A caster may lower it to kNumCrowdedSubRays
+  /// where the beam meets so many small surfaces that these sample it well enough; the other
+  /// sub-rays then have no meaning.
   std::size_t num_rays = kNumSubRays;
   /// The number of triangles that casters have intersected with sub-rays so far.
   std::uint32_t num_met = 0;
@@ -85,9 +88,10 @@ struct alignas(64) BeamRays {
   /// axis + a half_h + b half_v with a^2 + b^2 <= 1. Perpendicular to `axis`.
   float half_h[3]{}, half_v[3]{};
 
-  float direction_x[kNumSubRays], direction_y[kNumSubRays], direction_z[kNumSubRays];  ///< Unit.
-  float range_m[kNumSubRays];
-  std::uint32_t facet[kNumSubRays];  ///< Index into `facets`.
+  float direction_x[kNumCloserSubRays], direction_y[kNumCloserSubRays],
+      direction_z[kNumCloserSubRays];  ///< Unit.
+  float range_m[kNumCloserSubRays];
+  std::uint32_t facet[kNumCloserSubRays];  ///< Index into `facets`.
 
   std::uint32_t num_facets = 1;
   Facet facets[kMaxFacets];

@@ -48,23 +48,20 @@ TEST(SubRays, AreTurnedRigidly) {
   }
 }
 
-// For the first `num` sub-rays of every set and the share of a beam left of a straight edge at
-// every angle and offset: the largest error.
-double LargestErrorOfAnEdge(std::span<const BeamSubRays> sets, std::size_t num) {
+// For the share of a beam left of a straight edge at every angle and offset: the largest error.
+double LargestErrorOfAnEdge(const BeamSubRays& all) {
   double largest = 0.0;
   for (int step = 0; step < 360; ++step) {
     const double angle_rad = std::numbers::pi * step / 180.0;
     for (double edge = -3.0; edge <= 3.0; edge += 0.05) {
       std::size_t num_left = 0;
-      for (const BeamSubRays& all : sets) {
-        for (std::size_t i = 0; i < num; ++i) {
-          const double across = std::cos(angle_rad) * static_cast<double>(all.h[i]) +
-                                std::sin(angle_rad) * static_cast<double>(all.v[i]);
-          num_left += across < edge ? 1U : 0U;
-        }
+      for (std::size_t i = 0; i < all.num; ++i) {
+        const double across = std::cos(angle_rad) * static_cast<double>(all.h[i]) +
+                              std::sin(angle_rad) * static_cast<double>(all.v[i]);
+        num_left += across < edge ? 1U : 0U;
       }
       const double share = 0.5 * std::erfc(-edge / std::numbers::sqrt2);
-      const double found = static_cast<double>(num_left) / static_cast<double>(num * sets.size());
+      const double found = static_cast<double>(num_left) / static_cast<double>(all.num);
       largest = std::max(largest, std::fabs(found - share));
     }
   }
@@ -73,9 +70,18 @@ double LargestErrorOfAnEdge(std::span<const BeamSubRays> sets, std::size_t num) 
 
 // Independent rays would have standard deviations of 0.0625 and 0.125.
 TEST(SubRays, OfABeamFindTheShareBesideAnEdge) {
-  EXPECT_LT(LargestErrorOfAnEdge({&SubRaysOfBeam(), 1}, kNumSubRays), 0.075);
-  EXPECT_LT(LargestErrorOfAnEdge({&SubRaysOfBeam(), 1}, kNumCrowdedSubRays), 0.15);
-  EXPECT_LT(LargestErrorOfAnEdge(SubRaysOfCloserLook(), kNumSubRays), 0.02);
+  EXPECT_LT(LargestErrorOfAnEdge(SubRaysOfBeam()), 0.075);
+  EXPECT_LT(LargestErrorOfAnEdge(SubRaysOfCrowd()), 0.15);
+  EXPECT_LT(LargestErrorOfAnEdge(SubRaysOfCloserLook()), 0.02);
+}
+
+TEST(SubRays, OfACrowdAreTheFirstOfABeam) {
+  const BeamSubRays& beam = SubRaysOfBeam();
+  const BeamSubRays& crowd = SubRaysOfCrowd();
+  ASSERT_EQ(crowd.num, kNumCrowdedSubRays);
+  EXPECT_TRUE(std::equal(crowd.h, crowd.h + crowd.num, beam.h));
+  EXPECT_TRUE(std::equal(crowd.v, crowd.v + crowd.num, beam.v));
+  EXPECT_LT(crowd.largest_offset, 0.9F * beam.largest_offset);
 }
 
 TEST(SubRays, OfABeamHaveThePatternsRadius) {

@@ -14,7 +14,7 @@ namespace railcast {
 namespace {
 
 // Of a closer look.
-constexpr float kShareOfOne = 1.0F / (kNumCloserSets * kNumSubRays);
+constexpr float kShareOfOne = 1.0F / kNumCloserSubRays;
 
 /// Everything between two distances from the line through the beam's middle in a direction.
 struct Band {
@@ -30,7 +30,7 @@ struct Band {
 
 std::vector<BeamPlace> PlacesIn(const Band& band, const BeamSubRays& rays) {
   std::vector<BeamPlace> places;
-  for (std::size_t i = 0; i < kNumSubRays; ++i) {
+  for (std::size_t i = 0; i < rays.num; ++i) {
     const BeamPlace place{rays.h[i], rays.v[i]};
     if (band.Contains(place)) places.push_back(place);
   }
@@ -38,11 +38,7 @@ std::vector<BeamPlace> PlacesIn(const Band& band, const BeamSubRays& rays) {
 }
 
 std::vector<BeamPlace> PlacesOfCloserLook(const Band& band) {
-  std::vector<BeamPlace> places;
-  for (const BeamSubRays& set : SubRaysOfCloserLook()) {
-    for (const BeamPlace& place : PlacesIn(band, set)) places.push_back(place);
-  }
-  return places;
+  return PlacesIn(band, SubRaysOfCloserLook());
 }
 
 /// The share of a band as FacetParts finds it: a second strip is fitted to what is met in the
@@ -53,15 +49,12 @@ double ShareByStrips(const Band& band) {
       FitStrip(places, kShareOfOne * static_cast<float>(places.size()));
   if (!strip) return 0.0;
   const float share_of_one = strip->Share() / kNumSubRays;
-  places = PlacesIn(band, SubRaysIn(*strip, 0));
+  places = PlacesIn(band, SubRaysIn(*strip, 0, 1));
   strip = FitStrip(places, share_of_one * static_cast<float>(places.size()));
   if (!strip) return 0.0;
-  std::size_t num = 0;
-  for (std::size_t set = 1; set < kNumStripSets; ++set) {
-    num += PlacesIn(band, SubRaysIn(*strip, set)).size();
-  }
-  return static_cast<double>(strip->Share()) * static_cast<double>(num) /
-         static_cast<double>((kNumStripSets - 1) * kNumSubRays);
+  const BeamSubRays rays = SubRaysIn(*strip, 1, kNumStripSets - 1);
+  return static_cast<double>(strip->Share()) * static_cast<double>(PlacesIn(band, rays).size()) /
+         static_cast<double>(rays.num);
 }
 
 TEST(ThinStrip, FindsTheShareOfLinesWithinASixth) {
@@ -123,17 +116,15 @@ TEST(ThinStrip, HasSubRaysOfEqualShare) {
   EXPECT_NEAR(static_cast<double>(strip.Share()), all, 1e-7);
   // Halves of the strip along and across it have their shares of the sub-rays of all sets.
   int inner = 0, upper = 0, num = 0;
-  for (std::size_t set = 0; set < kNumStripSets; ++set) {
-    const BeamSubRays rays = SubRaysIn(strip, set);
-    for (std::size_t i = 0; i < kNumSubRays; ++i) {
-      const BeamPlace place{rays.h[i], rays.v[i]};
-      EXPECT_GT(strip.Aside(place), strip.begin - 1e-4F);
-      EXPECT_LT(strip.Aside(place), strip.end + 1e-4F);
-      EXPECT_LE(std::hypot(place.h, place.v), rays.largest_offset);
-      inner += strip.Aside(place) > -1.8F ? 1 : 0;
-      upper += strip.direction.h * place.h + strip.direction.v * place.v > 0.0F ? 1 : 0;
-      ++num;
-    }
+  const BeamSubRays rays = SubRaysIn(strip, 0, kNumStripSets);
+  for (std::size_t i = 0; i < rays.num; ++i) {
+    const BeamPlace place{rays.h[i], rays.v[i]};
+    EXPECT_GT(strip.Aside(place), strip.begin - 1e-4F);
+    EXPECT_LT(strip.Aside(place), strip.end + 1e-4F);
+    EXPECT_LE(std::hypot(place.h, place.v), rays.largest_offset + 1e-6F);
+    inner += strip.Aside(place) > -1.8F ? 1 : 0;
+    upper += strip.direction.h * place.h + strip.direction.v * place.v > 0.0F ? 1 : 0;
+    ++num;
   }
   EXPECT_NEAR(static_cast<double>(inner) / num, NormalShare(-1.8, -1.5) / all, 0.01);
   EXPECT_EQ(2 * upper, num);
