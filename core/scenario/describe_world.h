@@ -211,8 +211,8 @@ void Describe(Archive& a, WorldSpec& s) {
              ExistingFile());
   a.Optional(
       "detail", s.detail,
-      "auto: plants, ground and tracks are coarser far away, where the sensor cannot tell the "
-      "difference; full: as fine as possible everywhere.");
+      "auto: far away, where the sensor cannot tell the difference, plants, ground and tracks are "
+      "coarser and persons who walk have fewer poses; full: as fine as possible everywhere.");
   a.Unique("tracks", s.tracks, "name", &TrackSpec::name);
   a.Unique("yards", s.yards, "name", &YardSpec::name);
   a.Unique("objects", s.objects, "name", &ObjectSpec::name);
