@@ -8,8 +8,8 @@ steady: the published scan at 10 and 20 Hz, spread and in bursts: frames lost an
 clients: VLP-16 at 20 Hz and HDL-32E at 10 Hz into PCL's own grabbers.
 limits: the highest rate that each rung sustains without a late frame, in one of three tries: virtual
 machines occasionally pause for tens of milliseconds.
-late: the late frames of the most expensive runs at 10 Hz: VLS-128, and footprint on the published
-scan, received on the same cores. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
+late: the late frames of the most expensive runs, received on the same cores: VLS-128, and footprint on
+the published scan, at 10 and 20 Hz. For two cores: taskset -c 0,1 measure_live.py BUILD_DIR late.
 fast: the published scan at 10 Hz from a train at 160 km/h, on an open line, through hills and through
 a station: what a frame takes, and how long the longest one, which waits for the world if any does.
 """
@@ -29,7 +29,10 @@ PUBLISHED_SCAN = {"type": "raster", "horizontal_fov_deg": 60, "vertical_fov_deg"
 SUMMARY = re.compile(r"(\d+) frames?, (\d+) late; (\d+) datagrams, (\d+) bytes; to receivers "
                      r"(\d+) sent, (\d+) refused")
 QUANTILES = re.compile(r"^  (compute|send|lateness) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+) ms", re.M)
-RUNGS = ("geometry", "plausibility", "surface", "footprint")
+FEW_SUB_RAYS = {"footprint_rays": 16}
+# By the name that is printed: the rung, and keys of the sensor's beam.
+RUNGS = {"geometry": ("geometry", {}), "plausibility": ("plausibility", {}), "surface": ("surface", {}),
+         "footprint": ("footprint", {}), "footprint_16": ("footprint", FEW_SUB_RAYS)}
 
 
 class Bench:
@@ -56,14 +59,14 @@ class Bench:
                         "motion": {"profile": [{"time_s": 0, "speed_mps": 11.1}]}}}))
         return file
 
-    def published(self, rate_hz):
+    def published(self, rate_hz, beam=None):
         return self.scenario({"file": str(SCENARIOS / "sensors" / "vir2rail.json"),
-                              "mount": {"position_m": [2.2, 0, 2.5]},
+                              "mount": {"position_m": [2.2, 0, 2.5]}, "beam": beam or {},
                               "scan": {"rate_hz": rate_hz, "pattern": PUBLISHED_SCAN}})
 
-    def sensor(self, name):
+    def sensor(self, name, scan=None):
         return self.scenario({"file": str(SCENARIOS / "sensors" / name),
-                              "mount": {"position_m": [2.2, 0, 2.5]}})
+                              "mount": {"position_m": [2.2, 0, 2.5]}, "scan": scan or {}})
 
     def stream(self, scenario, seconds, *options):
         """Runs the sender and returns its summary."""
@@ -109,26 +112,30 @@ def clients(bench, seconds):
 
 
 def limits(bench, seconds):
-    for rung in RUNGS:
+    for name, (rung, beam) in RUNGS.items():
         low_hz, high_hz = 4.0, 128.0
         while high_hz / low_hz > 1.1:
             rate_hz = (low_hz * high_hz) ** 0.5
-            scenario = bench.published(rate_hz)
+            scenario = bench.published(rate_hz, beam)
             if any(bench.stream_and_receive(scenario, seconds, "--fidelity", rung)[0]["late"] == 0
                    for _ in range(3)):
                 low_hz = rate_hz
             else:
                 high_hz = rate_hz
-        print(f"{rung}: {low_hz:.0f} Hz for {seconds:g} s without a late frame", flush=True)
+        print(f"{name}: {low_hz:.0f} Hz for {seconds:g} s without a late frame", flush=True)
 
 
-def late(bench, seconds):
-    for name, scenario, options in (("VLS-128", lambda: bench.sensor("vls128.json"), []),
-                                    ("published scan, footprint", lambda: bench.published(10),
-                                     ["--fidelity", "footprint"])):
-        sent, received = bench.stream_and_receive(scenario(), seconds, *options)
-        print(f"{name}, 10 Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; compute "
-              f"p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms; send p50 "
+def late(bench, num_frames):
+    for name, rate_hz, scenario, rung in (
+            ("VLS-128", 10, lambda: bench.sensor("vls128.json"), "surface"),
+            ("VLS-128", 20, lambda: bench.sensor("vls128.json", {"rate_hz": 20}), "surface"),
+            ("published scan", 10, lambda: bench.published(10), "footprint"),
+            ("published scan", 20, lambda: bench.published(20), "footprint"),
+            ("published scan", 20, lambda: bench.published(20, FEW_SUB_RAYS), "footprint_16")):
+        seconds = num_frames / rate_hz
+        sent, received = bench.stream_and_receive(scenario(), seconds, "--fidelity", RUNGS[rung][0])
+        print(f"{name}, {rung}, {rate_hz} Hz, {seconds:g} s: {sent['frames']} frames, {sent['late']} late; "
+              f"compute p50 {sent['compute'][0]:.1f}, p99 {sent['compute'][2]:.1f} ms; send p50 "
               f"{sent['send'][0]:.1f} ms; lateness p50 {sent['lateness'][0]:.2f}, p99 "
               f"{sent['lateness'][2]:.2f} ms")
         print("  " + received.strip().splitlines()[1], flush=True)
@@ -154,15 +161,16 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("what", nargs="*", choices=["steady", "clients", "limits", "late", "fast", []])
-    parser.add_argument("--seconds", type=float, help="of each run (default: 60, 60, 10, 10, 30)")
+    parser.add_argument("--seconds", type=float, help="of each run but those of late (default: 60, 60, 10, 30)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(options.build, pathlib.Path(folder))
         for name, measure, seconds in (("steady", steady, 60.0), ("clients", clients, 60.0),
-                                       ("limits", limits, 10.0), ("late", late, 10.0),
-                                       ("fast", fast, 30.0)):
+                                       ("limits", limits, 10.0), ("fast", fast, 30.0)):
             if not options.what or name in options.what:
                 measure(bench, options.seconds or seconds)
+        if not options.what or "late" in options.what:
+            late(bench, 600)
 
 
 if __name__ == "__main__":

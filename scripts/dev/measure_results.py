@@ -5,8 +5,9 @@
 
 Without a PART, measures all parts of which the file has no figures of this revision and an idle machine, so that the
 same command goes on where it was stopped. --again measures all; --list says what there is and how long each takes.
-Needs a release build of everything, gnuplot, valgrind and Xvfb. Times are measured on an idle machine: the script waits
-until nothing else runs, refuses if that does not come, and keeps no figure beside which other programs ran.
+Needs a release build of everything, gnuplot, valgrind and Xvfb; `peers` installs and builds what it needs. Times are
+measured on an idle machine: the script waits until nothing else runs, refuses if that does not come, and keeps no
+figure beside which other programs ran.
 """
 
 import argparse
@@ -318,11 +319,23 @@ def situations(build):
     return {}
 
 
+def peers(_):
+    """Other programs' ways of tracing the same rays through one mesh, without and with all plants, on one thread."""
+    scenes = []
+    for columns, *rows in tables_in(said("scripts/dev/compare_peers.sh")):
+        name, threads, ratio, same = map(columns.index, ("", "threads", "x raw trace", "same range within 1 mm"))
+        scenes.append({row[name]: [row[ratio], row[same]] for row in rows if row[threads] == "1"})
+    bare, leaves = scenes
+    return {"peers": table(1, ["way", "x raw trace", "same range within 1 mm", "with plants: x raw trace",
+                               "with plants: same range within 1 mm"],
+                           [[way, *cells, *leaves.get(way, ["-", "-"])] for way, cells in bare.items()])}
+
+
 # Each with the minutes that it takes on two cores.
 PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 15), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
          "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "insertion": (insertion, 5),
-         "situations": (situations, 10),
+         "situations": (situations, 10), "peers": (peers, 20),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
 UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
 
