@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/detectability/detection_probability.h"
 #include "analysis/detectability/object_detection.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -254,6 +255,7 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
     report.sections.push_back(
         {.key = "beside", .title = "Beside the track", .tables = {BesideTable(verdicts)}});
   }
+  report.sections.push_back(MakeProbabilitySection(runs, verdicts));
   report.sections.push_back(PointsSection(runs, verdicts, spec.rule));
   report.sections.push_back({.key = "runs", .title = "Run by run", .tables = {RunTable(runs)}});
   report.sections.push_back(

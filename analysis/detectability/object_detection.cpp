@@ -46,13 +46,6 @@ std::string Runs(std::uint64_t num, std::uint64_t all) {
   return "in " + std::to_string(num) + " of " + std::to_string(all) + " runs";
 }
 
-/// The sightings up to the closest one.
-std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings) {
-  const auto closest = std::ranges::min_element(sightings, {}, &Sighting::distance_m);
-  const auto num = static_cast<std::size_t>(closest - sightings.begin()) + 1;
-  return std::span(sightings).first(num);
-}
-
 /// Index of the sighting that completes the rule.
 std::optional<std::size_t> FirstDetected(std::span<const Sighting> sightings,
                                          const DetectionRule& rule) {
@@ -77,6 +70,12 @@ std::optional<std::uint32_t> LastMissed(std::span<const Sighting> sightings,
 }
 
 }  // namespace
+
+std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings) {
+  const auto closest = std::ranges::min_element(sightings, {}, &Sighting::distance_m);
+  const auto num = static_cast<std::size_t>(closest - sightings.begin()) + 1;
+  return std::span(sightings).first(num);
+}
 
 BrakedStop StopOf(const BrakingSpec& braking, double speed_mps, double gradient) {
   constexpr double kGravity_mps2 = 9.80665;

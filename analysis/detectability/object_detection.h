@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,9 @@ struct ObjectDetection {
 
 /// An object is approached if its distance falls by this much.
 inline constexpr double kMinApproach_m = 1.0;
+
+/// The sightings up to the closest one.
+[[nodiscard]] std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings);
 
 /// Finds the first detection before the closest point; later frames are no approach. Frames in
 /// which the object is out of range count as frames without points. If the object moves towards the

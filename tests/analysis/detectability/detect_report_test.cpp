@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/detectability/object_detection.h"
 #include "tests/core/io/message_of.h"
@@ -236,6 +237,37 @@ TEST(DetectReport, SaysWhichRunCannotStop) {
   EXPECT_EQ(MessageOf([] { (void)MadeRun(4, 100.0, -0.06); }),
             "run4: object person: cannot stop: deceleration + g x gradient must be > 0 (got -0.088 "
             "m/s2 at -60 permil)");
+}
+
+/// Runs whose detections fall off as 1 / (1 + (d / 100 m)^8), in no order.
+std::vector<DetectRun> RunsOfAKnownProbability(std::uint64_t num) {
+  std::vector<DetectRun> runs;
+  for (std::uint64_t i = 0; i < num; ++i) {
+    const double share = std::fmod((static_cast<double>(i) + 0.5) * std::numbers::sqrt2, 1.0);
+    const double detected_m = 100.0 * std::pow(1.0 / share - 1.0, 1.0 / 8.0);
+    runs.push_back(MadeRun(i + 1, detected_m + 2.0));  // The rule asks for three frames.
+  }
+  return runs;
+}
+
+TEST(DetectReport, GivesTheDistanceOfAProbabilityWithConfidence) {
+  const Report report = ReportOf(RunsOfAKnownProbability(300));
+  const Table& table = TableOf(report, "probability");
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(std::get<std::uint64_t>(CellOf(table, 0, "inspections")), 300U);
+  const double d90_m = 100.0 * std::pow(1.0 / 9.0, 1.0 / 8.0);
+  EXPECT_NEAR(std::get<double>(CellOf(table, 0, "d90_m")), d90_m, 0.08 * d90_m);
+  EXPECT_LT(std::get<double>(CellOf(table, 0, "d90_95_m")),
+            std::get<double>(CellOf(table, 0, "d90_m")));
+  EXPECT_EQ(SectionOf(report, "probability").charts.size(), 1U);
+}
+
+TEST(DetectReport, SaysThatRunsAreTooFewForAProbability) {
+  const Report report = ReportOf(RunsOfAKnownProbability(59));
+  const Section& section = SectionOf(report, "probability");
+  ASSERT_EQ(section.paragraphs.size(), 1U);
+  EXPECT_THAT(section.paragraphs[0], HasSubstr("takes 60, one of each run: person (59)."));
+  EXPECT_TRUE(section.tables.empty());
 }
 
 }  // namespace
