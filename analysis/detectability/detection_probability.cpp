@@ -132,7 +132,8 @@ Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
         {of.name, fit.num_targets, fit.num_detected, fit.d90_m, fit.d90_95_m,
          Estimate{fit.curve.upper, fit.upper_low, fit.upper_high, fit.num_targets}});
     const bool has_curve = !std::isnan(fit.curve.middle_m);
-    if (has_curve && section.charts.size() < kMostCurves) section.charts.push_back(ProbabilityChart(of));
+    if (has_curve && section.charts.size() < kMostCurves)
+      section.charts.push_back(ProbabilityChart(of));
   }
   if (!too_few.empty()) {
     section.paragraphs = {"Too few inspections for a probability of detection, which takes " +
