@@ -16,8 +16,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKmphPerMps = 3.6;
 constexpr double kPermil = 1000.0;
-/// More charts than this are too many to read; the tables hold the other objects.
-constexpr std::size_t kMaxCharts = 12;
 
 std::string RuleText(const DetectSpec& spec) {
   const DetectionRule& rule = spec.rule;

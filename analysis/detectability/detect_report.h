@@ -22,6 +22,9 @@ namespace railcast {
                                       std::vector<std::pair<std::string, std::string>> facts,
                                       const RungUsed& rung);
 
+/// More charts of a section than this are too many to read; the tables hold the other objects.
+inline constexpr std::size_t kMaxCharts = 12;
+
 /// Bins of 10 m: the braking distances from 15 to 40 km/h lie 10 to 150 m apart, so the 50 m bins
 /// usual in detection papers could not separate them; at these speeds and 10 Hz a bin still holds
 /// 10 to 24 frames.

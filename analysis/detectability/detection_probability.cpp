@@ -4,16 +4,17 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "analysis/detectability/detect_report.h"
+#include "analysis/estimate/detection_curve.h"
 #include "core/base/text.h"
 
 namespace railcast {
 namespace {
-
-constexpr std::size_t kMostCurves = 12;
 
 /// The approach of one run, and when the object is detected in it.
 struct SeenApproach {
@@ -45,11 +46,12 @@ std::string RoundedText(double value_m) {
   return NumberText(std::round(10.0 * value_m) / 10.0);
 }
 
-Chart ProbabilityChart(const DetectionProbability& of) {
-  const DetectionFit& fit = of.fit;
+Chart ProbabilityChart(const std::string& object,
+                       const std::vector<Inspection>& inspected,
+                       const DetectionFit& fit) {
   Chart chart;
-  chart.key = KeyOfObject("probability_", of.name);
-  chart.title = "Probability that " + of.name + " is detected";
+  chart.key = KeyOfObject("probability_", object);
+  chart.title = "Probability that " + object + " is detected";
   chart.caption =
       "By the time it is as near as this. Each inspection is a point at 1 or 0; the curve is the "
       "most likely one.";
@@ -57,7 +59,7 @@ Chart ProbabilityChart(const DetectionProbability& of) {
   chart.y = {.title = "Probability of detection", .unit = ""};
   ChartSeries inspections{"inspections", SeriesStyle::kPoints, {}};
   double farthest_m = 0.0;
-  for (const Inspection& each : of.inspections) {
+  for (const Inspection& each : inspected) {
     inspections.points.push_back({.x = each.range_m, .y = static_cast<double>(each.num_detected)});
     farthest_m = std::max(farthest_m, each.range_m);
   }
@@ -77,10 +79,11 @@ Chart ProbabilityChart(const DetectionProbability& of) {
   return chart;
 }
 
-}  // namespace
-
-DetectionProbability ProbabilityOf(const std::vector<DetectRun>& runs, const std::string& object) {
-  DetectionProbability of{.name = object, .inspections = {}, .fit = {}};
+/// Inspects an object once in each run that approaches it: whether it has been detected by the time
+/// it is at a distance. The distances are spread evenly over the logarithm of those that all runs
+/// have, so that inspections are independent of each other, as the fit assumes.
+std::vector<Inspection> InspectionsOf(const std::vector<DetectRun>& runs,
+                                      const std::string& object) {
   const std::vector<SeenApproach> approaches = ApproachesOf(runs, object);
   double nearest_m = 0.0;
   double farthest_m = std::numeric_limits<double>::infinity();
@@ -91,15 +94,17 @@ DetectionProbability ProbabilityOf(const std::vector<DetectRun>& runs, const std
   }
   constexpr double kLeast_m = 0.1;  // Things that are touched have no logarithm.
   nearest_m = std::max(nearest_m, kLeast_m);
+  std::vector<Inspection> inspections;
   for (std::size_t i = 0; i < approaches.size(); ++i) {
     // Multiples of the golden ratio are spread evenly, however many there are.
     const double share = std::fmod((static_cast<double>(i) + 0.5) * std::numbers::phi, 1.0);
-    of.inspections.push_back(
+    inspections.push_back(
         Inspect(approaches[i], nearest_m * std::pow(farthest_m / nearest_m, share)));
   }
-  of.fit = FitDetection(of.inspections);
-  return of;
+  return inspections;
 }
+
+}  // namespace
 
 Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
                                const std::vector<Verdict>& verdicts) {
@@ -121,19 +126,20 @@ Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
   std::string too_few;
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way || verdict.num_approached == 0) continue;
-    const DetectionProbability of = ProbabilityOf(runs, verdict.name);
-    if (!of.fit.is_enough()) {
+    const std::vector<Inspection> inspections = InspectionsOf(runs, verdict.name);
+    if (inspections.size() < DetectionFit::kMinTargets) {
       if (!too_few.empty()) too_few += ", ";
-      too_few += of.name + " (" + NumberText(of.fit.num_targets) + ")";
+      too_few += verdict.name + " (" + NumberText(inspections.size()) + ")";
       continue;
     }
-    const DetectionFit& fit = of.fit;
+    const DetectionFit fit = FitDetection(inspections);
     table.rows.push_back(
-        {of.name, fit.num_targets, fit.num_detected, fit.d90_m, fit.d90_95_m,
+        {verdict.name, fit.num_targets, fit.num_detected, fit.d90_m, fit.d90_95_m,
          Estimate{fit.curve.upper, fit.upper_low, fit.upper_high, fit.num_targets}});
     const bool has_curve = !std::isnan(fit.curve.middle_m);
-    if (has_curve && section.charts.size() < kMostCurves)
-      section.charts.push_back(ProbabilityChart(of));
+    if (has_curve && section.charts.size() < kMaxCharts) {
+      section.charts.push_back(ProbabilityChart(verdict.name, inspections, fit));
+    }
   }
   if (!too_few.empty()) {
     section.paragraphs = {"Too few inspections for a probability of detection, which takes " +

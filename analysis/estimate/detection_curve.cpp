@@ -232,20 +232,10 @@ DetectionCurve FoundCurve(const Parameters& parameters, double log_likelihood) {
           log_likelihood};
 }
 
-using CurveLikelihood = double (*)(const std::vector<Inspection>& inspections,
-                                   const Parameters& at,
-                                   bool has_asymptote);
-
-double LogLikelihoodOf(const std::vector<Inspection>& inspections,
-                       const Parameters& at,
-                       bool /*has_asymptote*/) {
-  return LogLikelihood(inspections, at);
-}
-
 /// @param upper Is estimated if it is NaN.
 DetectionCurve FitCurve(const std::vector<Inspection>& inspections,
                         double upper,
-                        CurveLikelihood likelihood) {
+                        bool is_penalized) {
   const bool is_free = std::isnan(upper);
   std::vector<Interval> bounds{MiddleBounds(inspections), SlopeBounds()};
   const double share = SharedDetected(inspections);
@@ -254,7 +244,8 @@ DetectionCurve FitCurve(const std::vector<Inspection>& inspections,
     return Parameters{at[0], at[1], is_free ? at[2] : upper};
   };
   const Maximum best = Maximize(bounds, [&](const std::vector<double>& at) {
-    return likelihood(inspections, parameters(at), is_free);
+    return is_penalized ? Penalized(inspections, parameters(at), is_free)
+                        : LogLikelihood(inspections, parameters(at));
   });
   return FoundCurve(parameters(best.at), best.value);
 }
@@ -272,7 +263,7 @@ double DetectionCurve::RangeOf(double probability) const {
 }
 
 DetectionCurve FitDetectionCurve(const std::vector<Inspection>& inspections, double upper) {
-  return FitCurve(inspections, upper, &LogLikelihoodOf);
+  return FitCurve(inspections, upper, false);
 }
 
 DetectionFit FitDetection(const std::vector<Inspection>& inspections) {
@@ -294,7 +285,7 @@ DetectionFit FitDetection(const std::vector<Inspection>& inspections) {
   // Liang 1987): 5 % of them exceed the quantile of 90 %.
   const double one_sided = FallAt(0.9);
   fit.has_asymptote = with.log_likelihood - without.log_likelihood > one_sided;
-  fit.curve = FitCurve(inspections, fit.has_asymptote ? kNoRange_m : 1.0, &Penalized);
+  fit.curve = FitCurve(inspections, fit.has_asymptote ? kNoRange_m : 1.0, true);
   fit.d90_m = fit.curve.RangeOf(kProbability);
   if (fit.has_asymptote) {
     const auto fall = [&](double upper) {

@@ -18,8 +18,9 @@ struct Inspection {
 ///   POD(d) = upper / (1 + (d / middle)^slope)
 ///
 /// This is the generalised linear model of hit and miss against log size of MIL-HDBK-1823A (2009),
-/// appendix G, mirrored, since ranges make detection harder; `upper` is below 1 where even near
-/// targets may be missed, as in fog or behind other things (Annis and Gandossi 2012, section 5).
+/// mirrored, since ranges make detection harder; `upper` is below 1 where even near targets may be
+/// missed, as in fog or behind other things (C. Annis, statistical-engineering.com/mh1823, on
+/// floors and ceilings of POD).
 struct DetectionCurve {
   double upper = 1.0;
   double middle_m{};        ///< Where half of `upper` is detected.

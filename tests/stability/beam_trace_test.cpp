@@ -101,9 +101,9 @@ Agreement AgreementOn(const std::string& scenario_name,
   return agreement;
 }
 
-void ExpectAgreement(const Agreement& agreement) {
+void ExpectAgreement(const Agreement& agreement, double least_num = 1e6) {
   const auto num = static_cast<double>(agreement.num_rays);
-  EXPECT_GT(num, 4e5);
+  EXPECT_GT(num, least_num);
   EXPECT_LT(static_cast<double>(agreement.num_elsewhere), 2e-4 * num);
   EXPECT_LT(static_cast<double>(agreement.num_lost), 1e-5 * num);
   EXPECT_LT(agreement.worst_m, 3e-3F);
@@ -118,7 +118,7 @@ TEST(BeamTrace, AgreesWithEmbreeInACloserLook) {
 }
 
 TEST(BeamTrace, AgreesWithEmbreeInACrowd) {
-  ExpectAgreement(AgreementOn("open_line.json", 0, SubRaysOfCrowd()));
+  ExpectAgreement(AgreementOn("open_line.json", 0, SubRaysOfCrowd()), 4e5);
 }
 
 TEST(BeamTrace, AgreesWithEmbreeWhereObjectsMove) {

@@ -34,7 +34,7 @@ struct PatternTurns {
 
 /// The sub-rays of a beam and the angle by which they are turned about its axis.
 struct SubRayAim {
-  std::size_t num{};
+  std::size_t num{};       ///< The number of sub-rays.
   const float* h{};        ///< Horizontal offsets in standard deviations of the profile.
   const float* v{};        ///< Vertical offsets.
   float largest_offset{};  ///< The largest distance from the axis.
