@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Compares a scene that is coarser far away with full detail, for docs/detail.md: echoes by range with three
-# sensors on two rungs, then times on three scenarios, then time and memory of a first frame. Needs a
-# release build and GNU time; takes some ten minutes. Nothing else should run meanwhile.
+# sensors on two rungs, with plants and without, then times on three scenarios, then time and memory of a first
+# frame. Needs a release build and GNU time; takes some 20 minutes. Nothing else should run meanwhile.
 #
 #   measure_detail.sh [FRAMES]
 set -euo pipefail
@@ -15,11 +15,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 for sensor in vir2rail pandar64 vls128; do
-  printf '{"version": 1, "file": "%s", "lidar": {"file": "%s", "mount": {"position_m": [2.2, 0, 2.5]}}}\n' \
-    "$PWD/scenarios/st_gallen_approach.json" "$PWD/scenarios/sensors/$sensor.json" >"$work/$sensor.json"
-  for rung in surface footprint; do
-    printf '\n%s, %s\n\n' "$sensor" "$rung"
-    "$compare" "$work/$sensor.json" --rung "$rung" --frames "${1:-60}"
+  for plants in "" ", no plants"; do
+    vegetation='{"trees_per_hectare": 60}'
+    [[ -z "$plants" ]] || vegetation='{"trees_per_hectare": 0, "grass": false}'
+    printf '{"version": 1, "file": "%s", "world": {"alignment": "%s", "tracks": [{"name": "main"}, {"name": "second", "offset_m": 4.0}], "vegetation": %s}, "lidar": {"file": "%s", "mount": {"position_m": [2.2, 0, 2.5]}}}\n' \
+      "$PWD/scenarios/st_gallen_approach.json" "$PWD/scenarios/alignments/st_gallen_wil.json" "$vegetation" \
+      "$PWD/scenarios/sensors/$sensor.json" >"$work/scenario.json"
+    for rung in surface footprint; do
+      printf '\n%s, %s%s\n\n' "$sensor" "$rung" "$plants"
+      "$compare" "$work/scenario.json" --rung "$rung" --frames "${1:-60}"
+    done
   done
 done
 for scenario in st_gallen_approach open_line forest_rain; do

@@ -186,13 +186,13 @@ NAMES = {"vir2rail": "raster", **SENSORS}
 def detail(_):
     """The largest changes by coarser plants and ground, and the times."""
     echoes, times = [], []
-    parts = re.split(r"^(\w+), (\w+)$", said("scripts/dev/measure_detail.sh"), flags=re.M)
-    for name, rung, text in zip(parts[1::3], parts[2::3], parts[3::3]):
+    parts = re.split(r"^(\w+), (\w+)(, no plants)?$", said("scripts/dev/measure_detail.sh"), flags=re.M)
+    for name, rung, bare, text in zip(parts[1::4], parts[2::4], parts[3::4], parts[4::4]):
         for columns, *rows in tables_in(text):
             group = ""  # A column without a group is of that before it.
             for i, column in enumerate(columns[1:], 1):
                 group, _, figure = column.rpartition(": ") if ": " in column else (group, "", column)
-                echoes.append([NAMES.get(name, name), f"`{rung}`", f"{group}: {figure}",
+                echoes.append([NAMES.get(name, name), f"`{rung}`", f"{group}: {figure}{bare or ''}",
                                largest_change([(row[0], row[i]) for row in rows])])
         for ratios in re.findall(r"^x raw trace(.*)", text, re.M):
             times.append([f"`{name}`", f"`{rung}`", *re.findall(r"\d+(?:\.\d+)?", ratios)])

@@ -16,9 +16,11 @@ namespace railcast {
 
 // What permits the coarser forms of a chunk (docs/detail.md). Ballast has cells of up to 0.48 m
 // across in the first, 2.5 spacings; along the track, where it is as fine as ever, most beams run.
+// Beams that are narrower than the spacing find the ground's edges behind its bumps: their width
+// counts, too.
 inline constexpr double kCoarseRaySpacings_m[kMostCoarse] = {
     0.19, std::numeric_limits<double>::infinity()};
-inline constexpr double kCoarseBeamWidth_m = 0.0;
+inline constexpr double kCoarseBeamWidth_m = 0.2;
 inline constexpr double kCoarseSightAngle_rad = 0.5;
 
 /// What permits the coarser forms of the chunk between two chainages.
