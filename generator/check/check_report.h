@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generator/check/gauge_entries.h"
+#include "core/rail/world/gauge_entries.h"
 #include "generator/check/scene_audit.h"
 #include "generator/check/vehicle_way.h"
 #include "railcast/alignment.h"

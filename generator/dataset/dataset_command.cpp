@@ -12,10 +12,11 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/recipe/recipe.h"
 #include "generator/commands.h"
 #include "generator/dataset/dataset_report.h"
 #include "generator/dataset/merge_shards.h"
-#include "generator/dataset/recipe.h"
+#include "generator/dataset/recorded_bases.h"
 #include "generator/dataset/run_dataset.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
@@ -123,7 +124,7 @@ class ScenarioProgress {
 };
 
 int RunDatasetCommand(DatasetOptions options) {
-  const Recipe recipe = ReadRecipe(options.recipe);
+  const Recipe recipe = ReadRecipe(options.recipe, ReadRecordedBase);
   if (recipe.has_plans() && !options.has_format) options.choices.format = "same";
   if (options.has_scenarios_only) return WriteScenarios(recipe, options);
   // The folder can be continued however the program ends.

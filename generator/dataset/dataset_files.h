@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "core/recipe/split_quota.h"
 #include "generator/dataset/dataset_directory.h"
-#include "generator/dataset/split_quota.h"
 
 namespace railcast {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/io/run/dataset_files.h"
+#include "core/recipe/recipe.h"
+#include "core/recipe/split_quota.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/indexed_scenario.h"
-#include "generator/dataset/recipe.h"
-#include "generator/dataset/split_quota.h"
 
 namespace railcast {
 

@@ -13,7 +13,7 @@
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
-#include "generator/insert/plan/recorded_run.h"
+#include "generator/dataset/recorded_bases.h"
 #include "generator/insert/run/insert_folder.h"
 
 namespace railcast {
@@ -56,20 +56,20 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,
                           const fs::path& directory,
                           const InsertHooks& hooks) {
-  return RunInsert({.recording = drawn.run->recording,
+  return RunInsert({.recording = drawn.run->recording(),
                     .plan = {},
                     .directory = directory,
                     .format = choices.format,
                     .first_frame = drawn.first_frame,
                     .last_frame = drawn.first_frame + drawn.num_frames - 1,
                     .num_threads = choices.num_threads},
-                   MakeInsertPlan(*drawn.run, drawn.scenario), hooks);
+                   MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
 }
 
 Json RecordOfInserted(const DrawnScenario& drawn,
                       const fs::path& dataset,
                       const fs::path& directory) {
-  const RecordedRun& run = *drawn.run;
+  const RecordedRun& run = RunOf(*drawn.run);
   Json s_m = Json::array();
   Json speed_mps = Json::array();
   for (std::uint32_t i = 0; i < drawn.num_frames; ++i) {

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
+#include "core/recipe/scenario_draw.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/run_dataset.h"
-#include "generator/dataset/scenario_draw.h"
 #include "generator/insert/run/insert_run.h"
 
 namespace railcast {

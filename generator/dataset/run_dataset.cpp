@@ -13,12 +13,11 @@
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/program/version.h"
+#include "core/recipe/recipe_files.h"
 #include "core/trace/trace_program.h"
 #include "generator/dataset/dataset_files.h"
 #include "generator/dataset/inserted_item.h"
-#include "generator/dataset/recipe_files.h"
 #include "generator/dataset/scenario_turns.h"
-#include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_run.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/frame_maker.h"
@@ -69,7 +68,7 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   if (!choices.isa.empty()) throw InputError("--isa" + rule);
   for (const RecipeBase& base : recipe.bases) {
     InsertChoices insert;
-    insert.recording = base.run->recording;
+    insert.recording = base.run->recording();
     insert.directory = choices.directory;
     CheckIsApart(insert);
   }

@@ -4,10 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "core/recipe/recipe.h"
+#include "core/recipe/scenario_draw.h"
+#include "core/recipe/split_quota.h"
 #include "generator/dataset/dataset_directory.h"
-#include "generator/dataset/recipe.h"
-#include "generator/dataset/scenario_draw.h"
-#include "generator/dataset/split_quota.h"
 #include "generator/run/run_plan.h"
 
 namespace railcast {

@@ -18,9 +18,9 @@
 #include "core/rail/base/chainage_range.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structures.h"
+#include "core/rail/world/gauge_entries.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scenario/describe_structures.h"
-#include "generator/check/gauge_entries.h"
 #include "generator/import/structures/line_structures.h"
 #include "railcast/world_spec.h"
 

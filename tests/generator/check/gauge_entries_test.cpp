@@ -1,4 +1,4 @@
-#include "generator/check/gauge_entries.h"
+#include "core/rail/world/gauge_entries.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_project.h"
 #include "tests/generator/run_command.h"
 
 namespace railcast {

@@ -11,7 +11,7 @@
 #include "core/io/verify/dataset_verification.h"
 #include "generator/dataset/merge_shards.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_project.h"
 
 namespace railcast {
 

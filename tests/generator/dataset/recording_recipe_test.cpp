@@ -12,12 +12,13 @@
 #include "core/base/text.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/verify/dataset_verification.h"
-#include "generator/dataset/merge_shards.h"
+#include "generator//dataset/merge_shards.h"
+#include "generator/dataset/recorded_bases.h"
 #include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_run.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_project.h"
 #include "tests/generator/insert/plan/plan_project.h"
 
 namespace railcast {
@@ -73,7 +74,7 @@ class RecordingRecipe : public testing::Test {
   }
   [[nodiscard]] static Recipe Read(const nlohmann::json& recipe) {
     WriteFileWhole(Path("recipe.json"), recipe.dump());
-    return ReadRecipe(Path("recipe.json"));
+    return ReadRecipe(Path("recipe.json"), ReadRecordedBase);
   }
   [[nodiscard]] static std::string Fault(const nlohmann::json& recipe) {
     std::string message = MessageOf([&] { (void)Read(recipe); });
@@ -116,14 +117,14 @@ TEST_F(RecordingRecipe, DrawsPlansForFramesOfSeveralRecordings) {
     recordings.insert(drawn.record.at("drawn").at("recording").get<std::string>());
     first_frames.insert(drawn.first_frame);
     EXPECT_LE(drawn.first_frame + 5, kNumRecorded);
-    const double start_s_m = drawn.run->Chainage_m(drawn.first_frame);
+    const double start_s_m = drawn.run->frames().at(drawn.first_frame).s_m;
     EXPECT_NEAR(start_s_m, 2.0 * drawn.first_frame, 0.01);
     EXPECT_EQ(drawn.record.at("start_s_m"), start_s_m);
     ASSERT_EQ(drawn.scenario.world.objects.size(), 1U);
     const double ahead_m = drawn.scenario.world.objects[0].s_m - start_s_m;
     EXPECT_TRUE(ahead_m >= 15.0 && ahead_m <= 30.0) << ahead_m;
     // That is where `insert` puts it.
-    const InsertPlan plan = MakeInsertPlan(*drawn.run, drawn.scenario);
+    const InsertPlan plan = MakeInsertPlan(RunOf(*drawn.run), drawn.scenario);
     const Vector3 vehicle =
         plan.world->WorldFromVehicle(plan.frame_times_ns[drawn.first_frame]).translation();
     EXPECT_NEAR(plan.world->WorldFromObject(0, 0).translation().x() - vehicle.x(), ahead_m, 0.01);
@@ -151,7 +152,7 @@ TEST_F(RecordingRecipe, ThingsThatMoveSetOffInTheFirstFrameOfTheirScenario) {
   car["object"]["motion"] = {{"profile", {{{"time_s", 0}, {"speed_mps", 3}}}}};
   json["objects"].push_back(car);
   for (const DrawnScenario& drawn : DrawAllOf(Read(json))) {
-    const InsertPlan plan = MakeInsertPlan(*drawn.run, drawn.scenario);
+    const InsertPlan plan = MakeInsertPlan(RunOf(*drawn.run), drawn.scenario);
     const std::int64_t begin_ns = plan.frame_times_ns[drawn.first_frame];
     for (const std::size_t object : {0U, 1U}) {
       const auto place = [&](std::int64_t time_ns) -> Vector3 {
@@ -196,11 +197,11 @@ TEST_F(RecordingRecipe, WritesWhatInsertWritesOfTheDrawnPlan) {
   const DrawnScenario drawn = ScenarioDrawer(recipe).Draw(2);
   WriteFileWhole(Path("drawn.json"), IdentityOf(drawn.scenario).scenario_json);
   InsertChoices choices;
-  choices.recording = drawn.run->recording;
+  choices.recording = drawn.run->recording();
   choices.directory = Path("inserted");
   choices.first_frame = drawn.first_frame;
   choices.last_frame = drawn.first_frame + 4;
-  (void)RunInsert(choices, ReadInsertPlan(Path("drawn.json"), drawn.run->recording),
+  (void)RunInsert(choices, ReadInsertPlan(Path("drawn.json"), drawn.run->recording()),
                   {[](std::uint32_t, std::uint32_t) {}, [] { return false; }});
   const auto of_set = FilesOfDataset(Path("set/sequences/000/000002"));
   const auto of_insert = FilesOfDataset(Path("inserted"));

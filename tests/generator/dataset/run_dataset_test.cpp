@@ -9,11 +9,11 @@
 #include <sstream>
 #include <string>
 
+#include "core/recipe/recipe_files.h"
 #include "generator/dataset/merge_shards.h"
-#include "generator/dataset/recipe_files.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_project.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,7 @@
 #include "generator/dataset/merge_shards.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/recipe_project.h"
+#include "tests/generator/dataset/dataset_project.h"
 
 namespace railcast {
 namespace {
