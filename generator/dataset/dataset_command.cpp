@@ -12,6 +12,7 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
 #include "core/recipe/recipe.h"
 #include "generator/commands.h"
 #include "generator/dataset/dataset_report.h"
@@ -20,7 +21,6 @@
 #include "generator/dataset/run_dataset.h"
 #include "generator/empty_folder.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {

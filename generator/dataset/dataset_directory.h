@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/scenario/json_text.h"
-#include "generator/run/run_folder.h"
 
 namespace railcast {
 

@@ -15,13 +15,13 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/recipe/recipe.h"
 #include "generator/dataset/dataset_report.h"
 #include "generator/dataset/index_database.h"
 #include "generator/dataset/indexed_scenario.h"
 #include "generator/dataset/scenario_lines.h"
-#include "generator/run/run_folder.h"
 
 namespace railcast {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/frame_record.h"
 #include "core/scenario/json_text.h"
-#include "generator/record/frame_record.h"
 
 namespace railcast {
 

@@ -10,11 +10,11 @@
 
 #include "core/base/error.h"
 #include "core/detect/base/beam_optics.h"
+#include "core/io/run/object_survey.h"
 #include "core/simulate/returns.h"
 #include "core/simulate/screen_surfaces.h"
 #include "core/simulate/screened_scan.h"
 #include "generator/insert/recorded_surface.h"
-#include "generator/record/object_survey.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

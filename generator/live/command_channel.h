@@ -13,11 +13,11 @@
 #include <vector>
 
 #include "core/io/net/udp.h"
+#include "core/io/run/run_folder.h"
 #include "core/scenario/command.h"
 #include "generator/live/command_source.h"
 #include "generator/live/live_run.h"
 #include "generator/run/frame_maker.h"
-#include "generator/run/run_folder.h"
 
 namespace railcast {
 

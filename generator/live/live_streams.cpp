@@ -12,6 +12,7 @@
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
 #include "generator/run/stopping.h"

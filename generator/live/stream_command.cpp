@@ -15,6 +15,7 @@
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
@@ -30,7 +31,6 @@
 #include "generator/live/stream_options.h"
 #include "generator/live/twist_commands.h"
 #include "generator/run/run_options.h"
-#include "generator/run/stopping.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

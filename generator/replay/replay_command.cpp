@@ -12,6 +12,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
 #include "generator/commands.h"
 #include "generator/insert/packets/inserted_datagrams.h"
 #include "generator/insert/packets/insertion.h"
@@ -22,7 +23,6 @@
 #include "generator/replay/packet_feed.h"
 #include "generator/replay/replay_options.h"
 #include "generator/replay/replay_run.h"
-#include "generator/run/stopping.h"
 
 namespace railcast {
 namespace {

@@ -24,10 +24,10 @@
 #include "core/io/field_layout.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
-#include "generator/record/frame_record.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/object_survey.h"
 #include "core/scenario/command_log.h"
-#include "generator/record/object_survey.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/motion_sensors.h"

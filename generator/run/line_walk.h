@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
 
 namespace railcast {
 

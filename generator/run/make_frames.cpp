@@ -19,6 +19,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/program/stop_signals.h"
 #include "generator/run/run_bag.h"
 #include "generator/run/run_directory.h"
 #include "generator/run/run_topics.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_plan.h"
 #include "railcast/fidelity.h"

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/io/ros/frame_topics.h"
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
+#include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"
-#include "generator/run/run_folder.h"
 #include "generator/run/run_plan.h"
 #include "generator/run/run_trace.h"
 #include "railcast/frame.h"

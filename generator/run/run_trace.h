@@ -9,7 +9,7 @@
 
 #include "core/io/bag/bag.h"
 #include "core/io/osi/trace_file.h"
-#include "generator/run/run_folder.h"
+#include "core/io/run/run_folder.h"
 
 namespace railcast {
 

@@ -11,6 +11,7 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
 #include "core/scenario/track_limits.h"
 #include "generator/commands.h"
 #include "generator/run/all_sensors.h"
@@ -18,7 +19,6 @@
 #include "generator/run/make_frames.h"
 #include "generator/run/run_options.h"
 #include "generator/run/run_plan.h"
-#include "generator/run/stopping.h"
 #include "generator/sequence/summary.h"
 #include "railcast/scenario.h"
 

@@ -20,7 +20,7 @@ ROOM_ORDERS = {
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud run velodyne hesai pcap net ouster ros mcap bag osi dds stream recording verify".split(),
-    "generator": ". record run check sequence insert live replay trace world dataset survey import python".split(),
+    "generator": ". run check sequence insert live replay trace world dataset survey import python".split(),
     "generator/insert": ". plan firings clouds packets run".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report pictures stats compare detectability fit frontier preset receive .".split(),

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "core/io/content_hash.h"
+#include "core/io/run/frame_record.h"
+#include "core/io/run/object_survey.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
-#include "generator/record/frame_record.h"
-#include "generator/record/object_survey.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/scenario.h"
 #include "tests/bench/scene_cost.h"

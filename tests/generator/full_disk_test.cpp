@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/base/error.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "generator/run/make_frames.h"
-#include "generator/run/run_folder.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"

@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "generator/record/object_survey.h"
+#include "core/io/run/object_survey.h"
 
 namespace railcast {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "core/base/text.h"
 #include "core/io/run/camera_files.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
-#include "generator/record/frame_record.h"
 
 namespace railcast {
 namespace {

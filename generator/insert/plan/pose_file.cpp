@@ -6,9 +6,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/write_file.h"
 #include "generator/insert/plan/openlabel_poses.h"
-#include "generator/record/frame_record.h"
 
 namespace railcast {
 namespace {

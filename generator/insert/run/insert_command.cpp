@@ -9,12 +9,12 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
 #include "generator/commands.h"
 #include "generator/insert/insert_plan.h"
 #include "generator/insert/plan/plan_check.h"
 #include "generator/insert/run/insert_run.h"
 #include "generator/run/run_plan.h"
-#include "generator/run/stopping.h"
 #include "generator/sequence/summary.h"
 #include "railcast/io/cloud_files.h"
 

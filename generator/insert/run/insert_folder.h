@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "generator/insert/clouds/recording_output.h"
 #include "generator/run/line_walk.h"
-#include "generator/run/run_folder.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/program/program.h"
+#include "core/program/stop_signals.h"
 #include "tests/core/io/default_signals.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"

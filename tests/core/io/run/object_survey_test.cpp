@@ -1,4 +1,4 @@
-#include "generator/record/object_survey.h"
+#include "core/io/run/object_survey.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "generator/record/object_survey.h"
+#include "core/io/run/object_survey.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "generator/run/run_folder.h"
+#include "core/io/run/run_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

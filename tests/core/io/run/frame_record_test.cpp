@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "generator/record/frame_record.h"
+#include "core/io/run/frame_record.h"
 #include "tests/core/io/example_frame.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "generator/dataset/scenario_turns.h"
+#include "core/recipe/scenario_turns.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
