@@ -4,6 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/base/units.h"
+#include "core/detect/base/beam_optics.h"
+#include "core/detect/beam/footprint.h"
+#include "core/detect/beam/sub_ray_pattern.h"
+
 namespace railcast {
 namespace {
 
@@ -49,6 +54,24 @@ bool MayMeet(const MovingSphere& sphere,
 }
 
 }  // namespace
+
+double BesideBeam_rad(const DetectorSpec& detector) {
+  // Draws lie within so many standard deviations.
+  constexpr double kMostDeviation = 6.0;
+  double beside_rad = 0.0;
+  if (HasFootprint(detector)) {
+    // Of a dense pattern, the outermost of n sub-rays is at sqrt(2 ln 2n) standard deviations.
+    const double offset = std::max(
+        static_cast<double>(SubRaysOfBeam().largest_offset),
+        std::sqrt(2.0 * std::log(2.0 * static_cast<double>(detector.beam.reference_rays))));
+    beside_rad +=
+        offset * std::max(HorizontalSigma_rad(detector.beam), VerticalSigma_rad(detector.beam));
+  }
+  if (detector.effects.pointing_jitter) {
+    beside_rad += kMostDeviation * RadFromDeg(detector.receiver.pointing_jitter_deg);
+  }
+  return 1.1 * beside_rad + 1e-4;
+}
 
 std::vector<bool> BeamsNearObjects(const World& world,
                                    const ScanPattern& pattern,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "railcast/effects.h"
 #include "railcast/lidar.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"
@@ -16,6 +17,9 @@ struct BeamReach {
   double beside_rad{};  ///< Half the width of a beam, and by how much it may be aimed wrong.
   double range_max_m{};
 };
+
+/// BeamReach::beside_rad of a sensor.
+[[nodiscard]] double BesideBeam_rad(const DetectorSpec& detector);
 
 /// For each firing of a pattern, whether its beam may meet an object of the world: all that do are
 /// among them, and some that do not. Those of the vehicle itself are left out.

@@ -7,7 +7,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -16,8 +15,6 @@
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/detect/base/weather_optics.h"
-#include "core/detect/beam/footprint.h"
-#include "core/detect/beam/sub_ray_pattern.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/detect/effects/spray.h"
 #include "core/scan/firing.h"
@@ -33,9 +30,6 @@
 
 namespace railcast {
 namespace {
-
-// Draws lie within so many standard deviations.
-constexpr double kMostDeviation = 6.0;
 
 // What the recording shows already, or what is not known of it, is not simulated once more.
 SimulatorSpec ForRecorded(SimulatorSpec spec) {
@@ -101,7 +95,6 @@ struct ScreenedScan::Parts {
 
   void UseRows(std::uint32_t rows, double rate_hz);
   [[nodiscard]] ReturnRule RuleFor(std::uint32_t returns) const;
-  [[nodiscard]] double BesideBeam_rad() const;
   [[nodiscard]] CastFrame CastOf(const FrameScene& scene,
                                  const std::vector<Surface>& surfaces,
                                  const Screens& screens,
@@ -172,23 +165,6 @@ ReturnRule ScreenedScan::Parts::RuleFor(std::uint32_t returns) const {
           effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
           effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
                              : 0.0F};
-}
-
-double ScreenedScan::Parts::BesideBeam_rad() const {
-  const DetectorSpec& detector = spec.detector;
-  double beside_rad = 0.0;
-  if (HasFootprint(detector)) {
-    // Of a dense pattern, the outermost of n sub-rays is at sqrt(2 ln 2n) standard deviations.
-    const double offset = std::max(
-        static_cast<double>(SubRaysOfBeam().largest_offset),
-        std::sqrt(2.0 * std::log(2.0 * static_cast<double>(detector.beam.reference_rays))));
-    beside_rad +=
-        offset * std::max(HorizontalSigma_rad(detector.beam), VerticalSigma_rad(detector.beam));
-  }
-  if (detector.effects.pointing_jitter) {
-    beside_rad += kMostDeviation * RadFromDeg(detector.receiver.pointing_jitter_deg);
-  }
-  return 1.1 * beside_rad + 1e-4;
 }
 
 CastFrame ScreenedScan::Parts::CastOf(const FrameScene& scene,
@@ -317,7 +293,7 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
       BeamsNearObjects(scenes.world(), pattern,
                        {.stamp_ns = recorded.stamp_ns,
                         .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
-                        .beside_rad = BesideBeam_rad(),
+                        .beside_rad = BesideBeam_rad(spec.detector),
                         .range_max_m = spec.detector.range_max_m});
   const std::vector<std::uint32_t> order = TracingOrder(pattern);
   const auto near = Those(order, [&](std::uint32_t firing) { return is_near[firing]; });

@@ -27,29 +27,12 @@
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/output_axes.h"
 #include "core/simulate/returns.h"
-#include "core/simulate/story_echoes.h"
+#include "core/simulate/simulator_parts.h"
 #include "core/simulate/velocity_meter.h"
 #include "core/simulate/view_counter.h"
 
 namespace railcast {
 namespace {
-
-CastFrame CastOf(const FrameScene& scene,
-                 const World& world,
-                 const DetectorSpec& spec,
-                 const BeamTracer& tracer,
-                 std::uint32_t duration_ns) {
-  CastFrame cast{scene.index,      scene.poses,    scene,
-                 scene.surfaces(), &scene.wires(), scene.window->window_from_world};
-  if (spec.effects.spray && HasSpray(spec)) {
-    cast.spray =
-        SprayCloudsOf(world, spec.weather, {scene.stamp_ns, duration_ns}, cast.window_from_world);
-  }
-  cast.mirrors = tracer.MirrorsAmong(cast.surfaces, cast.window_from_world);
-  cast.takes_no_rays = true;
-  if (scene.motion) cast.motion = &*scene.motion;
-  return cast;
-}
 
 void CheckSimulatorSpec(const SimulatorSpec& spec, const std::vector<Material>& materials) {
   CheckDetectorSpec(spec.detector);
@@ -60,8 +43,6 @@ void CheckSimulatorSpec(const SimulatorSpec& spec, const std::vector<Material>& 
         std::to_string(spec.snow_material)}});
 }
 
-using EchoUse = std::function<void(std::size_t tile, BeamTracer::Work& work)>;
-
 // The sources of all tiles, in the order of the tiles, whichever thread found them.
 std::vector<HaloSource> Joined(const std::vector<std::vector<HaloSource>>& found) {
   std::vector<HaloSource> all;
@@ -71,86 +52,7 @@ std::vector<HaloSource> Joined(const std::vector<std::vector<HaloSource>>& found
   return all;
 }
 
-using WorkOfThreads = tbb::enumerable_thread_specific<BeamTracer::Work>;
-
 }  // namespace
-
-struct Simulator::Parts {
-  ScanPattern pattern;
-  SimulatorSpec spec;
-  std::vector<Material> materials;
-  std::shared_ptr<const FiringTiles> tiles;  // Of all frames, or of frame 0 if they differ.
-  FrameScenes scenes;
-  std::unique_ptr<const BeamTracer> tracer;
-  std::unique_ptr<WorkOfThreads> work;
-  std::optional<Halo> halo;  // If that effect is on and has a cause.
-  std::unique_ptr<tbb::global_control> parallelism;
-  tbb::task_arena arena;
-
-  [[nodiscard]] ReturnMode return_mode() const {
-    return tracer->has_beams() ? spec.detector.receiver.return_mode : ReturnMode::kStrongest;
-  }
-  /// Where the sensor is said to be.
-  [[nodiscard]] Transform ReportedPose(std::int64_t time_ns) const {
-    return scenes.WorldFromSensor(time_ns) * spec.nominal_from_true.inverse();
-  }
-  [[nodiscard]] ReturnRule return_rule() const {
-    const EffectSet& effects = spec.detector.effects;
-    const ReceiverSpec& receiver = spec.detector.receiver;
-    return {return_mode(), effects.dead_time ? static_cast<float>(DeadLength_m(receiver)) : 0.0F,
-            effects.saturation ? static_cast<float>(receiver.saturation_power_ratio.value_or(0.0))
-                               : 0.0F};
-  }
-  [[nodiscard]] float range_max_m() const { return static_cast<float>(spec.detector.range_max_m); }
-  [[nodiscard]] BegunFrame Begin(std::uint32_t frame_index) {
-    return arena.execute([&] { return scenes.Begin(frame_index, pattern.StampNs(frame_index)); });
-  }
-  [[nodiscard]] const FrameScene& SceneOf(BegunFrame& begun) {
-    arena.execute([&] { static_cast<void>(scenes.SceneOf(begun)); });
-    return *begun.scene;
-  }
-  [[nodiscard]] std::shared_ptr<const FiringTiles> TilesOf(std::uint32_t frame_index) const {
-    if (pattern.repeats()) return tiles;
-    return std::make_shared<const FiringTiles>(PatternOfFrame(pattern, frame_index));
-  }
-  [[nodiscard]] const FiringTiles& TilesOf(BegunFrame& begun) const {
-    if (begun.tiles == nullptr) begun.tiles = TilesOf(begun.index);
-    return *begun.tiles;
-  }
-  /// For WithinMemory: "making frame 3 (28800 firings)".
-  [[nodiscard]] auto Making(std::uint32_t frame_index) const {
-    return [this, frame_index] {
-      return "making frame " + std::to_string(frame_index) + " (" +
-             std::to_string(pattern.num_firings()) + " firings)";
-    };
-  }
-  void UseSpec();
-  /// Calls `use(tile, work)` on the echoes of every tile as they reach the receiver.
-  /// @param views Receives what every firing sees; may be null.
-  void ForAllEchoes(const CastFrame& cast,
-                    const FiringTiles& firings,
-                    ViewCounter* views,
-                    const EchoUse& use);
-  [[nodiscard]] std::vector<HaloSource> FindHaloSources(const CastFrame& cast,
-                                                        const FiringTiles& firings);
-  void Scan(const CastFrame& cast,
-            const FiringTiles& firings,
-            Frame& frame,
-            ViewCounter* views = nullptr);
-  [[nodiscard]] std::vector<ObjectView> ViewObjects(const FrameScene& scene,
-                                                    const FiringTiles& firings);
-  [[nodiscard]] CastFrame CastOf(const FrameScene& scene, const FiringTiles& firings) const {
-    return railcast::CastOf(scene, scenes.world(), spec.detector, *tracer, firings.duration_ns());
-  }
-  /// Calls `work(tile)` for every tile, on the run's threads.
-  template <typename Job>
-  void ForEachTile(const Job& job) {
-    // One by one, since a tile takes up to milliseconds, for which others would wait at the end.
-    arena.execute([&] {
-      tbb::parallel_for(std::size_t{0}, tiles->num_tiles(), job, tbb::simple_partitioner{});
-    });
-  }
-};
 
 Simulator::Simulator(std::shared_ptr<const World> world,
                      ScanPattern pattern,
@@ -252,6 +154,19 @@ void Simulator::UseLastStamp(std::int64_t stamp_ns) {
   parts_->scenes.UseLastStamp(stamp_ns);
 }
 
+CastFrame Simulator::Parts::CastOf(const FrameScene& scene, const FiringTiles& firings) const {
+  CastFrame cast{scene.index,      scene.poses,    scene,
+                 scene.surfaces(), &scene.wires(), scene.window->window_from_world};
+  if (spec.detector.effects.spray && HasSpray(spec.detector)) {
+    cast.spray = SprayCloudsOf(scenes.world(), spec.detector.weather,
+                               {scene.stamp_ns, firings.duration_ns()}, cast.window_from_world);
+  }
+  cast.mirrors = tracer->MirrorsAmong(cast.surfaces, cast.window_from_world);
+  cast.takes_no_rays = true;
+  if (scene.motion) cast.motion = &*scene.motion;
+  return cast;
+}
+
 void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
                                     const FiringTiles& firings,
                                     ViewCounter* views,
@@ -259,7 +174,7 @@ void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
   // A halo reaches beams of other tiles. Without bright echoes, which are rare, all is done after
   // one pass; otherwise the tiles that halos reach are made a second time.
   std::vector<std::vector<HaloSource>> found(halo ? firings.num_tiles() : 0);
-  ForEachTile([&](std::size_t tile) {
+  ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
     tracer->MakeEchoes(cast, firings, tile, mine);
     if (halo) halo->CollectSources(mine.echoes, found[tile]);
@@ -268,7 +183,7 @@ void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
   });
   const std::vector<HaloSource> sources = Joined(found);
   if (sources.empty()) return;
-  ForEachTile([&](std::size_t tile) {
+  ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
     firings.Describe(tile, mine.echoes.first);
     if (!halo->Reaches(mine.echoes.first, sources)) return;
@@ -281,7 +196,7 @@ void Simulator::Parts::ForAllEchoes(const CastFrame& cast,
 std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast,
                                                           const FiringTiles& firings) {
   std::vector<std::vector<HaloSource>> found(firings.num_tiles());
-  ForEachTile([&](std::size_t tile) {
+  ForEachTile(firings.num_tiles(), [&](std::size_t tile) {
     BeamTracer::Work& mine = work->local();
     tracer->MakeEchoes(cast, firings, tile, mine);
     halo->CollectSources(mine.echoes, found[tile]);
@@ -289,26 +204,28 @@ std::vector<HaloSource> Simulator::Parts::FindHaloSources(const CastFrame& cast,
   return Joined(found);
 }
 
-void Simulator::Parts::Scan(const CastFrame& cast,
-                            const FiringTiles& firings,
-                            Frame& frame,
-                            ViewCounter* views) {
-  frame.index = cast.index;
-  frame.stamp_ns = pattern.StampNs(cast.index);
+void Simulator::Parts::Prepare(std::uint32_t frame_index,
+                               const FiringTiles& firings,
+                               Frame& frame) const {
+  frame.index = frame_index;
+  frame.stamp_ns = pattern.StampNs(frame_index);
   frame.world_from_sensor = ReportedPose(frame.stamp_ns);
   frame.duration_ns = firings.duration_ns();
   frame.world_from_sensor_end = ReportedPose(frame.stamp_ns + frame.duration_ns);
   frame.poses_between = PosesBetween(frame.duration_ns, [&](std::uint32_t time_ns) {
     return ReportedPose(frame.stamp_ns + time_ns);
   });
-  const ReturnRule rule = return_rule();
-  // A host does not say how its things move.
-  frame.has_velocity = cast.motion != nullptr;
-  frame.Resize(pattern.rows, pattern.columns, NumReturns(rule.mode));
+  frame.Resize(pattern.rows, pattern.columns, NumReturns(return_mode()));
+}
+
+void Simulator::Parts::Fill(const CastFrame& cast,
+                            const FiringTiles& firings,
+                            Frame& frame,
+                            ViewCounter* views) {
   const OutputAxes axes(spec.output, spec.origin_place,
                         {spec.vehicle_from_sensor, spec.nominal_from_true.inverse()},
                         cast.window_from_world, frame.world_from_sensor);
-  const ReturnStore store(rule, tracer->has_beams());
+  const ReturnStore store(return_rule(), tracer->has_beams());
   const Transform world_from_window = cast.window_from_world.inverse();
   const double time_s = SecondsFromNs(frame.stamp_ns);
   std::optional<VelocityMeter> velocities;
@@ -327,12 +244,22 @@ void Simulator::Parts::Scan(const CastFrame& cast,
     store.Store(mine.echoes, cast.surfaces, {firings.slots(tile), firings.num_firings(tile)}, frame,
                 measure);
   });
-  firings.StoreConstants(frame);
   if (!tracer->has_beams()) {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     std::fill(frame.footprint_share.begin(), frame.footprint_share.end(), kNaN);
     std::fill(frame.mixed_share.begin(), frame.mixed_share.end(), kNaN);
   }
+}
+
+void Simulator::Parts::Scan(const CastFrame& cast,
+                            const FiringTiles& firings,
+                            Frame& frame,
+                            ViewCounter* views) {
+  // A host does not say how its things move.
+  frame.has_velocity = cast.motion != nullptr;
+  Prepare(cast.index, firings, frame);
+  Fill(cast, firings, frame, views);
+  firings.StoreConstants(frame);
 }
 
 std::shared_ptr<BegunFrame> Simulator::Begin(std::uint32_t frame_index) {
@@ -402,61 +329,6 @@ void Simulator::Execute(const std::function<void()>& work) {
   parts_->arena.execute([&] { work(); });
 }
 
-FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
-  Parts& parts = *parts_;
-  BegunFrame begun = parts.Begin(frame_index);
-  const FrameScene& scene = parts.SceneOf(begun);
-  const FiringTiles& firings = parts.TilesOf(begun);
-  const CastFrame cast = parts.CastOf(scene, firings);
-  const FiringTiles::Place place = firings.PlaceOf(firing);
-  const std::size_t tile = place.tile;
-  const std::size_t lane = place.lane;
-  BeamTracer::Work work(*parts.tracer);
-  DetectTile& first = work.echoes.first;
-  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-  for (float* unknown : {first.intensity, first.power_ratio, first.range_m}) {
-    std::fill_n(unknown, kTileSize, kNaN);
-  }
-  FiringStory story;
-  std::size_t num_echoes = 1;
-  const auto record = [&](std::string_view effect) {
-    const std::size_t num_before = std::exchange(num_echoes, EchoesOf(work.echoes, lane).size());
-    story.steps.push_back({.effect = std::string(effect),
-                           .outcome = static_cast<Outcome>(first.outcome[lane]),
-                           .true_range_m = first.true_range_m[lane],
-                           .cos_incidence = first.cos_incidence[lane],
-                           .intensity = first.intensity[lane],
-                           .power_ratio = first.power_ratio[lane],
-                           .range_m = first.range_m[lane],
-                           .num_added_echoes = num_echoes - num_before});
-  };
-  parts.tracer->MakeEchoes(cast, firings, tile, work, record);
-  const RayTile& rays = work.rays;
-  if (parts.halo) {
-    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast, firings));
-    record(EffectBetweenBeams(spec().detector)->name);
-  }
-  const Transform world_from_window = scene.window->window_from_world.inverse();
-  const double time_s = SecondsFromNs(parts.pattern.StampNs(frame_index));
-  parts.tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
-  const Surface& surface = scene.surfaces()[first.surface[lane]];
-  story.firing = firing;
-  story.time_ns = firings.times_ns(tile)[lane];
-  story.slot = firings.slots(tile)[lane] * NumReturns(parts.return_mode());
-  story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
-                                   static_cast<double>(first.direction_y[lane]),
-                                   static_cast<double>(first.direction_z[lane]));
-  story.origin_world = world_from_window * Vector3(static_cast<double>(rays.origin_x[lane]),
-                                                   static_cast<double>(rays.origin_y[lane]),
-                                                   static_cast<double>(rays.origin_z[lane]));
-  story.label = surface.label;
-  story.instance = surface.instance;
-  story.material = surface.material;
-  story.reflectivity = surface.reflectivity;
-  TellEchoes(scene.surfaces(), parts.return_rule(), lane, work.echoes, story);
-  return story;
-}
-
 std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
   BegunFrame begun = parts_->Begin(frame_index);
   static_cast<void>(parts_->SceneOf(begun));
@@ -467,7 +339,7 @@ std::function<void()> Simulator::MakeRawTrace(std::uint32_t frame_index) {
     firings.Aim(tile, scene->poses, parts_->range_max_m(), (*aimed)[tile]);
   }
   return [this, scene, aimed] {
-    parts_->ForEachTile([&](std::size_t tile) {
+    parts_->ForEachTile(aimed->size(), [&](std::size_t tile) {
       RayTile& rays = (*aimed)[tile];
       std::fill_n(rays.range_m, kTileSize, parts_->range_max_m());
       scene->CastRanges(rays);
@@ -480,7 +352,8 @@ std::vector<ObjectView> Simulator::Parts::ViewObjects(const FrameScene& scene,
   const CastFrame cast{scene.index,      scene.poses, scene,
                        scene.surfaces(), nullptr,     scene.window->window_from_world};
   ViewCounter views(cast, scenes.world(), scenes.ObjectsAlone(scene));
-  ForEachTile([&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
+  ForEachTile(firings.num_tiles(),
+              [&](std::size_t tile) { views.Add(*tracer, firings, tile, work->local()); });
   return views.Total();
 }
 

@@ -186,6 +186,12 @@ class Simulator {
   /// looked for with those that the frame has cast.
   void Scan(BegunFrame& begun, Frame& frame, std::vector<ObjectView>& views);
 
+  /// As Scan(), but only firings whose beams may meet an object of the world are traced, and those
+  /// of their tiles; all others are as if they met nothing. What the frame has on objects is the
+  /// same, in a fraction of the time where they are few and far; where halos reach from beam to
+  /// beam, all firings are traced.
+  void ScanNearObjects(BegunFrame& begun, Frame& frame);
+
   /// How much the frame's beams see of each of world().objects(), in order.
   [[nodiscard]] std::vector<ObjectView> ViewObjects(std::uint32_t frame_index);
   [[nodiscard]] std::vector<ObjectView> ViewObjects(BegunFrame& begun);

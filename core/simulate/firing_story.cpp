@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/base/units.h"
+#include "core/detect/detector/effect_table.h"
+#include "core/simulate/simulator_parts.h"
+#include "core/simulate/story_echoes.h"
+
+namespace railcast {
+
+FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
+  Parts& parts = *parts_;
+  BegunFrame begun = parts.Begin(frame_index);
+  const FrameScene& scene = parts.SceneOf(begun);
+  const FiringTiles& firings = parts.TilesOf(begun);
+  const CastFrame cast = parts.CastOf(scene, firings);
+  const FiringTiles::Place place = firings.PlaceOf(firing);
+  const std::size_t tile = place.tile;
+  const std::size_t lane = place.lane;
+  BeamTracer::Work work(*parts.tracer);
+  DetectTile& first = work.echoes.first;
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (float* unknown : {first.intensity, first.power_ratio, first.range_m}) {
+    std::fill_n(unknown, kTileSize, kNaN);
+  }
+  FiringStory story;
+  std::size_t num_echoes = 1;
+  const auto record = [&](std::string_view effect) {
+    const std::size_t num_before = std::exchange(num_echoes, EchoesOf(work.echoes, lane).size());
+    story.steps.push_back({.effect = std::string(effect),
+                           .outcome = static_cast<Outcome>(first.outcome[lane]),
+                           .true_range_m = first.true_range_m[lane],
+                           .cos_incidence = first.cos_incidence[lane],
+                           .intensity = first.intensity[lane],
+                           .power_ratio = first.power_ratio[lane],
+                           .range_m = first.range_m[lane],
+                           .num_added_echoes = num_echoes - num_before});
+  };
+  parts.tracer->MakeEchoes(cast, firings, tile, work, record);
+  const RayTile& rays = work.rays;
+  if (parts.halo) {
+    parts.halo->AddEchoes(work.echoes, parts.FindHaloSources(cast, firings));
+    record(EffectBetweenBeams(spec().detector)->name);
+  }
+  const Transform world_from_window = scene.window->window_from_world.inverse();
+  const double time_s = SecondsFromNs(parts.pattern.StampNs(frame_index));
+  parts.tracer->detector().Detect({rays, world_from_window, time_s}, work.echoes, record);
+  const Surface& surface = scene.surfaces()[first.surface[lane]];
+  story.firing = firing;
+  story.time_ns = firings.times_ns(tile)[lane];
+  story.slot = firings.slots(tile)[lane] * NumReturns(parts.return_mode());
+  story.direction_sensor = Vector3(static_cast<double>(first.direction_x[lane]),
+                                   static_cast<double>(first.direction_y[lane]),
+                                   static_cast<double>(first.direction_z[lane]));
+  story.origin_world = world_from_window * Vector3(static_cast<double>(rays.origin_x[lane]),
+                                                   static_cast<double>(rays.origin_y[lane]),
+                                                   static_cast<double>(rays.origin_z[lane]));
+  story.label = surface.label;
+  story.instance = surface.instance;
+  story.material = surface.material;
+  story.reflectivity = surface.reflectivity;
+  TellEchoes(scene.surfaces(), parts.return_rule(), lane, work.echoes, story);
+  return story;
+}
+
+}  // namespace railcast

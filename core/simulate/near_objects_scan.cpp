@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/base/out_of_memory.h"
+#include "core/simulate/beams_near_objects.h"
+#include "core/simulate/simulator_parts.h"
+
+namespace railcast {
+namespace {
+
+// In tracing order, all firings of those tiles in which one is near. Beams of a tile are aimed by
+// one pose, and its packets traced together: so each is traced as in a whole frame, to the last
+// bit.
+std::vector<std::uint32_t> TilesWith(const ScanPattern& pattern, const std::vector<bool>& is_near) {
+  std::vector<std::uint32_t> firings;
+  for (std::size_t begin = 0; begin < pattern.num_firings(); begin += kTileSize) {
+    const std::size_t end = std::min(begin + kTileSize, pattern.num_firings());
+    const auto first = pattern.packet_order.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = pattern.packet_order.begin() + static_cast<std::ptrdiff_t>(end);
+    const bool is_wanted = std::any_of(first, last, [&](std::uint32_t i) { return is_near[i]; });
+    if (is_wanted) firings.insert(firings.end(), first, last);
+  }
+  return firings;
+}
+
+// As of beams that meet nothing.
+void ClearSlots(Frame& frame) {
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    ClearSlot(slot, frame);
+    if (slot % frame.returns == 0) frame.outcome[slot] = Outcome::kNoSurface;
+  }
+  std::ranges::fill(frame.mixed_share, std::numeric_limits<float>::quiet_NaN());
+  std::ranges::fill(frame.return_count, std::uint8_t{0});
+}
+
+}  // namespace
+
+void Simulator::ScanNearObjects(BegunFrame& begun, Frame& frame) {
+  Parts& parts = *parts_;
+  // A halo reaches any beam.
+  if (parts.halo) return Scan(begun, frame);
+  WithinMemory(parts.Making(begun.index), [&] {
+    const ScanPattern of_frame =
+        parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
+    const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
+    const std::vector<bool> is_near = BeamsNearObjects(
+        world(), pattern,
+        {.stamp_ns = begun.stamp_ns,
+         .vehicle_from_sensor = parts.spec.vehicle_from_sensor * parts.spec.nominal_from_true,
+         .beside_rad = BesideBeam_rad(parts.spec.detector),
+         .range_max_m = parts.spec.detector.range_max_m});
+    const FiringTiles& all = parts.TilesOf(begun);
+    frame.has_velocity = parts.spec.detector.velocity.has_value();
+    parts.Prepare(begun.index, all, frame);
+    ClearSlots(frame);
+    std::vector<std::uint32_t> order = TilesWith(pattern, is_near);
+    if (!order.empty()) {
+      const FiringTiles firings(pattern, std::move(order));
+      const FrameScene& scene = parts.SceneOf(begun);
+      parts.Fill(parts.CastOf(scene, firings), firings, frame);
+    }
+    all.StoreConstants(frame);
+  });
+}
+
+}  // namespace railcast

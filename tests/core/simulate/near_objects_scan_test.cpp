@@ -1,0 +1,108 @@
+// Frames of which only firings near objects are traced, against whole ones.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "railcast/scenario.h"
+#include "railcast/simulator.h"
+
+namespace railcast {
+namespace {
+
+ScenarioSpec ReadShipped(const std::string& name) {
+  return ReadScenario(std::string(RAILCAST_SOURCE_DIR "/scenarios/") + name);
+}
+
+// Slots by value, NaN being the same as NaN.
+void ExpectSameSlot(const Frame& whole, const Frame& near, std::size_t slot) {
+  ForEachField(whole, [&](const std::string& name, const char* /*unit*/, const auto& of_whole) {
+    ForEachField(near, [&](const std::string& other, const char* /*unit*/, const auto& of_near) {
+      if constexpr (std::is_same_v<decltype(of_whole), decltype(of_near)>) {
+        if (name != other) return;
+        const bool are_both_nan =
+            of_whole[slot] != of_whole[slot] && of_near[slot] != of_near[slot];
+        EXPECT_TRUE(are_both_nan || of_whole[slot] == of_near[slot]) << name << " of slot " << slot;
+      }
+    });
+  });
+}
+
+// @return Number of returns on objects.
+std::size_t ExpectSameOnObjects(const ScenarioSpec& spec,
+                                const std::vector<std::uint32_t>& frames) {
+  const auto simulator = MakeSimulator(spec, 2);
+  std::set<std::uint32_t> instances;
+  for (const SceneObject& object : simulator->world().objects()) {
+    if (!object.is_ego) instances.insert(object.instance);
+  }
+  Frame whole;
+  Frame near;
+  std::size_t num_on_objects = 0;
+  for (const std::uint32_t index : frames) {
+    simulator->Scan(index, whole);
+    simulator->ScanNearObjects(*simulator->Begin(index), near);
+    EXPECT_EQ(near.stamp_ns, whole.stamp_ns);
+    EXPECT_EQ(near.duration_ns, whole.duration_ns);
+    EXPECT_EQ(near.world_from_sensor_end.matrix(), whole.world_from_sensor_end.matrix());
+    for (std::size_t slot = 0; slot < whole.num_slots(); ++slot) {
+      EXPECT_EQ(near.time_ns[slot], whole.time_ns[slot]);
+      const bool is_untraced = near.outcome[slot - slot % near.returns] == Outcome::kNoSurface;
+      if (is_untraced && whole.outcome[slot] != Outcome::kClutter) {
+        EXPECT_FALSE(instances.contains(whole.instance[slot])) << slot;
+      } else if (!is_untraced) {
+        ExpectSameSlot(whole, near, slot);
+      }
+      num_on_objects +=
+          instances.contains(near.instance[slot]) && HasPoint(near.outcome[slot]) ? 1U : 0U;
+    }
+  }
+  return num_on_objects;
+}
+
+TEST(NearObjectsScan, HoldsTheSameOfObjectsOnEachRung) {
+  for (const Fidelity rung :
+       {Fidelity::kGeometry, Fidelity::kPlausibility, Fidelity::kSurface, Fidelity::kFootprint}) {
+    ScenarioSpec spec = ReadShipped("st_gallen_approach.json");
+    spec.fidelity = rung;
+    SCOPED_TRACE(NameOf(rung));
+    EXPECT_GT(ExpectSameOnObjects(spec, {0, 40}), 200U);
+  }
+}
+
+TEST(NearObjectsScan, HoldsTheSameOfWhoWalksInFogBeforeASensorOfSeveralReturns) {
+  ScenarioSpec spec = ReadShipped("brake_person.json");
+  spec.fidelity = Fidelity::kFootprint;
+  spec.weather.visibility_m = 200.0;
+  spec.weather.wind_speed_mps = 8.0;
+  spec.lidar.receiver.return_mode = ReturnMode::kDual;
+  spec.lidar.receiver.pointing_jitter_deg = 0.05;
+  spec.vehicle.start_s_m = 560.0;
+  EXPECT_GT(ExpectSameOnObjects(spec, {0, 3}), 20U);
+}
+
+TEST(NearObjectsScan, HoldsTheSameOfARetroreflectorsHalo) {
+  ScenarioSpec spec = ReadShipped("st_gallen_approach.json");
+  spec.fidelity = Fidelity::kFootprint;
+  spec.lidar.receiver.halo_share_at_1_deg = 1e-3;
+  spec.effects["halo"] = true;
+  spec.world.objects.back().material = "retro_sheeting";
+  (void)ExpectSameOnObjects(spec, {0});
+}
+
+TEST(NearObjectsScan, HoldsTheSameOfAPatternThatDoesNotRepeat) {
+  ScenarioSpec spec = ReadShipped("st_gallen_approach.json");
+  spec.lidar = ReadScenarioText(R"({"version": 1, "file": "minimal.json",
+                                    "lidar": {"file": "sensors/mid40_like.json"}})",
+                                RAILCAST_SOURCE_DIR "/scenarios/given.json")
+                   .lidar;
+  spec.lidar.mount.position_m = {2.2, 0.0, 2.5};
+  EXPECT_GT(ExpectSameOnObjects(spec, {0, 1, 40}), 20U);
+}
+
+}  // namespace
+}  // namespace railcast
