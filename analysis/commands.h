@@ -26,6 +26,8 @@ void AddStats(CLI::App& app, ProgramCommand& command);
 void AddCompare(CLI::App& app, ProgramCommand& command);
 /// Compares the distance at which objects are detected with the distance a train needs to stop.
 void AddDetect(CLI::App& app, ProgramCommand& command);
+/// Simulates the approaches of a recipe and reports probabilities of detection.
+void AddStudy(CLI::App& app, ProgramCommand& command);
 /// Estimates the sensor models' parameters from recordings.
 void AddFit(CLI::App& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.

@@ -24,6 +24,8 @@ class OwnTrack {
  public:
   /// @throws InputError as MakeWorld() does.
   explicit OwnTrack(const ScenarioSpec& scenario);
+  /// @param world The scenario's.
+  OwnTrack(const ScenarioSpec& scenario, const RailWorld& world);
 
   /// Position of a box relative to the gauge of the track ahead, where it comes nearest to it. A
   /// box behind the vehicle or beyond the ends of the track is not inside, at an infinite distance
@@ -33,8 +35,6 @@ class OwnTrack {
                                               const Vector3& size_m) const;
 
  private:
-  OwnTrack(const ScenarioSpec& scenario, const RailWorld& world);
-
   /// Chainage of the point of the axis that is nearest to this point.
   [[nodiscard]] double ChainageNear_m(const Vector3& world_m) const;
   /// As above, but starts from a nearby chainage.

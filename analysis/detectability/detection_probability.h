@@ -1,8 +1,10 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "analysis/detectability/object_detection.h"
+#include "analysis/estimate/detection_curve.h"
 #include "analysis/report/report.h"
 
 namespace railcast {
@@ -13,5 +15,13 @@ namespace railcast {
 /// @param runs In the order of their seeds. Each is inspected once.
 [[nodiscard]] Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
                                              const std::vector<Verdict>& verdicts);
+
+/// The curve of one object, its inspections, and d90/95.
+[[nodiscard]] Chart ProbabilityChart(const std::string& object,
+                                     const std::vector<Inspection>& inspected,
+                                     const DetectionFit& fit);
+
+/// Blank unless it is estimated: an asymptote that is not is 1 by assumption.
+[[nodiscard]] Cell AsymptoteCell(const DetectionFit& fit);
 
 }  // namespace railcast

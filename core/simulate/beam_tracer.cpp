@@ -50,12 +50,10 @@ BeamTracer::BeamTracer(const SimulatorSpec& spec,
   if (spec_.effects.cover && HasCover(spec_)) cover_.emplace(spec_, pattern);
 }
 
-BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame,
-                                  const FiringTiles& tiles,
-                                  std::size_t tile) const {
+BeamFrame BeamTracer::BeamFrameOf(const CastFrame& frame) const {
   BeamFrame beam = beam_;
   PoseF change{};
-  const PoseF pose = frame.poses.At(tiles.times_ns(tile)[0], change);
+  const PoseF pose = frame.poses.At(0, change);
   const Vector3 vertical = frame.window_from_world.linear().col(2);
   for (int i = 0; i < 3; ++i) {
     beam.up[i] = pose.r[3 * i + 2];
@@ -75,7 +73,7 @@ void BeamTracer::AimCenters(const CastFrame& frame,
   tiles.Describe(tile, first);
   if (has_wide_beams()) kernels_.pattern_turns(first, spec_.seed, work.turns);
   if (spec_.effects.pointing_jitter && pointing_.sigma_rad > 0.0F) {
-    kernels_.pointing(rays, first, BeamFrameOf(frame, tiles, tile), pointing_);
+    kernels_.pointing(rays, first, BeamFrameOf(frame), pointing_);
   }
   rays.mask = spec_.effects.thin_conductors ? kAllButWires : kAllSurfaces;
 }
@@ -130,7 +128,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
   echoes.ClearMore();
   if (cover_) cover_->Fill(first, work.drops);
   const SurfaceTable table{frame.surfaces, optics_};
-  const BeamFrame beam = BeamFrameOf(frame, tiles, tile);
+  const BeamFrame beam = BeamFrameOf(frame);
   const WideBeams beams{.rays = rays,
                         .frame = beam,
                         .turns = work.turns,

@@ -78,9 +78,9 @@ class BeamTracer {
                   const FiringTiles& tiles,
                   std::size_t tile,
                   Work& work) const;
-  [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame,
-                                      const FiringTiles& tiles,
-                                      std::size_t tile) const;
+  /// The same for all beams of a frame, in which the sensor's z axis turns by some milliradians: so
+  /// an outline is as much awry, and what a firing meets does not depend on others.
+  [[nodiscard]] BeamFrame BeamFrameOf(const CastFrame& frame) const;
   /// Aims kNumCrowdedSubRays about a central ray of `work`; all else of `beam` stays as it is.
   void AimSubRays(const Work& work, const BeamFrame& frame, std::size_t lane, BeamRays& beam) const;
 

@@ -74,12 +74,13 @@ double BesideBeam_rad(const DetectorSpec& detector) {
 }
 
 std::vector<bool> BeamsNearObjects(const World& world,
+                                   std::span<const std::size_t> objects,
                                    const ScanPattern& pattern,
                                    const BeamReach& reach) {
   std::vector<bool> is_near(pattern.num_firings());
   if (is_near.empty()) return is_near;
   const std::uint32_t duration_ns = *std::ranges::max_element(pattern.time_ns);
-  for (std::size_t object = 0; object < world.objects().size(); ++object) {
+  for (const std::size_t object : objects) {
     if (world.objects()[object].is_ego) continue;
     const MovingSphere sphere = SphereOf(world, object, reach, duration_ns);
     const bool is_far = std::ranges::all_of(sphere.centers_m, [&](const Vector3& center_m) {

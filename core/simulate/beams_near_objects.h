@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "railcast/effects.h"
@@ -21,9 +23,11 @@ struct BeamReach {
 /// BeamReach::beside_rad of a sensor.
 [[nodiscard]] double BesideBeam_rad(const DetectorSpec& detector);
 
-/// For each firing of a pattern, whether its beam may meet an object of the world: all that do are
+/// For each firing of a pattern, whether its beam may meet one of some objects: all that do are
 /// among them, and some that do not. Those of the vehicle itself are left out.
+/// @param objects Indices into world.objects().
 [[nodiscard]] std::vector<bool> BeamsNearObjects(const World& world,
+                                                 std::span<const std::size_t> objects,
                                                  const ScanPattern& pattern,
                                                  const BeamReach& reach);
 

@@ -101,6 +101,8 @@ class FrameScenes {
 
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress) { windows_.UseProgress(std::move(progress)); }
+  /// WindowSource::UseKept().
+  void KeepWindows(std::size_t num) { windows_.UseKept(num); }
 
   /// Sets the stamp of the last frame, after which no window is built ahead.
   void UseLastStamp(std::int64_t stamp_ns) { last_stamp_ns_ = stamp_ns; }

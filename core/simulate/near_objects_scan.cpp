@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/base/out_of_memory.h"
@@ -11,13 +12,13 @@
 namespace railcast {
 namespace {
 
-// In tracing order, all firings of those tiles in which one is near. Beams of a tile are aimed by
-// one pose, and its packets traced together: so each is traced as in a whole frame, to the last
-// bit.
-std::vector<std::uint32_t> TilesWith(const ScanPattern& pattern, const std::vector<bool>& is_near) {
+// In tracing order, all firings of those packets in which one is near: so each is traced as in a
+// whole frame, to the last bit.
+std::vector<std::uint32_t> PacketsWith(const ScanPattern& pattern,
+                                       const std::vector<bool>& is_near) {
   std::vector<std::uint32_t> firings;
-  for (std::size_t begin = 0; begin < pattern.num_firings(); begin += kTileSize) {
-    const std::size_t end = std::min(begin + kTileSize, pattern.num_firings());
+  for (std::size_t begin = 0; begin < pattern.num_firings(); begin += kPacketSize) {
+    const std::size_t end = std::min(begin + kPacketSize, pattern.num_firings());
     const auto first = pattern.packet_order.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = pattern.packet_order.begin() + static_cast<std::ptrdiff_t>(end);
     const bool is_wanted = std::any_of(first, last, [&](std::uint32_t i) { return is_near[i]; });
@@ -38,7 +39,9 @@ void ClearSlots(Frame& frame) {
 
 }  // namespace
 
-void Simulator::ScanNearObjects(BegunFrame& begun, Frame& frame) {
+void Simulator::ScanNearObjects(BegunFrame& begun,
+                                std::span<const std::size_t> objects,
+                                Frame& frame) {
   Parts& parts = *parts_;
   // A halo reaches any beam.
   if (parts.halo) return Scan(begun, frame);
@@ -47,7 +50,7 @@ void Simulator::ScanNearObjects(BegunFrame& begun, Frame& frame) {
         parts.pattern.repeats() ? ScanPattern() : PatternOfFrame(parts.pattern, begun.index);
     const ScanPattern& pattern = parts.pattern.repeats() ? parts.pattern : of_frame;
     const std::vector<bool> is_near = BeamsNearObjects(
-        world(), pattern,
+        world(), objects, pattern,
         {.stamp_ns = begun.stamp_ns,
          .vehicle_from_sensor = parts.spec.vehicle_from_sensor * parts.spec.nominal_from_true,
          .beside_rad = BesideBeam_rad(parts.spec.detector),
@@ -56,7 +59,7 @@ void Simulator::ScanNearObjects(BegunFrame& begun, Frame& frame) {
     frame.has_velocity = parts.spec.detector.velocity.has_value();
     parts.Prepare(begun.index, all, frame);
     ClearSlots(frame);
-    std::vector<std::uint32_t> order = TilesWith(pattern, is_near);
+    std::vector<std::uint32_t> order = PacketsWith(pattern, is_near);
     if (!order.empty()) {
       const FiringTiles firings(pattern, std::move(order));
       const FrameScene& scene = parts.SceneOf(begun);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -289,8 +290,10 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
           .world_from_window = scene.window->window_from_world.inverse(),
           .changed = frame.firings};
   if (cast.motion != nullptr) job.velocities.emplace(spec.detector, cast);
+  std::vector<std::size_t> objects(scenes.world().objects().size());
+  std::iota(objects.begin(), objects.end(), std::size_t{0});
   const std::vector<bool> is_near =
-      BeamsNearObjects(scenes.world(), pattern,
+      BeamsNearObjects(scenes.world(), objects, pattern,
                        {.stamp_ns = recorded.stamp_ns,
                         .vehicle_from_sensor = spec.vehicle_from_sensor * spec.nominal_from_true,
                         .beside_rad = BesideBeam_rad(spec.detector),

@@ -150,6 +150,10 @@ void Simulator::UseProgress(WindowProgress progress) {
   parts_->scenes.UseProgress(std::move(progress));
 }
 
+void Simulator::KeepWindows(std::size_t num) {
+  parts_->scenes.KeepWindows(num);
+}
+
 void Simulator::UseLastStamp(std::int64_t stamp_ns) {
   parts_->scenes.UseLastStamp(stamp_ns);
 }

@@ -52,7 +52,7 @@ void ViewCounter::Add(const BeamTracer& tracer,
   packet.rays.mask = kAllSurfaces;
   packet.is_one_beam = true;
   packet.lanes = (1U << kPacketSize) - 1U;
-  const BeamFrame beam_frame = tracer.BeamFrameOf(frame_, tiles, tile);
+  const BeamFrame beam_frame = tracer.BeamFrameOf(frame_);
   BeamRays beam;
   for (std::size_t lane = 0; lane < num_firings; ++lane) {
     tracer.AimSubRays(work, beam_frame, lane, beam);

@@ -128,6 +128,11 @@ void WindowSource::UseWind(bool blows) {
   windows_.clear();
 }
 
+void WindowSource::UseKept(std::size_t num) {
+  const std::lock_guard lock(mutex_);
+  num_kept_ = num;
+}
+
 void WindowSource::UseProgress(WindowProgress progress) {
   const std::lock_guard lock(mutex_);
   purpose_.progress = std::move(progress);
@@ -324,7 +329,10 @@ std::shared_ptr<const Window> WindowSource::Get(int home_chunk) {
   FutureWindow window;
   {
     const std::lock_guard lock(mutex_);
+    if (in_use_ && in_use_ != home_chunk) kept_.insert(kept_.begin(), *in_use_);
     in_use_ = home_chunk;
+    std::erase(kept_, home_chunk);
+    if (kept_.size() > num_kept_) kept_.resize(num_kept_);
     ForgetOthers();
     if (!windows_.contains(home_chunk)) build = Remember(home_chunk, Pace::kAwaited);
     window = windows_.at(home_chunk);

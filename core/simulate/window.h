@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -65,8 +66,8 @@ struct DetailRule {
 
 /// Makes windows, either on demand or ahead of time on a background thread. Thread-safe.
 ///
-/// It keeps two windows with their chunks, the one in use and the one prepared; whoever uses an
-/// earlier one keeps that, too.
+/// It keeps two windows with their chunks, the one in use and the one prepared, and as many earlier
+/// ones as it is told to; whoever uses an earlier one keeps that, too.
 class WindowSource {
  public:
   /// Objects are those of the store's world; at first, all that do not move are part of the
@@ -94,6 +95,10 @@ class WindowSource {
   /// Sets whether there is wind from now on; at first, there is none. If that changes, windows are
   /// rebuilt.
   void UseWind(bool blows);
+
+  /// Sets how many windows are kept besides the one in use and the one prepared, the latest that
+  /// were in use; at first, none.
+  void UseKept(std::size_t num);
 
   /// Sets the callback for windows that are begun from now on.
   void UseProgress(WindowProgress progress);
@@ -149,7 +154,8 @@ class WindowSource {
   void KeepChunks(int home_chunk, Chunks chunks);
   [[nodiscard]] WindowTask Remember(int home_chunk, Pace pace);
   [[nodiscard]] bool IsWanted(int home_chunk) const {
-    return home_chunk == in_use_ || home_chunk == prepared_;
+    return home_chunk == in_use_ || home_chunk == prepared_ ||
+           std::ranges::find(kept_, home_chunk) != kept_.end();
   }
   void ForgetOthers();
   void BuildAhead();
@@ -168,6 +174,8 @@ class WindowSource {
   // Chunks of the same windows, and of earlier ones until the next is built.
   std::map<int, Chunks> chunks_;
   std::optional<int> in_use_;
+  std::vector<int> kept_;  // Home chunks of windows that were in use, the latest first.
+  std::size_t num_kept_ = 0;
   std::optional<int> prepared_;
   std::optional<WindowTask> ahead_;  // Waits for the builder thread or is being built by it.
   std::atomic<bool> stopping_ = false;

@@ -9,7 +9,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/write_file.h"
-#include "generator/dataset/scenario_lines.h"
+#include "core/recipe/scenario_lines.h"
 
 namespace railcast {
 namespace {
@@ -87,7 +87,7 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   }
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
   if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);
-  ScenarioLines lines(directory, spec_.shard);
+  ScenarioLines lines(directory / kScenariosFile, spec_.shard);
   if (is_complete_) {
     const std::uint32_t num_scenarios = spec_.shard.NumOf(spec_.num_scenarios);
     for (; num_done_ < num_scenarios; ++num_done_) static_cast<void>(lines.Need());

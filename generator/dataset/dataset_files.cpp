@@ -18,10 +18,10 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/recipe/recipe.h"
+#include "core/recipe/scenario_lines.h"
 #include "generator/dataset/dataset_report.h"
 #include "generator/dataset/index_database.h"
 #include "generator/dataset/indexed_scenario.h"
-#include "generator/dataset/scenario_lines.h"
 
 namespace railcast {
 namespace {
@@ -93,7 +93,7 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   // Of a scenario, nothing else stays in memory.
   std::string hashes;
   PerPart<std::uint32_t> parts{};
-  ScenarioLines lines(directory, spec.shard);
+  ScenarioLines lines(directory / kScenariosFile, spec.shard);
   for (std::uint32_t i = 0; i < spec.num_scenarios; ++i) {
     const IndexedScenario scenario = ReadIndexedScenario(directory, lines.Need().record);
     const Json& record = scenario.record;

@@ -12,9 +12,9 @@
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
+#include "core/recipe/scenario_lines.h"
 #include "generator/dataset/dataset_directory.h"
 #include "generator/dataset/dataset_files.h"
-#include "generator/dataset/scenario_lines.h"
 
 namespace railcast {
 namespace {
@@ -32,14 +32,14 @@ void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
   const std::uint32_t num_scenarios = spec.shard.NumOf(spec.num_scenarios);
   if (!fs::exists(directory / kDatasetManifestFile)) {
     throw InputError(ShownPath(directory) + ": is unfinished, with " +
-                     std::to_string(ScenarioLines(directory, spec.shard).Skip()) + " of " +
-                     std::to_string(num_scenarios) +
+                     std::to_string(ScenarioLines(directory / kScenariosFile, spec.shard).Skip()) +
+                     " of " + std::to_string(num_scenarios) +
                      " scenarios; the command that began it continues");
   }
   ErrorList errors;
   for (const std::string& fault : VerifyDatasetFiles(directory).faults) errors.AddLine(fault);
   static_cast<void>(Attempt("", errors, [&] {
-    ScenarioLines lines(directory, spec.shard);
+    ScenarioLines lines(directory / kScenariosFile, spec.shard);
     for (std::uint32_t i = 0; i < num_scenarios; ++i) static_cast<void>(lines.Need());
     return true;
   }));

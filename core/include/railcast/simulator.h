@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -186,11 +187,12 @@ class Simulator {
   /// looked for with those that the frame has cast.
   void Scan(BegunFrame& begun, Frame& frame, std::vector<ObjectView>& views);
 
-  /// As Scan(), but only firings whose beams may meet an object of the world are traced, and those
-  /// of their tiles; all others are as if they met nothing. What the frame has on objects is the
-  /// same, in a fraction of the time where they are few and far; where halos reach from beam to
+  /// As Scan(), but only firings whose beams may meet one of some objects are traced, and those of
+  /// their packets; all others are as if they met nothing. What the frame has on these objects is
+  /// the same, in a fraction of the time where they are few and far; where halos reach from beam to
   /// beam, all firings are traced.
-  void ScanNearObjects(BegunFrame& begun, Frame& frame);
+  /// @param objects Indices into world().objects().
+  void ScanNearObjects(BegunFrame& begun, std::span<const std::size_t> objects, Frame& frame);
 
   /// How much the frame's beams see of each of world().objects(), in order.
   [[nodiscard]] std::vector<ObjectView> ViewObjects(std::uint32_t frame_index);
@@ -225,6 +227,9 @@ class Simulator {
   /// Tells the stamp of the last frame that will be begun: windows that only later ones would need
   /// are not built ahead. Frames are the same, be it right or wrong.
   void UseLastStamp(std::int64_t stamp_ns);
+  /// Keeps the geometry around so many earlier places of the vehicle, for runs that pass them
+  /// again. Frames are the same; memory grows by some ten megabytes for each.
+  void KeepWindows(std::size_t num);
   /// Sets the number of threads.
   /// @param num_threads 0 = all cores.
   void UseThreads(int num_threads);

@@ -68,7 +68,9 @@ class SqliteBagReader : public BagReader {
     std::string ids;
     for (const auto& [id, topic] : topic_by_id_) {
       const bool is_wanted = std::ranges::find(wanted, topic) != wanted.end();
-      if (is_wanted) ids += (ids.empty() ? "" : ",") + NumberText(id);
+      if (!is_wanted) continue;
+      if (!ids.empty()) ids += ',';
+      ids += NumberText(id);
     }
     Query(" WHERE topic_id IN (" + ids + ")");
   }

@@ -131,8 +131,12 @@ std::string NpyHeader(const std::string& type, const std::string& shape) {
 std::string EncodeNpy(std::uint32_t width_px,
                       std::uint32_t height_px,
                       const std::vector<float>& values) {
-  std::string bytes =
-      NpyHeader("'<f4'", "(" + NumberText(height_px) + ", " + NumberText(width_px) + ")");
+  std::string shape = "(";
+  shape += NumberText(height_px);
+  shape += ", ";
+  shape += NumberText(width_px);
+  shape += ')';
+  std::string bytes = NpyHeader("'<f4'", shape);
   const std::size_t first = bytes.size();
   bytes.resize(first + values.size() * sizeof(float));
   if (!values.empty()) std::memcpy(&bytes[first], values.data(), values.size() * sizeof(float));

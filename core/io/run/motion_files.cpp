@@ -18,7 +18,8 @@ class CsvHeader {
  public:
   template <typename Value>
   void operator()(std::string_view name, std::string_view unit, const Value&) {
-    const std::string end = unit.empty() ? "" : "_" + std::string(unit);
+    std::string end = unit.empty() ? "" : "_";
+    end += unit;
     if constexpr (std::is_same_v<Value, Vector3>) {
       for (const char* axis : {"_x", "_y", "_z"}) Add(std::string(name) + axis + end);
     } else {

@@ -26,7 +26,7 @@ std::string Dumped(const Json& value) {
 }
 
 // As Dumped(), which writes finite numbers with this function, too.
-void AppendNumber(double number, std::string& line) {
+void AppendJsonNumber(double number, std::string& line) {
   if (!std::isfinite(number)) {
     line.append("null");
     return;
@@ -38,7 +38,7 @@ void AppendNumber(double number, std::string& line) {
 }
 
 // As Dumped(), without its detour for text in which nothing is escaped.
-void AppendText(const std::string& text, std::string& line) {
+void AppendJsonText(const std::string& text, std::string& line) {
   const bool is_plain = std::ranges::all_of(text, [](char letter) {
     return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
   });
@@ -54,7 +54,7 @@ void AppendList(const Eigen::Matrix<double, kSize, 1>& numbers, std::string& lin
   line += '[';
   for (Eigen::Index i = 0; i < kSize; ++i) {
     if (i > 0) line += ',';
-    AppendNumber(numbers[i], line);
+    AppendJsonNumber(numbers[i], line);
   }
   line += ']';
 }
@@ -99,10 +99,10 @@ void AppendContacts(const ObjectInFrame& object, std::string& line) {
   for (const ContactInFrame& contact : object.contacts) {
     if (&contact != object.contacts.data()) line += ',';
     line.append("{\"with\":");
-    AppendText(contact.with, line);
+    AppendJsonText(contact.with, line);
     line.append(contact.is_overlap ? ",\"overlap\":true" : ",\"overlap\":false");
     line.append(",\"gap_m\":");
-    AppendNumber(ToTenthOfMillimetre(contact.gap_m), line);
+    AppendJsonNumber(ToTenthOfMillimetre(contact.gap_m), line);
     line += '}';
   }
   line += ']';
@@ -112,11 +112,11 @@ void AppendObject(const ObjectInFrame& object,
                   const Transform& sensor_from_world,
                   std::string& line) {
   line.append("{\"name\":");
-  AppendText(object.name, line);
+  AppendJsonText(object.name, line);
   line.append(",\"type\":");
-  AppendText(object.type, line);
+  AppendJsonText(object.type, line);
   line.append(",\"label\":");
-  AppendText(object.label, line);
+  AppendJsonText(object.label, line);
   line.append(",\"instance\":").append(std::to_string(object.instance));
   AppendBoxes(object, sensor_from_world, line);
   line.append(",\"velocity_mps\":");
@@ -128,7 +128,7 @@ void AppendObject(const ObjectInFrame& object,
   line.append(",\"firings_alone\":").append(std::to_string(object.view.firings_alone));
   line.append(",\"occlusion\":");
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // Written as null.
-  AppendNumber(object.view.occlusion().value_or(kUnknown), line);
+  AppendJsonNumber(object.view.occlusion().value_or(kUnknown), line);
   line.append(",\"contacts\":");
   AppendContacts(object, line);
   line += '}';

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "tests/support/analytic_meshes.h"
@@ -26,7 +27,7 @@ TEST(BeamsNearObjects, AreAllThatMeetAMovingObjectAndFewMore) {
   const ScanPattern pattern = MakeRaster(60.0, 30.0, 0.5);
   const Frame frame = ScanOnce(world, pattern);
   const std::vector<bool> is_near = BeamsNearObjects(
-      *world, pattern,
+      *world, std::array<std::size_t, 1>{}, pattern,
       {.stamp_ns = 0, .vehicle_from_sensor = Transform::Identity(), .range_max_m = 300.0});
   std::size_t num_hits = 0;
   for (std::uint32_t i = 0; i < pattern.num_firings(); ++i) {
@@ -45,7 +46,7 @@ TEST(BeamsNearObjects, AreNoneBehindTheSensorOrBeyondItsRange) {
   for (const double ahead_m : {-20.0, 400.0}) {
     const auto world = WorldWithSphere({ahead_m, 0.0, 0.0}, Vector3::Zero());
     const std::vector<bool> is_near = BeamsNearObjects(
-        *world, pattern,
+        *world, std::array<std::size_t, 1>{}, pattern,
         {.stamp_ns = 0, .vehicle_from_sensor = Transform::Identity(), .range_max_m = 300.0});
     EXPECT_EQ(std::ranges::count(is_near, true), 0);
   }

@@ -37,7 +37,9 @@ std::size_t ExpectSameOnObjects(const ScenarioSpec& spec,
                                 const std::vector<std::uint32_t>& frames) {
   const auto simulator = MakeSimulator(spec, 2);
   std::set<std::uint32_t> instances;
+  std::vector<std::size_t> objects;
   for (const SceneObject& object : simulator->world().objects()) {
+    objects.push_back(objects.size());
     if (!object.is_ego) instances.insert(object.instance);
   }
   Frame whole;
@@ -45,7 +47,7 @@ std::size_t ExpectSameOnObjects(const ScenarioSpec& spec,
   std::size_t num_on_objects = 0;
   for (const std::uint32_t index : frames) {
     simulator->Scan(index, whole);
-    simulator->ScanNearObjects(*simulator->Begin(index), near);
+    simulator->ScanNearObjects(*simulator->Begin(index), objects, near);
     EXPECT_EQ(near.stamp_ns, whole.stamp_ns);
     EXPECT_EQ(near.duration_ns, whole.duration_ns);
     EXPECT_EQ(near.world_from_sensor_end.matrix(), whole.world_from_sensor_end.matrix());

@@ -1,4 +1,4 @@
-#include "generator/dataset/scenario_lines.h"
+#include "core/recipe/scenario_lines.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,9 @@ class ScenarioLinesTest : public testing::Test {
   void Write(const std::string& text) const {
     WriteFileWhole(directory_.path() / "scenarios.jsonl", text);
   }
-  [[nodiscard]] ScenarioLines Open() const { return {directory_.path(), {2, 3}}; }
+  [[nodiscard]] ScenarioLines Open() const {
+    return {directory_.path() / "scenarios.jsonl", {2, 3}};
+  }
   TemporaryDirectory directory_;
 };
 

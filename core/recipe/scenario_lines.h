@@ -13,7 +13,8 @@
 
 namespace railcast {
 
-/// Reads the lines of scenarios.jsonl one after the other: millions need not fit into memory.
+/// Reads lines that each are about one of many scenarios, such as scenarios.jsonl, one after the
+/// other: millions need not fit into memory.
 class ScenarioLines {
  public:
   /// A line, as it stands and as JSON without its hash.
@@ -22,9 +23,9 @@ class ScenarioLines {
     Json record;
   };
 
-  /// @param directory Of a data set or a shard; it may have no lines yet.
+  /// @param file Of a data set, a study or a shard of them; it need not be there yet.
   /// @throws InputError if the file cannot be read.
-  ScenarioLines(const std::filesystem::path& directory, const Shard& shard);
+  ScenarioLines(std::filesystem::path file, const Shard& shard);
 
   /// Returns the line of the shard's next scenario; nothing from the first line on that is another,
   /// incomplete or not as it was written, as an interrupted run may leave it.

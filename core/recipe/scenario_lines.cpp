@@ -1,4 +1,4 @@
-#include "generator/dataset/scenario_lines.h"
+#include "core/recipe/scenario_lines.h"
 
 #include <string>
 #include <utility>
@@ -11,8 +11,8 @@
 
 namespace railcast {
 
-ScenarioLines::ScenarioLines(const std::filesystem::path& directory, const Shard& shard)
-    : file_(directory / kScenariosFile), shard_(shard) {
+ScenarioLines::ScenarioLines(std::filesystem::path file, const Shard& shard)
+    : file_(std::move(file)), shard_(shard) {
   if (!std::filesystem::exists(file_)) {
     is_over_ = true;
   } else {

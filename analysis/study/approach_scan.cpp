@@ -1,0 +1,168 @@
+#include "analysis/study/approach_scan.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "railcast/lidar.h"
+
+namespace railcast {
+namespace {
+
+/// Windows through which an approach of some hundred metres leads.
+constexpr std::size_t kKeptWindows = 8;
+
+// A scenario without what a simulator can change.
+ScenarioSpec SharedPartOf(ScenarioSpec scenario) {
+  const ScenarioSpec usual;
+  scenario.world.objects.clear();
+  scenario.vehicle.start_s_m = usual.vehicle.start_s_m;
+  scenario.vehicle.motion = usual.vehicle.motion;
+  scenario.weather = usual.weather;
+  scenario.seed = usual.seed;
+  return scenario;
+}
+
+// A frame with its times and poses, and without firings.
+Frame EmptyFrame(const Simulator& simulator, std::uint32_t index) {
+  const ScanPattern& pattern = simulator.pattern();
+  const std::vector<std::uint32_t> times_ns =
+      pattern.repeats() ? pattern.time_ns : PatternOfFrame(pattern, index).time_ns;
+  const std::uint32_t duration_ns = *std::ranges::max_element(times_ns);
+  Frame frame;
+  frame.index = index;
+  frame.stamp_ns = simulator.pattern().StampNs(index);
+  frame.duration_ns = duration_ns;
+  frame.world_from_sensor = simulator.WorldFromSensor(frame.stamp_ns);
+  frame.world_from_sensor_end = simulator.WorldFromSensor(frame.stamp_ns + duration_ns);
+  return frame;
+}
+
+RecordedObject ToRecorded(const ObjectInFrame& object, const Frame& frame) {
+  return {.name = object.name,
+          .type = object.type,
+          .label = object.label,
+          .instance = object.instance,
+          .size_m = object.size_m,
+          .sensor_from_box = frame.world_from_sensor.inverse() * object.world_from_box,
+          .velocity_world_mps = object.velocity_world_mps};
+}
+
+/// An object whose detection is sought.
+struct Target {
+  std::size_t object{};  ///< Index into the world's objects.
+  ObjectCourse* course{};
+  std::size_t num_approach{};  ///< Of its sightings, the first ones, which are its approach.
+  std::size_t next{};          ///< The first sighting that was not traced.
+  bool is_detected{};
+};
+
+bool IsTarget(const ObjectCourse& course) {
+  const std::span<const Sighting> approach = ApproachIn(course.sightings);
+  const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
+  return std::ranges::any_of(approach, &Sighting::is_in_way) &&
+         farthest - approach.back().distance_m >= kMinApproach_m;
+}
+
+// Takes note of the points in a sighting; the same rule as DetectObject()'s.
+void Count(const DetectionRule& rule, std::uint32_t points, Target& target) {
+  std::vector<Sighting>& sightings = target.course->sightings;
+  sightings[target.next].points = points;
+  std::uint32_t num = 0;
+  for (std::size_t i = target.next + 1; i-- > 0;) {
+    if (sightings[target.next].frame - sightings[i].frame >= rule.of_frames) break;
+    num += sightings[i].points >= rule.min_points ? 1U : 0U;
+  }
+  target.is_detected = num >= rule.min_frames;
+  ++target.next;
+}
+
+std::uint32_t PointsOn(std::uint32_t instance, const Frame& frame) {
+  std::uint32_t points = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    // A mirror image is no point on the object.
+    points += frame.instance[slot] == instance && frame.outcome[slot] == Outcome::kReturned;
+  }
+  return points;
+}
+
+}  // namespace
+
+bool ApproachScanner::HasSceneOf(const ScenarioSpec& scenario) const {
+  return SharedPartOf(scenario) == shared_;
+}
+
+void ApproachScanner::Use(const ScenarioSpec& scenario) {
+  ScenarioSpec shared = SharedPartOf(scenario);
+  if (shared != shared_) {
+    // Without objects, so that none is part of what is kept.
+    ScenarioSpec bare = scenario;
+    bare.world.objects.clear();
+    simulator_.reset();  // Its memory is freed first.
+    shared_.reset();
+    simulator_ = MakeSimulator(bare, num_threads_, isa_);
+    simulator_->KeepWindows(kKeptWindows);
+    shared_ = std::move(shared);
+  }
+  SimulatorSpec spec = simulator_->spec();
+  spec.detector = DetectorSpecOf(scenario, scenario.lidar, EffectsOf(scenario));
+  UseWeather(scenario, scenario.weather, spec);
+  simulator_->Use(spec);
+  world_ = MakeWorld(scenario);
+  simulator_->UseWorld(world_);
+}
+
+std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
+                                                  const std::vector<std::uint32_t>& frames,
+                                                  const DetectionRule& rule,
+                                                  const std::function<bool()>& is_stopped) {
+  Use(scenario);
+  Simulator& simulator = *simulator_;
+  const RailWorld& world = *world_;
+  const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
+  const OwnTrack own_track(scenario, *world_);
+  ObjectSurvey survey(world, LabelTable(scenario.labels), simulator.spec().detector.range_max_m,
+                      scenario.output);
+  const std::vector<ObjectView> no_views(world.objects().size());
+  RunCourses courses;
+  for (const std::uint32_t index : frames) {
+    RecordedFrame recorded;
+    recorded.frame = EmptyFrame(simulator, index);
+    for (const ObjectInFrame& object : survey.Describe(recorded.frame, no_views)) {
+      recorded.objects.push_back(ToRecorded(object, recorded.frame));
+    }
+    AddFrame(recorded, vehicle_from_sensor, own_track, courses);
+  }
+  std::vector<Target> targets;
+  for (std::size_t i = 0; i < world.objects().size(); ++i) {
+    const auto course = courses.objects.find(world.objects()[i].name);
+    if (course == courses.objects.end() || !IsTarget(course->second)) continue;
+    targets.push_back({.object = i,
+                       .course = &course->second,
+                       .num_approach = ApproachIn(course->second.sightings).size()});
+  }
+  for (std::uint32_t number = 0; number < frames.size(); ++number) {
+    if (is_stopped()) return std::nullopt;
+    std::vector<std::size_t> sought;
+    for (const Target& target : targets) {
+      if (target.is_detected || target.next == target.num_approach) continue;
+      if (target.course->sightings[target.next].frame == number) sought.push_back(target.object);
+    }
+    if (sought.empty()) continue;
+    simulator.ScanNearObjects(*simulator.Begin(frames[number]), sought, frame_);
+    ++effort_.num_traced;
+    for (Target& target : targets) {
+      if (std::ranges::find(sought, target.object) == sought.end()) continue;
+      Count(rule, PointsOn(world.objects()[target.object].instance, frame_), target);
+    }
+  }
+  effort_.num_frames += frames.size();
+  return courses;
+}
+
+}  // namespace railcast

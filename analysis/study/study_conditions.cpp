@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/estimate/detection_curve.h"
+#include "analysis/estimate/estimate.h"
+#include "analysis/study/study_report.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kNoDistance_m = std::numeric_limits<double>::quiet_NaN();
+
+/// The observations of a condition.
+struct Condition {
+  std::uint64_t num{};
+  std::uint64_t num_decided{};
+  std::uint64_t num_in_time{};
+  std::vector<Inspection> inspections;
+
+  void Add(const Observation& each) {
+    ++num;
+    if (!each.object->is_undecided()) ++num_decided;
+    if (each.object->is_in_time()) ++num_in_time;
+    inspections.push_back(each.inspection);
+  }
+  [[nodiscard]] Estimate in_time() const { return Proportion(num_in_time, num_decided); }
+};
+
+Table LevelTable(const std::vector<Observation>& observations, const std::vector<Factor>& factors) {
+  Table table;
+  table.key = "conditions";
+  table.title = "By what is drawn";
+  table.note =
+      "Each factor by itself, over all values of the others. Distances need 60 inspections.";
+  table.is_open = true;
+  table.columns = {
+      {"factor", "Factor", ""},         {"value", "Value", ""},
+      {"approaches", "Approaches", ""}, {"in_time", "In time", ""},
+      {"d90_m", "0.9 at", "m"},         {"d90_95_m", "0.9 with 95 % confidence at", "m"}};
+  for (const Factor& factor : factors) {
+    std::vector<Condition> cells(factor.levels.size());
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      cells[factor.level_of[i]].Add(observations[i]);
+    }
+    for (std::size_t level = 0; level < cells.size(); ++level) {
+      const Condition& cell = cells[level];
+      if (cell.num == 0) continue;
+      double d90_m = kNoDistance_m;
+      double d90_95_m = kNoDistance_m;
+      if (cell.num >= DetectionFit::kMinTargets) {
+        const DetectionFit fit = FitDetection(cell.inspections);
+        d90_m = fit.d90_m;
+        d90_95_m = fit.d90_95_m;
+      }
+      table.rows.push_back(
+          {factor.name, factor.levels[level], cell.num, cell.in_time(), d90_m, d90_95_m});
+    }
+  }
+  return table;
+}
+
+/// Two values together.
+struct Pair {
+  std::string one;
+  std::string other;
+  Condition cell;
+};
+
+std::vector<Pair> PairsOf(const std::vector<Observation>& observations,
+                          const std::vector<Factor>& factors) {
+  std::vector<Pair> pairs;
+  for (std::size_t a = 0; a < factors.size(); ++a) {
+    for (std::size_t b = a + 1; b < factors.size(); ++b) {
+      const std::size_t num_b = factors[b].levels.size();
+      std::vector<Condition> cells(factors[a].levels.size() * num_b);
+      for (std::size_t i = 0; i < observations.size(); ++i) {
+        cells[factors[a].level_of[i] * num_b + factors[b].level_of[i]].Add(observations[i]);
+      }
+      for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i].num_decided < kMinSamples) continue;
+        pairs.push_back({factors[a].name + ": " + factors[a].levels[i / num_b],
+                         factors[b].name + ": " + factors[b].levels[i % num_b],
+                         std::move(cells[i])});
+      }
+    }
+  }
+  return pairs;
+}
+
+// Pairs of values that are worse than all together by more than chance.
+Table FailingTable(const std::vector<Observation>& observations,
+                   const std::vector<Factor>& factors) {
+  constexpr std::size_t kMostPairs = 10;
+  Condition all;
+  for (const Observation& each : observations) all.Add(each);
+  const double usual = all.in_time().value;
+  std::vector<Pair> pairs = PairsOf(observations, factors);
+  std::erase_if(pairs, [&](const Pair& pair) { return !(pair.cell.in_time().high < usual); });
+  std::ranges::stable_sort(pairs, {}, [](const Pair& pair) { return pair.cell.in_time().high; });
+  pairs.resize(std::min(pairs.size(), kMostPairs));
+  Table table;
+  table.key = "failing";
+  table.title = "In which it fails";
+  table.note =
+      "Two values together with at least ten approaches, of which a smaller share is in time than "
+      "of all, beyond the 95 % interval; the worst ten. Some 2.5 % of all pairs are so by chance.";
+  table.is_open = true;
+  table.columns = {{"one", "Value", ""},
+                   {"other", "With", ""},
+                   {"approaches", "Approaches", ""},
+                   {"in_time", "In time", ""}};
+  for (const Pair& pair : pairs) {
+    table.rows.push_back({pair.one, pair.other, pair.cell.num, pair.cell.in_time()});
+  }
+  return table;
+}
+
+}  // namespace
+
+Section ConditionsSection(const std::vector<Observation>& observations,
+                          const std::vector<Factor>& factors) {
+  Section section{.key = "conditions", .title = "Conditions"};
+  if (factors.empty()) {
+    section.paragraphs = {"Nothing that the recipe draws differs between the approaches."};
+    return section;
+  }
+  section.tables = {LevelTable(observations, factors)};
+  Table failing = FailingTable(observations, factors);
+  if (!failing.rows.empty()) section.tables.push_back(std::move(failing));
+  return section;
+}
+
+Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num_observations) {
+  Section section{.key = "factors", .title = "Which factor matters"};
+  if (weights.empty()) {
+    section.paragraphs = {"Too few approaches to weigh the factors: each value asks for ten (got " +
+                          NumberText(num_observations) + " approaches)."};
+    return section;
+  }
+  Table table;
+  table.key = "factors";
+  table.title = "Weights of the factors";
+  table.note =
+      "Likelihood ratios in one logistic regression of detected or not, at the distance of each "
+      "inspection, on all factors: twice the fall of the log-likelihood without the factor, and "
+      "how "
+      "probable as much is by chance.";
+  table.is_open = true;
+  table.columns = {{"factor", "Factor", ""},
+                   {"degrees", "Degrees of freedom", ""},
+                   {"ratio", "Likelihood ratio", ""},
+                   {"p_value", "By chance", ""},
+                   {"share", "Share", ""}};
+  Chart chart;
+  chart.key = "factors";
+  chart.title = "Which factor matters";
+  chart.caption = "Shares of the sum of all likelihood ratios.";
+  chart.x = {.title = "Factor", .unit = "", .categories = {}};
+  chart.y = {.title = "Share", .unit = ""};
+  ChartSeries bars{"share", SeriesStyle::kBars, {}};
+  for (const FactorWeight& weight : weights) {
+    table.rows.push_back(
+        {weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value, weight.share});
+    bars.points.push_back({.x = static_cast<double>(bars.points.size()), .y = weight.share});
+    chart.x.categories.push_back(weight.name);
+  }
+  chart.series = {std::move(bars)};
+  section.tables = {std::move(table)};
+  section.charts = {std::move(chart)};
+  return section;
+}
+
+}  // namespace railcast

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "analysis/study/approach_record.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
+#include "core/scenario/json_text.h"
+
+namespace railcast {
+
+// The files of a study (docs/study.md), relative to its folder.
+inline constexpr std::string_view kStudyFile = "study.json";
+inline constexpr std::string_view kApproachesFile = "approaches.jsonl";
+
+/// A folder with a study, complete or unfinished: study.json says what its figures depend on, and
+/// approaches.jsonl has a line for each approach that is done.
+class StudyDirectory {
+ public:
+  /// Creates the folder, or opens it and finds out how far its run has got.
+  /// @param identity Everything that the lines depend on, but for the shard.
+  /// @throws InputError if it holds anything else, or belongs to another study or shard, or is
+  /// being
+  ///   written by another process.
+  StudyDirectory(std::filesystem::path directory,
+                 Json identity,
+                 std::uint32_t num_scenarios,
+                 const Shard& shard);
+
+  /// Number of the shard's approaches that are done.
+  [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  /// Adds the next line.
+  void Append(const Json& line);
+  /// Waits until all lines are on the disk.
+  void Sync() { lines_->Sync(); }
+
+  /// The approaches that are done.
+  /// @throws InputError if a line is damaged.
+  [[nodiscard]] std::vector<ApproachRecord> Read() const;
+
+ private:
+  std::filesystem::path directory_;
+  Shard shard_;
+  std::optional<FolderLock> lock_;
+  std::optional<LineFile> lines_;
+  std::uint32_t num_done_ = 0;
+};
+
+/// Puts the approaches of all shards of a study into one folder.
+/// @param identity As of StudyDirectory.
+/// @throws InputError if a shard is missing, incomplete, there twice or of another study.
+void MergeStudies(const std::vector<std::filesystem::path>& shards,
+                  const Json& identity,
+                  std::uint32_t num_scenarios,
+                  StudyDirectory& into);
+
+}  // namespace railcast

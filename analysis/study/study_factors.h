@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate/detection_curve.h"
+#include "analysis/study/approach_record.h"
+
+namespace railcast {
+
+/// An object of an approach, and its one inspection.
+struct Observation {
+  const ApproachRecord* approach{};
+  const StudiedObject* object{};
+  Inspection inspection;
+};
+
+/// Something that differs between observations: what a recipe draws, or the kind of object.
+struct Factor {
+  std::string name;  ///< As in the recipe; what is drawn for objects has "object " before it.
+  /// Names of its values: options, or thirds of numbers, "2.1 to 7.9".
+  std::vector<std::string> levels;
+  std::vector<std::size_t> level_of;  ///< By observation.
+  std::vector<double> numbers;        ///< By observation; empty if they are no numbers.
+};
+
+/// All observations of a study's approaches, each target inspected once in each of its approaches.
+/// @param approaches Must outlive the observations.
+[[nodiscard]] std::vector<Observation> ObservationsOf(
+    const std::vector<ApproachRecord>& approaches);
+
+/// What differs between them, in the order of names. Seeds are left out, and what has more than 12
+/// values that are no numbers.
+[[nodiscard]] std::vector<Factor> FactorsOf(const std::vector<Observation>& observations);
+
+/// How much a factor changes whether objects are detected.
+struct FactorWeight {
+  std::string name;  ///< "distance" for that of the inspection.
+  std::size_t degrees{};
+  /// Twice the fall of the log-likelihood where the factor is left out of the model.
+  double ratio{};
+  double p_value = std::numeric_limits<double>::quiet_NaN();  ///< By the chi-squared distribution.
+  double share{};                                             ///< Of the sum of all ratios.
+};
+
+/// Weighs factors by the likelihood ratio in one logistic regression of hit and miss on the
+/// logarithm of the distance and all factors: numbers linearly, their logarithm where they span a
+/// decade; all others by level. Columns that follow from others are left out.
+/// @return The greatest ratio first; empty with fewer than 10 observations for each coefficient.
+[[nodiscard]] std::vector<FactorWeight> WeighFactors(const std::vector<Observation>& observations,
+                                                     const std::vector<Factor>& factors);
+
+}  // namespace railcast

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/report/report.h"
+#include "analysis/study/run_study.h"
+#include "analysis/study/study_factors.h"
+#include "analysis/study/study_spec.h"
+
+namespace railcast {
+
+/// Reports a study: for each target whether it is detected in time, with which probability at which
+/// distance, what matters for that, the conditions in which it fails, and published distances.
+/// @param command Command line that made the report.
+/// @pre There is at least one observation.
+[[nodiscard]] Report MakeStudyReport(const StudySpec& study,
+                                     const StudyResult& result,
+                                     const std::vector<Observation>& observations,
+                                     const std::string& command);
+
+/// The ten observations that are the worst, those that were missed first, then those with the least
+/// to spare.
+[[nodiscard]] std::vector<Observation> WorstOf(const std::vector<Observation>& observations);
+
+/// The section of WorstOf() with a command for each.
+/// @param folder Of the study, in which `worst/NNNNNN` holds their scenarios.
+[[nodiscard]] Section WorstSection(const std::vector<Observation>& worst,
+                                   const std::string& folder);
+
+/// Where a scenario of the worst lies in the study's folder: "worst/000012".
+[[nodiscard]] std::string FolderOfWorst(std::uint32_t scenario);
+
+/// Which conditions are bad: shares in time and distances by the factors' levels, their weights,
+/// and pairs of levels that fail. Defined in study_conditions.cpp.
+[[nodiscard]] Section ConditionsSection(const std::vector<Observation>& observations,
+                                        const std::vector<Factor>& factors);
+[[nodiscard]] Section FactorsSection(const std::vector<FactorWeight>& weights,
+                                     std::size_t num_observations);
+
+/// Distances of detection that others have published, to compare with.
+[[nodiscard]] Section YardsticksSection();
+
+}  // namespace railcast

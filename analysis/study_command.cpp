@@ -1,0 +1,143 @@
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "analysis/commands.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "analysis/study/run_study.h"
+#include "analysis/study/study_report.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/scenario_identity.h"
+#include "core/io/write_file.h"
+#include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
+#include "core/program/version.h"
+#include "core/recipe/scenario_draw.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+  fs::path study;
+  StudyChoices choices;
+  std::string shard;
+  ReportOutput output;
+};
+
+std::string Summary(const StudyResult& result) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "made " << result.num_made << " approaches in "
+       << result.elapsed_s << " s";
+  if (result.num_made > 0) {
+    text << ", tracing objects in " << result.num_traced << " of " << result.num_frames
+         << " frames";
+  }
+  text << "; " << result.approaches.size() << " of " << result.num_approaches << " are done\n";
+  return text.str();
+}
+
+// The scenarios of the worst, for the commands that the page shows.
+void WriteWorst(const Recipe& recipe,
+                const std::vector<Observation>& worst,
+                const fs::path& directory) {
+  const ScenarioDrawer drawer(recipe);
+  std::set<std::uint32_t> written;
+  for (const Observation& each : worst) {
+    const std::uint32_t number = each.approach->scenario;
+    if (!written.insert(number).second) continue;
+    const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
+    const fs::path folder = directory / FolderOfWorst(number);
+    for (const InputFile& input : identity.inputs) {
+      MakeFolder((folder / input.CopyName()).parent_path());
+      WriteFileWhole(folder / input.CopyName(), input.bytes);
+    }
+    MakeFolder(folder);
+    WriteFileWhole(folder / "scenario.resolved.json", identity.scenario_json);
+  }
+}
+
+int RunStudyCommand(StudyOptions options, const std::string& command_line) {
+  if (options.output.out.empty()) {
+    throw InputError("--out: missing: the folder of the study, in which it can be continued");
+  }
+  const StudySpec study = ReadStudy(options.study);
+  const Recipe recipe = ReadStudyRecipe(study);
+  CatchStopSignals();
+  const ProgressLine line;
+  const StudyHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_approaches) {
+                              line.Show("approaches",
+                                        static_cast<double>(num_done) / num_approaches);
+                            },
+                            StopRequested};
+  options.choices.directory = options.output.out;
+  const StudyResult result = RunStudy(study, recipe, options.choices, hooks);
+  line.End();
+  if (!options.output.is_json) std::cout << Summary(result);
+  if (!result.is_complete()) {
+    std::cerr << "interrupted; the same command continues\n";
+    return kExitInterrupted;
+  }
+  if (!options.choices.shard.is_whole()) {
+    std::cout << "shard " << options.shard << " is complete; --shards joins all of them\n";
+    return kExitSuccess;
+  }
+  const std::vector<Observation> observations = ObservationsOf(result.approaches);
+  if (observations.empty()) {
+    throw InputError(ShownPath(options.study) +
+                     ": no approach comes to an object in the way: nothing can be detected");
+  }
+  const std::vector<Observation> worst = WorstOf(observations);
+  WriteWorst(recipe, worst, options.output.out);
+  Report report = MakeStudyReport(study, result, observations, command_line);
+  report.sections.insert(report.sections.begin() + 3,
+                         WorstSection(worst, ShownPath(options.output.out)));
+  for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
+  EmitReport(report, options.output, "report");
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddStudy(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<StudyOptions>();
+  CLI::App* study = app.add_subcommand(
+      "study",
+      "Simulate the approaches that a recipe draws, and report with which probability objects in "
+      "the way are detected at which distance");
+  study->add_option("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
+      ->required();
+  AddReportOptions(*study, options->output);
+  study
+      ->add_option("--shard", options->shard,
+                   "Make every N-th approach only, the I-th of each N: I/N")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return ParseShard(text) ? std::string()
+                                    : "must be I/N with I from 1 to N and N at most " +
+                                          std::to_string(Shard::kMost) + " (got " + text + ")";
+          },
+          "I/N"));
+  study
+      ->add_option("--shards", options->choices.shards,
+                   "Folders of all shards, to report on them as one study")
+      ->excludes("--shard");
+  study->add_option("--threads", options->choices.num_threads, "0 = all cores")
+      ->transform(Whole({0, 1024}))
+      ->capture_default_str();
+  study->callback([&command, options] {
+    if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
+    command = [options](const std::string& line) { return RunStudyCommand(*options, line); };
+  });
+}
+
+}  // namespace railcast
