@@ -14,18 +14,18 @@ namespace railcast {
 
 /// An object in the way, as a study records it.
 struct StudiedObject {
-  std::string name;
-  std::string type;
+  std::string name{};
+  std::string type{};
   bool is_detected{};
   double distance_m{};  ///< Of the detection; NaN without one.
   /// Number of the frame that completes the rule, or that of the closest point without detection.
   std::uint32_t frame{};
-  bool is_from_start{};               ///< Whether the first frames complete the rule already.
-  double nearest_m{};                 ///< Distances of the approach, ...
-  double farthest_m{};                ///< ... from the first sighting on.
-  double speed_mps{};                 ///< At the detection, or where it was first in range.
-  double needed_m{};                  ///< To stop, with the margin.
-  std::map<std::string, Json> drawn;  ///< Of the object itself, by JSON pointer.
+  bool is_from_start{};                 ///< Whether the first frames complete the rule already.
+  double nearest_m{};                   ///< Distances of the approach, ...
+  double farthest_m{};                  ///< ... from the first sighting on.
+  double speed_mps{};                   ///< At the detection, or where it was first in range.
+  double needed_m{};                    ///< To stop, with the margin.
+  std::map<std::string, Json> drawn{};  ///< Of the object itself, by JSON pointer.
 
   /// What is pooled over approaches: the name without the number of a placed object, "person" of
   /// "person/2".
@@ -41,9 +41,9 @@ struct StudiedObject {
 struct ApproachRecord {
   std::uint32_t scenario{};
   std::uint64_t seed{};
-  std::string base;
-  std::map<std::string, Json> drawn;   ///< By name or JSON pointer.
-  std::vector<StudiedObject> objects;  ///< Those in the way that are approached.
+  std::string base{};
+  std::map<std::string, Json> drawn{};   ///< By name or JSON pointer.
+  std::vector<StudiedObject> objects{};  ///< Those in the way that are approached.
 };
 
 /// What the courses of a scenario say.

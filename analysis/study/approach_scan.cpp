@@ -82,7 +82,7 @@ void Count(const DetectionRule& rule, std::uint32_t points, Target& target) {
   ++target.next;
 }
 
-std::uint32_t PointsOn(std::uint32_t instance, const Frame& frame) {
+std::uint32_t PointsOnInstance(std::uint32_t instance, const Frame& frame) {
   std::uint32_t points = 0;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     // A mirror image is no point on the object.
@@ -158,7 +158,7 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
     ++effort_.num_traced;
     for (Target& target : targets) {
       if (std::ranges::find(sought, target.object) == sought.end()) continue;
-      Count(rule, PointsOn(world.objects()[target.object].instance, frame_), target);
+      Count(rule, PointsOnInstance(world.objects()[target.object].instance, frame_), target);
     }
   }
   effort_.num_frames += frames.size();

@@ -15,11 +15,11 @@
 namespace railcast {
 
 struct StudyChoices {
-  std::filesystem::path directory;
-  Shard shard;
-  std::vector<std::filesystem::path> shards;  ///< To be merged instead of simulated.
-  int num_threads = 0;                        ///< 0 = all cores.
-  std::string isa;                            ///< As MakeSimulator() takes it.
+  std::filesystem::path directory{};
+  Shard shard{};
+  std::vector<std::filesystem::path> shards{};  ///< To be merged instead of simulated.
+  int num_threads = 0;                          ///< 0 = all cores.
+  std::string isa{};                            ///< As MakeSimulator() takes it.
 };
 
 struct StudyHooks {

@@ -15,7 +15,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kNoDistance_m = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown_m = std::numeric_limits<double>::quiet_NaN();
 
 /// The observations of a condition.
 struct Condition {
@@ -52,8 +52,8 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
     for (std::size_t level = 0; level < cells.size(); ++level) {
       const Condition& cell = cells[level];
       if (cell.num == 0) continue;
-      double d90_m = kNoDistance_m;
-      double d90_95_m = kNoDistance_m;
+      double d90_m = kUnknown_m;
+      double d90_95_m = kUnknown_m;
       if (cell.num >= DetectionFit::kMinTargets) {
         const DetectionFit fit = FitDetection(cell.inspections);
         d90_m = fit.d90_m;
@@ -84,10 +84,11 @@ std::vector<Pair> PairsOf(const std::vector<Observation>& observations,
         cells[factors[a].level_of[i] * num_b + factors[b].level_of[i]].Add(observations[i]);
       }
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (cells[i].num_decided < kMinSamples) continue;
-        pairs.push_back({factors[a].name + ": " + factors[a].levels[i / num_b],
-                         factors[b].name + ": " + factors[b].levels[i % num_b],
-                         std::move(cells[i])});
+        const std::string& one = factors[a].levels[i / num_b];
+        const std::string& other = factors[b].levels[i % num_b];
+        if (cells[i].num_decided < kMinSamples || one == kNotDrawn || other == kNotDrawn) continue;
+        pairs.push_back(
+            {factors[a].name + ": " + one, factors[b].name + ": " + other, std::move(cells[i])});
       }
     }
   }
@@ -161,13 +162,15 @@ Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num
   Chart chart;
   chart.key = "factors";
   chart.title = "Which factor matters";
-  chart.caption = "Shares of the sum of all likelihood ratios.";
+  chart.caption =
+      "Shares of the sum of the factors' likelihood ratios; the distance itself is left out.";
   chart.x = {.title = "Factor", .unit = "", .categories = {}};
   chart.y = {.title = "Share", .unit = ""};
   ChartSeries bars{"share", SeriesStyle::kBars, {}};
   for (const FactorWeight& weight : weights) {
     table.rows.push_back(
         {weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value, weight.share});
+    if (weight.name == kDistance) continue;
     bars.points.push_back({.x = static_cast<double>(bars.points.size()), .y = weight.share});
     chart.x.categories.push_back(weight.name);
   }

@@ -5,9 +5,12 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <functional>
+#include <iomanip>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "analysis/detectability/inspections.h"
@@ -18,16 +21,15 @@ namespace railcast {
 namespace {
 
 constexpr std::size_t kMostLevels = 12;
-constexpr std::string_view kNotDrawn = "not drawn";
 
 /// A factor's values by observation; nothing where it is not drawn.
 using Values = std::vector<std::optional<Json>>;
 
-std::string TextOf(const Json& value) {
+std::string DrawnValueText(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-std::map<std::string, Values> ValuesOf(const std::vector<Observation>& observations) {
+std::map<std::string, Values> DrawnValues(const std::vector<Observation>& observations) {
   std::map<std::string, Values> values;
   const auto put = [&](const std::string& name, std::size_t i, const Json& value) {
     if (name.ends_with("seed")) return;
@@ -52,7 +54,8 @@ bool AreNumbers(const Values& values) {
 
 std::size_t NumDistinct(const Values& values) {
   std::set<std::string> texts;
-  for (const auto& value : values) texts.insert(value ? TextOf(*value) : std::string(kNotDrawn));
+  for (const auto& value : values)
+    texts.insert(value ? DrawnValueText(*value) : std::string(kNotDrawn));
   return texts.size();
 }
 
@@ -65,11 +68,11 @@ void UseLevels(const std::vector<std::string>& texts, Factor& factor) {
   }
 }
 
+// To three digits.
 std::string RoundedNumber(double value) {
-  constexpr double kDigits = 3.0;
-  if (value == 0.0) return "0";
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - kDigits);
-  return NumberText(std::round(value / unit) * unit);
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return NumberText(std::stod(text.str()));
 }
 
 // Thirds of the numbers, and what is not drawn.
@@ -110,7 +113,8 @@ std::optional<Factor> FactorOf(const std::string& name, const Values& values) {
   }
   if (num_distinct > kMostLevels) return std::nullopt;
   std::vector<std::string> texts;
-  for (const auto& value : values) texts.push_back(value ? TextOf(*value) : std::string(kNotDrawn));
+  for (const auto& value : values)
+    texts.push_back(value ? DrawnValueText(*value) : std::string(kNotDrawn));
   UseLevels(texts, factor);
   return factor;
 }
@@ -133,7 +137,7 @@ Eigen::VectorXd Standardized(const Eigen::VectorXd& column) {
   return scale > 0.0 ? Eigen::VectorXd(centered / scale) : centered;
 }
 
-Eigen::VectorXd ColumnOf(const std::vector<double>& numbers) {
+Eigen::VectorXd NumberColumn(const std::vector<double>& numbers) {
   constexpr double kDecade = 10.0;
   const auto [least, most] = std::ranges::minmax(numbers);
   Eigen::VectorXd column =
@@ -154,7 +158,7 @@ Design DesignOf(const std::vector<Observation>& observations, const std::vector<
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const Factor& factor = factors[k];
     if (!factor.numbers.empty()) {
-      design.Add(ColumnOf(factor.numbers), k + 2);
+      design.Add(NumberColumn(factor.numbers), k + 2);
       continue;
     }
     for (std::size_t level = 1; level < factor.levels.size(); ++level) {
@@ -199,9 +203,12 @@ std::vector<Observation> ObservationsOf(const std::vector<ApproachRecord>& appro
 
 std::vector<Factor> FactorsOf(const std::vector<Observation>& observations) {
   std::vector<Factor> factors;
-  for (const auto& [name, values] : ValuesOf(observations)) {
+  for (const auto& [name, values] : DrawnValues(observations)) {
     if (auto factor = FactorOf(name, values)) factors.push_back(std::move(*factor));
   }
+  // Options first: what is drawn for some of them only follows from them where it is not drawn.
+  std::ranges::stable_partition(
+      factors, [](const Factor& factor) { return factor.name.find('/') == std::string::npos; });
   return factors;
 }
 
@@ -235,14 +242,16 @@ std::vector<FactorWeight> WeighFactors(const std::vector<Observation>& observati
     if (degrees == 0) continue;
     const double ratio = std::max(0.0, 2.0 * (whole - FitLogistic(x, y, is_free).log_likelihood));
     const boost::math::chi_squared distribution(static_cast<double>(degrees));
-    weights.push_back({.name = owner == 1 ? "distance" : factors[owner - 2].name,
+    weights.push_back({.name = owner == 1 ? kDistance : factors[owner - 2].name,
                        .degrees = degrees,
                        .ratio = ratio,
                        .p_value = boost::math::cdf(boost::math::complement(distribution, ratio)),
-                       .share = 0.0});
-    sum += ratio;
+                       .share = std::numeric_limits<double>::quiet_NaN()});
+    if (owner != 1) sum += ratio;
   }
-  for (FactorWeight& weight : weights) weight.share = sum > 0.0 ? weight.ratio / sum : 0.0;
+  for (FactorWeight& weight : weights) {
+    if (weight.name != kDistance) weight.share = sum > 0.0 ? weight.ratio / sum : 0.0;
+  }
   std::ranges::stable_sort(weights, std::greater<>(), &FactorWeight::ratio);
   return weights;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/estimate/detection_curve.h"
@@ -32,13 +33,18 @@ struct Factor {
 [[nodiscard]] std::vector<Observation> ObservationsOf(
     const std::vector<ApproachRecord>& approaches);
 
-/// What differs between them, in the order of names. Seeds are left out, and what has more than 12
-/// values that are no numbers.
+/// What differs between them, options before all else, in the order of names. Seeds are left out,
+/// and what has more than 12 values that are no numbers.
 [[nodiscard]] std::vector<Factor> FactorsOf(const std::vector<Observation>& observations);
+
+/// The name of the distance of the inspections among the factors.
+inline constexpr const char* kDistance = "distance";
+/// The level of an observation for which a factor is not drawn.
+inline constexpr std::string_view kNotDrawn = "not drawn";
 
 /// How much a factor changes whether objects are detected.
 struct FactorWeight {
-  std::string name;  ///< "distance" for that of the inspection.
+  std::string name;  ///< kDistance for that of the inspection.
   std::size_t degrees{};
   /// Twice the fall of the log-likelihood where the factor is left out of the model.
   double ratio{};

@@ -19,7 +19,7 @@ extern const char* const kYardsticks;
 
 namespace {
 
-constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknownFigure = std::numeric_limits<double>::quiet_NaN();
 
 /// What is known of one target.
 struct TargetResult {
@@ -28,8 +28,8 @@ struct TargetResult {
   std::uint64_t num_detected{};
   std::uint64_t num_in_time{};
   std::uint64_t num_undecided{};
-  double least_distance_m = kNoFigure;
-  double most_needed_m = kNoFigure;
+  double least_distance_m = kUnknownFigure;
+  double most_needed_m = kUnknownFigure;
   DetectionFit fit{};
   bool has_fit{};
 };
@@ -66,7 +66,7 @@ std::string AnswerOf(const TargetResult& target) {
   return target.fit.d90_95_m >= target.most_needed_m ? "yes" : "no";
 }
 
-Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& targets) {
+Section TargetsSection(const StudySpec& study, const std::vector<TargetResult>& targets) {
   Table table;
   table.key = "verdicts";
   table.title = "Is it detected before the distance that the train needs?";
@@ -90,9 +90,9 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
     const std::uint64_t num = target.inspections.size();
     table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,
                           Proportion(target.num_in_time, num - target.num_undecided),
-                          target.has_fit ? target.fit.d90_m : kNoFigure,
-                          target.has_fit ? target.fit.d90_95_m : kNoFigure, target.most_needed_m,
-                          target.least_distance_m,
+                          target.has_fit ? target.fit.d90_m : kUnknownFigure,
+                          target.has_fit ? target.fit.d90_95_m : kUnknownFigure,
+                          target.most_needed_m, target.least_distance_m,
                           target.has_fit ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
   Section section{.key = "verdict", .title = "Verdict"};
@@ -219,10 +219,10 @@ Report MakeStudyReport(const StudySpec& study,
   for (const TargetResult& target : targets) {
     report.headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
                                 .unit = "m",
-                                .value = target.has_fit ? target.fit.d90_95_m : kNoFigure});
+                                .value = target.has_fit ? target.fit.d90_95_m : kUnknownFigure});
   }
   const std::vector<Factor> factors = FactorsOf(observations);
-  report.sections = {VerdictSection(study, targets),
+  report.sections = {TargetsSection(study, targets),
                      FactorsSection(WeighFactors(observations, factors), observations.size()),
                      ConditionsSection(observations, factors), YardsticksSection()};
   return report;

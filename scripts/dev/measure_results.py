@@ -339,10 +339,39 @@ def peers(_):
 
 
 # Each with the minutes that it takes on two cores.
+def study(build):
+    """200 approaches of the shipped study on each rung, between two measurements of the raw trace."""
+    def raw_ms():
+        text = said(build / "tests/bench/railcast-bench", "--benchmark_filter=^raw_trace/demo/threads:2/")
+        return float(re.search(r"^raw_trace/demo/threads:2\S* +([\d.]+)", text, re.M)[1])
+
+    rows = []
+    source = ROOT / "scenarios/studies"
+    for rung in ("plausibility", "surface", "footprint"):
+        recipe = json.loads((source / "person_recipe.json").read_text(encoding="utf-8"))
+        recipe["num_scenarios"] = 200
+        recipe["set"]["/fidelity"] = rung
+        recipe["bases"][0]["file"] = str(ROOT / "scenarios/brake_person.json")
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "person_recipe.json").write_text(json.dumps(recipe), encoding="utf-8")
+            shutil.copy(source / "person.json", folder)
+            before_ms = raw_ms()
+            text = said(build / "analysis/railcast-analyze", "study", folder / "person.json", "--out", folder / "out",
+                        "--threads", "2")
+            trace_ms = 0.5 * (before_ms + raw_ms())
+        num, elapsed_s, traced, _ = map(float, re.search(
+            r"^made (\d+) approaches in ([\d.]+) s, tracing objects in (\d+) of (\d+) frames", text, re.M).groups())
+        rows.append([f"`{rung}`", f"{1000 * elapsed_s / num:.0f}", f"{traced / num:.0f}",
+                     f"{1000 * elapsed_s / traced / trace_ms:.2f}"])
+    return {"approaches": table(1, ["rung", "s for 1,000 approaches", "frames traced of each",
+                                    "a frame x raw trace"], rows)}
+
+
 PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 4), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
          "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "insertion": (insertion, 5),
-         "situations": (situations, 10), "peers": (peers, 20),
+         "situations": (situations, 10), "peers": (peers, 20), "study": (study, 3),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
 UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
 

@@ -1,0 +1,187 @@
+#include "analysis/study/run_study.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "analysis/study/approach_scan.h"
+#include "core/io/run/object_survey.h"
+#include "core/recipe/scenario_draw.h"
+#include "railcast/simulator.h"
+#include "tests/analysis/study/study_project.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+class Study : public testing::Test {
+ protected:
+  [[nodiscard]] std::filesystem::path Path(const std::string& name) const {
+    return directory_.path() / name;
+  }
+  [[nodiscard]] std::filesystem::path Write(std::uint32_t num_scenarios) const {
+    return WriteStudy(directory_.path(), StudiedRecipe(num_scenarios));
+  }
+  [[nodiscard]] std::string Lines(const std::string& folder) const {
+    return ReadFileWhole(Path(folder) / "approaches.jsonl");
+  }
+
+ private:
+  TemporaryDirectory directory_;
+};
+
+// As `detect` reads it from a sequence, whose frames are whole.
+RunCourses CoursesOfWholeFrames(const ScenarioSpec& scenario, std::uint32_t num_frames) {
+  const auto simulator = MakeSimulator(scenario, 2);
+  const auto world = MakeWorld(scenario);
+  const OwnTrack track(scenario, *world);
+  ObjectSurvey survey(simulator->world(), LabelTable(scenario.labels), scenario.lidar.range_max_m,
+                      scenario.output);
+  RunCourses courses;
+  RecordedFrame recorded;
+  for (std::uint32_t index = 0; index < num_frames; ++index) {
+    simulator->Scan(index, recorded.frame);
+    const auto described = survey.Describe(
+        recorded.frame, std::vector<ObjectView>(simulator->world().objects().size()));
+    recorded.objects.clear();
+    for (const ObjectInFrame& object : described) {
+      RecordedObject as_read;
+      as_read.name = object.name;
+      as_read.type = object.type;
+      as_read.label = object.label;
+      as_read.size_m = object.size_m;
+      as_read.sensor_from_box = recorded.frame.world_from_sensor.inverse() * object.world_from_box;
+      as_read.velocity_world_mps = object.velocity_world_mps;
+      as_read.points = object.points;
+      recorded.objects.push_back(as_read);
+    }
+    AddFrame(recorded, VehicleFromSensor(scenario.lidar.mount), track, courses);
+  }
+  return courses;
+}
+
+void ExpectSameDetection(const ObjectDetection& one, const ObjectDetection& other) {
+  EXPECT_EQ(one.fate, other.fate);
+  EXPECT_EQ(one.frame, other.frame);
+  EXPECT_EQ(one.missed_frame, other.missed_frame);
+  EXPECT_EQ(one.is_from_start, other.is_from_start);
+  if (one.fate == Fate::kDetected) {
+    EXPECT_EQ(one.distance_m, other.distance_m);
+  }
+  EXPECT_EQ(one.needed_m, other.needed_m);
+  EXPECT_EQ(one.from_axis_m, other.from_axis_m);
+}
+
+TEST_F(Study, FindsTheVerdictsOfWholeFrames) {
+  const StudySpec study = ReadStudy(Write(8));
+  const Recipe recipe = ReadStudyRecipe(study);
+  const ScenarioDrawer drawer(recipe);
+  ApproachScanner scanner(2);
+  std::vector<std::uint32_t> frames;
+  for (std::uint32_t i = 0; i < recipe.num_frames; ++i) frames.push_back(i);
+  std::size_t num_detected = 0;
+  for (std::uint32_t number = 0; number < recipe.num_scenarios; ++number) {
+    const ScenarioSpec scenario = drawer.Draw(number).scenario;
+    const auto courses =
+        scanner.Follow(scenario, frames, study.detect.rule, [] { return false; }).value();
+    const RunCourses whole = CoursesOfWholeFrames(scenario, recipe.num_frames);
+    ASSERT_EQ(courses.objects.size(), whole.objects.size());
+    for (const auto& [name, course] : whole.objects) {
+      const ObjectDetection expected =
+          DetectObject(course, study.detect.rule, study.detect.braking, {});
+      if (!expected.is_in_way) continue;
+      num_detected += expected.fate == Fate::kDetected ? 1U : 0U;
+      SCOPED_TRACE(name + " of scenario " + std::to_string(number));
+      ExpectSameDetection(
+          DetectObject(courses.objects.at(name), study.detect.rule, study.detect.braking, {}),
+          expected);
+    }
+  }
+  EXPECT_GE(num_detected, 4U);
+  // Of 60 frames, those after the detection are left out, and those out of range.
+  EXPECT_LT(scanner.effort().num_traced, 8U * 50U);
+}
+
+TEST_F(Study, GivesTheSameLinesOnAnyNumberOfThreadsAndInShards) {
+  const auto file = Write(7);
+  const StudyResult all = RunStudyIn(file, {.directory = Path("one"), .num_threads = 1});
+  ASSERT_TRUE(all.is_complete());
+  EXPECT_EQ(all.num_made, 7U);
+  (void)RunStudyIn(file, {.directory = Path("three"), .num_threads = 3});
+  EXPECT_EQ(Lines("three"), Lines("one"));
+  for (const std::uint32_t number : {1U, 2U}) {
+    (void)RunStudyIn(file, {.directory = Path("shard" + std::to_string(number)),
+                            .shard = {number, 2},
+                            .num_threads = 1});
+  }
+  const StudyResult joined =
+      RunStudyIn(file, {.directory = Path("joined"), .shards = {Path("shard2"), Path("shard1")}});
+  EXPECT_TRUE(joined.is_complete());
+  EXPECT_EQ(joined.num_traced, 0U);
+  EXPECT_EQ(Lines("joined"), Lines("one"));
+}
+
+TEST_F(Study, GoesOnWhereItWasStopped) {
+  const auto file = Write(5);
+  (void)RunStudyIn(file, {.directory = Path("whole"), .num_threads = 1});
+  (void)RunStudyIn(file, {.directory = Path("begun"), .num_threads = 1});
+  // As a run leaves it that was killed in the middle of a line.
+  const std::string lines = Lines("begun");
+  const std::size_t second = lines.find('\n', lines.find('\n') + 1);
+  WriteFileWhole(Path("begun/approaches.jsonl"), lines.substr(0, second + 20));
+  const StudyResult result = RunStudyIn(file, {.directory = Path("begun"), .num_threads = 1});
+  EXPECT_EQ(result.num_made, 3U);
+  EXPECT_EQ(Lines("begun"), Lines("whole"));
+}
+
+TEST_F(Study, SaysWhatItCannotStudy) {
+  const auto message = [&](nlohmann::json recipe) {
+    const auto file = WriteStudy(Path(""), recipe);
+    return MessageOf(
+        [&] { (void)RunStudyIn(file, {.directory = Path("faulty"), .num_threads = 1}); });
+  };
+  nlohmann::json recipe = StudiedRecipe(1);
+  recipe["set"]["/fidelity"] = "auto";
+  EXPECT_NE(message(recipe).find(
+                "recipe.json: scenario 0: /fidelity: must name a rung: a study says which model it "
+                "used (got \"auto\")"),
+            std::string::npos)
+      << message(recipe);
+  recipe = StudiedRecipe(1);
+  recipe["bases"][0]["recordings"] = {"base.json"};
+  EXPECT_NE(message(recipe).find("recipe.json: /bases/0/recordings: must be left out: only data "
+                                 "sets are made of recordings"),
+            std::string::npos)
+      << message(recipe);
+}
+
+TEST_F(Study, IsNotMixedWithAnother) {
+  const auto file = Write(2);
+  (void)RunStudyIn(file, {.directory = Path("out"), .num_threads = 1});
+  (void)Write(3);
+  const std::string message =
+      MessageOf([&] { (void)RunStudyIn(file, {.directory = Path("out"), .num_threads = 1}); });
+  EXPECT_NE(message.find("out: holds the same study of another recipe, of other bases or of other "
+                         "files; choose another --out"),
+            std::string::npos)
+      << message;
+}
+
+TEST_F(Study, OfAFaultyFileNamesEachFault) {
+  const auto file = Write(1);
+  WriteFileWhole(file, R"({"version": 1, "recipe": "none.json", "detection": {"frames": 4,
+                           "of_frames": 3}, "braking": {"deceleration_mps2": 0}, "what": 1})");
+  const std::string message = MessageOf([&] { (void)ReadStudy(file); });
+  for (const char* const line :
+       {"/recipe: ", "/detection/of_frames: must be >= frames (got 3)",
+        "/braking/deceleration_mps2: must be >= 0.01 and <= 10 (got 0)", "/what: "}) {
+    EXPECT_NE(message.find(line), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
