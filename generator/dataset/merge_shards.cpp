@@ -75,7 +75,7 @@ GivenShard ReadShard(const fs::path& directory) {
     throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
   }
   CheckIsWhole(directory, given.spec);
-  given.lines.emplace(directory, given.spec.shard);
+  given.lines.emplace(directory / kScenariosFile, given.spec.shard);
   given.lines->Pause();
   return given;
 }

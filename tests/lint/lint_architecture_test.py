@@ -110,7 +110,7 @@ class Libraries(unittest.TestCase):
         for include, owners in {
             "embree3/rtcore.h": "core/trace and tests include Embree",
             "OpenMesh/Core/IO/MeshIO.hh": "core/mesh and tests include OpenMesh",
-            "nlohmann/json.hpp": "core/mesh, core/scenario, core/fidelity, core/io, generator, analysis and "
+            "nlohmann/json.hpp": "core/mesh, core/scenario, core/fidelity, core/io, core/recipe, generator, analysis and "
                                  "tests include nlohmann",
             "pcl/point_types.h": "core/io, core/include/railcast/io, generator, analysis, viewer and "
                                  "tests include PCL",
