@@ -12,6 +12,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -98,7 +99,7 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
   Report report = MakeFitReport(input, trials, settings, result);
   AddProvenance(infos, ProgramVersion(), report);
   if (!options.output.out.empty()) {
-    MakeFolder(options.output.out);
+    MakeFolders(options.output.out);
     WriteFileWhole(options.output.out / "fitted.json", FittedJson(result));
     if (info.scenario) {
       WriteFileWhole(options.output.out / "fitted_scenario.json",

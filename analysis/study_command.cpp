@@ -16,7 +16,7 @@
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/scenario_identity.h"
-#include "core/io/write_file.h"
+#include "core/io/run/sequence_files.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "core/program/version.h"
@@ -47,22 +47,15 @@ std::string Summary(const StudyResult& result) {
 }
 
 // The scenarios of the worst, for the commands that the page shows.
-void WriteWorst(const Recipe& recipe,
+void WriteWorst(const ScenarioDrawer& drawer,
                 const std::vector<Observation>& worst,
                 const fs::path& directory) {
-  const ScenarioDrawer drawer(recipe);
   std::set<std::uint32_t> written;
   for (const Observation& each : worst) {
     const std::uint32_t number = each.approach->scenario;
     if (!written.insert(number).second) continue;
-    const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
-    const fs::path folder = directory / FolderOfWorst(number);
-    for (const InputFile& input : identity.inputs) {
-      MakeFolder((folder / input.CopyName()).parent_path());
-      WriteFileWhole(folder / input.CopyName(), input.bytes);
-    }
-    MakeFolder(folder);
-    WriteFileWhole(folder / "scenario.resolved.json", identity.scenario_json);
+    WriteScenarioFiles(IdentityOf(drawer.Draw(number).scenario), directory / FolderOfWorst(number),
+                       std::string(kScenarioFile));
   }
 }
 
@@ -72,6 +65,7 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   }
   const StudySpec study = ReadStudy(options.study);
   const Recipe recipe = ReadStudyRecipe(study);
+  const ScenarioDrawer drawer(recipe);
   CatchStopSignals();
   const ProgressLine line;
   const StudyHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_approaches) {
@@ -80,7 +74,7 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
                             },
                             StopRequested};
   options.choices.directory = options.output.out;
-  const StudyResult result = RunStudy(study, recipe, options.choices, hooks);
+  const StudyResult result = RunStudy(study, drawer, options.choices, hooks);
   line.End();
   if (!options.output.is_json) std::cout << Summary(result);
   if (!result.is_complete()) {
@@ -97,7 +91,7 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
                      ": no approach comes to an object in the way: nothing can be detected");
   }
   const std::vector<Observation> worst = WorstOf(observations);
-  WriteWorst(recipe, worst, options.output.out);
+  WriteWorst(drawer, worst, options.output.out);
   Report report = MakeStudyReport(study, result, observations, command_line);
   report.sections.insert(report.sections.begin() + 3,
                          WorstSection(worst, ShownPath(options.output.out)));
@@ -120,13 +114,7 @@ void AddStudy(CLI::App& app, ProgramCommand& command) {
   study
       ->add_option("--shard", options->shard,
                    "Make every N-th approach only, the I-th of each N: I/N")
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            return ParseShard(text) ? std::string()
-                                    : "must be I/N with I from 1 to N and N at most " +
-                                          std::to_string(Shard::kMost) + " (got " + text + ")";
-          },
-          "I/N"));
+      ->check([](const std::string& text) { return ShardRule(text); });
   study
       ->add_option("--shards", options->choices.shards,
                    "Folders of all shards, to report on them as one study")
@@ -134,6 +122,7 @@ void AddStudy(CLI::App& app, ProgramCommand& command) {
   study->add_option("--threads", options->choices.num_threads, "0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
+  AddIsa(*study, options->choices.isa);
   study->callback([&command, options] {
     if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
     command = [options](const std::string& line) { return RunStudyCommand(*options, line); };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -13,6 +14,8 @@
 namespace railcast {
 namespace {
 
+/// An object is approached if its distance falls by this much.
+constexpr double kMinApproach_m = 1.0;
 constexpr double kNoDistance_m = std::numeric_limits<double>::quiet_NaN();
 
 void Add(const ObjectDetection& detection, Verdict& verdict) {
@@ -50,12 +53,7 @@ std::string Runs(std::uint64_t num, std::uint64_t all) {
 std::optional<std::size_t> FirstDetected(std::span<const Sighting> sightings,
                                          const DetectionRule& rule) {
   for (std::size_t i = 0; i < sightings.size(); ++i) {
-    std::uint32_t num = 0;
-    for (std::size_t j = i + 1; j-- > 0;) {
-      if (sightings[i].frame - sightings[j].frame >= rule.of_frames) break;
-      num += sightings[j].points >= rule.min_points ? 1U : 0U;
-    }
-    if (num >= rule.min_frames) return i;
+    if (CompletesRule(sightings.first(i + 1), rule)) return i;
   }
   return std::nullopt;
 }
@@ -75,6 +73,20 @@ std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings) {
   const auto closest = std::ranges::min_element(sightings, {}, &Sighting::distance_m);
   const auto num = static_cast<std::size_t>(closest - sightings.begin()) + 1;
   return std::span(sightings).first(num);
+}
+
+bool IsApproached(std::span<const Sighting> approach) {
+  const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
+  return farthest - approach.back().distance_m >= kMinApproach_m;
+}
+
+bool CompletesRule(std::span<const Sighting> sightings, const DetectionRule& rule) {
+  std::uint32_t num = 0;
+  for (const Sighting& each : std::views::reverse(sightings)) {
+    if (sightings.back().frame - each.frame >= rule.of_frames) break;
+    num += each.points >= rule.min_points ? 1U : 0U;
+  }
+  return num >= rule.min_frames;
 }
 
 BrakedStop StopOf(const BrakingSpec& braking, double speed_mps, double gradient) {
@@ -103,8 +115,7 @@ ObjectDetection DetectObject(const ObjectCourse& course,
   result.is_in_way = std::ranges::any_of(approach, &Sighting::is_in_way);
   result.from_axis_m = std::ranges::min(approach, {}, &Sighting::from_axis_m).from_axis_m;
   // If vehicle and object both stand still, the distance between them does not change.
-  const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
-  if (farthest - approach.back().distance_m < kMinApproach_m) return result;
+  if (!IsApproached(approach)) return result;
   const auto detected = FirstDetected(approach, rule);
   const Sighting& sighting = approach[detected.value_or(0)];
   result.fate = detected ? Fate::kDetected : Fate::kNeverDetected;

@@ -74,11 +74,14 @@ struct ObjectDetection {
   [[nodiscard]] bool is_in_time() const { return fate == Fate::kDetected && spare_m() >= 0.0; }
 };
 
-/// An object is approached if its distance falls by this much.
-inline constexpr double kMinApproach_m = 1.0;
-
 /// The sightings up to the closest one.
 [[nodiscard]] std::span<const Sighting> ApproachIn(const std::vector<Sighting>& sightings);
+
+/// Whether the object comes nearer at all.
+[[nodiscard]] bool IsApproached(std::span<const Sighting> approach);
+
+/// Whether the last of these sightings completes the rule.
+[[nodiscard]] bool CompletesRule(std::span<const Sighting> sightings, const DetectionRule& rule);
 
 /// Finds the first detection before the closest point; later frames are no approach. Frames in
 /// which the object is out of range count as frames without points. If the object moves towards the

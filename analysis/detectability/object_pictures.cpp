@@ -17,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPictures = 12;
 /// About a dozen rows of beams of the published scan.
 constexpr double kMinHalfHeight_deg = 1.5;
 
@@ -116,7 +115,7 @@ Section MakePictureSection(const std::vector<DetectRun>& runs) {
                                  "A frame is missed if the object has fewer points in it than the "
                                  "rule asks for."}};
   for (const Verdict& object : MakeVerdicts(runs)) {
-    if (!object.is_in_way || section.pictures.size() == kMostPictures) continue;
+    if (!object.is_in_way || section.pictures.size() == kMaxCharts) continue;
     const DetectRun* const run = RunToShow(runs, object.name);
     if (run == nullptr) continue;
     if (auto picture = PictureOf(*run, object.name)) section.pictures.push_back(*picture);

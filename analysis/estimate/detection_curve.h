@@ -50,7 +50,6 @@ struct DetectionFit {
   /// MIL-HDBK-1823A asks for so many targets of hit and miss; with fewer, the figures are too
   /// uncertain to be used.
   static constexpr std::uint64_t kMinTargets = 60;
-  [[nodiscard]] bool is_enough() const { return num_targets >= kMinTargets; }
 };
 
 /// Fits the curve by penalised maximum likelihood (Firth 1993), and bounds it by the profile of

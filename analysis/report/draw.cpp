@@ -9,8 +9,8 @@
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
-#include "analysis/report/output.h"
 #include "core/base/error.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 
@@ -145,7 +145,7 @@ std::map<std::string, std::string> DrawAll(const Report& report,
   if (script.empty() && !has_pictures) return drawn;
   WriteFileWhole(drawings.path() / "charts.gnuplot", script);
   (void)GnuplotOutput(drawings.path() / "charts.gnuplot", "set encoding utf8");
-  MakeFolder(folder);
+  MakeFolders(folder);
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
       const std::string svg =

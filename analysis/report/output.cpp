@@ -9,6 +9,7 @@
 #include "analysis/report/formats.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 
@@ -37,7 +38,7 @@ void CheckSound(const Report& report) {
 void WriteTables(const Report& report, const std::filesystem::path& folder) {
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
-      MakeFolder(folder);
+      MakeFolders(folder);
       WriteFileWhole(folder / (table.key + ".csv"), TableCsv(table));
     }
   }
@@ -47,7 +48,7 @@ void WriteFiles(const Report& report,
                 const std::filesystem::path& out,
                 const std::string& name,
                 const std::string& json) {
-  MakeFolder(out);
+  MakeFolders(out);
   WriteFileWhole(out / name, json);
   WriteTables(report, out / "csv");
   // The drawings come last, so that everything else is written even without gnuplot.
@@ -56,12 +57,6 @@ void WriteFiles(const Report& report,
 }
 
 }  // namespace
-
-void MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder, error.value());
-}
 
 void AddReportOptions(CLI::App& command, ReportOutput& output) {
   CLI::Option_group* const where = command.add_option_group("Report");

@@ -19,10 +19,6 @@ struct ReportOutput {
 /// Adds --out DIR and --format text or json, of which at least one must be given.
 void AddReportOptions(CLI::App& command, ReportOutput& output);
 
-/// Makes a directory and its parents if they do not exist.
-/// @throws InputError if this fails.
-void MakeFolder(const std::filesystem::path& folder);
-
 /// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
 /// and prints the report or, without --format, its headlines and the paths of the files.
 /// @param details A JSON object whose members are added to the JSON.

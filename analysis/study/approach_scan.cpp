@@ -28,12 +28,12 @@ ScenarioSpec SharedPartOf(ScenarioSpec scenario) {
   return scenario;
 }
 
+std::uint32_t DurationOf_ns(const ScanPattern& pattern) {
+  return *std::ranges::max_element(pattern.time_ns);
+}
+
 // A frame with its times and poses, and without firings.
-Frame EmptyFrame(const Simulator& simulator, std::uint32_t index) {
-  const ScanPattern& pattern = simulator.pattern();
-  const std::vector<std::uint32_t> times_ns =
-      pattern.repeats() ? pattern.time_ns : PatternOfFrame(pattern, index).time_ns;
-  const std::uint32_t duration_ns = *std::ranges::max_element(times_ns);
+Frame EmptyFrame(const Simulator& simulator, std::uint32_t index, std::uint32_t duration_ns) {
   Frame frame;
   frame.index = index;
   frame.stamp_ns = simulator.pattern().StampNs(index);
@@ -64,31 +64,7 @@ struct Target {
 
 bool IsTarget(const ObjectCourse& course) {
   const std::span<const Sighting> approach = ApproachIn(course.sightings);
-  const auto farthest = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m;
-  return std::ranges::any_of(approach, &Sighting::is_in_way) &&
-         farthest - approach.back().distance_m >= kMinApproach_m;
-}
-
-// Takes note of the points in a sighting; the same rule as DetectObject()'s.
-void Count(const DetectionRule& rule, std::uint32_t points, Target& target) {
-  std::vector<Sighting>& sightings = target.course->sightings;
-  sightings[target.next].points = points;
-  std::uint32_t num = 0;
-  for (std::size_t i = target.next + 1; i-- > 0;) {
-    if (sightings[target.next].frame - sightings[i].frame >= rule.of_frames) break;
-    num += sightings[i].points >= rule.min_points ? 1U : 0U;
-  }
-  target.is_detected = num >= rule.min_frames;
-  ++target.next;
-}
-
-std::uint32_t PointsOnInstance(std::uint32_t instance, const Frame& frame) {
-  std::uint32_t points = 0;
-  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    // A mirror image is no point on the object.
-    points += frame.instance[slot] == instance && frame.outcome[slot] == Outcome::kReturned;
-  }
-  return points;
+  return std::ranges::any_of(approach, &Sighting::is_in_way) && IsApproached(approach);
 }
 
 }  // namespace
@@ -130,9 +106,12 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
                       scenario.output);
   const std::vector<ObjectView> no_views(world.objects().size());
   RunCourses courses;
+  const ScanPattern& pattern = simulator.pattern();
+  std::uint32_t duration_ns = DurationOf_ns(pattern);
   for (const std::uint32_t index : frames) {
+    if (!pattern.repeats()) duration_ns = DurationOf_ns(PatternOfFrame(pattern, index));
     RecordedFrame recorded;
-    recorded.frame = EmptyFrame(simulator, index);
+    recorded.frame = EmptyFrame(simulator, index, duration_ns);
     for (const ObjectInFrame& object : survey.Describe(recorded.frame, no_views)) {
       recorded.objects.push_back(ToRecorded(object, recorded.frame));
     }
@@ -158,7 +137,10 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
     ++effort_.num_traced;
     for (Target& target : targets) {
       if (std::ranges::find(sought, target.object) == sought.end()) continue;
-      Count(rule, PointsOnInstance(world.objects()[target.object].instance, frame_), target);
+      std::vector<Sighting>& sightings = target.course->sightings;
+      sightings[target.next].points =
+          PointsOnInstance(frame_, world.objects()[target.object].instance);
+      target.is_detected = CompletesRule(std::span(sightings).first(++target.next), rule);
     }
   }
   effort_.num_frames += frames.size();

@@ -124,13 +124,13 @@ Recipe ReadStudyRecipe(const StudySpec& study) {
 }
 
 StudyResult RunStudy(const StudySpec& study,
-                     const Recipe& recipe,
+                     const ScenarioDrawer& drawer,
                      const StudyChoices& choices,
                      const StudyHooks& hooks) {
   // Beside those at work, some that keep the scenes of other sensors.
   constexpr std::size_t kMostIdle = 4;
   const auto begin = std::chrono::steady_clock::now();
-  const ScenarioDrawer drawer(recipe);
+  const Recipe& recipe = drawer.recipe();
   StudyResult result;
   result.identity = IdentityOfStudy(study, recipe, drawer.bases(), choices);
   StudyDirectory directory(choices.directory, result.identity, recipe.num_scenarios, choices.shard);

@@ -47,7 +47,7 @@ struct StudyResult {
 /// Makes the approaches that the folder does not hold yet, one on each thread.
 /// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do.
 [[nodiscard]] StudyResult RunStudy(const StudySpec& study,
-                                   const Recipe& recipe,
+                                   const ScenarioDrawer& drawer,
                                    const StudyChoices& choices,
                                    const StudyHooks& hooks);
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/trace/trace_program.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -64,6 +65,14 @@ std::string NumberRule::Range() const {
 
 std::string NonEmptyRule(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
+}
+
+void AddIsa(CLI::App& command, std::string& isa) {
+  command
+      .add_option("--isa", isa,
+                  "Instruction set for ray tracing, on which the last bits of ranges depend; "
+                  "default: the machine's best")
+      ->check(CLI::IsMember(IsaNames()));
 }
 
 }  // namespace railcast

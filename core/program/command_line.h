@@ -88,6 +88,9 @@ inline void AddSummaryFile(CLI::App& command, std::optional<std::filesystem::pat
       ->check(NonEmpty());
 }
 
+/// Adds the option --isa.
+void AddIsa(CLI::App& command, std::string& isa);
+
 /// Adds the option --topic, for WithTopic().
 inline void AddTopic(CLI::App& command, std::string& topic) {
   command

@@ -37,6 +37,7 @@ class ScenarioDrawer {
   ///   place in it.
   [[nodiscard]] DrawnScenario Draw(std::uint32_t number) const;
 
+  [[nodiscard]] const Recipe& recipe() const { return recipe_; }
   [[nodiscard]] const RecipeBases& bases() const { return bases_; }
 
  private:

@@ -35,12 +35,6 @@ struct DatasetOptions {
   bool has_format = false;
 };
 
-std::string ShardRule(const std::string& text) {
-  if (ParseShard(text)) return "";
-  return "must be I/N with I from 1 to N and N at most " + std::to_string(Shard::kMost) + " (got " +
-         text + ")";
-}
-
 // Writes the scenarios that frames would be made of, without frames.
 int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
   const ScenarioDrawer drawer(recipe);
@@ -61,16 +55,10 @@ int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
     report.Add(drawn.record);
     const auto split = ValueNamed<Split>(drawn.record.at("split").get<std::string>()).value();
     folders.at(static_cast<std::size_t>(split)) += SequenceFolderOf(number) + "\n";
-    const ScenarioIdentity identity = IdentityOf(drawn.scenario);
     const fs::path folder = directory / SequenceFolderOf(number);
-    fs::create_directories(folder);
-    for (const InputFile& input : identity.inputs) {
-      fs::create_directories((folder / input.CopyName()).parent_path());
-      WriteFileWhole(folder / input.CopyName(), input.bytes);
-    }
-    const fs::path file = folder / (drawn.run ? "plan.resolved.json" : "scenario.resolved.json");
-    WriteFileWhole(file, identity.scenario_json);
-    std::cout << ShownPath(file) << '\n';
+    const std::string name = drawn.run ? "plan.resolved.json" : "scenario.resolved.json";
+    WriteScenarioFiles(IdentityOf(drawn.scenario), folder, name);
+    std::cout << ShownPath(folder / name) << '\n';
   }
   progress.End();
   for (std::size_t i = 0; i < folders.size(); ++i) {

@@ -5,7 +5,6 @@
 #include "core/base/error.h"
 #include "core/program/command_line.h"
 #include "generator/live/stamp_clock.h"
-#include "generator/run/run_options.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 

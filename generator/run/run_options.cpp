@@ -5,19 +5,10 @@
 
 #include "core/io/ros/point_layout.h"
 #include "core/program/command_line.h"
-#include "core/trace/trace_program.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
-
-void AddIsa(CLI::App& command, std::string& isa) {
-  command
-      .add_option("--isa", isa,
-                  "Instruction set for ray tracing, on which the last bits of ranges depend; "
-                  "default: the machine's best")
-      ->check(CLI::IsMember(IsaNames()));
-}
 
 void AddRunChoices(CLI::App& command, RunChoices& choices) {
   std::vector<std::string> formats;

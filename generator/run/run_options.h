@@ -9,9 +9,6 @@ namespace railcast {
 
 // Options that several commands share.
 
-/// Adds the option `--isa`.
-void AddIsa(CLI::App& command, std::string& isa);
-
 /// Adds the options that say how frames are written and made: `--format`, `--fields`, `--merged`,
 /// `--threads` and `--isa`.
 void AddRunChoices(CLI::App& command, RunChoices& choices);

@@ -3,10 +3,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/program/command_line.h"
 #include "core/simulate/story_text.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
-#include "generator/run/run_options.h"
 #include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"

@@ -13,6 +13,12 @@ std::optional<Shard> ParseShard(std::string_view text) {
   return Shard{*number, *of};
 }
 
+std::string ShardRule(const std::string& text) {
+  if (ParseShard(text)) return "";
+  return "must be I/N with I from 1 to N and N at most " + std::to_string(Shard::kMost) + " (got " +
+         text + ")";
+}
+
 std::string ShardText(const Shard& shard) {
   return std::to_string(shard.number) + "/" + std::to_string(shard.of);
 }

@@ -58,6 +58,9 @@ struct Shard {
 /// Parses "2/7"; returns nothing if the text is not such a shard.
 [[nodiscard]] std::optional<Shard> ParseShard(std::string_view text);
 
+/// The rule that a text breaks if ParseShard() returns nothing; empty if it breaks none.
+[[nodiscard]] std::string ShardRule(const std::string& text);
+
 /// The shard as ParseShard() reads it.
 [[nodiscard]] std::string ShardText(const Shard& shard);
 

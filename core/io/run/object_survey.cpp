@@ -145,13 +145,17 @@ std::uint32_t MeanTime_ns(const Seen& seen) {
   return static_cast<std::uint32_t>((seen.points_time_ns + seen.points / 2) / seen.points);
 }
 
+// The mirror image of an object is no point on it.
+bool IsOnObject(const Frame& frame, std::size_t slot) {
+  return frame.instance[slot] != 0 && frame.outcome[slot] != Outcome::kClutter &&
+         HasPoint(frame.outcome[slot]);
+}
+
 // Points by instance.
 std::unordered_map<std::uint32_t, Seen> CountPoints(const Frame& frame) {
   std::unordered_map<std::uint32_t, Seen> points;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    // The mirror image of an object is no point on it.
-    if (frame.instance[slot] == 0 || frame.outcome[slot] == Outcome::kClutter) continue;
-    if (!HasPoint(frame.outcome[slot])) continue;
+    if (!IsOnObject(frame, slot)) continue;
     Seen& seen = points[frame.instance[slot]];
     ++seen.points;
     seen.points_time_ns += frame.time_ns[slot];
@@ -199,6 +203,14 @@ std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& ob
   }
   line += "]}\n";
   return line;
+}
+
+std::uint32_t PointsOnInstance(const Frame& frame, std::uint32_t instance) {
+  std::uint32_t points = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    points += frame.instance[slot] == instance && IsOnObject(frame, slot) ? 1U : 0U;
+  }
+  return points;
 }
 
 ObjectSurvey::ObjectSurvey(const World& world,

@@ -47,6 +47,9 @@ struct ObjectInFrame {
 [[nodiscard]] std::string ObjectsLine(const Frame& frame,
                                       const std::vector<ObjectInFrame>& objects);
 
+/// Number of slots with a point on one object.
+[[nodiscard]] std::uint32_t PointsOnInstance(const Frame& frame, std::uint32_t instance);
+
 /// Determines what frames show of a world's objects.
 class ObjectSurvey {
  public:

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/shipped_files.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
@@ -103,6 +104,17 @@ ScenarioIdentity IdentityOf(const ScenarioSpec& scenario) {
   identity.scenario_hash = ContentHash(identity.scenario_json);
   identity.inputs = std::move(naming.inputs());
   return identity;
+}
+
+void WriteScenarioFiles(const ScenarioIdentity& identity,
+                        const std::filesystem::path& folder,
+                        const std::string& name) {
+  MakeFolders(folder);
+  for (const InputFile& input : identity.inputs) {
+    MakeFolders((folder / input.CopyName()).parent_path());
+    WriteFileWhole(folder / input.CopyName(), input.bytes);
+  }
+  WriteFileWhole(folder / name, identity.scenario_json);
 }
 
 void CheckSameFiles(const ScenarioSpec& scenario, const ScenarioIdentity& identity) {

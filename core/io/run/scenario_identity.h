@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,12 @@ struct ScenarioIdentity {
 /// of the one that the directory was made from.
 /// @throws InputError if a named file cannot be read.
 [[nodiscard]] ScenarioIdentity IdentityOf(const ScenarioSpec& scenario);
+
+/// Writes a scenario, or a plan, and the files that it names into a folder, which is created.
+/// @param name Of the JSON file in the folder.
+void WriteScenarioFiles(const ScenarioIdentity& identity,
+                        const std::filesystem::path& folder,
+                        const std::string& name);
 
 /// Checks that the files of a scenario have not been edited between two readings.
 /// @throws InputError if a file that the scenario names has other content than in `identity`.

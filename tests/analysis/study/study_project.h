@@ -84,7 +84,8 @@ inline StudyHooks NoStudyHooks() {
 /// Runs a study, or a shard of it.
 inline StudyResult RunStudyIn(const std::filesystem::path& study_file, StudyChoices choices) {
   const StudySpec study = ReadStudy(study_file);
-  return RunStudy(study, ReadStudyRecipe(study), choices, NoStudyHooks());
+  const Recipe recipe = ReadStudyRecipe(study);
+  return RunStudy(study, ScenarioDrawer(recipe), choices, NoStudyHooks());
 }
 
 }  // namespace railcast
