@@ -28,6 +28,8 @@ void AddCompare(CLI::App& app, ProgramCommand& command);
 void AddDetect(CLI::App& app, ProgramCommand& command);
 /// Simulates the approaches of a recipe and reports probabilities of detection.
 void AddStudy(CLI::App& app, ProgramCommand& command);
+/// Writes what an assessor files of a finished study.
+void AddDossier(CLI::App& app, ProgramCommand& command);
 /// Estimates the sensor models' parameters from recordings.
 void AddFit(CLI::App& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.

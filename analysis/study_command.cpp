@@ -2,7 +2,6 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -10,13 +9,13 @@
 #include "analysis/commands.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/study/kept_files.h"
 #include "analysis/study/run_study.h"
 #include "analysis/study/study_report.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/run/scenario_identity.h"
-#include "core/io/run/sequence_files.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "core/program/version.h"
@@ -44,19 +43,6 @@ std::string Summary(const StudyResult& result) {
   }
   text << "; " << result.approaches.size() << " of " << result.num_approaches << " are done\n";
   return text.str();
-}
-
-// The scenarios of the worst, for the commands that the page shows.
-void WriteWorst(const ScenarioDrawer& drawer,
-                const std::vector<Observation>& worst,
-                const fs::path& directory) {
-  std::set<std::uint32_t> written;
-  for (const Observation& each : worst) {
-    const std::uint32_t number = each.approach->scenario;
-    if (!written.insert(number).second) continue;
-    WriteScenarioFiles(IdentityOf(drawer.Draw(number).scenario), directory / FolderOfWorst(number),
-                       std::string(kScenarioFile));
-  }
 }
 
 int RunStudyCommand(StudyOptions options, const std::string& command_line) {
@@ -91,9 +77,10 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
                      ": no approach comes to an object in the way: nothing can be detected");
   }
   const std::vector<Observation> worst = WorstOf(observations);
-  WriteWorst(drawer, worst, options.output.out);
-  Report report = MakeStudyReport(study, result, observations, command_line);
-  report.sections.insert(report.sections.begin() + 3,
+  KeepFiles(study, drawer, worst, SampleOf(observations), options.output.out);
+  Report report = MakeStudyReport(study, Json::parse(ReadFileWhole(study.recipe)), result,
+                                  observations, command_line);
+  report.sections.insert(report.sections.end() - 1,
                          WorstSection(worst, ShownPath(options.output.out)));
   for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
   EmitReport(report, options.output, "report");

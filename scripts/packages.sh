@@ -55,6 +55,11 @@ display_packages=(
   xvfb
 )
 
+# Prints dossiers (railcast-analyze dossier).
+document_packages=(
+  weasyprint
+)
+
 # Imported by the Python module.
 python_packages=(
   python3-numpy
@@ -79,6 +84,7 @@ site_packages=(
 # window.
 test_packages=(
   "${display_packages[@]}"
+  "${document_packages[@]}"
   "${python_packages[@]}"
   "${site_packages[@]}"
   chromium

@@ -74,17 +74,18 @@ std::vector<DetailDifference> DifferencesOfDetail(const EchoesByRange& full,
   return differences;
 }
 
-double DetectionDistance_m(const Approach& approach, std::uint32_t ApproachPoints::*points) {
-  constexpr std::uint32_t kEnough = DetectionRule{}.min_points;
+double DetectionDistance_m(const Approach& approach,
+                           std::uint32_t ApproachPoints::*points,
+                           std::uint32_t min_points) {
   const auto& frames = approach.points;
   const auto first = std::ranges::find_if(
-      frames, [&](const ApproachPoints& frame) { return frame.*points >= kEnough; });
+      frames, [&](const ApproachPoints& frame) { return frame.*points >= min_points; });
   if (first == frames.end()) return 0.0;
   if (first == frames.begin()) return std::nan("");
   const ApproachPoints& before = *(first - 1);
   // A frame without any point counts as one with half of one.
   const double few = std::log(std::max(static_cast<double>(before.*points), 0.5));
-  const double enough = std::log(static_cast<double>(kEnough));
+  const double enough = std::log(static_cast<double>(min_points));
   const double share = (enough - few) / (std::log(static_cast<double>((*first).*points)) - few);
   return before.distance_m * std::pow(first->distance_m / before.distance_m, share);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/detectability/object_detection.h"
 #include "analysis/estimate/estimate.h"
 #include "core/fidelity/echoes_by_range.h"
 #include "railcast/frame.h"
@@ -49,13 +50,14 @@ struct Approach {
   std::vector<ApproachPoints> points;  ///< By frame, in order of time.
 };
 
-/// The distance from which on an object has enough points (DetectionRule::min_points): between the
+/// The distance from which on an object has enough points: between the
 /// first frame that has them and the one before, it is interpolated in the logarithms of points and
 /// distance. NaN if the first frame has them already or if it comes no nearer than the frame before
 /// has been; 0 if no frame has them.
 /// @param points ApproachPoints::points_in_reference or ::points.
 [[nodiscard]] double DetectionDistance_m(const Approach& approach,
-                                         std::uint32_t ApproachPoints::*points);
+                                         std::uint32_t ApproachPoints::*points,
+                                         std::uint32_t min_points = DetectionRule{}.min_points);
 
 /// Mean over the objects whose detection distance the reference tells of |distance / distance of
 /// the reference - 1|; NaN if there is none.

@@ -1,7 +1,5 @@
 #include "analysis/report/draw.h"
 
-#include <sys/wait.h>
-
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +7,8 @@
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
+#include "analysis/report/program_output.h"
+#include "analysis/report/report_scratch.h"
 #include "core/base/error.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
@@ -17,48 +17,11 @@
 namespace railcast {
 namespace {
 
-// Temporary folder of the drawings: gnuplot writes its files piece by piece, and they are moved
-// once they are complete.
-class DrawingFolder {
- public:
-  DrawingFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "railcast-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw FileError(name, errno);
-    path_ = name;
-  }
-  DrawingFolder(const DrawingFolder&) = delete;
-  DrawingFolder& operator=(const DrawingFolder&) = delete;
-  ~DrawingFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // Runs gnuplot on a script after `settings`, gnuplot commands without double quotes, and returns
 // its standard output.
 std::string GnuplotOutput(const std::filesystem::path& script, const std::string& settings) {
-  constexpr int kExitNotFound = 127;  // Exit status of the shell.
-  const std::string command =
-      "gnuplot -e \"" + settings + "\" " + ShellWord(script.string()) + " 2>/dev/null";
-  FILE* const pipe = ::popen(command.c_str(), "r");
-  Check(pipe != nullptr, "a pipe can be opened");
-  std::string bytes;
-  std::array<char, 65536> buffer{};
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0) {
-    bytes.append(buffer.data(), count);
-  }
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kExitNotFound) {
-    throw InputError("gnuplot: not found; install gnuplot-nox (the numbers are written)");
-  }
-  if (status != 0) throw InputError("gnuplot: failed (the numbers are written)");
-  return bytes;
+  return ProgramOutput("gnuplot -e \"" + settings + "\" " + ShellWord(script.string()),
+                       "gnuplot-nox");
 }
 
 void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
@@ -131,7 +94,8 @@ std::string DrawPicture(const Picture& picture, const std::filesystem::path& scr
 
 std::map<std::string, std::string> DrawAll(const Report& report,
                                            const std::filesystem::path& folder) {
-  const DrawingFolder drawings;
+  // gnuplot writes its files piece by piece; they are moved once they are complete.
+  const ReportScratch drawings;
   std::string script;
   bool has_pictures = false;
   for (const Section& section : report.sections) {

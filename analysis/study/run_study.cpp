@@ -83,14 +83,17 @@ Json IdentityOfStudy(const StudySpec& study,
                      const StudyChoices& choices) {
   Json base_hashes = Json::array();
   for (std::size_t i = 0; i < recipe.bases.size(); ++i) base_hashes.push_back(bases.hash(i));
-  return {{"version", ProgramVersion()},
-          {"embree", EmbreeVersion()},
-          {"isa", AtPlace("--", [&] { return IsaInUse(choices.isa); })},
-          {"study_xxh3", ContentHash(ReadFileWhole(study.file))},
-          {"recipe_xxh3", ContentHash(ReadFileWhole(recipe.file))},
-          {"bases_xxh3", std::move(base_hashes)},
-          {"files_xxh3", HashOfRecipeFiles(recipe)},
-          {"num_scenarios", recipe.num_scenarios}};
+  return {
+      {"version", ProgramVersion()},
+      {"embree", EmbreeVersion()},
+      {"isa", AtPlace("--", [&] { return IsaInUse(choices.isa); })},
+      {"study_xxh3", ContentHash(ReadFileWhole(study.file))},
+      {"recipe_xxh3", ContentHash(ReadFileWhole(recipe.file))},
+      {"bases_xxh3", std::move(base_hashes)},
+      {"files_xxh3", HashOfRecipeFiles(recipe)},
+      {"num_scenarios", recipe.num_scenarios},
+      {"frames",
+       {{"first", recipe.warm_up_frames}, {"stride", recipe.stride}, {"num", recipe.num_frames}}}};
 }
 
 std::vector<std::uint32_t> FramesOf(const Recipe& recipe) {

@@ -22,17 +22,10 @@ Json WithShard(Json identity, const Shard& shard) {
   return identity;
 }
 
-Json ReadStudyJson(const fs::path& directory) {
-  const fs::path file = directory / kStudyFile;
-  Json found = Json::parse(ReadFileWhole(file), nullptr, false);
-  if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
-  return found;
-}
-
 // What another value of a key means.
 std::string StudyDifference(const std::string& key, const Json& found, const Json& ours) {
   if (key == "study_xxh3") return "holds another study";
-  if (key == "recipe_xxh3" || key == "bases_xxh3" || key == "files_xxh3") {
+  if (key == "recipe_xxh3" || key == "bases_xxh3" || key == "files_xxh3" || key == "frames") {
     return "holds the same study of another recipe, of other bases or of other files";
   }
   return "holds a study whose " + key + " is " + ShownText(found.dump()) + " (got " +
@@ -86,6 +79,20 @@ std::vector<ApproachRecord> StudyDirectory::Read() const {
   for (std::uint32_t i = 0; i < num_done_; ++i) {
     records.push_back(ApproachFromJson(lines.Need().record));
   }
+  return records;
+}
+
+Json ReadStudyJson(const fs::path& directory) {
+  const fs::path file = directory / kStudyFile;
+  Json found = Json::parse(ReadFileWhole(file), nullptr, false);
+  if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
+  return found;
+}
+
+std::vector<ApproachRecord> ReadApproaches(const fs::path& directory) {
+  ScenarioLines lines(directory / kApproachesFile, {});
+  std::vector<ApproachRecord> records;
+  while (const auto line = lines.Next()) records.push_back(ApproachFromJson(line->record));
   return records;
 }
 

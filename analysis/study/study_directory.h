@@ -50,6 +50,14 @@ class StudyDirectory {
   std::uint32_t num_done_ = 0;
 };
 
+/// Reads study.json of a folder.
+/// @throws InputError if there is none, or if it is damaged.
+[[nodiscard]] Json ReadStudyJson(const std::filesystem::path& directory);
+
+/// Reads the approaches of a folder that no process writes to, up to the first damaged line.
+/// @throws InputError if the file cannot be read.
+[[nodiscard]] std::vector<ApproachRecord> ReadApproaches(const std::filesystem::path& directory);
+
 /// Puts the approaches of all shards of a study into one folder.
 /// @param identity As of StudyDirectory.
 /// @throws InputError if a shard is missing, incomplete, there twice or of another study.

@@ -12,9 +12,11 @@ namespace railcast {
 
 /// Reports a study: for each target whether it is detected in time, with which probability at which
 /// distance, what matters for that, the conditions in which it fails, and published distances.
+/// @param recipe The recipe's file.
 /// @param command Command line that made the report.
 /// @pre There is at least one observation.
 [[nodiscard]] Report MakeStudyReport(const StudySpec& study,
+                                     const Json& recipe,
                                      const StudyResult& result,
                                      const std::vector<Observation>& observations,
                                      const std::string& command);
@@ -28,15 +30,19 @@ namespace railcast {
 [[nodiscard]] Section WorstSection(const std::vector<Observation>& worst,
                                    const std::string& folder);
 
-/// Where a scenario of the worst lies in the study's folder: "worst/000012".
-[[nodiscard]] std::string FolderOfWorst(std::uint32_t scenario);
-
 /// Which conditions are bad: shares in time and distances by the factors' levels, their weights,
 /// and pairs of levels that fail. Defined in study_conditions.cpp.
 [[nodiscard]] Section ConditionsSection(const std::vector<Observation>& observations,
                                         const std::vector<Factor>& factors);
 [[nodiscard]] Section FactorsSection(const std::vector<FactorWeight>& weights,
                                      std::size_t num_observations);
+
+/// Which combination of what a recipe draws for the sensor detects each target first; without
+/// tables if it draws nothing of it. Defined in study_placement.cpp.
+/// @param recipe The recipe's file.
+[[nodiscard]] Section PlacementSection(const std::vector<Observation>& observations,
+                                       const std::vector<Factor>& factors,
+                                       const Json& recipe);
 
 /// Distances of detection that others have published, to compare with.
 [[nodiscard]] Section YardsticksSection();

@@ -1,0 +1,107 @@
+#include "analysis/dossier/dossier_sections.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "core/base/text.h"
+
+namespace railcast {
+
+extern const char* const kLimits;
+extern const char* const kCredibility;
+
+Section LimitsSection(const std::vector<ScenarioSpec>& sample) {
+  std::set<std::string> rungs;
+  for (const ScenarioSpec& scenario : sample) rungs.emplace(NameOf(scenario.fidelity));
+  Table table;
+  table.key = "limits";
+  table.title = "What differs from reality";
+  table.note = "On the rungs that the study used; docs/effects.md and docs/world.md have the rest.";
+  table.is_open = true;
+  table.columns = {
+      {"real", "In reality", ""}, {"model", "Modelled", ""}, {"errs", "Which way it errs", ""}};
+  for (const Json& row : Json::parse(kLimits)) {
+    const bool is_due = std::ranges::any_of(
+        row.at("rungs"), [&](const Json& rung) { return rungs.contains(rung.get<std::string>()); });
+    if (!is_due) continue;
+    table.rows.push_back({row.at("real").get<std::string>(), row.at("model").get<std::string>(),
+                          row.at("errs").get<std::string>()});
+  }
+  return {.key = "limits", .title = "What is not modelled", .tables = {std::move(table)}};
+}
+
+Section CredibilitySection() {
+  Table table;
+  table.key = "credibility";
+  table.title = "Questions of credibility";
+  table.note =
+      "After the properties that Regulation (EU) 2022/1426, Annex III part 4, and the NATM "
+      "guidelines "
+      "of UNECE ask of simulation toolchains, in our words. Open questions are for whoever files "
+      "this.";
+  table.is_open = true;
+  table.columns = {{"property", "Property", ""},
+                   {"question", "Question", ""},
+                   {"state", "State", ""},
+                   {"answer", "Answer", ""}};
+  for (const Json& row : Json::parse(kCredibility)) {
+    const auto answer = row.at("answer").get<std::string>();
+    table.rows.push_back({row.at("property").get<std::string>(),
+                          row.at("question").get<std::string>(),
+                          std::string(answer.empty() ? "open" : "answered"), answer});
+  }
+  return {.key = "credibility", .title = "Credibility", .tables = {std::move(table)}};
+}
+
+Section TraceabilitySection(const FinishedStudy& study) {
+  Table table;
+  table.key = "traceability";
+  table.title = "What the figures depend on";
+  table.is_open = true;
+  table.columns = {{"what", "What", ""}, {"value", "Value", ""}};
+  const auto add = [&](const std::string& what, const std::string& value) {
+    table.rows.push_back({what, value});
+  };
+  const Json& identity = study.result.identity;
+  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
+  add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
+  add("Study", text("study_xxh3"));
+  add("Recipe", text("recipe_xxh3"));
+  std::string bases;
+  for (const Json& hash : identity.at("bases_xxh3")) {
+    bases += (bases.empty() ? "" : ", ") + hash.get<std::string>();
+  }
+  add("Bases", bases);
+  const std::string files = text("files_xxh3");
+  add("Other files", files.empty() ? "none" : files);
+  const auto& approaches = study.result.approaches;
+  const auto seeds = std::ranges::minmax(approaches, {}, &ApproachRecord::seed);
+  add("Approaches", NumberText(approaches.size()) + ", seeds " + NumberText(seeds.min.seed) +
+                        " to " + NumberText(seeds.max.seed) +
+                        "; each line of approaches.jsonl has "
+                        "its own");
+  add("To make it again",
+      "railcast-analyze study STUDY.json --out DIR --isa " + text("isa") +
+          ", with the study and the recipe of the hashes above (inputs/ has copies); "
+          "approaches.jsonl then has the same bytes");
+  return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};
+}
+
+Section SignaturesSection() {
+  Table table;
+  table.key = "signatures";
+  table.title = "Signatures";
+  table.is_open = true;
+  table.columns = {{"role", "Role", ""},
+                   {"name", "Name", ""},
+                   {"date", "Date", ""},
+                   {"signature", "Signature", ""}};
+  for (const char* const role : {"Made by", "Checked by", "Assessed by"}) {
+    table.rows.push_back({std::string(role), std::string(), std::string(), std::string()});
+  }
+  return {.key = "signatures", .title = "Signatures", .tables = {std::move(table)}};
+}
+
+}  // namespace railcast

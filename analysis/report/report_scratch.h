@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "core/base/input_file.h"
+
+namespace railcast {
+
+/// A folder for files that exist while a report is made, removed with all of them.
+class ReportScratch {
+ public:
+  /// @throws InputError if the system refuses.
+  ReportScratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "railcast-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw FileError(name, errno);
+    path_ = name;
+  }
+  ReportScratch(const ReportScratch&) = delete;
+  ReportScratch& operator=(const ReportScratch&) = delete;
+  ~ReportScratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace railcast

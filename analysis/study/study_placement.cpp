@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/estimate/detection_curve.h"
+#include "analysis/estimate/streams.h"
+#include "analysis/study/drawn_keys.h"
+#include "analysis/study/study_report.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+/// A target seen from one placement.
+struct PlacedView {
+  std::string placement;
+  std::string target;
+  std::uint64_t num{};
+  std::uint64_t num_detected{};
+  std::uint64_t num_decided{};
+  std::uint64_t num_in_time{};
+  Moments distance_m;
+  std::vector<Inspection> inspections;
+  double d90_95_m = std::numeric_limits<double>::quiet_NaN();
+};
+
+bool ChangesSensor(const Factor& factor, const Json& recipe) {
+  return factor.name == "sensor" ||
+         std::ranges::any_of(DrawnKeys(factor.name, recipe), [](const std::string& key) {
+           return IsAtOrBelow(key, "/lidar") || IsAtOrBelow(key, "/lidars");
+         });
+}
+
+std::string PlacementOf(std::size_t observation, const std::vector<const Factor*>& factors) {
+  std::string text;
+  for (const Factor* factor : factors) {
+    if (!text.empty()) text += ", ";
+    const std::string& level = factor->levels[factor->level_of[observation]];
+    const bool is_number = !factor->numbers.empty();
+    text += is_number ? factor->name.substr(factor->name.rfind('/') + 1) + " " + level : level;
+  }
+  return text;
+}
+
+// By target; the placement that sees it from farthest away first.
+std::vector<PlacedView> ViewsOf(const std::vector<Observation>& observations,
+                                const std::vector<const Factor*>& factors) {
+  std::map<std::pair<std::string, std::string>, PlacedView> views;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const StudiedObject& object = *observations[i].object;
+    const std::string placement = PlacementOf(i, factors);
+    PlacedView& view = views[{object.Target(), placement}];
+    view.placement = placement;
+    view.target = object.Target();
+    ++view.num;
+    if (object.is_detected) ++view.num_detected;
+    if (!object.is_undecided()) ++view.num_decided;
+    if (object.is_in_time()) ++view.num_in_time;
+    if (object.is_detected) view.distance_m.Add(object.distance_m);
+    view.inspections.push_back(observations[i].inspection);
+  }
+  std::vector<PlacedView> sorted;
+  for (auto& [key, view] : views) {
+    if (view.num >= DetectionFit::kMinTargets) {
+      view.d90_95_m = FitDetection(view.inspections).d90_95_m;
+    }
+    sorted.push_back(std::move(view));
+  }
+  std::ranges::stable_sort(sorted, [](const PlacedView& one, const PlacedView& other) {
+    if (one.target != other.target) return one.target < other.target;
+    return one.distance_m.PlainMean() > other.distance_m.PlainMean();
+  });
+  return sorted;
+}
+
+Chart PlacementChart(const std::vector<PlacedView>& views) {
+  constexpr std::size_t kMostPlacements = 12;
+  Chart chart;
+  chart.key = "placement";
+  chart.title = "Which placement detects first";
+  chart.caption =
+      "Mean distance of detection with its interval; placements in the order of the first target.";
+  chart.x = {.title = "Placement", .unit = "", .categories = {}};
+  chart.y = {.title = "Distance of detection", .unit = "m"};
+  std::map<std::string, std::size_t> place_of;
+  for (const PlacedView& view : views) {
+    if (chart.series.empty() || chart.series.back().title != view.target) {
+      chart.series.push_back({view.target, SeriesStyle::kBars, {}});
+    }
+    if (!place_of.contains(view.placement)) {
+      if (place_of.size() == kMostPlacements) continue;
+      place_of.emplace(view.placement, place_of.size());
+      chart.x.categories.push_back(view.placement);
+    }
+    chart.series.back().points.push_back(
+        PointAt(static_cast<double>(place_of.at(view.placement)), view.distance_m.Mean()));
+  }
+  return chart;
+}
+
+}  // namespace
+
+Section PlacementSection(const std::vector<Observation>& observations,
+                         const std::vector<Factor>& factors,
+                         const Json& recipe) {
+  std::vector<const Factor*> of_sensor;
+  for (const Factor& factor : factors) {
+    if (ChangesSensor(factor, recipe)) of_sensor.push_back(&factor);
+  }
+  Section section{.key = "placement", .title = "Placement"};
+  if (of_sensor.empty()) return section;
+  const std::vector<PlacedView> views = ViewsOf(observations, of_sensor);
+  Table table;
+  table.key = "placement";
+  table.title = "Sensors and mounts";
+  table.note =
+      "Every combination of what the recipe draws for the sensor, over all values of everything "
+      "else. Means are over the approaches that detect; distances with confidence need 60.";
+  table.is_open = true;
+  table.columns = {{"target", "Target", ""},
+                   {"placement", "Placement", ""},
+                   {"approaches", "Approaches", ""},
+                   {"detected", "Detected", ""},
+                   {"in_time", "In time", ""},
+                   {"distance_m", "Detected at, mean", "m"},
+                   {"d90_95_m", "0.9 with 95 % confidence at", "m"}};
+  for (const PlacedView& view : views) {
+    table.rows.push_back({view.target, view.placement, view.num, view.num_detected,
+                          Proportion(view.num_in_time, view.num_decided), view.distance_m.Mean(),
+                          view.d90_95_m});
+  }
+  section.tables = {std::move(table)};
+  section.charts = {PlacementChart(views)};
+  return section;
+}
+
+}  // namespace railcast

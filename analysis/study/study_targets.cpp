@@ -1,0 +1,84 @@
+#include "analysis/study/study_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "analysis/detectability/detect_report.h"
+#include "analysis/detectability/detection_probability.h"
+#include "core/base/text.h"
+
+namespace railcast {
+
+std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations) {
+  std::map<std::string, TargetResult> by_target;
+  for (const Observation& each : observations) {
+    const StudiedObject& object = *each.object;
+    TargetResult& target = by_target[object.Target()];
+    target.inspections.push_back(each.inspection);
+    target.num_detected += object.is_detected ? 1U : 0U;
+    target.num_in_time += object.is_in_time() ? 1U : 0U;
+    target.num_undecided += object.is_undecided() ? 1U : 0U;
+    if (object.is_detected && !object.is_from_start) {
+      target.least_distance_m = std::fmin(target.least_distance_m, object.distance_m);
+    }
+    target.most_needed_m = std::fmax(target.most_needed_m, object.needed_m);
+  }
+  std::vector<TargetResult> results;
+  for (auto& [name, target] : by_target) {
+    target.name = name;
+    if (target.has_fit()) target.fit = FitDetection(target.inspections);
+    results.push_back(std::move(target));
+  }
+  return results;
+}
+
+std::string AnswerOf(const TargetResult& target) {
+  if (!target.has_fit()) {
+    return "too few approaches: " + NumberText(DetectionFit::kMinTargets) + " are needed";
+  }
+  if (std::isnan(target.fit.d90_95_m)) return "no distance has 0.9 with 95 % confidence";
+  return target.fit.d90_95_m >= target.most_needed_m ? "yes" : "no";
+}
+
+Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& targets) {
+  Table table;
+  table.key = "verdicts";
+  table.title = "Is it detected before the distance that the train needs?";
+  table.note =
+      "Yes if the distance by which 90 % are detected, with 95 % confidence, is not less than the "
+      "greatest distance needed. The share in time is of the approaches that did not begin too "
+      "near "
+      "to tell.";
+  table.is_open = true;
+  table.columns = {{"target", "Target", ""},
+                   {"answer", "Detected in time", ""},
+                   {"approaches", "Approaches", ""},
+                   {"detected", "Detected", ""},
+                   {"in_time", "In time", ""},
+                   {"d90_m", "0.9 at", "m"},
+                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
+                   {"most_needed_m", "Needed, at most", "m"},
+                   {"least_detected_at_m", "Detected at, at least", "m"},
+                   {"asymptote", "Asymptote", ""}};
+  for (const TargetResult& target : targets) {
+    const std::uint64_t num = target.inspections.size();
+    table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,
+                          Proportion(target.num_in_time, num - target.num_undecided),
+                          target.fit.d90_m, target.fit.d90_95_m, target.most_needed_m,
+                          target.least_distance_m,
+                          target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
+  }
+  Section section{.key = "verdict", .title = "Verdict"};
+  if (!study.question.empty()) section.paragraphs.push_back(study.question);
+  section.tables.push_back(std::move(table));
+  for (const TargetResult& target : targets) {
+    const bool has_curve = target.has_fit() && !std::isnan(target.fit.curve.middle_m);
+    if (!has_curve || section.charts.size() >= kMaxCharts) continue;
+    section.charts.push_back(ProbabilityChart(target.name, target.inspections, target.fit));
+  }
+  return section;
+}
+
+}  // namespace railcast

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate/detection_curve.h"
+#include "analysis/report/report.h"
+#include "analysis/study/study_factors.h"
+#include "analysis/study/study_spec.h"
+
+namespace railcast {
+
+/// What a study knows of one target: of a kind of object in the way, over all approaches.
+struct TargetResult {
+  std::string name{};
+  std::vector<Inspection> inspections{};
+  std::uint64_t num_detected{};
+  std::uint64_t num_in_time{};
+  std::uint64_t num_undecided{};
+  double least_distance_m = std::numeric_limits<double>::quiet_NaN();  ///< Of the detections.
+  double most_needed_m = std::numeric_limits<double>::quiet_NaN();
+  DetectionFit fit{};  ///< Of its distances, all are NaN with fewer inspections than it takes.
+
+  [[nodiscard]] bool has_fit() const { return inspections.size() >= DetectionFit::kMinTargets; }
+};
+
+/// By name.
+[[nodiscard]] std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations);
+
+/// Whether it is detected in time: "yes", "no", or why that is not known.
+[[nodiscard]] std::string AnswerOf(const TargetResult& target);
+
+/// The study's question, the answer for each target, and its probability of detection.
+[[nodiscard]] Section VerdictSection(const StudySpec& study,
+                                     const std::vector<TargetResult>& targets);
+
+}  // namespace railcast

@@ -1,0 +1,191 @@
+#include "analysis/dossier/dossier_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "analysis/dossier/dossier_sections.h"
+#include "analysis/study/kept_files.h"
+#include "core/base/input_file.h"
+#include "tests/analysis/study/study_project.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/support/run_command.h"
+
+namespace railcast {
+namespace {
+
+/// Makes a study of a few approaches, which are alike but for what the recipe draws.
+/// @param settings Of every scenario, by pointer.
+FinishedStudy MakeStudyIn(const std::filesystem::path& folder, const nlohmann::json& settings) {
+  nlohmann::json recipe = StudiedRecipe(12);
+  recipe["set"] = settings;
+  // As many rays as tell the rungs apart.
+  recipe["set"]["/lidar/beam"] = {{"reference_rays", 24}};
+  const StudySpec spec = ReadStudy(WriteStudy(folder, recipe));
+  const Recipe read = ReadStudyRecipe(spec);
+  const ScenarioDrawer drawer(read);
+  StudyChoices choices;
+  choices.directory = folder / "made";
+  const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
+  KeepFiles(spec, drawer, {}, SampleOf(ObservationsOf(result.approaches)), choices.directory);
+  return ReadFinishedStudy(choices.directory);
+}
+
+ModelError ErrorOf(const FinishedStudy& study) {
+  return MeasureModelError(study, ReadSample(study), 2, [](double) {});
+}
+
+const std::string& Text(const Cell& cell) {
+  return std::get<std::string>(cell);
+}
+
+const std::vector<Cell>& RowOf(const Table& table, std::size_t column, const std::string& text) {
+  const auto row = std::ranges::find_if(
+      table.rows, [&](const std::vector<Cell>& cells) { return Text(cells.at(column)) == text; });
+  if (row == table.rows.end()) throw std::runtime_error("no row " + text);
+  return *row;
+}
+
+// The reference is compared with itself: whatever differs would be a fault of the comparison.
+TEST(ModelErrorOf, IsNothingForTheReferenceItself) {
+  const TemporaryDirectory directory;
+  const ModelError error = ErrorOf(MakeStudyIn(directory.path(), {{"/fidelity", "reference"}}));
+  EXPECT_EQ(error.rung, "reference");
+  ASSERT_GE(error.approaches.size(), 10U);
+  std::uint32_t points = 0;
+  for (const ComparedApproach& compared : error.approaches) {
+    EXPECT_EQ(compared.target, "person");
+    for (const ApproachPoints& frame : compared.approach.points) {
+      EXPECT_EQ(frame.points, frame.points_in_reference);
+      points += frame.points;
+    }
+  }
+  EXPECT_GT(points, 100U);
+  const Section section = ModelErrorSection(error);
+  for (const std::vector<Cell>& row : section.tables.at(0).rows) {
+    const auto shift_m = std::get<Estimate>(row.at(4));
+    EXPECT_EQ(shift_m.value, 0.0);
+    EXPECT_EQ(std::get<double>(row.at(6)), 0.0);
+  }
+}
+
+class DossierOfAStudy : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    directory_ = new TemporaryDirectory;
+    study_ = new FinishedStudy(MakeStudyIn(directory_->path(), nlohmann::json::object()));
+  }
+  static void TearDownTestSuite() {
+    delete study_;
+    delete directory_;
+  }
+
+  static TemporaryDirectory* directory_;
+  static FinishedStudy* study_;
+};
+TemporaryDirectory* DossierOfAStudy::directory_ = nullptr;
+FinishedStudy* DossierOfAStudy::study_ = nullptr;
+
+// One ray a beam counts a person's beams by their centres alone (RungUsed::Warning).
+TEST_F(DossierOfAStudy, ShowsThatSingleRaysSeeFewerPointsFarAway) {
+  const ModelError error = ErrorOf(*study_);
+  EXPECT_EQ(error.rung, "surface");
+  std::uint64_t points = 0;
+  std::uint64_t points_in_reference = 0;
+  for (const ComparedApproach& compared : error.approaches) {
+    for (const ApproachPoints& frame : compared.approach.points) {
+      if (frame.distance_m < 50.0) continue;
+      points += frame.points;
+      points_in_reference += frame.points_in_reference;
+    }
+  }
+  ASSERT_GT(points_in_reference, 100U);
+  EXPECT_LT(static_cast<double>(points), 0.95 * static_cast<double>(points_in_reference));
+}
+
+TEST_F(DossierOfAStudy, SaysWhatIsVariedAndWhatIsNot) {
+  const Section scope = ScopeSection(*study_, ReadSample(*study_));
+  const Table& table = scope.tables.at(0);
+  const auto& fog = RowOf(table, 1, "Fog");
+  EXPECT_EQ(Text(fog.at(2)), "yes");
+  EXPECT_TRUE(Text(fog.at(3)).starts_with("weather: clear (")) << Text(fog.at(3));
+  const auto& rain = RowOf(table, 1, "Rain");
+  EXPECT_EQ(Text(rain.at(2)), "no");
+  EXPECT_EQ(Text(rain.at(3)), "rain_rate_mmph 0.0");
+  const auto& look = RowOf(table, 1, "Obstacle: kind and look");
+  EXPECT_NE(Text(look.at(3)).find("object /person/physique: child ("), std::string::npos);
+  const auto& place = RowOf(table, 1, "Obstacle: place and attitude");
+  EXPECT_TRUE(Text(place.at(3)).starts_with("object /d_m: -")) << Text(place.at(3));
+}
+
+TEST_F(DossierOfAStudy, CallsASensorWithoutRecordingNotValidated) {
+  const Section section = SensorSection(ReadSample(*study_));
+  ASSERT_EQ(section.tables.at(0).rows.size(), 1U);
+  EXPECT_EQ(Text(section.tables.at(0).rows[0].at(1)),
+            "not validated: not compared with recordings");
+}
+
+TEST_F(DossierOfAStudy, TakesAPresetForValidatedOnlyAsItWasCompared) {
+  std::vector<ScenarioSpec> sample = ReadSample(*study_);
+  nlohmann::json scenario = nlohmann::json::parse(ResolvedScenarioJson(sample.front()));
+  scenario["lidar"] = {{"file", RAILCAST_SOURCE_DIR "/scenarios/sensors/vls128.json"},
+                       {"mount", {{"position_m", {1.0, 0.0, 3.0}}}}};
+  sample = {ReadScenarioText(scenario.dump(), "scenario.json")};
+  const Section section = SensorSection(sample);
+  const std::vector<Cell>& row = section.tables.at(0).rows.at(0);
+  EXPECT_EQ(Text(row.at(0)), "VLS-128");
+  EXPECT_EQ(Text(row.at(1)), "preset compared with a recording");
+  EXPECT_EQ(std::get<double>(row.at(2)), 0.008);
+  sample.front().lidar.receiver.range_noise_floor_m += 0.001;
+  const Section changed = SensorSection(sample);
+  EXPECT_EQ(Text(changed.tables.at(0).rows.at(0).at(1)), "not validated: changed from the preset");
+  EXPECT_TRUE(std::isnan(std::get<double>(changed.tables.at(0).rows.at(0).at(2))));
+}
+
+TEST_F(DossierOfAStudy, ListsTheLimitsOfItsRungAlone) {
+  const Table table = LimitsSection(ReadSample(*study_)).tables.at(0);
+  EXPECT_NO_THROW(RowOf(table, 0, "A beam has a width"));
+  EXPECT_NO_THROW(RowOf(table, 0, "Glass lets light through"));
+  EXPECT_THROW(RowOf(table, 0, "Rain and snow weaken echoes"), std::runtime_error);
+}
+
+TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
+  const Report report = MakeDossier(*study_, ReadSample(*study_), ModelError{}, "command");
+  EXPECT_EQ(report.title, "Seen?");
+  EXPECT_EQ(report.sections.front().key, "verdict");
+  const auto section = std::ranges::find(report.sections, "credibility", &Section::key);
+  ASSERT_NE(section, report.sections.end());
+  for (const std::vector<Cell>& row : section->tables.at(0).rows) {
+    EXPECT_EQ(Text(row.at(2)) == "open", Text(row.at(3)).empty()) << Text(row.at(1));
+    // An answer that names a section names one that is there.
+    const std::string& answer = Text(row.at(3));
+    for (std::size_t at = answer.find("ection "); at != std::string::npos;
+         at = answer.find("ection ", at + 1)) {
+      const std::string rest = answer.substr(at + 7);
+      EXPECT_TRUE(std::ranges::any_of(report.sections, [&](const Section& each) {
+        return rest.starts_with(each.title);
+      })) << answer;
+    }
+  }
+}
+
+TEST_F(DossierOfAStudy, IsPrintedOnAtMostTwentyPages) {
+  if (RunCommand("command -v weasyprint").status != 0) GTEST_SKIP() << "weasyprint is missing";
+  const std::filesystem::path out = directory_->path() / "dossier";
+  const Ended ended = RunCommand("SOURCE_DATE_EPOCH=1700000000 " RAILCAST_ANALYZE " dossier " +
+                                 study_->directory.string() + " --out " + out.string());
+  ASSERT_EQ(ended.status, 0) << ended.said;
+  EXPECT_TRUE(ReadFileWhole(out / "dossier.pdf").starts_with("%PDF-"));
+  const Ended info = RunCommand("pdfinfo " + (out / "dossier.pdf").string());
+  ASSERT_EQ(info.status, 0) << info.said;
+  const int num_pages = std::stoi(info.said.substr(info.said.find("Pages:") + 6));
+  EXPECT_GE(num_pages, 3);
+  EXPECT_LE(num_pages, 20);
+  const auto json = nlohmann::json::parse(ReadFileWhole(out / "dossier.json"));
+  EXPECT_TRUE(json.is_object());
+}
+
+}  // namespace
+}  // namespace railcast
