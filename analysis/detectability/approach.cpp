@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -49,10 +50,13 @@ double ApproachOf(const RecordedObject& object, const Frame& frame) {
 
 OwnTrack::OwnTrack(const ScenarioSpec& scenario) : OwnTrack(scenario, *MakeWorld(scenario)) {}
 
-OwnTrack::OwnTrack(const ScenarioSpec& scenario, const RailWorld& world)
-    : alignment_(world.alignment()),
-      track_(world.vehicle_course()),
-      gauge_(StructureGauge(ContactHeightOver_m(world.vehicle_track(), scenario.world.catenary))) {
+OwnTrack::OwnTrack(const ScenarioSpec& scenario,
+                   const RailWorld& world,
+                   std::vector<GaugePart> gauge)
+    : alignment_(world.alignment()), track_(world.vehicle_course()), gauge_(std::move(gauge)) {
+  if (gauge_.empty()) {
+    gauge_ = StructureGauge(ContactHeightOver_m(world.vehicle_track(), scenario.world.catenary));
+  }
   for (double s_m = track_.begin_s_m(); s_m < track_.end_s_m() + kAxisStep_m; s_m += kAxisStep_m) {
     axis_m_.emplace_back(track_.WorldFromTrack(alignment_, s_m).translation());
   }

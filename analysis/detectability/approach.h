@@ -25,7 +25,20 @@ class OwnTrack {
   /// @throws InputError as MakeWorld() does.
   explicit OwnTrack(const ScenarioSpec& scenario);
   /// @param world The scenario's.
-  OwnTrack(const ScenarioSpec& scenario, const RailWorld& world);
+  /// @param gauge What must stay clear; empty = the structure gauge.
+  OwnTrack(const ScenarioSpec& scenario, const RailWorld& world, std::vector<GaugePart> gauge = {});
+
+  [[nodiscard]] const std::vector<GaugePart>& gauge() const { return gauge_; }
+  [[nodiscard]] double begin_s_m() const { return track_.begin_s_m(); }
+  [[nodiscard]] double end_s_m() const { return track_.end_s_m(); }
+  /// The track frame on the axis at a chainage.
+  [[nodiscard]] Transform WorldFromTrack(double s_m) const {
+    return track_.WorldFromTrack(alignment_, s_m);
+  }
+  /// Chainage of the point of the axis that is nearest to this point.
+  [[nodiscard]] double ChainageNear_m(const Vector3& world_m) const;
+  /// As above, but starts from a nearby chainage.
+  [[nodiscard]] double Refined_m(double s_m, const Vector3& world_m) const;
 
   /// Position of a box relative to the gauge of the track ahead, where it comes nearest to it. A
   /// box behind the vehicle or beyond the ends of the track is not inside, at an infinite distance
@@ -35,11 +48,6 @@ class OwnTrack {
                                               const Vector3& size_m) const;
 
  private:
-  /// Chainage of the point of the axis that is nearest to this point.
-  [[nodiscard]] double ChainageNear_m(const Vector3& world_m) const;
-  /// As above, but starts from a nearby chainage.
-  [[nodiscard]] double Refined_m(double s_m, const Vector3& world_m) const;
-
   Alignment alignment_;
   TrackCourse track_;
   std::vector<GaugePart> gauge_;
