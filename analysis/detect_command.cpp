@@ -1,17 +1,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/commands.h"
+#include "analysis/detect_options.h"
 #include "analysis/detectability/detect_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -22,23 +21,9 @@ namespace {
 
 struct DetectOptions {
   std::vector<std::filesystem::path> sources;
-  DetectSpec spec;
-  std::string frames = "3/5";
-  std::optional<double> speed_kmph;
+  RuleOptions rule;
   ReportOutput output;
 };
-
-/// Reads "3/5" into the rule; returns false if the text is not of this form.
-bool ReadFrames(std::string_view text, DetectionRule& rule) {
-  const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return false;
-  const auto some = ParseNumber<std::uint32_t>(text.substr(0, slash));
-  const auto all = ParseNumber<std::uint32_t>(text.substr(slash + 1));
-  if (!some || !all || *some < 1 || *some > *all) return false;
-  rule.min_frames = *some;
-  rule.of_frames = *all;
-  return true;
-}
 
 // The runs must be of one scenario, each with its own seed: otherwise their differences would not
 // be due to chance alone.
@@ -78,8 +63,7 @@ std::vector<std::pair<std::string, std::string>> FactsOf(const std::vector<Recor
 }
 
 int RunDetect(const DetectOptions& options, const std::string& command_line) {
-  DetectSpec spec = options.spec;
-  if (options.speed_kmph) spec.speed_mps = MpsFromKmph(*options.speed_kmph);
+  const DetectSpec spec = options.rule.Spec();
   std::vector<RecordingInfo> infos;
   std::vector<DetectRun> runs;
   std::size_t num_frames = 0;
@@ -113,46 +97,6 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-void AddRuleOptions(CLI::App& detect, DetectOptions& options) {
-  DetectionRule& rule = options.spec.rule;
-  detect
-      .add_option("--points", rule.min_points,
-                  "Least number of points on an object that is seen in a frame")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  const auto check = [](const std::string& text) {
-    DetectionRule trial;
-    return ReadFrames(text, trial) ? std::string()
-                                   : "must be K/N with 1 <= K <= N (got " + text + ")";
-  };
-  detect
-      .add_option("--frames", options.frames,
-                  "An object is detected when it is seen in K of N consecutive frames")
-      ->check(CLI::Validator(check, "K/N"))
-      ->capture_default_str();
-}
-
-void AddBrakingOptions(CLI::App& detect, DetectOptions& options) {
-  BrakingSpec& braking = options.spec.braking;
-  detect
-      .add_option("--reaction-s", braking.reaction_s, "Seconds from the detection to full braking")
-      ->check(Number({0.0, 60.0}))
-      ->capture_default_str();
-  detect
-      .add_option(
-          "--deceleration-mps2", braking.deceleration_mps2,
-          "Braking deceleration on the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
-      ->check(Number({0.01, 10.0}))
-      ->capture_default_str();
-  detect
-      .add_option("--speed-kmph", options.speed_kmph,
-                  "Speed to brake from, instead of the vehicle's own at the detection")
-      ->check(Number({0.0, 500.0}));
-  detect.add_option("--margin-m", braking.margin_m, "Metres to be left before the object")
-      ->check(Number({0.0, 1000.0}))
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void AddDetect(CLI::App& app, ProgramCommand& command) {
@@ -166,12 +110,14 @@ void AddDetect(CLI::App& app, ProgramCommand& command) {
           "DIR", options->sources,
           "Sequence directory; several of one scenario with different seeds give intervals")
       ->required();
-  AddRuleOptions(*detect, *options);
-  AddBrakingOptions(*detect, *options);
+  detect
+      ->add_option("--points", options->rule.spec.rule.min_points,
+                   "Least number of points on an object that is seen in a frame")
+      ->transform(Whole({1, 1'000'000}))
+      ->capture_default_str();
+  AddRuleOptions(*detect, options->rule);
   AddReportOptions(*detect, options->output);
   detect->callback([&command, options] {
-    // CLI11 has checked the form already.
-    (void)ReadFrames(options->frames, options->spec.rule);
     command = [options](const std::string& line) { return RunDetect(*options, line); };
   });
 }

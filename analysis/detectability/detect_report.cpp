@@ -26,18 +26,6 @@ std::string RuleText(const DetectSpec& spec) {
          "nearest point of its box.";
 }
 
-std::string BrakingText(const DetectSpec& spec) {
-  const BrakingSpec& braking = spec.braking;
-  return "Needed is s = v t + v^2 / (2 (a + g i)) + margin, with t = " +
-         NumberText(braking.reaction_s) +
-         " s from detection to full braking, a = " + NumberText(braking.deceleration_mps2) +
-         " m/s^2 on the level, a margin of " + NumberText(braking.margin_m) +
-         " m, and the gradient i where the object is detected. v is " +
-         (spec.speed_mps ? "as given." : "the vehicle's own speed then.") +
-         " What comes towards the vehicle needs its own way during the stop on top; what goes away "
-         "is taken to stand.";
-}
-
 std::string WayText() {
   return "In the way is what reaches, at any time of the approach, into the structure gauge of the "
          "own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above it. "
@@ -56,49 +44,6 @@ std::string RunsText(std::size_t num_runs) {
   }
   return NumberText(num_runs) +
          " runs with a seed each: intervals say what more seeds would change.";
-}
-
-Table VerdictTable(const std::vector<Verdict>& verdicts) {
-  Table table;
-  table.key = "verdicts";
-  table.title = "Which objects are detected in time to stop";
-  table.note = "Distances of detection are of the runs that detected the object, but not at once.";
-  table.is_open = true;
-  table.columns = {{"object", "Object", ""},
-                   {"type", "Type", ""},
-                   {"verdict", "Verdict", ""},
-                   {"runs", "Runs", ""},
-                   {"least_detected_at_m", "Detected at, at least", "m"},
-                   {"needed_m", "Needed, at most", "m"},
-                   {"least_spare_m", "To spare, at least", "m"},
-                   {"begun_too_near", "Begun too near to tell", ""}};
-  for (const Verdict& verdict : verdicts) {
-    if (!verdict.is_in_way) continue;
-    table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
-                          verdict.least_distance_m, verdict.most_needed_m, verdict.least_spare_m,
-                          verdict.num_undecided});
-  }
-  return table;
-}
-
-Table MeansTable(const std::vector<Verdict>& verdicts) {
-  Table table;
-  table.key = "means";
-  table.title = "Means over the runs";
-  table.note =
-      "Of the runs that detected the object, but not at once; the share in time is of those that "
-      "approached it and did not begin too near to tell.";
-  table.columns = {{"object", "Object", ""},
-                   {"detected_at_m", "Detected at", "m"},
-                   {"spare_m", "To spare", "m"},
-                   {"in_time", "In time", ""}};
-  for (const Verdict& verdict : verdicts) {
-    if (!verdict.is_in_way) continue;
-    table.rows.push_back(
-        {verdict.name, verdict.distance_m.Mean(), verdict.spare_m.Mean(),
-         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided)});
-  }
-  return table;
 }
 
 Table BesideTable(const std::vector<Verdict>& verdicts) {
@@ -122,14 +67,6 @@ Table BesideTable(const std::vector<Verdict>& verdicts) {
                           verdict.num_approached, verdict.num_detected, verdict.least_distance_m});
   }
   return table;
-}
-
-std::string FateText(const ObjectDetection& detection) {
-  if (detection.fate == Fate::kNeverApproached) return "never approached";
-  if (!detection.is_in_way) return "beside the track";
-  if (detection.fate == Fate::kNeverDetected) return "not detected";
-  if (!detection.is_from_start) return detection.is_in_time() ? "in time" : "too late";
-  return detection.is_in_time() ? "in time, at once" : "not known: begun too near";
 }
 
 Table RunTable(const std::vector<DetectRun>& runs) {
@@ -232,6 +169,69 @@ Section PointsSection(const std::vector<DetectRun>& runs,
 }
 
 }  // namespace
+
+std::string BrakingText(const DetectSpec& spec) {
+  const BrakingSpec& braking = spec.braking;
+  return "Needed is s = v t + v^2 / (2 (a + g i)) + margin, with t = " +
+         NumberText(braking.reaction_s) +
+         " s from detection to full braking, a = " + NumberText(braking.deceleration_mps2) +
+         " m/s^2 on the level, a margin of " + NumberText(braking.margin_m) +
+         " m, and the gradient i where the object is detected. v is " +
+         (spec.speed_mps ? "as given." : "the vehicle's own speed then.") +
+         " What comes towards the vehicle needs its own way during the stop on top; what goes away "
+         "is taken to stand.";
+}
+
+Table VerdictTable(const std::vector<Verdict>& verdicts) {
+  Table table;
+  table.key = "verdicts";
+  table.title = "Which objects are detected in time to stop";
+  table.note = "Distances of detection are of the runs that detected the object, but not at once.";
+  table.is_open = true;
+  table.columns = {{"object", "Object", ""},
+                   {"type", "Type", ""},
+                   {"verdict", "Verdict", ""},
+                   {"runs", "Runs", ""},
+                   {"least_detected_at_m", "Detected at, at least", "m"},
+                   {"needed_m", "Needed, at most", "m"},
+                   {"least_spare_m", "To spare, at least", "m"},
+                   {"begun_too_near", "Begun too near to tell", ""}};
+  for (const Verdict& verdict : verdicts) {
+    if (!verdict.is_in_way) continue;
+    table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
+                          verdict.least_distance_m, verdict.most_needed_m, verdict.least_spare_m,
+                          verdict.num_undecided});
+  }
+  return table;
+}
+
+Table MeansTable(const std::vector<Verdict>& verdicts) {
+  Table table;
+  table.key = "means";
+  table.title = "Means over the runs";
+  table.note =
+      "Of the runs that detected the object, but not at once; the share in time is of those that "
+      "approached it and did not begin too near to tell.";
+  table.columns = {{"object", "Object", ""},
+                   {"detected_at_m", "Detected at", "m"},
+                   {"spare_m", "To spare", "m"},
+                   {"in_time", "In time", ""}};
+  for (const Verdict& verdict : verdicts) {
+    if (!verdict.is_in_way) continue;
+    table.rows.push_back(
+        {verdict.name, verdict.distance_m.Mean(), verdict.spare_m.Mean(),
+         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided)});
+  }
+  return table;
+}
+
+std::string FateText(const ObjectDetection& detection) {
+  if (detection.fate == Fate::kNeverApproached) return "never approached";
+  if (!detection.is_in_way) return "beside the track";
+  if (detection.fate == Fate::kNeverDetected) return "not detected";
+  if (!detection.is_from_start) return detection.is_in_time() ? "in time" : "too late";
+  return detection.is_in_time() ? "in time, at once" : "not known: begun too near";
+}
 
 Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         const DetectSpec& spec,

@@ -22,6 +22,16 @@ namespace railcast {
                                       std::vector<std::pair<std::string, std::string>> facts,
                                       const RungUsed& rung);
 
+// Parts of it that other reports have, too.
+
+/// Which objects in the way are detected in time, and the means of their distances.
+[[nodiscard]] Table VerdictTable(const std::vector<Verdict>& verdicts);
+[[nodiscard]] Table MeansTable(const std::vector<Verdict>& verdicts);
+/// "in time", "too late", "not detected", ...
+[[nodiscard]] std::string FateText(const ObjectDetection& detection);
+/// How the distance needed follows from the spec, in sentences.
+[[nodiscard]] std::string BrakingText(const DetectSpec& spec);
+
 /// More charts of a section than this are too many to read; the tables hold the other objects.
 inline constexpr std::size_t kMaxCharts = 12;
 

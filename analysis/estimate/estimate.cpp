@@ -63,9 +63,13 @@ Estimate Proportion(std::uint64_t num_successes, std::uint64_t num) {
 }
 
 Estimate PoissonRate(std::uint64_t count, double exposure) {
-  if (count < kMinSamples || !(exposure > 0.0)) return NotEnough(count);
+  return count < kMinSamples ? NotEnough(count) : ExactPoissonRate(count, exposure);
+}
+
+Estimate ExactPoissonRate(std::uint64_t count, double exposure) {
+  if (!(exposure > 0.0)) return NotEnough(count);
   const auto n = static_cast<double>(count);
-  const double low = 0.5 * ChiSquared(2.0 * n, kTail);
+  const double low = count == 0 ? 0.0 : 0.5 * ChiSquared(2.0 * n, kTail);
   const double high = 0.5 * ChiSquared(2.0 * n + 2.0, 1.0 - kTail);
   return {n / exposure, low / exposure, high / exposure, count};
 }

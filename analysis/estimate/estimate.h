@@ -51,6 +51,10 @@ struct Estimate {
 /// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);
 
+/// As above for any number of counts, none included: the interval is exact. Not enough without
+/// exposure only.
+[[nodiscard]] Estimate ExactPoissonRate(std::uint64_t count, double exposure);
+
 /// Number of standard errors that a two-sided 95 % interval of a normal quantity reaches to each
 /// side.
 [[nodiscard]] double NormalQuantile();

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "analysis/detectability/object_detection.h"
+
+namespace railcast {
+
+/// The options that say when an object is detected, and how a train brakes for it.
+struct RuleOptions {
+  DetectSpec spec;
+  std::string frames = "3/5";
+  std::optional<double> speed_kmph;
+
+  /// What they say. @pre CLI11 has checked them.
+  [[nodiscard]] DetectSpec Spec() const;
+};
+
+/// Adds --frames and those of braking.
+void AddRuleOptions(CLI::App& command, RuleOptions& options);
+
+}  // namespace railcast
