@@ -26,6 +26,8 @@ void AddStats(CLI::App& app, ProgramCommand& command);
 void AddCompare(CLI::App& app, ProgramCommand& command);
 /// Compares the distance at which objects are detected with the distance a train needs to stop.
 void AddDetect(CLI::App& app, ProgramCommand& command);
+/// Evaluates an object detector, the reference one or that of files, on sequences.
+void AddEvaluate(CLI::App& app, ProgramCommand& command);
 /// Simulates the approaches of a recipe and reports probabilities of detection.
 void AddStudy(CLI::App& app, ProgramCommand& command);
 /// Writes what an assessor files of a finished study.

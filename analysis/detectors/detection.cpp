@@ -1,0 +1,33 @@
+#include "analysis/detectors/detection.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace railcast {
+
+OrientedBox BoxOfCluster(const OwnTrack& track, const std::vector<PlaceByTrack>& places) {
+  constexpr double kLeastSide_m = 0.1;
+  Vector3 least_m = places.front();
+  Vector3 most_m = places.front();
+  for (const PlaceByTrack& place : places) {
+    least_m = least_m.cwiseMin(place);
+    most_m = most_m.cwiseMax(place);
+  }
+  const Vector3 middle_m = 0.5 * (least_m + most_m);
+  OrientedBox box;
+  box.world_from_box = track.WorldFromTrack(middle_m.x());
+  box.world_from_box.translate(Vector3(0.0, middle_m.y(), middle_m.z()));
+  box.size_m = (most_m - least_m).cwiseMax(kLeastSide_m);
+  return box;
+}
+
+std::uint32_t MostFrequentLabel(const std::vector<std::uint32_t>& labels) {
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t label : labels) ++counts[label];
+  const auto most =
+      std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
+  return most == counts.end() ? 0 : most->first;
+}
+
+}  // namespace railcast

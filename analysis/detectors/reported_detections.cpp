@@ -1,0 +1,179 @@
+#include "analysis/detectors/reported_detections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/cloud/scan_motion.h"
+#include "core/io/strict_json.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+// In the axes in which it is reported.
+OrientedBox BoxAsReported(const ReportedDetection& detection) {
+  const auto& [x, y, z] = *detection.center_m;
+  const auto& [qx, qy, qz, qw] = detection.quaternion_xyzw;
+  const auto& [length_m, width_m, height_m] = *detection.size_m;
+  return {
+      MakeTransform(Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix(), {x, y, z}),
+      {length_m, width_m, height_m}};
+}
+
+// The box in the sensor's axes, of which the points are. The frame's pose is that at the stamp.
+OrientedBox InSensorAxes(OrientedBox box, const PointsOfRun& run, const Frame& frame) {
+  Transform& from_box = box.world_from_box;
+  if (run.output.handedness == Handedness::kLeft) {
+    // As ObjectInFrame::output_from_box: the pose of the mirrored box.
+    const Eigen::DiagonalMatrix<double, 3> mirror(1.0, -1.0, 1.0);
+    from_box = MakeTransform(mirror * from_box.linear() * mirror, mirror * from_box.translation());
+  }
+  if (run.output.frame == OutputFrame::kVehicle) {
+    from_box = run.vehicle_from_sensor.inverse() * from_box;
+  } else if (run.output.frame == OutputFrame::kWorld) {
+    const auto& [x, y, z] = run.output.origin_m;
+    from_box = frame.world_from_sensor.inverse() * (Eigen::Translation3d(x, y, z) * from_box);
+  }
+  return box;
+}
+
+/// The points in a box, in the axes that the motion leaves them in.
+struct PointsInBox {
+  std::vector<std::uint32_t> labels;
+  std::uint64_t sum_ns{};
+
+  [[nodiscard]] std::uint32_t mean_ns() const {
+    return labels.empty() ? 0 : static_cast<std::uint32_t>(sum_ns / labels.size());
+  }
+};
+
+PointsInBox PointsOfBox(const OrientedBox& box,
+                        const RecordedFrame& recorded,
+                        const RecordedMotion& motion) {
+  constexpr double kNoise_m = 0.1;
+  const OrientedBox grown = Grown(box, kNoise_m);
+  const Frame& frame = recorded.frame;
+  PointsInBox points;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isfinite(frame.x[slot])) continue;
+    if (!IsInside(grown, motion.PointOf(slot).cast<double>())) continue;
+    points.labels.push_back(frame.label[slot]);
+    points.sum_ns += frame.time_ns[slot];
+  }
+  return points;
+}
+
+class Placing {
+ public:
+  Placing(const ReportedFrame& reported,
+          const RecordedFrame& recorded,
+          const PointsOfRun& run,
+          const OwnTrack& track)
+      : reported_(reported),
+        recorded_(recorded),
+        run_(run),
+        track_(track),
+        // Points of the world's axes have no motion left.
+        compensation_(run.output.frame == OutputFrame::kWorld ? Compensation::kSensor
+                                                              : reported.compensation),
+        motion_(recorded, compensation_),
+        undone_(recorded, Compensation::kSensor) {}
+
+  [[nodiscard]] DetectedBox BoxOf(const ReportedDetection& detection) const {
+    OrientedBox box = BoxAsReported(detection);
+    if (reported_.axes == BoxAxes::kPoints) box = InSensorAxes(box, run_, recorded_.frame);
+    const PointsInBox points = PointsOfBox(box, recorded_, motion_);
+    if (compensation_ == Compensation::kNone && KnowsMotion(recorded_)) {
+      box.world_from_box.translation() =
+          ScanMotion(recorded_.frame).AtStamp(box.world_from_box.translation(), points.mean_ns());
+    }
+    box.world_from_box = recorded_.frame.world_from_sensor * box.world_from_box;
+    return {box, MostFrequentLabel(points.labels), detection.class_name};
+  }
+
+  [[nodiscard]] DetectedBox ClusterOf(const ReportedDetection& detection, std::size_t index) const {
+    std::vector<PlaceByTrack> places;
+    std::vector<std::uint32_t> labels;
+    for (std::size_t i = 0; i < detection.points->size(); ++i) {
+      const std::uint32_t slot = SlotOf((*detection.points)[i], index, i);
+      const Vector3 world_m =
+          recorded_.frame.world_from_sensor * undone_.PointOf(slot).cast<double>();
+      places.push_back(PlaceOnTrack(track_, track_.ChainageNear_m(world_m), world_m));
+      labels.push_back(recorded_.frame.label[slot]);
+    }
+    return {BoxOfCluster(track_, places), MostFrequentLabel(labels), detection.class_name};
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t SlotOf(std::uint32_t point, std::size_t index, std::size_t i) const {
+    const std::vector<std::uint32_t>& slots = recorded_.slot_of_entry;
+    const auto fail = [&](const std::string& rule) {
+      throw InputError(
+          {{reported_.place + ": /detections/" + NumberText(index) + "/points/" + NumberText(i),
+            rule, NumberText(point)}});
+    };
+    if (point >= slots.size()) {
+      fail("must be < " + NumberText(slots.size()) + ", the number of points of " + recorded_.name);
+    }
+    const std::uint32_t slot = slots[point];
+    if (slot == kNoSlot || !std::isfinite(recorded_.frame.x[slot])) {
+      fail("must be a point, not a firing without one");
+    }
+    return slot;
+  }
+
+  const ReportedFrame& reported_;
+  const RecordedFrame& recorded_;
+  const PointsOfRun& run_;
+  const OwnTrack& track_;
+  Compensation compensation_;
+  RecordedMotion motion_;  ///< As the detector has it.
+  RecordedMotion undone_;
+};
+
+}  // namespace
+
+ReportedRun ReadReportedRun(const std::filesystem::path& file,
+                            const Transform& vehicle_from_sensor) {
+  const std::string text = ReadFileWhole(file);
+  const StrictJson whole = StrictJson::parse(text, nullptr, false);
+  return whole.is_object() && whole.contains("openlabel")
+             ? ReadOpenLabelRun(text, ShownPath(file), vehicle_from_sensor)
+             : ReadDetectionLines(text, ShownPath(file));
+}
+
+const ReportedFrame* ReportedFrames::Of(std::uint32_t frame) {
+  if (next_ == run_.size() || run_[next_].frame > frame) return nullptr;
+  if (run_[next_].frame < frame) FailAt(run_[next_]);
+  return &run_[next_++];
+}
+
+void ReportedFrames::CheckEnd() const {
+  if (next_ < run_.size()) FailAt(run_[next_]);
+}
+
+void ReportedFrames::FailAt(const ReportedFrame& reported) const {
+  throw InputError(
+      {{reported.place + ": /frame", "must be a frame of the run", NumberText(reported.frame)}});
+}
+
+std::vector<DetectedBox> DetectionsOf(const ReportedFrame& reported,
+                                      const RecordedFrame& recorded,
+                                      const PointsOfRun& run,
+                                      const OwnTrack& track,
+                                      double min_score) {
+  const Placing placing(reported, recorded, run, track);
+  std::vector<DetectedBox> boxes;
+  for (std::size_t i = 0; i < reported.detections.size(); ++i) {
+    const ReportedDetection& detection = reported.detections[i];
+    if (detection.score < min_score) continue;
+    boxes.push_back(detection.points ? placing.ClusterOf(detection, i) : placing.BoxOf(detection));
+  }
+  return boxes;
+}
+
+}  // namespace railcast

@@ -1,0 +1,160 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/analyze_program.h"
+
+namespace railcast {
+namespace {
+
+using testing::HasSubstr;
+using Json = nlohmann::json;
+
+/// 30 frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first, past
+/// one beside the track.
+class EvaluateCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder();
+    const std::string scenarios = ScenariosDir().string();
+    const auto scenario = folder_->Write("scenario.json", R"({"version": 1,
+      "lidar": {"range_max_m": 150, "scan": {"rate_hz": 10, "pattern": {"type": "raster",
+                "horizontal_fov_deg": 20, "vertical_fov_deg": 20, "angular_resolution_deg": 0.5}}},
+      "world": {"alignment": {"course": {"type": "elements", "elements": [
+                  {"type": "straight", "length_m": 1000}]}},
+                "vegetation": {"trees_per_hectare": 0, "grass": false},
+                "objects": [
+                  {"name": "box", "type": "box", "s_m": 480, "h_m": 0, "size_m": [2, 2, 3]},
+                  {"name": "beside", "type": "box", "s_m": 470, "d_m": 3, "h_m": 0,
+                   "size_m": [2, 2, 3]}]},
+      "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
+      "materials": ")" + scenarios + R"(/materials/railway.json",
+      "labels": ")" + scenarios + R"(/labels.json"})");
+    run_ = scenario.parent_path() / "run";
+    const Ended made =
+        RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + run_.string() +
+                   " --frames 30 --fields x,y,z,label,time_ns --fidelity geometry");
+    if (made.status != 0) throw std::runtime_error(made.said);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  /// Writes detections, one line for each frame of the run, and returns the file.
+  static std::string Detections(const std::string& name,
+                                const std::function<Json(const Json& objects)>& of_frame) {
+    std::istringstream lines(ReadFileWhole(run_ / "objects.jsonl"));
+    std::string text;
+    for (std::string line; std::getline(lines, line);) {
+      const Json frame = Json::parse(line);
+      text += Json{{"frame", frame.at("frame")},
+                   {"compensate", "sensor"},
+                   {"detections", of_frame(frame.at("objects"))}}
+                  .dump() +
+              "\n";
+    }
+    return folder_->Write(name, text).string();
+  }
+
+  static Json Evaluate(const std::string& options) {
+    const auto out = run_.parent_path() / "report";
+    const Ended ended =
+        Analyze("evaluate " + run_.string() + " " + options + " --out " + out.string());
+    if (ended.status != 0) throw std::runtime_error(ended.said);
+    return Json::parse(ReadFileWhole(out / "evaluate.json"));
+  }
+
+  static Json Rows(const Json& report, const std::string& key) {
+    for (const Json& section : report.at("sections")) {
+      for (const Json& table : section.at("tables")) {
+        if (table.at("key") == key) return table.at("rows");
+      }
+    }
+    return Json::array();
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline std::filesystem::path run_;
+};
+
+Json TrueBoxes(const Json& objects) {
+  Json detections = Json::array();
+  for (const Json& object : objects) detections.push_back(object.at("output"));
+  return detections;
+}
+
+TEST_F(EvaluateCommand, FindsWhatTheReferenceDetectorDetects) {
+  const Json report = Evaluate("");
+  const Json runs = Rows(report, "runs");
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].at("object"), "box");
+  EXPECT_EQ(runs[0].at("outcome"), "not known: begun too near");
+  EXPECT_NEAR(runs[0].at("detected_at_m").get<double>(), 77.0, 0.1);
+  EXPECT_NEAR(runs[0].at("needed_m").get<double>(), 135.0, 0.01);
+  EXPECT_NEAR(runs[0].at("driven_m").get<double>(), 29.0, 1e-6);
+  const Json alarms = Rows(report, "false_alarms");
+  EXPECT_EQ(alarms.back().at("at"), "all");
+  EXPECT_EQ(alarms.back().at("alarms"), 0U);
+  const Json beside = Rows(report, "no_alarm");
+  ASSERT_EQ(beside.size(), 1U);
+  EXPECT_EQ(beside[0].at("object"), "beside");
+  EXPECT_EQ(beside[0].at("verdict"), "no alarm");
+  EXPECT_TRUE(exists(run_.parent_path() / "report" / "report.html"));
+}
+
+TEST_F(EvaluateCommand, TakesWhatADetectorReported) {
+  const std::string truth = Detections("truth.jsonl", TrueBoxes);
+  EXPECT_NEAR(Rows(Evaluate("--detections " + truth), "runs")[0].at("detected_at_m").get<double>(),
+              77.0, 0.1);
+  const Json late = Evaluate("--latency-ms 1000 --detections " + truth);
+  EXPECT_NEAR(Rows(late, "runs")[0].at("detected_at_m").get<double>(), 67.0, 0.1);
+  const std::string none = Detections("none.jsonl", [](const Json&) { return Json::array(); });
+  EXPECT_EQ(Rows(Evaluate("--detections " + none), "runs")[0].at("outcome"), "not detected");
+}
+
+TEST_F(EvaluateCommand, CountsAlarmsAtWhatIsBesideAndAtNothing) {
+  const std::string wrong = Detections("wrong.jsonl", [](const Json& objects) {
+    Json detections = TrueBoxes(objects);
+    // Wide enough to reach into the gauge.
+    for (Json& box : detections) box["size_m"][1] = 4;
+    detections.push_back({{"center_m", {40, 0, 0}}, {"size_m", {1, 1, 1}}, {"class", "ghost"}});
+    return detections;
+  });
+  const Json report = Evaluate("--detections " + wrong);
+  const Json list = Rows(report, "each_false_alarm");
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(list[0].at("frame"), 2U);
+  EXPECT_EQ(list[0].at("at"), "no object");
+  EXPECT_EQ(list[0].at("cause"), "ghost");
+  EXPECT_EQ(list[1].at("at"), "beside");
+  EXPECT_EQ(Rows(report, "no_alarm")[0].at("verdict"), "false alarm");
+  EXPECT_EQ(Rows(report, "false_alarms").back().at("alarms"), 2U);
+}
+
+TEST_F(EvaluateCommand, SaysWhatIsWrongInOneLine) {
+  const auto fault = [](const std::string& options) {
+    const Ended ended = Analyze("evaluate " + run_.string() + " --format text " + options);
+    EXPECT_EQ(ended.status, 1);
+    return ended.said;
+  };
+  const std::string truth = Detections("more.jsonl", TrueBoxes);
+  EXPECT_THAT(fault("--detections " + truth + " " + truth),
+              HasSubstr("--detections: must be a file for each run, 1 (got 2)"));
+  const std::string beyond =
+      folder_->Write("beyond.jsonl", "{\"frame\": 30, \"detections\": []}\n").string();
+  EXPECT_THAT(fault("--detections " + beyond),
+              HasSubstr("beyond.jsonl:1: /frame: must be a frame of the run (got 30)"));
+  const Ended foreign = Analyze("evaluate " + (run_ / "frames").string() + " --format text");
+  EXPECT_EQ(foreign.status, 1);
+  EXPECT_THAT(foreign.said, HasSubstr("must be a sequence directory, which says what was on the "
+                                      "track"));
+}
+
+}  // namespace
+}  // namespace railcast
