@@ -23,7 +23,7 @@ double NumberOrNaN(const Json& value) {
 
 }  // namespace
 
-std::string StudiedObject::Target() const {
+std::string TargetOf(const std::string& name) {
   const std::size_t slash = name.rfind('/');
   if (slash == std::string::npos || slash + 1 == name.size()) return name;
   const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
@@ -70,6 +70,10 @@ ApproachRecord RecordOf(const DrawnScenario& drawn,
   return record;
 }
 
+ApproachAlarms AlarmsOf(const EvaluatedRun& run) {
+  return {.driven_m = run.driven_m, .beside = run.ObjectsBeside(), .alarms = run.alarms};
+}
+
 Json ToJson(const ApproachRecord& record) {
   Json objects = Json::array();
   for (const StudiedObject& object : record.objects) {
@@ -85,11 +89,24 @@ Json ToJson(const ApproachRecord& record) {
                        {"needed_m", object.needed_m},
                        {"drawn", Json(object.drawn)}});
   }
-  return {{"scenario", record.scenario},
-          {"seed", record.seed},
-          {"base", record.base},
-          {"drawn", Json(record.drawn)},
-          {"objects", std::move(objects)}};
+  Json json = {{"scenario", record.scenario},
+               {"seed", record.seed},
+               {"base", record.base},
+               {"drawn", Json(record.drawn)},
+               {"objects", std::move(objects)}};
+  if (!record.alarms) return json;
+  Json alarms = Json::array();
+  for (const FalseAlarm& alarm : record.alarms->alarms) {
+    alarms.push_back({{"frame", alarm.frame},
+                      {"s_m", alarm.s_m},
+                      {"distance_m", alarm.distance_m},
+                      {"object", alarm.object},
+                      {"cause", alarm.cause}});
+  }
+  json["driven_m"] = record.alarms->driven_m;
+  json["beside"] = record.alarms->beside;
+  json["false_alarms"] = std::move(alarms);
+  return json;
 }
 
 ApproachRecord ApproachFromJson(const Json& json) {
@@ -110,6 +127,17 @@ ApproachRecord ApproachFromJson(const Json& json) {
                               .speed_mps = object.at("speed_mps").get<double>(),
                               .needed_m = object.at("needed_m").get<double>(),
                               .drawn = ToMap(object.at("drawn"))});
+  }
+  if (!json.contains("false_alarms")) return record;
+  record.alarms = {.driven_m = json.at("driven_m").get<double>(),
+                   .beside = json.at("beside").get<std::vector<std::string>>(),
+                   .alarms = {}};
+  for (const Json& alarm : json.at("false_alarms")) {
+    record.alarms->alarms.push_back({.frame = alarm.at("frame").get<std::uint32_t>(),
+                                     .s_m = alarm.at("s_m").get<double>(),
+                                     .distance_m = alarm.at("distance_m").get<double>(),
+                                     .object = alarm.at("object").get<std::string>(),
+                                     .cause = alarm.at("cause").get<std::string>()});
   }
   return record;
 }

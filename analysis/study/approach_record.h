@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "analysis/detectability/object_detection.h"
+#include "analysis/detectors/run_evaluation.h"
 #include "core/recipe/scenario_draw.h"
 #include "core/scenario/json_text.h"
 
 namespace railcast {
+
+/// What is pooled over approaches: the name without the number of a placed object, "person" of
+/// "person/2".
+[[nodiscard]] std::string TargetOf(const std::string& name);
 
 /// An object in the way, as a study records it.
 struct StudiedObject {
@@ -27,9 +32,7 @@ struct StudiedObject {
   double needed_m{};                    ///< To stop, with the margin.
   std::map<std::string, Json> drawn{};  ///< Of the object itself, by JSON pointer.
 
-  /// What is pooled over approaches: the name without the number of a placed object, "person" of
-  /// "person/2".
-  [[nodiscard]] std::string Target() const;
+  [[nodiscard]] std::string Target() const { return TargetOf(name); }
   /// Of what was not detected, the distance needed is missing.
   [[nodiscard]] double spare_m() const { return (is_detected ? distance_m : 0.0) - needed_m; }
   [[nodiscard]] bool is_in_time() const { return is_detected && spare_m() >= 0.0; }
@@ -37,13 +40,21 @@ struct StudiedObject {
   [[nodiscard]] bool is_undecided() const { return is_from_start && !is_in_time(); }
 };
 
+/// What a detector says of an approach beyond the objects in the way.
+struct ApproachAlarms {
+  double driven_m{};
+  std::vector<std::string> beside{};  ///< Objects that must raise no alarm.
+  std::vector<FalseAlarm> alarms{};
+};
+
 /// One approach of a study.
 struct ApproachRecord {
   std::uint32_t scenario{};
   std::uint64_t seed{};
   std::string base{};
-  std::map<std::string, Json> drawn{};   ///< By name or JSON pointer.
-  std::vector<StudiedObject> objects{};  ///< Those in the way that are approached.
+  std::map<std::string, Json> drawn{};     ///< By name or JSON pointer.
+  std::vector<StudiedObject> objects{};    ///< Those in the way that are approached.
+  std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
 };
 
 /// What the courses of a scenario say.
@@ -53,6 +64,8 @@ struct ApproachRecord {
                                       const RunCourses& courses,
                                       const std::vector<std::uint32_t>& frames,
                                       const DetectSpec& spec);
+
+[[nodiscard]] ApproachAlarms AlarmsOf(const EvaluatedRun& run);
 
 [[nodiscard]] Json ToJson(const ApproachRecord& record);
 /// @pre ToJson() made it.

@@ -50,7 +50,10 @@ RecordedObject ToRecorded(const ObjectInFrame& object, const Frame& frame) {
           .instance = object.instance,
           .size_m = object.size_m,
           .sensor_from_box = frame.world_from_sensor.inverse() * object.world_from_box,
-          .velocity_world_mps = object.velocity_world_mps};
+          .velocity_world_mps = object.velocity_world_mps,
+          .points = object.points,
+          .points_time_ns = object.points > 0 ? std::optional(object.points_time_ns)
+                                              : std::optional<std::uint32_t>()};
 }
 
 /// An object whose detection is sought.
@@ -101,7 +104,7 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
   Simulator& simulator = *simulator_;
   const RailWorld& world = *world_;
   const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
-  const OwnTrack own_track(scenario, *world_);
+  const OwnTrack own_track(scenario, *world_, PartsOf(gauge_));
   ObjectSurvey survey(world, LabelTable(scenario.labels), simulator.spec().detector.range_max_m,
                       scenario.output);
   const std::vector<ObjectView> no_views(world.objects().size());
@@ -145,6 +148,40 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
   }
   effort_.num_frames += frames.size();
   return courses;
+}
+
+std::optional<EvaluatedRun> ApproachScanner::Evaluate(const ScenarioSpec& scenario,
+                                                      const std::vector<std::uint32_t>& frames,
+                                                      const ClusterDetectorSpec& detector,
+                                                      const DetectSpec& detect,
+                                                      const std::function<bool()>& is_stopped) {
+  ScenarioSpec in_sensor_axes = scenario;
+  in_sensor_axes.output = {};
+  Use(in_sensor_axes);
+  const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
+  const double range_max_m = simulator_->spec().detector.range_max_m;
+  const OwnTrack own_track(scenario, *world_, PartsOf(gauge_));
+  const LabelTable labels(scenario.labels);
+  ObjectSurvey survey(*world_, labels, range_max_m, in_sensor_axes.output);
+  const std::vector<ObjectView> no_views(world_->objects().size());
+  RunEvaluator evaluator(own_track, labels, vehicle_from_sensor);
+  recorded_.has_pose = true;
+  for (const std::uint32_t index : frames) {
+    if (is_stopped()) return std::nullopt;
+    simulator_->Scan(*simulator_->Begin(index), recorded_.frame);
+    ForEachField(recorded_.frame, [&](const char* name, const char*, const auto&) {
+      recorded_.fields.emplace(name);
+    });
+    recorded_.objects.clear();
+    for (const ObjectInFrame& object : survey.Describe(recorded_.frame, no_views)) {
+      recorded_.objects.push_back(ToRecorded(object, recorded_.frame));
+    }
+    evaluator.Add(recorded_,
+                  {FindClusters(recorded_, vehicle_from_sensor, own_track, detector, range_max_m)});
+  }
+  effort_.num_frames += frames.size();
+  effort_.num_traced += frames.size();
+  return evaluator.Finish({}, scenario.seed, detect);
 }
 
 }  // namespace railcast

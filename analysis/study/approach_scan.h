@@ -10,8 +10,11 @@
 
 #include "analysis/detectability/approach.h"
 #include "analysis/detectability/object_detection.h"
+#include "analysis/detectors/cluster_detector.h"
+#include "analysis/detectors/run_evaluation.h"
 #include "core/io/run/object_survey.h"
 #include "railcast/frame.h"
+#include "railcast/io/recording.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
@@ -26,8 +29,11 @@ namespace railcast {
 class ApproachScanner {
  public:
   /// @param num_threads,isa As MakeSimulator() takes them.
-  explicit ApproachScanner(int num_threads, std::string isa = {})
-      : num_threads_(num_threads), isa_(std::move(isa)) {}
+  /// @param gauge Of the train; absent = the structure gauge.
+  explicit ApproachScanner(int num_threads,
+                           std::string isa = {},
+                           std::optional<TrainGauge> gauge = {})
+      : num_threads_(num_threads), isa_(std::move(isa)), gauge_(gauge) {}
 
   /// Whether it has the geometry of a scenario already.
   [[nodiscard]] bool HasSceneOf(const ScenarioSpec& scenario) const;
@@ -47,6 +53,15 @@ class ApproachScanner {
                                                  const DetectionRule& rule,
                                                  const std::function<bool()>& is_stopped);
 
+  /// Simulates whole frames of a scenario, to the last one, and evaluates what the reference
+  /// detector finds in them: as `evaluate` does on a sequence of these frames.
+  /// @param frames,is_stopped As for Follow(), with the same result, precondition and errors.
+  [[nodiscard]] std::optional<EvaluatedRun> Evaluate(const ScenarioSpec& scenario,
+                                                     const std::vector<std::uint32_t>& frames,
+                                                     const ClusterDetectorSpec& detector,
+                                                     const DetectSpec& detect,
+                                                     const std::function<bool()>& is_stopped);
+
   /// How much was traced since the scanner was made.
   struct Effort {
     std::uint64_t num_frames{};  ///< That were asked for.
@@ -59,10 +74,12 @@ class ApproachScanner {
 
   int num_threads_;
   std::string isa_;
+  std::optional<TrainGauge> gauge_;
   std::optional<ScenarioSpec> shared_;  ///< What the simulator's geometry depends on.
   std::unique_ptr<Simulator> simulator_;
   std::shared_ptr<const RailWorld> world_;  ///< Of the scenario.
   Frame frame_;
+  RecordedFrame recorded_;  ///< Whole frames, whose memory is used again.
   Effort effort_;
 };
 

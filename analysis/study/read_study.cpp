@@ -1,4 +1,5 @@
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "analysis/study/study_spec.h"
@@ -26,10 +27,31 @@ void Describe(Archive& a, BrakingSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, ClusterDetectorSpec& s) {
+  std::string type;
+  a.Required("type", type, "The reference detector, the only one.", OneOf({"clusters"}));
+  a.Optional("min_height_m", s.min_height_m, "What is lower over top of rail is track.",
+             Within(0, 5));
+  a.Optional("min_distance_m", s.min_distance_m, "Ahead of the sensor: what is nearer is rain.",
+             Within(0, 100));
+  a.Optional("cluster_distance_m", s.cluster_distance_m, "Of points of one cluster, in plan.",
+             Within(0.01, 10));
+  a.Optional("min_points", s.min_points, "Of a cluster.", Within(1, 1e6));
+}
+
+template <class Archive>
+void Describe(Archive& a, TrainGauge& s) {
+  a.Required("width_m", s.width_m, "Of the gauge.", Within(0.1, 10));
+  a.Required("height_m", s.height_m, "Over top of rail.", Within(0.1, 10));
+}
+
+template <class Archive>
 void Describe(Archive& a, StudySpec& s) {
   a.Optional("question", s.question, "What the study is to answer.");
   a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());
   a.Optional("detection", s.detect.rule, "When an object counts as detected.");
+  a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
+  a.Optional("gauge", s.gauge, "Of the train, instead of the structure gauge.");
   a.Optional("braking", s.detect.braking, "How the train stops.");
   std::optional<double> speed_kmph;
   a.Optional("speed_kmph", speed_kmph, "To brake from; absent = the vehicle's own.",

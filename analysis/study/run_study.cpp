@@ -30,8 +30,8 @@ namespace {
 /// that of the same scene, if it can be had.
 class ScannerPool {
  public:
-  explicit ScannerPool(std::string isa, std::size_t num_most)
-      : isa_(std::move(isa)), num_most_(num_most) {}
+  ScannerPool(std::string isa, std::optional<TrainGauge> gauge, std::size_t num_most)
+      : isa_(std::move(isa)), gauge_(gauge), num_most_(num_most) {}
 
   [[nodiscard]] std::unique_ptr<ApproachScanner> Take(const ScenarioSpec& scenario,
                                                       int num_threads) {
@@ -42,7 +42,7 @@ class ScannerPool {
     }
     if (num_made_ < num_most_ || idle_.empty()) {
       ++num_made_;
-      return std::make_unique<ApproachScanner>(num_threads, isa_);
+      return std::make_unique<ApproachScanner>(num_threads, isa_, gauge_);
     }
     return TakeFrom(idle_.begin());  // The one that has been idle for longest.
   }
@@ -71,6 +71,7 @@ class ScannerPool {
   }
 
   std::string isa_;
+  std::optional<TrainGauge> gauge_;
   std::size_t num_most_;
   std::mutex mutex_;
   Idle idle_;
@@ -119,6 +120,28 @@ void CheckIsStudied(const ScenarioSpec& scenario) {
   }
 }
 
+/// Nothing if it was stopped.
+std::optional<ApproachRecord> RecordBy(ApproachScanner& scanner,
+                                       const StudySpec& study,
+                                       const DrawnScenario& drawn,
+                                       const std::vector<std::uint32_t>& frames,
+                                       const std::function<bool()>& is_stopped) {
+  if (!study.detector) {
+    const auto courses = scanner.Follow(drawn.scenario, frames, study.detect.rule, is_stopped);
+    if (!courses) return std::nullopt;
+    return RecordOf(drawn, *courses, frames, study.detect);
+  }
+  const auto run =
+      scanner.Evaluate(drawn.scenario, frames, *study.detector, study.detect, is_stopped);
+  if (!run) return std::nullopt;
+  // What the detector reports is seen.
+  DetectSpec detect = study.detect;
+  detect.rule.min_points = 1;
+  ApproachRecord record = RecordOf(drawn, run->run.courses, frames, detect);
+  record.alarms = AlarmsOf(*run);
+  return record;
+}
+
 }  // namespace
 
 Recipe ReadStudyRecipe(const StudySpec& study) {
@@ -144,7 +167,7 @@ StudyResult RunStudy(const StudySpec& study,
   const std::vector<std::uint32_t> frames = FramesOf(recipe);
   const int num_threads =
       choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
-  ScannerPool scanners(choices.isa, static_cast<std::size_t>(num_threads) + kMostIdle);
+  ScannerPool scanners(choices.isa, study.gauge, static_cast<std::size_t>(num_threads) + kMostIdle);
   const std::uint32_t num_before = directory.num_done();
   const auto make = [&](const ScenarioTurn& turn) -> std::optional<Json> {
     const std::uint32_t number = choices.shard.ScenarioAt(num_before + turn.index);
@@ -152,11 +175,10 @@ StudyResult RunStudy(const StudySpec& study,
     return AtPlace(PlaceOfScenario(recipe, number), [&]() -> std::optional<Json> {
       CheckIsStudied(drawn.scenario);
       auto scanner = scanners.Take(drawn.scenario, turn.num_threads);
-      const auto courses =
-          scanner->Follow(drawn.scenario, frames, study.detect.rule, turn.is_stopped);
+      const auto record = RecordBy(*scanner, study, drawn, frames, turn.is_stopped);
       scanners.Return(std::move(scanner));
-      if (!courses) return std::nullopt;
-      return ToJson(RecordOf(drawn, *courses, frames, study.detect));
+      if (!record) return std::nullopt;
+      return ToJson(*record);
     });
   };
   TakeTurns(result.num_approaches - num_before, num_threads,

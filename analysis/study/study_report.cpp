@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "analysis/detectability/detect_report.h"
+#include "analysis/detectors/alarm_report.h"
+#include "analysis/detectors/evaluate_report.h"
 #include "analysis/study/kept_files.h"
 #include "analysis/study/study_targets.h"
 #include "core/base/text.h"
@@ -31,6 +34,14 @@ bool IsWorse(const Observation& one, const Observation& other) {
   return key(one) < key(other);
 }
 
+std::string SeenText(const StudySpec& study) {
+  const DetectionRule& rule = study.detect.rule;
+  const std::string frames =
+      NumberText(rule.min_frames) + " of " + NumberText(rule.of_frames) + " frames";
+  if (!study.detector) return NumberText(rule.min_points) + " points in " + frames;
+  return ClusterDetectorText(*study.detector) + "; in " + frames;
+}
+
 std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
                                                               const StudyResult& result) {
   const Json& identity = result.identity;
@@ -40,15 +51,13 @@ std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& s
     if (!bases.empty()) bases += ", ";
     bases += hash.get<std::string>();
   }
-  const DetectionRule& rule = study.detect.rule;
   const BrakingSpec& braking = study.detect.braking;
   return {
       {"Study", ShownPath(study.file) + " (" + text("study_xxh3") + ")"},
       {"Recipe", ShownPath(study.recipe) + " (" + text("recipe_xxh3") + ")"},
       {"Bases", bases},
       {"Approaches", NumberText(result.approaches.size())},
-      {"Detected", NumberText(rule.min_points) + " points in " + NumberText(rule.min_frames) +
-                       " of " + NumberText(rule.of_frames) + " frames"},
+      {"Detected", SeenText(study)},
       {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
                       " m/s2, margin " + NumberText(braking.margin_m) + " m"},
       {"Simulated by", text("version") + ", Embree " + text("embree") + ", " + text("isa")}};
@@ -134,6 +143,17 @@ Report MakeStudyReport(const StudySpec& study,
   if (!placement.tables.empty()) {
     report.sections.insert(report.sections.begin() + 1, std::move(placement));
   }
+  if (!study.detector) return report;
+  std::uint64_t num_alarms = 0;
+  double driven_m = 0.0;
+  for (const ApproachRecord& approach : result.approaches) {
+    num_alarms += approach.alarms->alarms.size();
+    driven_m += approach.alarms->driven_m;
+  }
+  report.headlines.push_back(
+      {.title = "False alarms per km", .unit = "1/km", .value = AlarmsPerKm(num_alarms, driven_m)});
+  // After the verdict.
+  report.sections.insert(report.sections.begin() + 1, StudyAlarmsSection(study, result.approaches));
   return report;
 }
 

@@ -44,6 +44,11 @@ namespace railcast {
                                        const std::vector<Factor>& factors,
                                        const Json& recipe);
 
+/// False alarms by condition, and each object in each condition. Defined in study_alarms.cpp.
+/// @pre The study has a detector, so that all approaches have alarms.
+[[nodiscard]] Section StudyAlarmsSection(const StudySpec& study,
+                                         const std::vector<ApproachRecord>& approaches);
+
 /// Distances of detection that others have published, to compare with.
 [[nodiscard]] Section YardsticksSection();
 

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "analysis/detectability/object_detection.h"
+#include "analysis/detectors/cluster_detector.h"
+#include "analysis/detectors/gauge_ahead.h"
 
 namespace railcast {
 
@@ -13,6 +16,9 @@ struct StudySpec {
   std::string question;  ///< In the words of whoever asks; may be empty.
   std::string recipe;    ///< Absolute name of the recipe's file.
   DetectSpec detect;
+  /// Whose detections are studied; absent = an object is seen by the number of points on it.
+  std::optional<ClusterDetectorSpec> detector;
+  std::optional<TrainGauge> gauge;  ///< Of the train, in place of the structure gauge.
 };
 
 /// Reads a study as strictly as a scenario.

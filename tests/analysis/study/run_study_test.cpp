@@ -125,6 +125,39 @@ TEST_F(Study, GivesTheSameLinesOnAnyNumberOfThreadsAndInShards) {
   EXPECT_EQ(Lines("joined"), Lines("one"));
 }
 
+// 15 frames of whole scans from 60 m on.
+nlohmann::json RecipeForADetector(std::uint32_t num_scenarios) {
+  nlohmann::json recipe = StudiedRecipe(num_scenarios);
+  recipe["num_frames"] = 15;
+  recipe["objects"][0]["ahead_m"] = {{"type", "uniform"}, {"min", 60}, {"max", 62}};
+  recipe["objects"][1]["ahead_m"] = {{"type", "uniform"}, {"min", 50}, {"max", 55}};
+  return recipe;
+}
+
+TEST_F(Study, WithADetectorRecordsAlarmsAndMetresDriven) {
+  const auto file = WriteStudy(Path(""), RecipeForADetector(4));
+  WriteFileWhole(file, R"({"version": 1, "recipe": "recipe.json", "detector": {"type": "clusters"},
+                           "detection": {"frames": 2, "of_frames": 3}})");
+  const StudyResult all = RunStudyIn(file, {.directory = Path("one"), .num_threads = 1});
+  ASSERT_TRUE(all.is_complete());
+  std::size_t num_detected = 0;
+  std::size_t num_beside = 0;
+  for (const ApproachRecord& approach : all.approaches) {
+    ASSERT_TRUE(approach.alarms);
+    EXPECT_NEAR(approach.alarms->driven_m, 14 * 2.0, 1e-6);
+    EXPECT_TRUE(approach.alarms->alarms.empty());
+    for (const std::string& name : approach.alarms->beside) EXPECT_EQ(TargetOf(name), "worker");
+    num_beside += approach.alarms->beside.size();
+    ASSERT_EQ(approach.objects.size(), 1U);
+    EXPECT_EQ(approach.objects[0].Target(), "person");
+    num_detected += approach.objects[0].is_detected ? 1U : 0U;
+  }
+  EXPECT_GT(num_detected, 0U);
+  EXPECT_GT(num_beside, 0U);
+  (void)RunStudyIn(file, {.directory = Path("three"), .num_threads = 3});
+  EXPECT_EQ(Lines("three"), Lines("one"));
+}
+
 TEST_F(Study, GoesOnWhereItWasStopped) {
   const auto file = Write(5);
   (void)RunStudyIn(file, {.directory = Path("whole"), .num_threads = 1});
@@ -174,11 +207,14 @@ TEST_F(Study, IsNotMixedWithAnother) {
 TEST_F(Study, OfAFaultyFileNamesEachFault) {
   const auto file = Write(1);
   WriteFileWhole(file, R"({"version": 1, "recipe": "none.json", "detection": {"frames": 4,
-                           "of_frames": 3}, "braking": {"deceleration_mps2": 0}, "what": 1})");
+                           "of_frames": 3}, "braking": {"deceleration_mps2": 0}, "what": 1,
+                           "detector": {"type": "net"}, "gauge": {"width_m": 0}})");
   const std::string message = MessageOf([&] { (void)ReadStudy(file); });
   for (const char* const line :
        {"/recipe: ", "/detection/of_frames: must be >= frames (got 3)",
-        "/braking/deceleration_mps2: must be >= 0.01 and <= 10 (got 0)", "/what: "}) {
+        "/braking/deceleration_mps2: must be >= 0.01 and <= 10 (got 0)",
+        "/what: ", "/detector/type: must be \"clusters\" (got \"net\")",
+        "/gauge/width_m: must be >= 0.1 and <= 10 (got 0)", "/gauge/height_m: missing"}) {
     EXPECT_NE(message.find(line), std::string::npos) << message;
   }
 }
