@@ -47,7 +47,7 @@ Report MakeDossier(const FinishedStudy& study,
                      ScopeSection(study, sample),
                      ModelErrorSection(error),
                      SensorSection(sample),
-                     LimitsSection(sample),
+                     LimitsSection(sample, study.spec.detector.has_value()),
                      FactorsSection(WeighFactors(observations, factors), observations.size()),
                      ConditionsSection(observations, factors),
                      YardsticksSection(),
@@ -57,6 +57,10 @@ Report MakeDossier(const FinishedStudy& study,
   Section placement = PlacementSection(observations, factors, study.recipe);
   if (!placement.tables.empty()) {
     report.sections.insert(report.sections.begin() + 1, std::move(placement));
+  }
+  if (study.spec.detector) {
+    report.sections.insert(report.sections.begin() + 1,
+                           StudyAlarmsSection(study.spec, study.result.approaches));
   }
   return report;
 }

@@ -12,7 +12,7 @@ namespace railcast {
 extern const char* const kLimits;
 extern const char* const kCredibility;
 
-Section LimitsSection(const std::vector<ScenarioSpec>& sample) {
+Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector) {
   std::set<std::string> rungs;
   for (const ScenarioSpec& scenario : sample) rungs.emplace(NameOf(scenario.fidelity));
   Table table;
@@ -25,7 +25,7 @@ Section LimitsSection(const std::vector<ScenarioSpec>& sample) {
   for (const Json& row : Json::parse(kLimits)) {
     const bool is_due = std::ranges::any_of(
         row.at("rungs"), [&](const Json& rung) { return rungs.contains(rung.get<std::string>()); });
-    if (!is_due) continue;
+    if (!is_due || (has_detector && row.value("without_detector", false))) continue;
     table.rows.push_back({row.at("real").get<std::string>(), row.at("model").get<std::string>(),
                           row.at("errs").get<std::string>()});
   }

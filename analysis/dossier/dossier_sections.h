@@ -21,7 +21,8 @@ namespace railcast {
 [[nodiscard]] Section SensorSection(const std::vector<ScenarioSpec>& sample);
 
 /// What the sample's rungs do not model, and which way that errs.
-[[nodiscard]] Section LimitsSection(const std::vector<ScenarioSpec>& sample);
+/// @param has_detector Whether the study has one; otherwise points on objects are counted.
+[[nodiscard]] Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector);
 
 /// The questions that rules on simulations ask, with their answers or as open.
 [[nodiscard]] Section CredibilitySection();

@@ -21,6 +21,7 @@ std::vector<std::uint32_t> Thinned(const std::vector<std::uint32_t>& frames) {
 }
 
 RunCourses CoursesOn(Fidelity fidelity,
+                     const StudySpec& study,
                      ScenarioSpec scenario,
                      const std::vector<std::uint32_t>& frames,
                      int num_threads) {
@@ -31,7 +32,7 @@ RunCourses CoursesOn(Fidelity fidelity,
     scenario.fidelity = fidelity;
     scenario.effects = {};
   }
-  return ApproachScanner(num_threads)
+  return ApproachScanner(num_threads, {}, study.gauge)
       .Follow(scenario, frames, kNever, [] { return false; })
       .value();
 }
@@ -42,7 +43,7 @@ void AddCompared(const RunCourses& courses, const RunCourses& reference, ModelEr
     const std::span<const Sighting> approach = ApproachIn(course.sightings);
     if (!std::ranges::any_of(approach, &Sighting::is_in_way) || !IsApproached(approach)) continue;
     const std::vector<Sighting>& expected = reference.objects.at(name).sightings;
-    ComparedApproach compared{.target = StudiedObject{.name = name}.Target(),
+    ComparedApproach compared{.target = TargetOf(name),
                               .approach = {.object = name, .instance = 0, .points = {}}};
     for (std::size_t i = 0; i < approach.size(); ++i) {
       compared.approach.points.push_back({.distance_m = approach[i].distance_m,
@@ -61,14 +62,15 @@ ModelError MeasureModelError(const FinishedStudy& study,
                              const std::function<void(double done)>& on_progress) {
   const std::vector<std::uint32_t> frames = Thinned(study.frames);
   ModelError error;
-  error.min_points = study.spec.detect.rule.min_points;
+  const StudySpec& spec = study.spec;
+  error.min_points = spec.detector ? spec.detector->min_points : spec.detect.rule.min_points;
   std::set<Fidelity> rungs;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     on_progress(static_cast<double>(i) / static_cast<double>(sample.size()));
     const ScenarioSpec& scenario = sample[i];
     rungs.insert(scenario.fidelity);
-    AddCompared(CoursesOn(scenario.fidelity, scenario, frames, num_threads),
-                CoursesOn(Fidelity::kReference, scenario, frames, num_threads), error);
+    AddCompared(CoursesOn(scenario.fidelity, study.spec, scenario, frames, num_threads),
+                CoursesOn(Fidelity::kReference, study.spec, scenario, frames, num_threads), error);
   }
   if (rungs.size() == 1) error.rung = NameOf(*rungs.begin());
   return error;

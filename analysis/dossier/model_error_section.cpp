@@ -111,7 +111,8 @@ Table DistancesTable(const ModelError& error) {
   table.key = "model_distances";
   table.title = "Distances from which on the points suffice, against the reference";
   table.note =
-      "The study's number of points, interpolated between frames. Positive: the study detects from "
+      "The number of points that the study's rule or detector asks for, interpolated between "
+      "frames. Positive: the study detects from "
       "farther away than the reference. Left out are approaches that begin with enough points, and "
       "those that never have them on one of the rungs.";
   table.is_open = true;

@@ -145,10 +145,14 @@ TEST_F(DossierOfAStudy, TakesAPresetForValidatedOnlyAsItWasCompared) {
 }
 
 TEST_F(DossierOfAStudy, ListsTheLimitsOfItsRungAlone) {
-  const Table table = LimitsSection(ReadSample(*study_)).tables.at(0);
+  const Table table = LimitsSection(ReadSample(*study_), false).tables.at(0);
   EXPECT_NO_THROW(RowOf(table, 0, "A beam has a width"));
   EXPECT_NO_THROW(RowOf(table, 0, "Glass lets light through"));
   EXPECT_THROW(RowOf(table, 0, "Rain and snow weaken echoes"), std::runtime_error);
+  const std::string points = "A detector must tell obstacles from track and clutter";
+  EXPECT_NO_THROW(RowOf(table, 0, points));
+  EXPECT_THROW(RowOf(LimitsSection(ReadSample(*study_), true).tables.at(0), 0, points),
+               std::runtime_error);
 }
 
 TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
