@@ -146,7 +146,7 @@ std::string FalseAlarmText(const DetectionRule& rule) {
          "gauge in " +
          NumberText(rule.min_frames) + " of " + NumberText(rule.of_frames) +
          " frames that are of no object in the way. A box is of an object if half of the smaller "
-         "of both lies in the other, after " +
+         "of the two lies in the other, after " +
          NumberText(kBoxSlack_m) +
          " m have been added to each face of the true one. Boxes of an object that never reaches "
          "into the gauge are false alarms at that object.";

@@ -122,8 +122,9 @@ Table TargetTable(const std::vector<ApproachRecord>& approaches) {
   for (const auto& [target, by_condition] : groups) {
     for (const auto& [condition, group] : by_condition) {
       if (!telling.contains(condition)) continue;
+      const bool is_in_way = group.is_in_way;  // A lambda cannot capture a structured binding.
       const auto known = [&](std::uint64_t num) {
-        return group.is_in_way ? Cell(num) : Cell(std::string());
+        return is_in_way ? Cell(num) : Cell(std::string());
       };
       table.rows.push_back(
           {target, condition, group.approaches.num, known(group.num_detected),
