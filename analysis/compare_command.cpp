@@ -63,7 +63,8 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
   FramePairs pairs(*a, *b, options.pairing);
   const ProgressLine progress;
   const std::size_t num_frames = a->info().num_frames.value_or(0);  // 0 if not known.
-  CompareAll(pairs, comparison, [&](std::uint64_t num) {
+  PatchPairs patches;
+  CompareAll(pairs, comparison, patches, [&](std::uint64_t num) {
     const auto num_done = static_cast<double>(num + pairs.num_alone_a());
     if (num_frames > 0) progress.Show("pairs", num_done / static_cast<double>(num_frames));
   });
@@ -74,6 +75,9 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
                      "; see --pair (got none)");
   }
   Report report = MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line);
+  const ToldApart told = TellApart(patches);
+  report.headlines.push_back({"Told apart, AUC", "", told.area});
+  report.sections.push_back(MakeToldApartSection(patches, told));
   AddProvenance({a->info(), b->info()}, ProgramVersion(), report);
   EmitReport(report, options.output, "compare");
   return kExitSuccess;

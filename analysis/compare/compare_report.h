@@ -6,6 +6,7 @@
 
 #include "analysis/compare/ablation.h"
 #include "analysis/compare/comparison.h"
+#include "analysis/compare/told_apart.h"
 #include "analysis/report/report.h"
 #include "railcast/io/recording.h"
 
@@ -17,6 +18,9 @@ namespace railcast {
                                        const RecordingInfo& a,
                                        const RecordingInfo& b,
                                        const std::string& command);
+
+/// Defined in told_apart_report.cpp.
+[[nodiscard]] Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told);
 
 /// Defined in ablation_report.cpp.
 /// @param facts Describe the scenario.

@@ -207,8 +207,15 @@ void Comparison::Add(const Part& part) {
   stride_ *= 2;
 }
 
-void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress) {
+void CompareAll(FramePairs& pairs,
+                Comparison& comparison,
+                PatchPairs& patches,
+                const ComparisonProgress& on_progress) {
   using SharedPair = std::shared_ptr<FramePair>;
+  struct Compared {
+    Comparison::Part part;
+    PatchPairs::Pair patches;
+  };
   // Enough pairs in flight to keep all cores busy; more would only take memory.
   const auto max_pairs = 2 * static_cast<std::size_t>(tbb::info::default_concurrency());
   const auto read = tbb::make_filter<void, SharedPair>(
@@ -218,13 +225,15 @@ void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgr
         control.stop();
         return {};
       });
-  const auto compare = tbb::make_filter<SharedPair, std::shared_ptr<Comparison::Part>>(
+  const auto compare = tbb::make_filter<SharedPair, std::shared_ptr<Compared>>(
       tbb::filter_mode::parallel, [&](const SharedPair& pair) {
-        return std::make_shared<Comparison::Part>(comparison.Compare(pair->a, pair->b));
+        return std::make_shared<Compared>(Compared{comparison.Compare(pair->a, pair->b),
+                                                   {PatchesOf(pair->a), PatchesOf(pair->b)}});
       });
-  const auto add = tbb::make_filter<std::shared_ptr<Comparison::Part>, void>(
-      tbb::filter_mode::serial_in_order, [&](const std::shared_ptr<Comparison::Part>& part) {
-        comparison.Add(*part);
+  const auto add = tbb::make_filter<std::shared_ptr<Compared>, void>(
+      tbb::filter_mode::serial_in_order, [&](const std::shared_ptr<Compared>& compared) {
+        comparison.Add(compared->part);
+        patches.Add(std::move(compared->patches));
         on_progress(comparison.num_pairs());
       });
   tbb::parallel_pipeline(max_pairs, read & compare & add);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/compare/cloud_figures.h"
+#include "analysis/compare/told_apart.h"
 #include "analysis/estimate/streams.h"
 #include "railcast/io/recording.h"
 
@@ -131,7 +132,11 @@ class Comparison {
 using ComparisonProgress = std::function<void(std::uint64_t num_pairs)>;
 
 /// Compares all pairs, several at a time; the figures do not depend on the number of threads.
+/// @param patches Also of all pairs.
 /// @throws InputError as the recordings do.
-void CompareAll(FramePairs& pairs, Comparison& comparison, const ComparisonProgress& on_progress);
+void CompareAll(FramePairs& pairs,
+                Comparison& comparison,
+                PatchPairs& patches,
+                const ComparisonProgress& on_progress);
 
 }  // namespace railcast

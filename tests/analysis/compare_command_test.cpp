@@ -70,5 +70,25 @@ TEST(RailcastAnalyzeCompare, StudiesEffects) {
   EXPECT_EQ(rows[1]["points_added"], 0);
 }
 
+// Two draws of one scene: whatever differs is chance, the yardstick of docs/compare.md.
+TEST(RailcastAnalyzeCompare, CannotTellTwoSeedsOfASceneApart) {
+  const TemporaryDirectory directory;
+  const auto run = [&](const std::string& seed) {
+    const auto out = directory.path() / seed;
+    const Ended made =
+        RunCommand(RAILCAST_GENERATE " sequence " + (ScenariosDir() / "open_line.json").string() +
+                   " --out " + out.string() + " --frames 10 --stride 20 --seed " + seed);
+    EXPECT_EQ(made.status, 0) << made.said;
+    return out.string();
+  };
+  const std::string a = run("1"), b = run("2");
+  const Ended compared = Compare(a + " " + b + " --out " + a + "_out");
+  ASSERT_EQ(compared.status, 0) << compared.said;
+  const Json area = Json::parse(ReadFileWhole(a + "_out/compare.json"))["headlines"].back();
+  ASSERT_EQ(area["title"], "Told apart, AUC");
+  EXPECT_LT(area["value"]["low"], 0.5);
+  EXPECT_GT(area["value"]["high"], 0.5);
+}
+
 }  // namespace
 }  // namespace railcast

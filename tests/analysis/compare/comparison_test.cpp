@@ -101,7 +101,8 @@ std::string ComparisonReportOf(std::vector<RecordedFrame> frames_a,
   HeldRecording a(std::move(frames_a)), b(std::move(frames_b));
   FramePairs pairs(a, b, std::nullopt);
   Comparison comparison({0.1});
-  CompareAll(pairs, comparison, [](std::uint64_t) {});
+  PatchPairs patches;
+  CompareAll(pairs, comparison, patches, [](std::uint64_t) {});
   const Report report = MakeCompareReport(comparison, pairs, a.info(), b.info(), "compare");
   for (const Section& section : report.sections) {
     for (const Table& table : section.tables) {
