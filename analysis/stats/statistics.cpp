@@ -64,6 +64,7 @@ void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   coverage.Add(recorded, scan);
   classes.Add(recorded);
   objects.Add(recorded);
+  difficulty.Add(recorded, scan);
   velocity.Add(recorded);
 }
 
@@ -77,6 +78,7 @@ void Statistics::Add(const Statistics& other) {
   coverage.Add(other.coverage);
   classes.Add(other.classes);
   objects.Add(other.objects);
+  difficulty.Add(other.difficulty);
   velocity.Add(other.velocity);
 }
 

@@ -10,6 +10,7 @@
 #include "analysis/stats/class_balance.h"
 #include "analysis/stats/coverage.h"
 #include "analysis/stats/density.h"
+#include "analysis/stats/difficulty.h"
 #include "analysis/stats/dropout.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/intensity.h"
@@ -34,6 +35,7 @@ struct Statistics {
   Coverage coverage;
   ClassBalance classes;
   ObjectPoints objects;
+  Difficulty difficulty;
   Velocity velocity;
 
   /// Adds everything except temporal noise, which needs two frames.

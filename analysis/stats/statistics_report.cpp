@@ -10,6 +10,7 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/bins.h"
+#include "analysis/stats/osdar_balance.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -151,6 +152,11 @@ Report MakeStatisticsReport(const Statistics& statistics,
     report.sections.push_back(statistics.density.MakeSection(names));
   }
   if (!statistics.objects.is_empty()) report.sections.push_back(statistics.objects.MakeSection());
+  if (!statistics.difficulty.is_empty()) {
+    report.sections.push_back(statistics.difficulty.MakeSection());
+    report.sections.push_back(
+        MakeOsdarBalanceSection(statistics.difficulty, sources.front().labels));
+  }
   report.sections.push_back(statistics.noise.MakeSection());
   report.sections.push_back(statistics.temporal_noise.MakeSection());
   if (!statistics.velocity.is_empty()) {
