@@ -50,8 +50,8 @@ std::vector<const EffectStudy*> Sorted(
 Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
   Chart chart = {"changed_beams",
                  "What each effect changes",
-                 "Beams whose position, intensity, range or outcome differ in any bit, and those "
-                 "whose outcome differs.",
+                 "The longest bars are the effects that matter most here: beams whose position, "
+                 "intensity, range or outcome differ in any bit, and those whose outcome differs.",
                  {"", "", false, {}},
                  {"Share of beams", "%", false, {}},
                  {{"anything", SeriesStyle::kBars, {}}, {"outcome", SeriesStyle::kBars, {}}}};
@@ -67,12 +67,14 @@ Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
 }
 
 Chart ReturnsChart(const std::vector<const EffectStudy*>& studies) {
-  Chart chart = {"returns",
-                 "Points that each effect takes away and adds",
-                 "Of all points without the effect.",
-                 {"", "", false, {}},
-                 {"Points", "%", false, {}},
-                 {{"taken away", SeriesStyle::kBars, {}}, {"added", SeriesStyle::kBars, {}}}};
+  Chart chart = {
+      "returns",
+      "Points that each effect takes away and adds",
+      "The longest bars are the effects that cost or give most points, in percent of those "
+      "without the effect.",
+      {"", "", false, {}},
+      {"Points", "%", false, {}},
+      {{"taken away", SeriesStyle::kBars, {}}, {"added", SeriesStyle::kBars, {}}}};
   for (const EffectStudy* const study : studies) {
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
@@ -151,7 +153,12 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
                  const std::string& key,
                  const std::string& title,
                  std::uint64_t BeamChanges::RangeBin::*num_changed) {
-  Chart chart = {key, title, "", {"Range", "m", true, {}}, {"Share of beams", "%", false, {}}, {}};
+  Chart chart = {key,
+                 title,
+                 "The highest line is the effect that matters most at that range",
+                 {"Range", "m", true, {}},
+                 {"Share of beams", "%", false, {}},
+                 {}};
   const auto sum = [&](const EffectStudy& study) {
     std::uint64_t num = 0;
     for (const BeamChanges::RangeBin& bin : study.beams.range_bins) num += bin.*num_changed;
@@ -168,7 +175,8 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
     }
     chart.series.push_back(std::move(series));
   }
-  if (chart.series.size() == kMaxLines) chart.caption = "The seven effects that change most beams.";
+  chart.caption +=
+      chart.series.size() == kMaxLines ? ", of the seven effects that change most beams." : ".";
   return chart;
 }
 
@@ -259,12 +267,14 @@ Chart CloudChart(const std::vector<EffectStudy>& studies,
                  const std::string& metric,
                  const std::string& title,
                  const std::string& unit) {
-  Chart chart = {metric,
-                 title,
-                 "",
-                 {"", "", false, {}},
-                 {title, unit, false, {}},
-                 {{"", SeriesStyle::kBars, {}}}};
+  Chart chart = {
+      metric,
+      title,
+      "The longest bar is the effect that changes the cloud most; effects in the order of "
+      "the beams that they change.",
+      {"", "", false, {}},
+      {title, unit, false, {}},
+      {{"", SeriesStyle::kBars, {}}}};
   for (const EffectStudy* const study : Sorted(studies, NumChanged)) {
     const Cell mean = MeanOverPairs(study->clouds, metric);
     const auto x = static_cast<double>(chart.x.categories.size());

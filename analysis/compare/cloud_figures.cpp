@@ -9,12 +9,11 @@
 namespace railcast {
 namespace {
 
-constexpr double kBinsAnOctave = 8.0;
 constexpr double kLeastIntensity = 0.001;
 
 std::int64_t BinOfIntensity(double intensity) {
   return static_cast<std::int64_t>(
-      std::floor(kBinsAnOctave * std::log2(std::max(intensity, kLeastIntensity))));
+      std::floor(kIntensityBinsAnOctave * std::log2(std::max(intensity, kLeastIntensity))));
 }
 
 // One term of an entropy in bits: -p log2 p.
@@ -150,6 +149,19 @@ void Histogram::Add(const Histogram& other) {
   num_ += other.num_;
 }
 
+Histogram Histogram::Lowered(std::int64_t num_bins, std::int64_t least) const {
+  Histogram lowered;
+  lowered.num_ = num_;
+  for (const auto& [bin, count] : counts_) {
+    const std::int64_t to = std::max(bin - num_bins, least);
+    if (lowered.counts_.empty() || lowered.counts_.back().first != to) {
+      lowered.counts_.emplace_back(to, 0);
+    }
+    lowered.counts_.back().second += count;
+  }
+  return lowered;
+}
+
 double JensenShannonDivergence(const Histogram& a, const Histogram& b) {
   if (a.num() == 0 || b.num() == 0) return std::numeric_limits<double>::quiet_NaN();
   const auto num_a = static_cast<double>(a.num());
@@ -194,8 +206,12 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
           Histogram(std::move(velocities)), Histogram(std::move(cells))};
 }
 
+Histogram Darkened(const Histogram& intensities, std::int64_t num_bins) {
+  return intensities.Lowered(num_bins, BinOfIntensity(0.0));
+}
+
 double IntensityOfBin(std::int64_t bin) {
-  return std::exp2((static_cast<double>(bin) + 0.5) / kBinsAnOctave);
+  return std::exp2((static_cast<double>(bin) + 0.5) / kIntensityBinsAnOctave);
 }
 
 CloudDistances DistancesOf(const NearestPoints& a_in_b,

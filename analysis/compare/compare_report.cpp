@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/compare/intensity_factor.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
@@ -89,8 +90,8 @@ Chart FScoreChart(const Comparison& comparison) {
   Chart chart = {
       "f_score",
       "How much of each cloud the other has",
-      "Precision: points of B with one of A within the distance; recall: of A with one of "
-      "B. Means over pairs.",
+      "The sooner a line comes near 1, the closer the clouds: precision is the share of B's points "
+      "with one of A within the distance, recall that of A's with one of B; means over pairs.",
       {"Distance", "m", true, {}},
       {"Share", "", false, {}},
       {}};
@@ -115,14 +116,16 @@ Section DistancesSection(const Comparison& comparison) {
   section.key = "distances";
   section.title = "How far the clouds are apart";
   section.paragraphs = MetricsInWords();
-  section.charts.push_back({"distances_by_pair",
-                            "Distances from pair to pair",
-                            "",
-                            {"Pair", "", false, {}},
-                            {"Distance", "m", true, {}},
-                            {OverPairs(comparison, "chamfer_m", "Chamfer"),
-                             OverPairs(comparison, "hausdorff95_m", "Hausdorff, 95 %"),
-                             OverPairs(comparison, "hausdorff_m", "Hausdorff")}});
+  section.charts.push_back(
+      {"distances_by_pair",
+       "Distances from pair to pair",
+       "A level line is a drive along which the clouds stay equally far apart; "
+       "a peak is a pair to look at.",
+       {"Pair", "", false, {}},
+       {"Distance", "m", true, {}},
+       {OverPairs(comparison, "chamfer_m", "Chamfer"),
+        OverPairs(comparison, "hausdorff95_m", "Hausdorff, 95 %"),
+        OverPairs(comparison, "hausdorff_m", "Hausdorff")}});
   section.charts.push_back(FScoreChart(comparison));
   section.tables = {MetricsTable(comparison), PairsTable(comparison)};
   return section;
@@ -165,35 +168,40 @@ Section DistributionsSection(const Comparison& comparison) {
       "Shares of all points of all pairs. The divergences in the table of metrics compare these "
       "distributions: 0 bit is the same, 1 bit has nothing in common."};
   const ChartAxis share = {"Share of points", "%", false, {}};
-  section.charts.push_back({"ranges",
-                            "Ranges",
-                            "Bins of 1 m.",
-                            {"Range", "m", false, {}},
-                            share,
-                            {Shares(a.range, "A", SeriesStyle::kLine, MiddleOfMetre),
-                             Shares(b.range, "B", SeriesStyle::kLine, MiddleOfMetre)}});
-  section.charts.push_back({"intensities",
-                            "Intensities",
-                            "Bins of an eighth octave; what is 0.001 or less is in the first.",
-                            {"Intensity", "", true, {}},
-                            share,
-                            {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
-                             Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
-  section.charts.push_back({"rings",
-                            "Rings",
-                            "Ring 0 looks lowest.",
-                            {"Ring", "", false, {}},
-                            share,
-                            {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
-                             Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
+  section.charts.push_back(
+      {"ranges",
+       "Ranges",
+       "Where the lines part, one cloud has more of its points at that range; bins of 1 m.",
+       {"Range", "m", false, {}},
+       share,
+       {Shares(a.range, "A", SeriesStyle::kLine, MiddleOfMetre),
+        Shares(b.range, "B", SeriesStyle::kLine, MiddleOfMetre)}});
+  section.charts.push_back(
+      {"intensities",
+       "Intensities",
+       "Lines of one shape beside each other differ by a scale; bins of an eighth octave, what is "
+       "0.001 or less in the first.",
+       {"Intensity", "", true, {}},
+       share,
+       {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
+        Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
+  section.charts.push_back(
+      {"rings",
+       "Rings",
+       "Where the lines part, one cloud has more of its points on that ring; ring 0 looks lowest.",
+       {"Ring", "", false, {}},
+       share,
+       {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
+        Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
   if (HasVelocities(comparison)) {
-    section.charts.push_back({"velocities",
-                              "Velocities along the beams",
-                              "Bins of 1 m/s.",
-                              {"Velocity", "m/s", false, {}},
-                              share,
-                              {Shares(a.velocity, "A", SeriesStyle::kLine, MiddleOfMetre),
-                               Shares(b.velocity, "B", SeriesStyle::kLine, MiddleOfMetre)}});
+    section.charts.push_back(
+        {"velocities",
+         "Velocities along the beams",
+         "Where the lines part, one cloud has more of its points at that velocity; bins of 1 m/s.",
+         {"Velocity", "m/s", false, {}},
+         share,
+         {Shares(a.velocity, "A", SeriesStyle::kLine, MiddleOfMetre),
+          Shares(b.velocity, "B", SeriesStyle::kLine, MiddleOfMetre)}});
   }
   return section;
 }
@@ -225,7 +233,7 @@ constexpr BinColumn kVelocityColumns[] = {
 Chart BinChart(const Table& table, const BinColumn& a, const BinColumn& b, const ChartAxis& y) {
   return {std::string(a.key).substr(0, std::string_view(a.key).find('_')) + "_by_range",
           y.title,
-          "",
+          "Where the lines part, the recordings differ at that range by more than their bands.",
           {"Range", "m", true, {}},
           y,
           {SeriesOf(table, {"range_m", a.key}, "A"), SeriesOf(table, {"range_m", b.key}, "B")}};
@@ -338,13 +346,20 @@ Report MakeCompareReport(const Comparison& comparison,
                   {"Without a partner", Joined({std::to_string(pairs.num_alone_a()), " of A, ",
                                                 std::to_string(pairs.num_alone_b()), " of B"})}};
   for (const char* const key :
-       {"chamfer_m", "hausdorff95_m", "density_aware_chamfer", "jsd_range", "jsd_intensity",
-        "jsd_occupancy", "mape_points_percent", "mape_intensity_percent"}) {
+       {"density_aware_chamfer", "mape_points_percent", "chamfer_m", "hausdorff95_m", "jsd_range",
+        "jsd_intensity", "jsd_occupancy", "mape_intensity_percent"}) {
     const PairMetric& metric = comparison.metrics()[IndexOf(comparison, key)];
     report.headlines.push_back({metric.title, metric.unit, MeanOverPairs(comparison, key)});
   }
   report.sections = {DistancesSection(comparison), DistributionsSection(comparison),
                      BinsSection(comparison)};
+  const auto factor =
+      IntensityFactorOf(comparison.histograms_a().intensity, comparison.histograms_b().intensity);
+  if (factor) {
+    report.headlines.insert(report.headlines.begin() + 2,
+                            {"Scale of B's intensities against A's", "", factor->b_over_a});
+    report.sections[1].paragraphs.insert(report.sections[1].paragraphs.begin(), InWords(*factor));
+  }
   return report;
 }
 

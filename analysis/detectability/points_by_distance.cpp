@@ -91,7 +91,7 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   chart.title = "Points on " + verdict.name + " against distance";
   chart.caption =
       std::string(
-          "Means of 10 m, with intervals where there are ten frames or more; a gap is a bin "
+          "Means of 10 m, with intervals where there are ten frames or more; a cross is a bin "
           "without points. ") +
       (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
                          : "Beside the track: nothing to brake for.");
@@ -100,10 +100,16 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
   ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
   double highest = rule.min_points;
   double farthest_m = verdict.is_in_way ? verdict.most_needed_m : 0.0;
+  std::uint32_t next_index = 0;
   for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
     const double mean = bin.points.PlainMean();
     const double middle_m = kDistanceBin_m * (index + 0.5);
     farthest_m = std::max(farthest_m, middle_m);
+    // Bins that no frame falls into are gaps, too.
+    for (; next_index < index && !points.points.empty(); ++next_index) {
+      points.points.push_back({.x = kDistanceBin_m * (next_index + 0.5)});
+    }
+    next_index = index + 1;
     if (!(mean > 0.0)) {
       points.points.push_back({.x = middle_m});
       continue;

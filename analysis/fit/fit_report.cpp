@@ -76,30 +76,37 @@ Table ParameterTable(const FitReportInput& input, const FitResult& result) {
   return table;
 }
 
+// All reports give noise and bias in mm; the table has the units of the scenario's keys.
+constexpr double kMillimetres = 1e3;
+
 Chart NoiseChart(const FitResult& result) {
-  Chart chart{"noise",
-              "Noise against range",
-              "Each point: robust scale of as many residuals.",
-              {"Range", "m", false, {}},
-              {"Standard deviation", "m", false, {}},
-              {}};
+  Chart chart{
+      "noise",
+      "Noise against range",
+      "The model fits where the line runs through the points, each a robust scale of as many "
+      "residuals.",
+      {"Range", "m", false, {}},
+      {"Standard deviation", "mm", false, {}},
+      {}};
   ChartSeries measured{"measured", SeriesStyle::kPoints, {}};
   ChartSeries fitted{"fitted", SeriesStyle::kLine, {}};
   for (const NoiseBin& bin : result.noise_by_range) {
-    measured.points.push_back(PointAt(bin.range_m, bin.sigma_m));
-    fitted.points.push_back({bin.range_m, bin.fitted_m});
+    measured.points.push_back(PointAt(bin.range_m, Scaled(bin.sigma_m, kMillimetres)));
+    fitted.points.push_back({bin.range_m, kMillimetres * bin.fitted_m});
   }
   chart.series = {measured, fitted};
   return chart;
 }
 
 Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
-  Chart chart{"losses",
-              "Losses within surfaces against range",
-              "Share of the firings between two points of one surface that have none.",
-              {"Range", "m", false, {}},
-              {"Share lost", "", false, {}},
-              {}};
+  Chart chart{
+      "losses",
+      "Losses within surfaces against range",
+      "The model fits where the line runs through the points: the share of the firings between two "
+      "points of one surface that have none.",
+      {"Range", "m", false, {}},
+      {"Share lost", "", false, {}},
+      {}};
   std::vector<LossBin> sums(RangeBins().size());
   for (const auto& [metre, bin] : trials.losses) {
     const auto place = RangeBins().Find(bin.range_m());
@@ -122,13 +129,13 @@ Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
 Chart BiasChart(const FitResult& result) {
   Chart chart{"channel_bias",
               "Range errors of the channels",
-              "Medians of their residuals.",
+              "A channel away from 0 measures too far or too near: medians of the residuals.",
               {"Channel", "", false, {}},
-              {"Bias", "m", false, {}},
+              {"Bias", "mm", false, {}},
               {}};
   ChartSeries series{"bias", SeriesStyle::kPoints, {}};
   for (const ChannelBias& bias : result.channels) {
-    series.points.push_back(PointAt(bias.channel, bias.bias_m));
+    series.points.push_back(PointAt(bias.channel, Scaled(bias.bias_m, kMillimetres)));
   }
   chart.series.push_back(series);
   return chart;

@@ -55,7 +55,7 @@ Table DetectionTable(const std::vector<RowResult>& results) {
                      "frame has them already; 0 where no frame has them.",
                  {{"row", "Row", ""},
                   {"object", "Object", ""},
-                  {"reference_m", "Reference", "m"},
+                  {"reference_m", "Distance in the reference", "m"},
                   {"distance_m", "Distance", "m"},
                   {"most_points", "Most points of the reference", ""}},
                  {}};
@@ -81,12 +81,14 @@ Chart ErrorByRangeChart(const std::vector<RowResult>& results,
                         const Table& by_range,
                         const std::string& column,
                         const std::string& title) {
-  Chart chart{column + "_by_range",
-              title + " by range",
-              "Bands and bars are intervals of 95 %, which take echoes as independent.",
-              {"Range", "m", false, {}},
-              {title, "%", false, {}},
-              {}};
+  Chart chart{
+      column + "_by_range",
+      title + " by range",
+      "The lowest line is the best row at that range; bands and bars are intervals of 95 %, which "
+      "take echoes as independent.",
+      {"Range", "m", false, {}},
+      {title, "%", false, {}},
+      {}};
   for (const RowResult& result : results) {
     const RowGroup group = result.row.group;
     if (!result.difference || (group != RowGroup::kLadder && group != RowGroup::kChosen)) continue;

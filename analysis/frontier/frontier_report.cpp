@@ -21,8 +21,7 @@ Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
   Table table = {"time_and_errors",
                  "Time and errors",
                  "Time of a frame, and as a multiple of the raw trace's. Errors are against the "
-                 "reference; less is better. Rows with +auto_detail have none, since their echoes "
-                 "cannot be matched: see the section on scene detail.",
+                 "reference; less is better.",
                  {{"row", "Row", ""},
                   {"group", "Group", ""},
                   {"p50_ms", "Time p50", "ms"},
@@ -146,15 +145,19 @@ ChartSeries GroupSeries(const Table& errors,
 
 Chart ErrorChart(const Table& errors, const FrontierError& error) {
   const std::string key = error.shown_name;
-  return {key,
-          Joined({error.title, " against time"}),
-          "",
-          {"Time per frame / raw trace", "", true, {}},
-          {error.title, error.unit, false, {}},
-          {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
-           GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
-           GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
-           GroupSeries(errors, key, RowGroup::kChosen, "fidelity auto")}};
+  Chart chart = {
+      key,
+      Joined({error.title, " against time"}),
+      "Left and low is best: a row is worth its time where none lies both left of it and below.",
+      {"Time per frame / raw trace", "", true, {}},
+      {error.title, error.unit, false, {}},
+      {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
+       GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
+       GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
+       GroupSeries(errors, key, RowGroup::kChosen, "fidelity auto")}};
+  // Only rows that were run stand in the legend.
+  std::erase_if(chart.series, [](const ChartSeries& series) { return series.points.empty(); });
+  return chart;
 }
 
 Section TimeSection(const std::vector<RowResult>& results) {
@@ -177,9 +180,13 @@ Section ChoiceSection(const std::string& choice_text) {
 }
 
 std::string TitleOfRow(const FrontierPlan& plan, const std::string& scenario) {
-  return scenario + ": " + std::to_string(plan.frames.size()) + " frames, " +
-         (plan.num_threads == 0 ? "all" : std::to_string(plan.num_threads)) +
-         " thread(s), errors against " + std::to_string(plan.yardstick_rays) + " sub-rays a beam";
+  const auto counted = [](std::size_t num, const std::string& what) {
+    return std::to_string(num) + " " + what + (num == 1 ? "" : "s");
+  };
+  return scenario + ": " + counted(plan.frames.size(), "frame") + ", " +
+         (plan.num_threads == 0 ? "all threads"
+                                : counted(static_cast<std::size_t>(plan.num_threads), "thread")) +
+         ", errors against " + std::to_string(plan.yardstick_rays) + " sub-rays a beam";
 }
 
 }  // namespace

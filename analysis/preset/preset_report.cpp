@@ -103,7 +103,7 @@ Section MakePlanesSection(const PresetComparison& comparison) {
     const bool is_share = name == "holes";
     section.charts.push_back({"preset_" + name,
                               title,
-                              "",
+                              "The preset is right where its line lies on the recording's.",
                               {"Range", "m"},
                               {what, is_share ? "" : "mm"},
                               {SeriesOf(table, {"range_m", "recorded_" + name}, "recorded"),

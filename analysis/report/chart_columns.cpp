@@ -52,7 +52,9 @@ ChartSeries SeriesOf(const Table& table,
     const bool is_measured = std::holds_alternative<double>(row[x_index]);
     if (is_measured && std::isnan(point.y)) continue;
     if (const auto* const bin = std::get_if<Span>(&row[x_index])) {
-      if (last_end && bin->low > *last_end) series.points.push_back({bin->low});
+      if (last_end && bin->low > *last_end) {
+        series.points.push_back({0.5 * (*last_end + bin->low)});
+      }
       last_end = bin->high;
     }
     if (!columns.label.empty())

@@ -120,15 +120,14 @@ class LabelPlacer {
 std::string LabelsText(const Drawing& drawing) {
   LabelPlacer placer(drawing);
   std::string text;
-  for (std::size_t i = 0; i < drawing.chart.series.size(); ++i) {
-    for (const ChartPoint& point : drawing.chart.series[i].points) {
+  for (const ChartSeries& series : drawing.chart.series) {
+    for (const ChartPoint& point : series.points) {
       const auto place = placer.PlaceOf(point);
       if (point.label.empty() || !place) continue;
       const auto [side, up_lines] = placer.Put(*place, point.label.size());
       text += "set label " + GnuplotQuoted(point.label) + " at " + GnuplotNumber(point.x) + "," +
               GnuplotNumber(point.y) + (side > 0 ? " left" : " right") + " offset " +
-              GnuplotNumber(kAside_letters * side) + "," + GnuplotNumber(up_lines) +
-              " textcolor rgb '" + kSeriesColors[i % kSeriesColors.size()] + "'\n";
+              GnuplotNumber(kAside_letters * side) + "," + GnuplotNumber(up_lines) + "\n";
     }
   }
   return text;

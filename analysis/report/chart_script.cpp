@@ -109,12 +109,12 @@ struct ChartText {
   int height_px{};
 };
 
-ChartText TextOf(const Chart& chart) {
+ChartText TextOf(const Chart& chart, const SeriesPaints& paints) {
   const std::optional<AxisRange> x = RangeOfX(chart);
   const std::optional<AxisRange> y = RangeOfY(chart);
   const bool is_empty = !x || !y;
-  const Drawing drawing =
-      is_empty ? Drawing{chart, {}, {}} : Drawing{chart, *x, *y, HasLongCategories(chart)};
+  const Drawing drawing = is_empty ? Drawing{chart, paints, {}, {}}
+                                   : Drawing{chart, paints, *x, *y, HasLongCategories(chart)};
   const PlotText plot = PlotOf(drawing);
   return {Joined({"reset\n", plot.data, "set border ", drawing.is_lying ? "2" : "1",
                   " linewidth 1 linecolor rgb '#000000'\n", kLegend,
@@ -142,9 +142,10 @@ std::string GnuplotNumber(double value) {
 }
 
 std::string DrawingOf(const Chart& chart,
+                      const SeriesPaints& paints,
                       const std::filesystem::path& svg,
                       const std::filesystem::path& png) {
-  const ChartText text = TextOf(chart);
+  const ChartText text = TextOf(chart, paints);
   const auto output = [&](int scale, const std::filesystem::path& file) {
     return Joined({" size ", std::to_string(scale * kWidth_px), ",",
                    std::to_string(scale * text.height_px), "\nset output ",
@@ -159,8 +160,9 @@ std::string SheetOf(const std::vector<Chart>& charts, const std::string& title) 
       "# gnuplot -e 'set terminal svg noenhanced size 1200,900' this > picture.svg\nset multiplot "
       "layout " +
       std::to_string((charts.size() + 1) / 2) + ",2 title " + GnuplotQuoted(title) + "\n";
+  const SeriesPaints paints = PaintsOf(charts);
   for (const Chart& chart : charts) {
-    const ChartText text = TextOf(chart);
+    const ChartText text = TextOf(chart, paints);
     script += text.settings + text.plot;
   }
   return script + "unset multiplot\n";

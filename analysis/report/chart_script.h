@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace railcast {
 
-/// Colours of the series in order, repeated after the last; colour-blind safe (Okabe and Ito, Color
+/// Colours of the series, repeated after the last; colour-blind safe (Okabe and Ito, Color
 /// Universal Design, 2008; without the yellow, which is too pale on white).
 inline constexpr std::array<const char*, 7> kSeriesColors = {
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f7f7f"};
@@ -19,22 +20,43 @@ inline constexpr std::array<const char*, 7> kSeriesColors = {
 inline constexpr const char* kGridColor = "#dddddd";
 inline constexpr const char* kMutedColor = "#767676";
 
+/// How the series of a report are painted, by their titles: the number stands for a colour, a type
+/// of point and, from the eighth on, a dash.
+using SeriesPaints = std::map<std::string, std::size_t>;
+
+/// Paints every series of the charts, in all of which a title has one paint. Within a chart no two
+/// titles have the same paint; titles that never meet may share one.
+[[nodiscard]] SeriesPaints PaintsOf(const std::vector<Chart>& charts);
+
 /// gnuplot commands that draw a chart as an SVG without title and background, and as a PNG with
 /// both. A chart without any point says "not enough data".
+/// @param paints Has the titles of the chart's series.
 [[nodiscard]] std::string DrawingOf(const Chart& chart,
+                                    const SeriesPaints& paints,
                                     const std::filesystem::path& svg,
                                     const std::filesystem::path& png);
 
-/// gnuplot commands that draw several charts in two columns under one title, for any terminal.
+/// gnuplot commands that draw several charts in two columns under one title, for any terminal, with
+/// the paints of these charts.
 [[nodiscard]] std::string SheetOf(const std::vector<Chart>& charts, const std::string& title);
 
 /// Layout of one chart.
 struct Drawing {
   const Chart& chart;
+  const SeriesPaints& paints;
   AxisRange x, y;
   /// Categories run down the left side and values to the right, since long names need room.
   bool is_lying = false;
+
+  [[nodiscard]] std::size_t PaintOf(const ChartSeries& series) const {
+    return paints.at(series.title);
+  }
 };
+
+/// The colour of a paint.
+[[nodiscard]] inline const char* PaintColor(std::size_t paint) {
+  return kSeriesColors[paint % kSeriesColors.size()];
+}
 
 /// gnuplot's data blocks of all series, and the command that plots them.
 struct PlotText {

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
 
 namespace railcast {
@@ -11,10 +13,12 @@ constexpr double kBarsShare = 0.8;
 constexpr std::size_t kManyPoints = 60;
 constexpr std::array<int, 7> kPointTypes = {7, 5, 9, 13, 11, 15, 7};
 
+bool IsBars(const ChartSeries& series) {
+  return series.style == SeriesStyle::kBars;
+}
+
 std::size_t CountBars(const Chart& chart) {
-  return static_cast<std::size_t>(
-      std::count_if(chart.series.begin(), chart.series.end(),
-                    [](const ChartSeries& s) { return s.style == SeriesStyle::kBars; }));
+  return static_cast<std::size_t>(std::count_if(chart.series.begin(), chart.series.end(), IsBars));
 }
 
 // Numbers of one data line, in gnuplot's order of axes.
@@ -81,9 +85,9 @@ std::string Whisker(double x, const ChartPoint& point, const Drawing& drawing) {
 SeriesParts BarParts(const ChartSeries& series,
                      std::size_t bar,
                      const std::string& name,
-                     const std::string& color,
                      const Drawing& drawing) {
   SeriesParts parts;
+  const std::string color = PaintColor(drawing.PaintOf(series));
   std::string bars, whiskers;
   const double base = drawing.chart.y.is_log ? drawing.y.low : Clamped(0.0, drawing);
   for (const ChartPoint& point : series.points) {
@@ -145,14 +149,12 @@ CurveText CurveOf(const ChartSeries& series, const Drawing& drawing) {
   return text;
 }
 
-SeriesParts CurveParts(const ChartSeries& series,
-                       std::size_t index,
-                       const std::string& color,
-                       const Drawing& drawing) {
+SeriesParts CurveParts(const ChartSeries& series, std::size_t index, const Drawing& drawing) {
   SeriesParts parts;
   const std::string name = BlockName(index);
   const CurveText curve = CurveOf(series, drawing);
-  const std::string paint = " linecolor rgb '" + color + "'";
+  const std::size_t paint_number = drawing.PaintOf(series);
+  const std::string paint = Joined({" linecolor rgb '", PaintColor(paint_number), "'"});
   if (curve.band.find_first_not_of('\n') != std::string::npos) {
     parts.data += Block(name + "i", curve.band);
     parts.back.push_back("$" + name +
@@ -170,17 +172,70 @@ SeriesParts CurveParts(const ChartSeries& series,
   const std::string size = series.points.size() > kManyPoints ? "0.35"
                            : series.points.size() == 1        ? "1"
                                                               : "0.6";
-  const std::string dots = " pointtype " + std::to_string(kPointTypes[index % kPointTypes.size()]) +
+  const std::string dots = " pointtype " +
+                           std::to_string(kPointTypes[paint_number % kPointTypes.size()]) +
                            " pointsize " + size;
   // Repeated colours get another dash type.
   // The first line is wider, so that its edges show where the next one covers it.
   const std::string line = std::string(index == 0 ? " linewidth 2.8" : " linewidth 1.8") +
-                           " dashtype " + std::to_string(index / kSeriesColors.size() + 1);
+                           " dashtype " + std::to_string(paint_number / kSeriesColors.size() + 1);
   std::string how = " with linespoints" + line + dots;
   if (series.style == SeriesStyle::kLine) how = " with lines" + line;
   if (series.style == SeriesStyle::kPoints) how = " with points" + dots;
   parts.front.push_back("$" + name + "p" + Columns(drawing) + how + paint + TitleOf(series));
   return parts;
+}
+
+// Whether a curve has a figure at x or goes on from one to the next across it.
+bool PassesOver(const ChartSeries& curve, double x) {
+  const ChartPoint* last = nullptr;
+  for (const ChartPoint& point : curve.points) {
+    if (std::isnan(point.y)) {
+      last = nullptr;
+      continue;
+    }
+    const double from = last == nullptr ? point.x : last->x;
+    if (std::min(from, point.x) <= x && x <= std::max(from, point.x)) return true;
+    last = &point;
+  }
+  return false;
+}
+
+// Where a chart has no figure: in the place of a bar, and where no curve of the same style passes.
+// (Of other styles are limits and fits.)
+std::set<double> MissingPlaces(const Chart& chart) {
+  std::set<double> places;
+  std::size_t bar = 0;
+  for (const ChartSeries& series : chart.series) {
+    for (const ChartPoint& point : series.points) {
+      if (!std::isnan(point.y) || !HasPlace(point.x, chart.x.is_log)) continue;
+      const bool is_passed =
+          !IsBars(series) && std::ranges::any_of(chart.series, [&](const ChartSeries& other) {
+            return other.style == series.style && PassesOver(other, point.x);
+          });
+      if (is_passed) continue;
+      const AxisRange place =
+          IsBars(series) ? BarOf(point.x, bar, chart) : AxisRange{point.x, point.x};
+      places.insert(0.5 * (place.low + place.high));
+    }
+    bar += IsBars(series) ? 1 : 0;
+  }
+  return places;
+}
+
+// Crosses on the axis in the places without a figure.
+SeriesParts MissingParts(const Drawing& drawing) {
+  std::string crosses;
+  for (const double x : MissingPlaces(drawing.chart)) {
+    if (x < drawing.x.low || x > drawing.x.high) continue;
+    crosses += Line({x, drawing.y.low});
+  }
+  if (crosses.empty()) return {};
+  return {Block("missing", crosses),
+          {},
+          {Joined({"$missing", Columns(drawing),
+                   " with points pointtype 2 pointsize 0.7 linewidth 1.5 linecolor rgb '",
+                   kMutedColor, "' title 'no figure'"})}};
 }
 
 }  // namespace
@@ -191,14 +246,15 @@ PlotText PlotOf(const Drawing& drawing) {
   std::size_t bar = 0;
   for (std::size_t i = 0; i < drawing.chart.series.size(); ++i) {
     const ChartSeries& series = drawing.chart.series[i];
-    const std::string color = kSeriesColors[i % kSeriesColors.size()];
-    SeriesParts parts = series.style == SeriesStyle::kBars
-                            ? BarParts(series, bar++, BlockName(i), color, drawing)
-                            : CurveParts(series, i, color, drawing);
+    SeriesParts parts = IsBars(series) ? BarParts(series, bar++, BlockName(i), drawing)
+                                       : CurveParts(series, i, drawing);
     data += parts.data;
     back.insert(back.end(), parts.back.begin(), parts.back.end());
     front.insert(front.end(), parts.front.begin(), parts.front.end());
   }
+  const SeriesParts missing = MissingParts(drawing);
+  data += missing.data;
+  front.insert(front.end(), missing.front.begin(), missing.front.end());
   back.insert(back.end(), front.begin(), front.end());
   std::string plot = "plot NaN notitle";
   for (const std::string& part : back) plot += ", \\\n  " + part;

@@ -96,14 +96,18 @@ std::map<std::string, std::string> DrawAll(const Report& report,
                                            const std::filesystem::path& folder) {
   // gnuplot writes its files piece by piece; they are moved once they are complete.
   const ReportScratch drawings;
-  std::string script;
+  std::vector<Chart> charts;
   bool has_pictures = false;
   for (const Section& section : report.sections) {
-    for (const Chart& chart : section.charts) {
-      script += DrawingOf(chart, drawings.path() / (chart.key + ".svg"),
-                          drawings.path() / (chart.key + ".png"));
-    }
+    charts.insert(charts.end(), section.charts.begin(), section.charts.end());
     has_pictures = has_pictures || !section.pictures.empty();
+  }
+  // A series keeps its colour through the report.
+  const SeriesPaints paints = PaintsOf(charts);
+  std::string script;
+  for (const Chart& chart : charts) {
+    script += DrawingOf(chart, paints, drawings.path() / (chart.key + ".svg"),
+                        drawings.path() / (chart.key + ".png"));
   }
   std::map<std::string, std::string> drawn;
   if (script.empty() && !has_pictures) return drawn;

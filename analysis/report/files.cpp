@@ -26,7 +26,9 @@ struct CellJson {
             {"high", NumberOf(estimate.high)},
             {"samples", estimate.num}};
   }
-  Json operator()(const Span& span) const { return SpanText(span); }
+  Json operator()(const Span& span) const {
+    return {{"low", NumberOf(span.low)}, {"high", NumberOf(span.high)}};
+  }
 };
 
 Json JsonOf(const Cell& cell) {
@@ -52,7 +54,7 @@ Json JsonOf(const Table& table) {
 }
 
 Json JsonOf(const ChartAxis& axis) {
-  Json object = {{"title", axis.title}, {"unit", axis.unit}, {"is_log", axis.is_log}};
+  Json object = {{"title", axis.title}, {"unit", axis.unit}};
   if (!axis.categories.empty()) object["categories"] = axis.categories;
   return object;
 }
@@ -70,8 +72,11 @@ Json JsonOf(const Chart& chart) {
     }
     series.push_back({{"title", one.title}, {"points", std::move(points)}});
   }
-  return {{"key", chart.key},     {"title", chart.title}, {"caption", chart.caption},
-          {"x", JsonOf(chart.x)}, {"y", JsonOf(chart.y)}, {"series", std::move(series)}};
+  return {{"key", chart.key},
+          {"title", chart.title},
+          {"x", JsonOf(chart.x)},
+          {"y", JsonOf(chart.y)},
+          {"series", std::move(series)}};
 }
 
 Json JsonOf(const Section& section) {
@@ -79,17 +84,10 @@ Json JsonOf(const Section& section) {
   for (const Table& table : section.tables) tables.push_back(JsonOf(table));
   Json charts = Json::array();
   for (const Chart& chart : section.charts) charts.push_back(JsonOf(chart));
-  Json pictures = Json::array();
-  for (const Picture& picture : section.pictures) {
-    pictures.push_back(
-        {{"key", picture.key}, {"title", picture.title}, {"caption", picture.caption}});
-  }
   return {{"key", section.key},
           {"title", section.title},
-          {"paragraphs", section.paragraphs},
           {"tables", std::move(tables)},
-          {"charts", std::move(charts)},
-          {"pictures", std::move(pictures)}};
+          {"charts", std::move(charts)}};
 }
 
 std::string CsvText(const std::string& text) {

@@ -1,9 +1,13 @@
 #include "analysis/report/output.h"
 
 #include <iostream>
+#include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "analysis/report/draw.h"
 #include "analysis/report/formats.h"
@@ -22,6 +26,7 @@ void CheckSound(const Report& report) {
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
       Check(drawings.insert(chart.key).second, "keys of charts are unique");
+      Check(chart.caption.ends_with('.'), "a chart's caption is a sentence that says what to see");
     }
     for (const Picture& picture : section.pictures) {
       Check(drawings.insert(picture.key).second, "keys of pictures are unique");
@@ -33,6 +38,47 @@ void CheckSound(const Report& report) {
       }
     }
   }
+}
+
+// Whether two rows are of the same group: equal in all of their words.
+bool AreOneGroup(const std::vector<Cell>& a, const std::vector<Cell>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto* const word = std::get_if<std::string>(&a[i]);
+    const auto* const other = std::get_if<std::string>(&b[i]);
+    if (word != nullptr && (other == nullptr || *word != *other)) return false;
+  }
+  return true;
+}
+
+// The row of the bins that are missing between two rows, if any are.
+std::optional<std::vector<Cell>> RowBetween(const std::vector<Cell>& a,
+                                            const std::vector<Cell>& b) {
+  if (!AreOneGroup(a, b)) return std::nullopt;
+  bool is_gap = false;
+  std::vector<Cell> row = a;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::holds_alternative<std::string>(a[i])) continue;
+    row[i] = std::numeric_limits<double>::quiet_NaN();
+    const auto* const before = std::get_if<Span>(&a[i]);
+    const auto* const after = std::get_if<Span>(&b[i]);
+    if (before == nullptr || after == nullptr) continue;
+    if (after->low <= before->high) return std::nullopt;
+    row[i] = Span{before->high, after->low};
+    is_gap = true;
+  }
+  return is_gap ? std::optional(std::move(row)) : std::nullopt;
+}
+
+// Bins without data get a row, one for all that follow each other.
+void MarkMissingBins(Table& table) {
+  std::vector<std::vector<Cell>> rows;
+  for (std::vector<Cell>& row : table.rows) {
+    if (!rows.empty()) {
+      if (auto between = RowBetween(rows.back(), row)) rows.push_back(std::move(*between));
+    }
+    rows.push_back(std::move(row));
+  }
+  table.rows = std::move(rows);
 }
 
 void WriteTables(const Report& report, const std::filesystem::path& folder) {
@@ -76,11 +122,14 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
   where->require_option(1, 0);
 }
 
-void EmitReport(const Report& report,
+void EmitReport(Report report,
                 const ReportOutput& output,
                 std::string_view name,
                 const std::string& details) {
   CheckSound(report);
+  for (Section& section : report.sections) {
+    for (Table& table : section.tables) MarkMissingBins(table);
+  }
   if (output.is_text) std::cout << ShownLines(ReportText(report)) << std::flush;
   if (output.is_json) std::cout << ReportJson(report, details) << std::flush;
   if (output.out.empty()) return;

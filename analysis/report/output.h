@@ -24,7 +24,7 @@ void AddReportOptions(CLI::App& command, ReportOutput& output);
 /// @param details A JSON object whose members are added to the JSON.
 /// @throws InputError if a file cannot be written, or if gnuplot is missing: then the page has no
 ///   charts, but everything else is written.
-void EmitReport(const Report& report,
+void EmitReport(Report report,
                 const ReportOutput& output,
                 std::string_view name,
                 const std::string& details = "{}");

@@ -4,10 +4,12 @@
 #include <cstdlib>
 #include <kainjow/mustache.hpp>
 #include <numeric>
+#include <set>
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
 #include "analysis/report/formats.h"
+#include "analysis/report/paper.h"
 #include "core/base/error.h"
 
 namespace railcast {
@@ -21,11 +23,6 @@ namespace {
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 using kainjow::mustache::object;
-
-// Width of a printed page in letters.
-constexpr std::size_t kPaperWidth = 150;
-// Gap between two cells in letters.
-constexpr std::size_t kCellGap = 2;
 
 // The template leaves out sections whose value is false.
 data IfAny(const std::string& text) {
@@ -58,25 +55,6 @@ std::string NumberHtml(const std::string& numbers) {
     }
   }
   return html;
-}
-
-// Layout of a table's column in the page.
-struct PageColumn {
-  bool is_number = false;
-  // Estimates take three cells, so that figures, intervals and counts are aligned.
-  bool has_estimates = false;
-};
-
-std::vector<PageColumn> PageColumns(const Table& table) {
-  std::vector<PageColumn> columns(table.columns.size());
-  for (const std::vector<Cell>& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      columns[i].is_number = columns[i].is_number || TextOf(row[i]).is_number;
-      columns[i].has_estimates =
-          columns[i].has_estimates || std::holds_alternative<Estimate>(row[i]);
-    }
-  }
-  return columns;
 }
 
 data CellData(const Cell& cell, const PageColumn& column, bool is_first) {
@@ -114,32 +92,18 @@ data GridData(const Table& table,
                  })}};
 }
 
-// Width in letters; headers break at spaces.
-std::size_t ColumnWidthOf(const Table& table, std::size_t column, const PageColumn& page_column) {
-  const std::string& title = table.columns[column].title;
-  std::size_t width = table.columns[column].unit.size(), word = 0;
-  for (const char c : title) {
-    word = c == ' ' ? 0 : word + 1;
-    width = std::max(width, word);
-  }
-  for (const std::vector<Cell>& row : table.rows) {
-    width = std::max(width, LineOf(TextOf(row[column])).size());
-  }
-  return width + (page_column.has_estimates ? 3 : 1) * kCellGap;
-}
-
 // A table that is too wide for paper, where it cannot be scrolled, is split into several that begin
-// with the same column.
-data TableData(const Table& table) {
+// with the same column; one that is too long is left to its file.
+data TableData(const Table& table, bool is_on_paper) {
   const std::vector<PageColumn> columns = PageColumns(table);
-  std::vector<std::size_t> all(columns.size()), widths;
+  std::vector<std::size_t> all(columns.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  for (const std::size_t i : all) widths.push_back(ColumnWidthOf(table, i, columns[i]));
-  const std::vector<std::vector<std::size_t>> blocks = BlocksOf(widths, kPaperWidth);
-  list views = {object{{"class", blocks.size() > 1 ? "scroll screen" : "scroll"},
+  const std::vector<std::vector<std::size_t>> blocks = PaperBlocks(table);
+  const bool is_split = is_on_paper && blocks.size() > 1;
+  list views = {object{{"class", is_split ? "scroll screen" : "scroll"},
                        {"is_scrolled", true},
                        {"grids", list{GridData(table, columns, all)}}}};
-  if (blocks.size() > 1) {
+  if (is_split) {
     const auto grid_of = [&](const auto& block) { return GridData(table, columns, block); };
     views.push_back(
         object{{"class", "paper"}, {"is_scrolled", false}, {"grids", ListOf(blocks, grid_of)}});
@@ -148,6 +112,7 @@ data TableData(const Table& table) {
       {"title", table.title},
       {"note", IfAny(table.note)},
       {"is_open", table.is_open},
+      {"left_to", IfAny(is_on_paper ? "" : Joined({"csv/", table.key, ".csv"}))},
       {"num_rows", CountText(table.rows.size()) + (table.rows.size() == 1 ? " row" : " rows")},
       {"views", views}};
 }
@@ -190,11 +155,16 @@ data DrawingData(const Chart& chart, const std::map<std::string, std::string>& d
   return svg->second.substr(svg->second.find("<svg") + 4);
 }
 
-data SectionData(const Section& section, const std::map<std::string, std::string>& drawn) {
+data SectionData(const Section& section,
+                 const std::map<std::string, std::string>& drawn,
+                 const std::set<std::string>& on_paper) {
   const auto chart_data = [&](const Chart& chart) {
     return object{{"title", chart.title},
                   {"caption", IfAny(chart.caption)},
                   {"drawing", DrawingData(chart, drawn)}};
+  };
+  const auto table_data = [&](const Table& table) {
+    return TableData(table, on_paper.contains(table.key));
   };
   const auto picture_data = [&](const Picture& picture) { return PictureData(picture, drawn); };
   return object{{"key", section.key},
@@ -203,7 +173,7 @@ data SectionData(const Section& section, const std::map<std::string, std::string
                 {"pictures", ListOf(section.pictures, picture_data)},
                 {"has_charts", !section.charts.empty()},
                 {"charts", ListOf(section.charts, chart_data)},
-                {"tables", ListOf(section.tables, TableData)}};
+                {"tables", ListOf(section.tables, table_data)}};
 }
 
 // The colours of charts as they occur in the drawings, with the style sheet's names for them.
@@ -223,7 +193,10 @@ std::string ReportPage(const Report& report, const std::map<std::string, std::st
   const auto fact_data = [](const auto& fact) {
     return object{{"name", fact.first}, {"fact", fact.second}};
   };
-  const auto section_data = [&](const Section& section) { return SectionData(section, drawn); };
+  const std::set<std::string> on_paper = TablesOnPaper(report);
+  const auto section_data = [&](const Section& section) {
+    return SectionData(section, drawn, on_paper);
+  };
   kainjow::mustache::mustache page(kPageHtml);
   Check(page.is_valid(), "the page's template is sound");
   return page.render(object{{"title", report.title},

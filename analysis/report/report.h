@@ -74,7 +74,7 @@ struct ChartAxis {
 struct Chart {
   std::string key{};      ///< Name of its SVG and PNG files, unique in a report.
   std::string title{};    ///< What the chart shows, in a few words.
-  std::string caption{};  ///< One or two sentences below it; may be empty.
+  std::string caption{};  ///< A sentence below it that says what to see; ends with a full stop.
   ChartAxis x{}, y{};
   std::vector<ChartSeries> series{};
 };

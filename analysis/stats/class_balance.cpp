@@ -32,10 +32,11 @@ void AddRangeColumns(const std::string& end, Table& table) {
 Chart LabelsChart(const Table& labels,
                   const std::string& column,
                   const std::string& title,
+                  const std::string& caption,
                   const ChartAxis& y) {
   return {"label_" + column,
           title,
-          "",
+          caption,
           {"", "", false, TextsOf(labels, "label")},
           y,
           {SeriesOf(labels, {"label", column}, "", SeriesStyle::kBars)}};
@@ -46,7 +47,9 @@ Chart SharesChart(const Table& shares) {
   constexpr std::size_t kMostLabels = 7;
   Chart chart = {"shares_by_label_and_range",
                  "Share of points by label against range",
-                 "The labels with most points; of the points in each range.",
+                 "The highest line is the class with most of the points at that range; only the "
+                 "labels with most "
+                 "points.",
                  DistanceAxis("Range"),
                  {"Share", "%", true},
                  {}};
@@ -139,12 +142,14 @@ Section ClassBalance::MakeSection(const Names& names) const {
     shares.rows.push_back(std::move(percents));
   };
   for (const auto& [label, of] : Sorted()) add_row(names.OfLabel(label), of->by_range);
-  section.charts = {
-      // The labels' points differ by orders of magnitude.
-      LabelsChart(labels, "points_percent", "Points by label", {"Share of points", "%", true}),
-      LabelsChart(labels, "frames_percent", "Frames with a point of each label",
-                  {"Share of frames", "%"}),
-      SharesChart(shares)};
+  section.charts = {// The labels' points differ by orders of magnitude.
+                    LabelsChart(labels, "points_percent", "Points by label",
+                                "The shortest bars are the classes that a detector sees least of.",
+                                {"Share of points", "%", true}),
+                    LabelsChart(labels, "frames_percent", "Frames with a point of each label",
+                                "A short bar is a class that most frames do not show at all.",
+                                {"Share of frames", "%"}),
+                    SharesChart(shares)};
   add_row("all", totals);
   const std::uint64_t total = std::accumulate(totals.begin(), totals.end(), std::uint64_t{0});
   section.paragraphs.push_back(Joined({CountText(total), " points in ", CountText(num_frames_),

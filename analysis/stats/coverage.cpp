@@ -107,7 +107,7 @@ Section Coverage::MakeSection() const {
   if (!rings_.empty()) {
     section.charts.push_back({"rings",
                               "Firings with a point by ring",
-                              "",
+                              "Low rings look into the open, or lose their points.",
                               {"Ring, 0 the lowest", ""},
                               {"Share", ""},
                               {SeriesOf(rings, {"ring", "with_point"}, "share")}});
@@ -127,7 +127,7 @@ Section Coverage::MakeSection() const {
   }
   section.charts.push_back({"azimuth",
                             "Points by azimuth",
-                            "",
+                            "High is where there is much to be met, or where beams are dense.",
                             {"Azimuth, left positive", "deg"},
                             {"Points per 5 deg and frame", ""},
                             {SeriesOf(sectors, {"azimuth_deg", "points"}, "points")}});

@@ -148,10 +148,15 @@ TableColumn OcclusionColumn(std::size_t bin) {
 // A line for each of the types that are in most frames, over the bins of such a table.
 Chart BinsChart(const Table& table, ChartAxis x) {
   // Numbers of persons and of anything else differ by orders of magnitude.
-  Chart chart = {table.key, table.title, "", std::move(x), {"Objects, in each frame", "", true},
+  Chart chart = {table.key,
+                 table.title,
+                 "Where a line is low or broken, the set shows few or none of that type",
+                 std::move(x),
+                 {"Objects, in each frame", "", true},
                  {}};
   chart.series = SeriesByRow(table, kMostTypes);
-  if (table.rows.size() > kMostTypes) chart.caption = "The types that are in the most frames.";
+  chart.caption +=
+      table.rows.size() > kMostTypes ? "; only the types that are in the most frames." : ".";
   return chart;
 }
 
@@ -202,7 +207,7 @@ void AddOrigins(const DatasetOverview& overview, Section& section) {
   section.charts.push_back(
       {weathers.key,
        weathers.title,
-       "",
+       "A short bar is a weather that the set hardly has.",
        {"", "", false, TextsOf(weathers, "weather")},
        {"Scenarios", ""},
        {SeriesOf(weathers, {"weather", "scenarios"}, "", SeriesStyle::kBars)}});

@@ -146,8 +146,9 @@ Chart CurveChart(NamedCurves curves) {
   if (curves.size() > kMaxSeries) curves.resize(kMaxSeries);
   return {"density_by_range",
           "Points per square metre of surface against range",
-          "The surfaces with most points. Without losses a uniform raster gives -3 on level ground "
-          "and -2 on faces met under one incidence.",
+          "A line that falls more steeply than the others loses points: without losses a uniform "
+          "raster "
+          "gives -3 on level ground and -2 on faces met under one incidence.",
           {"Range", "m", true},
           {"Density", "1/m2", true},
           SeriesByName(CurveTable(curves), {"range_m", "per_m2", "", "surface"})};

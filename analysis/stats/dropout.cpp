@@ -51,13 +51,14 @@ NamedCounts InBins(const std::vector<Count>& counts, const Bins& bins) {
 
 // Dropout by range for all causes together and for each.
 Chart DropoutChart(const Table& table) {
-  Chart chart = {table.key,
-                 "Dropout against range",
-                 "Share of the firings that met a surface at this true range and brought no point "
-                 "of it back, by cause.",
-                 {"True range", "m"},
-                 {"Dropout", ""},
-                 {}};
+  Chart chart = {
+      table.key,
+      "Dropout against range",
+      "The highest line below all causes is what loses most at that range: shares of the "
+      "firings that met a surface there and brought no point of it back.",
+      {"True range", "m"},
+      {"Dropout", ""},
+      {}};
   for (std::size_t i = 2; i < table.columns.size(); ++i) {
     const TableColumn& column = table.columns[i];
     chart.series.push_back(SeriesOf(table, {"true_range_m", column.key},
@@ -69,7 +70,8 @@ Chart DropoutChart(const Table& table) {
 Chart LabelChart(const Table& table) {
   return {table.key,
           "Dropout by label",
-          "Over all ranges. Lines show the 95 % interval.",
+          "The longest bars are the surfaces that lose most points, over all ranges, with 95 % "
+          "intervals.",
           {"Label", "", false, TextsOf(table, "label")},
           {"Dropout", ""},
           {SeriesOf(table, {"label", "dropout"}, "dropout", SeriesStyle::kBars)}};

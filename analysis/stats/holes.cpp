@@ -189,7 +189,8 @@ Section Holes::MakeSection() const {
   section.charts.push_back(
       {"holes_by_range",
        "Holes in surfaces against range",
-       "Share of the firings between two points of one surface that have none.",
+       "Where the line rises, surfaces lose points: the share of the firings between two points of "
+       "one surface that have none.",
        {"Range", "m"},
        {"Holes", ""},
        {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});

@@ -33,11 +33,14 @@ Table IntensityTable(const char* key, const char* title, TableColumn first, cons
   return table;
 }
 
-Chart MakeChart(const Table& table, const char* title, const ChartAxis& x) {
+Chart MakeChart(const Table& table,
+                const char* title,
+                const std::string& caption,
+                const ChartAxis& x) {
   const std::string& place = table.columns.front().key;
   return {table.key,
           title,
-          "",
+          caption,
           x,
           {"Intensity", ""},
           {SeriesOf(table, {place, "mean"}, "mean"), SeriesOf(table, {place, "median"}, "median")}};
@@ -102,8 +105,14 @@ Section Intensity::MakeSection(const Names& names) const {
                      {"incidence_deg", "Incidence", "deg"},
                      IntensityInBins(by_incidence_, IncidenceBins()))};
   section.charts = {
-      MakeChart(section.tables[0], "Intensity against range", {"Range", "m"}),
-      MakeChart(section.tables[1], "Intensity against incidence", {"Incidence", "deg"})};
+      MakeChart(
+          section.tables[0], "Intensity against range",
+          "A level line is a sensor that makes up for range; a mean far above the median is few "
+          "bright points.",
+          {"Range", "m"}),
+      MakeChart(section.tables[1], "Intensity against incidence",
+                "A line that falls is matt surfaces, which return less the more they are slanted.",
+                {"Incidence", "deg"})};
   if (!by_label_.empty()) {
     NamedSums labels;
     for (const auto& [label, sum] : by_label_) labels.emplace_back(names.OfLabel(label), &sum);

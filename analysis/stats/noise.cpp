@@ -144,7 +144,7 @@ Section Noise::MakeSection() const {
   Chart chart = {
       "noise_by_range",
       "Range noise against range",
-      "Robust estimates.",
+      "A line that rises is noise that grows with range; robust estimates.",
       {"Range", "m"},
       {"Standard deviation", "mm"},
       {SeriesOf(planes, {"range_m", "robust_range_sigma_mm"}, "planes, along the beam"),

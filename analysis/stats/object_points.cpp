@@ -91,7 +91,7 @@ Section ObjectPoints::MakeSection() const {
   }
   section.charts.push_back({"object_points",
                             "Points on objects against distance",
-                            "",
+                            "How far away each object still has points enough to be found.",
                             {"Distance", "m"},
                             {"Points a frame", "", true},
                             SeriesByName(table, {"distance_m", "points", "", "object"})});

@@ -189,7 +189,7 @@ Section TemporalNoise::MakeSection() const {
   }
   section.charts.push_back({"temporal_noise_by_range",
                             "Temporal noise against range",
-                            "",
+                            "A line that rises is noise that grows with range.",
                             {"Range", "m"},
                             {"Standard deviation", "mm"},
                             {SeriesOf(table, {"range_m", "robust_sigma_mm"}, "robust")}});

@@ -113,18 +113,19 @@ Section Velocity::MakeSection() const {
         "false echoes have no true velocity and are left out. The robust figure hardly knows "
         "either.");
     const Table& table = section.tables.front();
-    section.charts.push_back({"velocity_noise_by_range",
-                              "Noise of velocity against range",
-                              "Measured less true velocity.",
-                              {"Range", "m"},
-                              {"Standard deviation", "m/s"},
-                              {SeriesOf(table, {"range_m", "sigma_mps"}, "plain"),
-                               SeriesOf(table, {"range_m", "robust_sigma_mps"}, "robust")}});
+    section.charts.push_back(
+        {"velocity_noise_by_range",
+         "Noise of velocity against range",
+         "A line that rises is an error of measured less true velocity that grows with range.",
+         {"Range", "m"},
+         {"Standard deviation", "m/s"},
+         {SeriesOf(table, {"range_m", "sigma_mps"}, "plain"),
+          SeriesOf(table, {"range_m", "robust_sigma_mps"}, "robust")}});
   }
   section.charts.push_back(
       {"velocities",
        "Points by velocity",
-       "Bins of 2 m/s.",
+       "The highest peak is what stands still, moving at the sensor's own speed; bins of 2 m/s.",
        {"Velocity", "m/s"},
        {"Share", "", true},
        {SeriesOf(section.tables.back(), {"velocity_mps", "share"}, "points")}});

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -43,7 +44,10 @@ TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
   ASSERT_EQ(run.status, 0) << run.said;
   const Json json = Json::parse(ReadFileWhole(out / "compare.json"));
   EXPECT_EQ(json["facts"]["Pairs"], "1, by index");
-  EXPECT_NEAR(json["headlines"][0]["value"].get<double>(), 0.25, 1e-6);
+  EXPECT_EQ(json["headlines"][0]["title"], "Density-aware Chamfer distance");
+  // 1 - exp(-alpha d), of points that have a nearest point each.
+  EXPECT_NEAR(json["headlines"][0]["value"].get<double>(), 1.0 - std::exp(-10.0 * 0.25), 1e-6);
+  EXPECT_EQ(json["headlines"][1]["title"], "MAPE of points");
   EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
 }
 

@@ -70,7 +70,12 @@ TEST(RailcastAnalyze, ChartsAScenario) {
   EXPECT_GT(json["rows"][2]["errors"]["thin_recall"]["num"], 0);
   EXPECT_GT(json["rows"][1]["errors"]["thin_recall"]["share"],
             json["rows"][2]["errors"]["thin_recall"]["share"]);
-  EXPECT_EQ(json["sections"][0]["charts"].size(), 4U);
+  ASSERT_EQ(json["sections"][0]["charts"].size(), 4U);
+  // Only rows that were run stand in the legend.
+  const Json& series = json["sections"][0]["charts"][0]["series"];
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[0]["title"], "railcast");
+  EXPECT_EQ(series[1]["title"], "brute force, rays a beam");
   for (const char* name : {"frontier.csv", "frontier.png", "frontier.svg", "frontier.gnuplot",
                            "report.html", "csv/found.csv", "charts/range_median_mm.svg",
                            "csv/by_range.csv", "charts/missed_percent_by_range.svg"}) {

@@ -54,6 +54,7 @@ TEST(SeriesOf, LeavesAGapWhereABinOrItsFigureIsMissing) {
   EXPECT_TRUE(std::isnan(series.points[1].y));  // Too few samples.
   EXPECT_EQ(series.points[2].y, 0.7);
   EXPECT_TRUE(std::isnan(series.points[3].y));  // The missing bin from 30 to 50.
+  EXPECT_EQ(series.points[3].x, 40.0);
   EXPECT_EQ(series.points[4].y, 0.9);
 }
 

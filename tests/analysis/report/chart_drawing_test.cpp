@@ -130,6 +130,63 @@ TEST(DrawAll, PutsLongNamesInFull) {
   EXPECT_THAT(svg, HasSubstr("a name that is far longer"));
 }
 
+// A chart of lines with these titles.
+Chart ChartOf(const std::vector<std::string>& titles) {
+  Chart chart = {"", "", "", {}, {}, {}};
+  for (const std::string& title : titles) chart.series.push_back({title, kLine, {{0, 1}, {1, 2}}});
+  return chart;
+}
+
+TEST(PaintsOf, AreThoseOfTheTitlesInAllCharts) {
+  const SeriesPaints paints = PaintsOf({ChartOf({"ground", "tree"}), ChartOf({"tree", "rail"})});
+  EXPECT_EQ(paints.at("ground"), 0U);
+  EXPECT_EQ(paints.at("tree"), 1U);
+  // "rail" never meets "ground", but does meet "tree".
+  EXPECT_EQ(paints.at("rail"), 0U);
+}
+
+TEST(PaintsOf, KeepTitlesApartThatMeetInALaterChart) {
+  const SeriesPaints paints = PaintsOf({ChartOf({"a"}), ChartOf({"b"}), ChartOf({"b", "a"})});
+  EXPECT_NE(paints.at("a"), paints.at("b"));
+}
+
+TEST(PaintsOf, GoOnBeyondTheColours) {
+  const SeriesPaints paints = PaintsOf({ChartOf({"1", "2", "3", "4", "5", "6", "7", "8"})});
+  EXPECT_EQ(paints.at("8"), 7U);
+  EXPECT_STREQ(PaintColor(paints.at("8")), PaintColor(paints.at("1")));
+}
+
+TEST(DrawAll, KeepsTheColourOfASeriesThroughAReport) {
+  const TemporaryFolder folder;
+  Report report;
+  report.sections.push_back({"s", "S", {}, {ChartOf({"a", "b"}), ChartOf({"b"})}, {}});
+  report.sections[0].charts[0].key = "both";
+  report.sections[0].charts[1].key = "one";
+  const auto svgs = DrawAll(report, folder.Write("here", "").parent_path() / "charts");
+  EXPECT_THAT(svgs.at("both"), HasSubstr(kSeriesColors[1]));
+  EXPECT_THAT(svgs.at("one"), HasSubstr(kSeriesColors[1]));
+  EXPECT_THAT(svgs.at("one"), Not(HasSubstr(kSeriesColors[0])));
+}
+
+TEST(DrawAll, MarksPlacesWithoutAFigure) {
+  const TemporaryFolder folder;
+  const ChartSeries whole = {"whole", kLinePoints, {{0, 1}, {1, 2}, {2, 3}}};
+  const ChartSeries broken = {"broken", kLinePoints, {{0, 1}, {1, kNoFigure}, {2, 3}}};
+  const ChartSeries limit = {"limit", kLine, {{0, 2}, {2, 2}}};
+  EXPECT_THAT(Drawn({"", "", "", {}, {}, {broken, limit}}, folder), HasSubstr("no figure"));
+  // Where another line goes on, the gap shows by itself.
+  EXPECT_THAT(Drawn({"", "", "", {}, {}, {broken, whole}}, folder), Not(HasSubstr("no figure")));
+}
+
+TEST(DrawAll, TellsABarThatIsMissingFromOneOfZero) {
+  const TemporaryFolder folder;
+  const auto bars = [](double second) {
+    return Chart{"", "", "", {"", "", false, {"a", "b"}}, {}, {{"", kBars, {{0, 1}, {1, second}}}}};
+  };
+  EXPECT_THAT(Drawn(bars(kNoFigure), folder), HasSubstr("no figure"));
+  EXPECT_THAT(Drawn(bars(0.0), folder), Not(HasSubstr("no figure")));
+}
+
 // Two nearly coincident points, each with a label.
 Chart LabelledChart() {
   Chart chart = {"", "", "", {"Time", "s"}, {"Error", "mm"}, {{"a", kLinePoints, {}}}};
@@ -148,13 +205,14 @@ TEST(DrawAll, SetsLabelsBesideTheirPoints) {
 
 TEST(LabelsText, KeepsTheLabelsOfNeighboursApart) {
   const Chart chart = LabelledChart();
-  const std::string text = LabelsText({chart, *RangeOfX(chart), *RangeOfY(chart)});
+  const std::string text =
+      LabelsText({chart, PaintsOf({chart}), *RangeOfX(chart), *RangeOfY(chart)});
   const std::string first = text.substr(0, text.find('\n'));
   const std::string second = text.substr(text.find('\n') + 1);
   EXPECT_THAT(first, StartsWith("set label 'it''s first' at 1,5 "));
   EXPECT_THAT(second, StartsWith("set label 'second' at 1.02,5.1 "));
   const auto side_of = [](const std::string& line) {
-    return line.substr(line.find("offset"), line.find("textcolor") - line.find("offset"));
+    return line.substr(line.find("offset"), line.find('\n') - line.find("offset"));
   };
   EXPECT_NE(side_of(first), side_of(second));
 }
@@ -171,7 +229,7 @@ std::vector<DrawnLabel> DrawnLabels(const Drawing& drawing) {
   std::istringstream lines(LabelsText(drawing));
   for (std::string line; std::getline(lines, line);) {
     const std::regex form(
-        "set label '([^']*)' at ([^,]*),([^ ]*) (left|right) offset ([^,]*),([^ ]*) .*");
+        "set label '([^']*)' at ([^,]*),([^ ]*) (left|right) offset ([^,]*),([^ ]*)");
     std::smatch parts;
     EXPECT_TRUE(std::regex_match(line, parts, form)) << line;
     const auto number = [&](std::size_t i) { return std::stod(parts[i]); };
@@ -208,7 +266,8 @@ TEST(LabelsText, KeepsTheNamesOfAFrontiersRowsApart) {
   add(1, "4", 5.1, 53.0);
   add(1, "19", 20.0, 15.5);
   add(1, "64", 58.0, 3.7);
-  const auto labels = DrawnLabels({chart, *RangeOfX(chart), *RangeOfY(chart)});
+  const SeriesPaints paints = PaintsOf({chart});
+  const auto labels = DrawnLabels({chart, paints, *RangeOfX(chart), *RangeOfY(chart)});
   ASSERT_EQ(labels.size(), 9U);
   for (const DrawnLabel& a : labels) {
     EXPECT_GE(a.left, 0.0) << a.text;

@@ -51,10 +51,17 @@ TEST(ReportJson, HoldsEveryKindOfCell) {
 
 TEST(ReportJson, HoldsWhatChartsShow) {
   const Json charts = Json::parse(ReportJson(MadeReport()))["sections"][0]["charts"];
-  EXPECT_EQ(charts[1]["x"]["is_log"], true);
+  EXPECT_EQ(charts[1]["y"]["unit"], "1/m²");
   EXPECT_EQ(charts[2]["x"]["categories"][2], "snow");
   EXPECT_TRUE(charts[0]["series"][0]["points"][4]["y"].is_null());
   EXPECT_EQ(charts[0]["series"][0]["points"][5]["x"], 6);
+}
+
+TEST(ReportJson, LeavesTheLayoutToThePage) {
+  const std::string json = ReportJson(MadeReport());
+  for (const char* const text : {"A <paragraph>.", "Bands are the 95 %", "What is <seen>"}) {
+    EXPECT_THAT(json, Not(HasSubstr(text)));
+  }
 }
 
 TEST(ReportJson, HasTheDetailsBesideTheReport) {
@@ -68,8 +75,9 @@ TEST(ReportFormats, CallABinByItsEnds) {
   report.sections = {
       {"s", "S", {}, {}, {{"t", "T", "", {{"range_m", "Range", "m"}}, {{Span{2.5, 5}}}}}}};
   EXPECT_EQ(TableCsv(report.sections[0].tables[0]), "range_m\n2.5 to 5\n");
-  EXPECT_EQ(Json::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0]["range_m"],
-            "2.5 to 5");
+  const Json row = Json::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0];
+  EXPECT_EQ(row["range_m"]["low"], 2.5);
+  EXPECT_EQ(row["range_m"]["high"], 5.0);
   EXPECT_THAT(ReportText(report), HasSubstr("  Range (m)\n  2.5 to 5\n"));
   EXPECT_THAT(ReportPage(report, {}), HasSubstr("<th scope=\"row\">2.5 to 5</th>"));
 }

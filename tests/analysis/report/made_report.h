@@ -65,20 +65,20 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
         MadeCurve("it's `date`", kPoints, 0.3, 40)}});
   charts.push_back({"log_log",
                     "A power law is a straight line",
-                    "",
+                    "A straight line is a power law.",
                     {"Range", "m", true, {}},
                     {"Density", "1/m²", true, {}},
                     {MadeCurve("ground", kPoints, -3.0, 60), MadeCurve("fit", kLine, -3.0, 60)}});
   charts.push_back({"few_bars",
                     "Short names stand below",
-                    "",
+                    "Names stand below their bars.",
                     {"", "", false, {"rain", "fog", "snow"}},
                     share,
                     {{"demo", kBars, {{0, 3, 2, 4}, {1, 5, 4.5, 5.5}, {2, 1.5, 1, 2}}},
                      {"other", kBars, {{0, 2, 1.5, 2.5}, {1, 4, 3, 6}, {2, kNoFigure}}}}});
   charts.push_back({"many_bars",
                     "Long names stand at the side",
-                    "",
+                    "Names stand beside their bars.",
                     {"",
                      "",
                      false,
@@ -93,16 +93,17 @@ inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
                        {3, 1, 0.5, 1.5},
                        {4, 0, 0, 0.1},
                        {5, 7, 6, 8}}}}});
-  charts.push_back({"empty", "Nothing to see", "", range, share, {{"none", kLine, {}}}});
+  charts.push_back(
+      {"empty", "Nothing to see", "There is nothing to see.", range, share, {{"none", kLine, {}}}});
   charts.push_back({"all_absent",
                     "All absent",
-                    "",
+                    "There is nothing to see.",
                     {"", "", false, {"rain", "fog"}},
                     {"Share", "%", true, {}},
                     {{"none", kBars, {{0, kNoFigure}, {1, kNoFigure}}}}});
   charts.push_back({"one_point",
                     "One point",
-                    "",
+                    "There is one point.",
                     {"Range", "m", true, {}},
                     share,
                     {{"one", kLinePoints, {{30, 2, 1, 3}}}}});

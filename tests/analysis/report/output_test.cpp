@@ -81,6 +81,36 @@ TEST(EmitReportDeathTest, RefusesRowsThatAreTooShort) {
   EXPECT_DEATH(EmitReport(report, {{}, true}, "made"), "a row has a cell for every column");
 }
 
+TEST(EmitReportDeathTest, RefusesChartsThatDoNotSayWhatToSee) {
+  Report report = MadeReport();
+  report.sections[0].charts[0].caption = "";
+  EXPECT_DEATH(EmitReport(report, {{}, true}, "made"), "a sentence that says what to see");
+}
+
+TEST(EmitReport, GivesBinsWithoutDataARow) {
+  Report report;
+  report.sections.push_back({"s",
+                             "S",
+                             {},
+                             {},
+                             {{"t",
+                               "T",
+                               "",
+                               {{"label", "Label", ""}, {"range_m", "Range", "m"}, {"n", "N", ""}},
+                               {{std::string("mast"), Span{0, 10}, std::uint64_t{3}},
+                                {std::string("mast"), Span{10, 20}, std::uint64_t{4}},
+                                {std::string("mast"), Span{40, 50}, std::uint64_t{5}},
+                                {std::string("tree"), Span{60, 70}, std::uint64_t{6}}}}}});
+  const TemporaryFolder folder;
+  const auto here = folder.Write("here", "").parent_path() / "out";
+  testing::internal::CaptureStdout();
+  EmitReport(report, {here, false}, "made");
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(ReadFileWhole(here / "csv/t.csv"),
+            "label,range_m,n\nmast,0 to 10,3\nmast,10 to 20,4\nmast,20 to 40,\nmast,40 to "
+            "50,5\ntree,60 to 70,6\n");
+}
+
 TEST(EmitReport, GivesTheSameBytesAgain) {
   const TemporaryFolder folder;
   const auto here = folder.Write("here", "").parent_path();

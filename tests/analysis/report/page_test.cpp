@@ -100,6 +100,36 @@ TEST(ReportPage, ShowsTheRowsOfOpenTablesUnasked) {
   EXPECT_THAT(page, HasSubstr("<details>\n<summary>Second"));
 }
 
+// A report of one table with so many rows.
+Report ReportOfRows(std::size_t num_rows) {
+  Report report;
+  Table table{.key = "rows", .title = "Rows", .columns = {{"x", "X", ""}}};
+  table.rows.assign(num_rows, {std::uint64_t{1}});
+  report.sections = {{.key = "s", .title = "S", .tables = {std::move(table)}}};
+  return report;
+}
+
+TEST(ReportPage, LeavesLongTablesToTheirFilesOnPaper) {
+  EXPECT_THAT(ReportPage(ReportOfRows(200), {}),
+              HasSubstr("Rows, 200 rows, not printed: <code>csv/rows.csv</code>"));
+  EXPECT_THAT(ReportPage(ReportOfRows(20), {}), Not(HasSubstr("not printed")));
+}
+
+TEST(ReportPage, PrintsOpenTablesFirst) {
+  Report report;
+  report.sections = {{.key = "s", .title = "S"}};
+  for (int i = 0; i < 60; ++i) {
+    Table table{.key = "t" + std::to_string(i), .title = "T", .columns = {{"x", "X", ""}}};
+    table.rows.assign(20, {std::uint64_t{1}});
+    table.is_open = i == 59;
+    report.sections[0].tables.push_back(std::move(table));
+  }
+  const std::string page = ReportPage(report, {});
+  EXPECT_THAT(page, Not(HasSubstr("csv/t0.csv")));
+  EXPECT_THAT(page, HasSubstr("csv/t58.csv"));
+  EXPECT_THAT(page, Not(HasSubstr("csv/t59.csv")));
+}
+
 TEST(ReportPage, CanBeOfAnEmptyReport) {
   EXPECT_THAT(ReportPage({}, {}), HasSubstr("</html>"));
 }

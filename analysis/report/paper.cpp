@@ -1,0 +1,98 @@
+#include "analysis/report/paper.h"
+
+#include <algorithm>
+
+#include "analysis/report/cell_text.h"
+#include "analysis/report/formats.h"
+
+namespace railcast {
+namespace {
+
+// Width of a printed page in letters.
+constexpr std::size_t kPaperWidth = 150;
+// Gap between two cells in letters.
+constexpr std::size_t kCellGap = 2;
+// In lines of a table: a page of A4 has about 58. Two of the ten pages are for what breaks leave
+// empty.
+constexpr std::size_t kPageLines = 58;
+constexpr std::size_t kReportLines = 8 * kPageLines;
+constexpr std::size_t kMaxTableLines = kPageLines;
+constexpr std::size_t kHeadLines = 15;
+constexpr std::size_t kSectionLines = 5;
+constexpr std::size_t kChartLines = 17;  // Two stand side by side.
+constexpr std::size_t kPictureLines = 20;
+constexpr std::size_t kLeftLines = 2;  // Of a table that is left to its file.
+
+// Width in letters; headers break at spaces.
+std::size_t ColumnWidthOf(const Table& table, std::size_t column, const PageColumn& page_column) {
+  const std::string& title = table.columns[column].title;
+  std::size_t width = table.columns[column].unit.size(), word = 0;
+  for (const char c : title) {
+    word = c == ' ' ? 0 : word + 1;
+    width = std::max(width, word);
+  }
+  for (const std::vector<Cell>& row : table.rows) {
+    width = std::max(width, LineOf(TextOf(row[column])).size());
+  }
+  return width + (page_column.has_estimates ? 3 : 1) * kCellGap;
+}
+
+// Lines of a table that is printed.
+std::size_t LinesOf(const Table& table) {
+  constexpr std::size_t kHeaderLines = 2;
+  return PaperBlocks(table).size() * (table.rows.size() + kHeaderLines) +
+         table.note.size() / kPaperWidth + 3;
+}
+
+// Lines of a section without its tables' rows.
+std::size_t LinesOf(const Section& section) {
+  // Paragraphs are narrower and larger than tables.
+  constexpr std::size_t kParagraphWidth = 100;
+  std::size_t lines = kSectionLines + kChartLines * ((section.charts.size() + 1) / 2) +
+                      kPictureLines * section.pictures.size() + kLeftLines * section.tables.size();
+  for (const std::string& text : section.paragraphs) lines += text.size() / kParagraphWidth + 2;
+  return lines;
+}
+
+}  // namespace
+
+std::vector<PageColumn> PageColumns(const Table& table) {
+  std::vector<PageColumn> columns(table.columns.size());
+  for (const std::vector<Cell>& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      columns[i].is_number = columns[i].is_number || TextOf(row[i]).is_number;
+      columns[i].has_estimates =
+          columns[i].has_estimates || std::holds_alternative<Estimate>(row[i]);
+    }
+  }
+  return columns;
+}
+
+std::vector<std::vector<std::size_t>> PaperBlocks(const Table& table) {
+  const std::vector<PageColumn> columns = PageColumns(table);
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    widths.push_back(ColumnWidthOf(table, i, columns[i]));
+  }
+  return BlocksOf(widths, kPaperWidth);
+}
+
+std::set<std::string> TablesOnPaper(const Report& report) {
+  std::size_t used = kHeadLines;
+  std::vector<const Table*> tables;
+  for (const Section& section : report.sections) {
+    used += LinesOf(section);
+    for (const Table& table : section.tables) tables.push_back(&table);
+  }
+  std::stable_partition(tables.begin(), tables.end(), [](const Table* t) { return t->is_open; });
+  std::set<std::string> printed;
+  for (const Table* const table : tables) {
+    const std::size_t lines = LinesOf(*table);
+    if (lines > kMaxTableLines || used + lines > kReportLines) continue;
+    used += lines;
+    printed.insert(table->key);
+  }
+  return printed;
+}
+
+}  // namespace railcast
