@@ -149,19 +149,6 @@ void Histogram::Add(const Histogram& other) {
   num_ += other.num_;
 }
 
-Histogram Histogram::Lowered(std::int64_t num_bins, std::int64_t least) const {
-  Histogram lowered;
-  lowered.num_ = num_;
-  for (const auto& [bin, count] : counts_) {
-    const std::int64_t to = std::max(bin - num_bins, least);
-    if (lowered.counts_.empty() || lowered.counts_.back().first != to) {
-      lowered.counts_.emplace_back(to, 0);
-    }
-    lowered.counts_.back().second += count;
-  }
-  return lowered;
-}
-
 double JensenShannonDivergence(const Histogram& a, const Histogram& b) {
   if (a.num() == 0 || b.num() == 0) return std::numeric_limits<double>::quiet_NaN();
   const auto num_a = static_cast<double>(a.num());
@@ -204,10 +191,6 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   return {Histogram(std::move(ranges)), Histogram(std::move(intensities)),
           Histogram(std::vector<std::int64_t>(cloud.rings.begin(), cloud.rings.end())),
           Histogram(std::move(velocities)), Histogram(std::move(cells))};
-}
-
-Histogram Darkened(const Histogram& intensities, std::int64_t num_bins) {
-  return intensities.Lowered(num_bins, BinOfIntensity(0.0));
 }
 
 double IntensityOfBin(std::int64_t bin) {

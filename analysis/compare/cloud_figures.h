@@ -54,8 +54,6 @@ class Histogram {
   explicit Histogram(std::vector<std::int64_t> bins);
 
   void Add(const Histogram& other);
-  /// All counts `num_bins` lower, but none below the bin `least`.
-  [[nodiscard]] Histogram Lowered(std::int64_t num_bins, std::int64_t least) const;
   [[nodiscard]] std::uint64_t num() const { return num_; }
   /// Ascending by bin.
   [[nodiscard]] const std::vector<std::pair<std::int64_t, std::uint64_t>>& counts() const {
@@ -90,9 +88,6 @@ inline constexpr double kIntensityBinsAnOctave = 8.0;
 
 /// The middle of a bin of CloudHistograms::intensity.
 [[nodiscard]] double IntensityOfBin(std::int64_t bin);
-
-/// CloudHistograms::intensity of intensities that are darker by so many bins.
-[[nodiscard]] Histogram Darkened(const Histogram& intensities, std::int64_t num_bins);
 
 /// Parameter of the density-aware Chamfer distance, in 1/m: a point 0.1 m from the nearest one
 /// counts 63 % as missing and one 1 m away fully, so that sensor noise hardly counts.

@@ -29,8 +29,7 @@ TEST(IntensityFactor, IsTheFactorBetweenByteAndShare) {
   ASSERT_TRUE(scale);
   EXPECT_GT(scale->b_over_a, 255.0 / kBin);
   EXPECT_LT(scale->b_over_a, 255.0 * kBin);
-  EXPECT_GT(scale->divergence_bit, 0.5);
-  EXPECT_LT(scale->divergence_left_bit, 0.1);
+  EXPECT_LT(scale->largest_left, kBin);
 }
 
 TEST(IntensityFactor, IsInverseTheOtherWayRound) {
@@ -38,7 +37,7 @@ TEST(IntensityFactor, IsInverseTheOtherWayRound) {
   const auto back = IntensityFactorOf(Counted(255.0), Counted(1.0));
   ASSERT_TRUE(there && back);
   EXPECT_NEAR(there->b_over_a * back->b_over_a, 1.0, 1e-12);
-  EXPECT_EQ(there->divergence_left_bit, back->divergence_left_bit);
+  EXPECT_NEAR(there->largest_left, back->largest_left, 1e-12);
 }
 
 TEST(IntensityFactor, IsNoneOfWhatIsAlike) {
@@ -57,9 +56,9 @@ TEST(IntensityFactor, IsNoneOfWhatIsSpreadOtherwise) {
 }
 
 TEST(IntensityFactor, IsSaidInOneSentence) {
-  EXPECT_THAT(InWords({255.0, 0.9, 0.03}),
+  EXPECT_THAT(InWords({254.7, 1.034}),
               StartsWith("The intensities of B are those of A times 255: scaled by that, their "
-                         "divergence falls from 0.9 to 0.03 bit"));
+                         "deciles differ by 3.4 % at most, "));
 }
 
 }  // namespace
