@@ -52,7 +52,8 @@ class RunUnderTest {
         points_{.output = info.scenario->output,
                 .vehicle_from_sensor = VehicleFromSensor(info.scenario->lidar.mount)},
         reach_m_(info.scenario->lidar.range_max_m),
-        track_(*info.scenario, *MakeWorld(*info.scenario), PartsOf(options.spec.gauge)),
+        track_(
+            *MakeWorld(*info.scenario), info.scenario->world.catenary, PartsOf(options.spec.gauge)),
         evaluator_(track_, info.labels, points_.vehicle_from_sensor) {
     if (options.detections.empty()) return;
     reported_.emplace(ReadReportedRun(options.detections[index], points_.vehicle_from_sensor));

@@ -1,9 +1,6 @@
 #include "analysis/detectability/approach.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -13,17 +10,6 @@
 
 namespace railcast {
 namespace {
-
-constexpr double kAxisStep_m = 5.0;
-/// Boxes are cut into pieces of this length; within one the track leaves its tangent by at most
-/// 1 m^2 / (2 R): 5 mm at R = 100 m.
-constexpr double kPiece_m = 2.0;
-constexpr double kMaxPieces = 64.0;
-
-/// Number of pieces that a length is cut into.
-int PiecesOf(double length_m) {
-  return static_cast<int>(std::clamp(std::ceil(length_m / kPiece_m), 1.0, kMaxPieces));
-}
 
 // Mean speed from the poses at the start and end of the scan.
 double SpeedOf(const Frame& frame) {
@@ -47,67 +33,6 @@ double ApproachOf(const RecordedObject& object, const Frame& frame) {
 }
 
 }  // namespace
-
-OwnTrack::OwnTrack(const ScenarioSpec& scenario) : OwnTrack(scenario, *MakeWorld(scenario)) {}
-
-OwnTrack::OwnTrack(const ScenarioSpec& scenario,
-                   const RailWorld& world,
-                   std::vector<GaugePart> gauge)
-    : alignment_(world.alignment()), track_(world.vehicle_course()), gauge_(std::move(gauge)) {
-  if (gauge_.empty()) {
-    gauge_ = StructureGauge(ContactHeightOver_m(world.vehicle_track(), scenario.world.catenary));
-  }
-  for (double s_m = track_.begin_s_m(); s_m < track_.end_s_m() + kAxisStep_m; s_m += kAxisStep_m) {
-    axis_m_.emplace_back(track_.WorldFromTrack(alignment_, s_m).translation());
-  }
-}
-
-double OwnTrack::ChainageNear_m(const Vector3& world_m) const {
-  const auto nearest = std::ranges::min_element(
-      axis_m_, {}, [&](const Vector3& point_m) { return (point_m - world_m).squaredNorm(); });
-  return Refined_m(
-      track_.begin_s_m() + kAxisStep_m * static_cast<double>(nearest - axis_m_.begin()), world_m);
-}
-
-// Newton's method.
-double OwnTrack::Refined_m(double s_m, const Vector3& world_m) const {
-  constexpr int kNumSteps = 3;
-  for (int i = 0; i < kNumSteps; ++i) {
-    s_m += (track_.WorldFromTrack(alignment_, s_m).inverse() * world_m).x();
-  }
-  return s_m;
-}
-
-GaugeClearance OwnTrack::ClearanceAhead(const Transform& world_from_vehicle,
-                                        const Transform& world_from_box,
-                                        const Vector3& size_m) const {
-  const double vehicle_s_m = ChainageNear_m(world_from_vehicle.translation());
-  const bool is_along = track_.WorldFromTrack(alignment_, vehicle_s_m)
-                            .linear()
-                            .col(0)
-                            .dot(world_from_vehicle.linear().col(0)) > 0.0;
-  GaugeClearance nearest{.is_inside = false,
-                         .from_axis_m = std::numeric_limits<double>::infinity()};
-  const double box_s_m = ChainageNear_m(world_from_box.translation());
-  // The height is not cut, since the vertical curvature of a track is small.
-  const int num_x = PiecesOf(size_m.x());
-  const int num_y = PiecesOf(size_m.y());
-  const Vector3 piece_m(size_m.x() / num_x, size_m.y() / num_y, size_m.z());
-  for (int i = 0; i < num_x * num_y; ++i) {
-    const Vector3 center_m(piece_m.x() * (i % num_x + 0.5) - 0.5 * size_m.x(),
-                           piece_m.y() * (i / num_x + 0.5) - 0.5 * size_m.y(), 0.0);
-    Transform world_from_piece = world_from_box;
-    world_from_piece.translate(center_m);
-    const double s_m = Refined_m(box_s_m, world_from_piece.translation());
-    const bool is_ahead = is_along ? s_m > vehicle_s_m : s_m < vehicle_s_m;
-    if (!is_ahead || s_m < track_.begin_s_m() || s_m > track_.end_s_m()) continue;
-    const GaugeClearance piece = ClearanceOf(
-        gauge_, track_.WorldFromTrack(alignment_, s_m).inverse() * world_from_piece, piece_m);
-    nearest.is_inside = nearest.is_inside || piece.is_inside;
-    nearest.from_axis_m = std::min(nearest.from_axis_m, piece.from_axis_m);
-  }
-  return nearest;
-}
 
 double DistanceToBox(const Vector3& point_m, const Vector3& size_m) {
   return (point_m.cwiseAbs() - 0.5 * size_m).cwiseMax(0.0).norm();
@@ -149,7 +74,7 @@ RunCourses FollowObjects(Recording& recording, const std::function<void(std::siz
         info.kind + ")");
   }
   const Transform vehicle_from_sensor = VehicleFromSensor(info.scenario->lidar.mount);
-  const OwnTrack own_track(*info.scenario);
+  const OwnTrack own_track(*MakeWorld(*info.scenario), info.scenario->world.catenary);
   RunCourses courses;
   while (const auto read = recording.Next()) {
     const RecordedFrame recorded = (*read)();

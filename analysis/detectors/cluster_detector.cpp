@@ -30,7 +30,7 @@ GaugePoints PointsIn(const GaugeAhead& gauge,
     if (!std::isfinite(frame.x[slot])) continue;
     const auto place =
         gauge.PlaceInside(frame.world_from_sensor * motion.PointOf(slot).cast<double>());
-    if (!place || place->z() < spec.min_height_m) continue;
+    if (!place || place->height_m < spec.min_height_m) continue;
     if (gauge.Ahead_m(*place) < spec.min_distance_m) continue;
     points.places.push_back(*place);
     points.labels.push_back(frame.label[slot]);
@@ -44,8 +44,8 @@ std::vector<pcl::PointIndices> ClustersOf(const std::vector<PlaceByTrack>& place
   const pcl::PointCloud<pcl::PointXYZ>::Ptr plan(new pcl::PointCloud<pcl::PointXYZ>());
   // Chainages may be too large for float32.
   for (const PlaceByTrack& place : places) {
-    plan->push_back(
-        {static_cast<float>(place.x() - places.front().x()), static_cast<float>(place.y()), 0.0F});
+    plan->push_back({static_cast<float>(place.chainage_m - places.front().chainage_m),
+                     static_cast<float>(place.lateral_m), 0.0F});
   }
   std::vector<pcl::PointIndices> clusters;
   if (plan->empty()) return clusters;

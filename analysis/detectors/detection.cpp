@@ -8,17 +8,15 @@ namespace railcast {
 
 OrientedBox BoxOfCluster(const OwnTrack& track, const std::vector<PlaceByTrack>& places) {
   constexpr double kLeastSide_m = 0.1;
-  Vector3 least_m = places.front();
-  Vector3 most_m = places.front();
+  Eigen::AlignedBox3d bounds_m;
   for (const PlaceByTrack& place : places) {
-    least_m = least_m.cwiseMin(place);
-    most_m = most_m.cwiseMax(place);
+    bounds_m.extend(Vector3(place.chainage_m, place.lateral_m, place.height_m));
   }
-  const Vector3 middle_m = 0.5 * (least_m + most_m);
+  const Vector3 middle_m = bounds_m.center();
   OrientedBox box;
   box.world_from_box = track.WorldFromTrack(middle_m.x());
   box.world_from_box.translate(Vector3(0.0, middle_m.y(), middle_m.z()));
-  box.size_m = (most_m - least_m).cwiseMax(kLeastSide_m);
+  box.size_m = bounds_m.sizes().cwiseMax(kLeastSide_m);
   return box;
 }
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/detectability/approach.h"
+#include "core/rail/world/own_track.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -20,11 +20,7 @@ struct TrainGauge {
 /// The parts of a gauge for OwnTrack; none if it has none of its own.
 [[nodiscard]] std::vector<GaugePart> PartsOf(const std::optional<TrainGauge>& gauge);
 
-/// A place by the own track: chainage, left of the axis, above top of rail.
-using PlaceByTrack = Vector3;
-
-/// The gauge of the own track ahead of a sensor, in which points are looked for. It finds the
-/// places of all points of a frame in little time.
+/// The gauge of the own track ahead of a sensor, in which points are looked for.
 class GaugeAhead {
  public:
   /// @param track Must outlive this.
@@ -38,27 +34,17 @@ class GaugeAhead {
   [[nodiscard]] std::optional<PlaceByTrack> PlaceInside(const Vector3& world_m) const;
   /// How far ahead of the sensor, along the track.
   [[nodiscard]] double Ahead_m(const PlaceByTrack& place) const {
-    return std::abs(place.x() - sensor_s_m_);
+    return std::abs(place.chainage_m - sensor_s_m_);
   }
 
  private:
-  /// A place on the axis.
-  struct Station {
-    double s_m{};
-    Transform track_from_world;
-  };
   const OwnTrack& track_;
   double sensor_s_m_{};
+  double reach_m_{};
   bool is_along_{};  ///< Whether the vehicle looks towards rising chainage.
-  double most_half_width_m_{};
-  double top_m_{};
-  std::vector<Station> stations_;
-  std::vector<Vector3> axis_m_;  ///< Of the stations.
 };
 
-/// The place of a point by the whole of the track.
-[[nodiscard]] PlaceByTrack PlaceOnTrack(const OwnTrack& track,
-                                        double near_s_m,
-                                        const Vector3& world_m);
+/// The place of a point, beyond the ends of the track by its tangent there.
+[[nodiscard]] PlaceByTrack PlaceOnTrack(const OwnTrack& track, const Vector3& world_m);
 
 }  // namespace railcast

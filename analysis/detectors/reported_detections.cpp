@@ -102,7 +102,7 @@ class Placing {
       const std::uint32_t slot = SlotOf((*detection.points)[i], index, i);
       const Vector3 world_m =
           recorded_.frame.world_from_sensor * undone_.PointOf(slot).cast<double>();
-      places.push_back(PlaceOnTrack(track_, track_.ChainageNear_m(world_m), world_m));
+      places.push_back(PlaceOnTrack(track_, world_m));
       labels.push_back(recorded_.frame.label[slot]);
     }
     return {BoxOfCluster(track_, places), MostFrequentLabel(labels), detection.class_name};

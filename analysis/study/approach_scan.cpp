@@ -104,7 +104,7 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
   Simulator& simulator = *simulator_;
   const RailWorld& world = *world_;
   const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
-  const OwnTrack own_track(scenario, *world_, PartsOf(gauge_));
+  const OwnTrack own_track(world, scenario.world.catenary, PartsOf(gauge_));
   ObjectSurvey survey(world, LabelTable(scenario.labels), simulator.spec().detector.range_max_m,
                       scenario.output);
   const std::vector<ObjectView> no_views(world.objects().size());
@@ -160,7 +160,7 @@ std::optional<EvaluatedRun> ApproachScanner::Evaluate(const ScenarioSpec& scenar
   Use(in_sensor_axes);
   const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
   const double range_max_m = simulator_->spec().detector.range_max_m;
-  const OwnTrack own_track(scenario, *world_, PartsOf(gauge_));
+  const OwnTrack own_track(*world_, scenario.world.catenary, PartsOf(gauge_));
   const LabelTable labels(scenario.labels);
   ObjectSurvey survey(*world_, labels, range_max_m, in_sensor_axes.output);
   const std::vector<ObjectView> no_views(world_->objects().size());

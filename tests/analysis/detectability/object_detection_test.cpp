@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "analysis/detectability/approach.h"
-#include "tests/analysis/detectability/made_track.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
 namespace {

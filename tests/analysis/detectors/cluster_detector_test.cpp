@@ -91,7 +91,8 @@ TEST(ClusterDetector, UndoesTheSensorsMotion) {
 
 TEST(ClusterDetector, FollowsTheCurve) {
   constexpr double kRadius_m = 300.0;
-  const OwnTrack track(ScenarioOn(ElementType::kArc, 800.0, kRadius_m));
+  const ScenarioSpec scenario = ScenarioOn(ElementType::kArc, 800.0, kRadius_m);
+  const OwnTrack track(*MakeWorld(scenario), scenario.world.catenary);
   const auto at = [&](double s_m, double d_m) -> Vector3 {
     const double angle_rad = s_m / kRadius_m;
     const double radius_m = kRadius_m - d_m;
@@ -100,9 +101,9 @@ TEST(ClusterDetector, FollowsTheCurve) {
   const GaugeAhead gauge(track, Transform::Identity(), Vector3(2.0, 0.0, 2.0), 300.0);
   const auto place = gauge.PlaceInside(at(203.0, 1.2));
   ASSERT_TRUE(place);
-  EXPECT_NEAR(place->x(), 203.0, 1e-3);
-  EXPECT_NEAR(place->y(), 1.2, 1e-3);
-  EXPECT_NEAR(place->z(), 1.0, 1e-9);
+  EXPECT_NEAR(place->chainage_m, 203.0, 1e-3);
+  EXPECT_NEAR(place->lateral_m, 1.2, 1e-3);
+  EXPECT_NEAR(place->height_m, 1.0, 1e-6);
   EXPECT_FALSE(gauge.PlaceInside(at(203.0, 1.7)));
   EXPECT_FALSE(gauge.PlaceInside(at(203.0, -1.7)));
   EXPECT_FALSE(gauge.PlaceInside(Vector3(200.0, 0.0, 1.0))) << "straight ahead";
@@ -110,7 +111,8 @@ TEST(ClusterDetector, FollowsTheCurve) {
 
 TEST(ClusterDetector, KeepsToATrainsOwnGauge) {
   const ScenarioSpec scenario = ScenarioOn(ElementType::kStraight, 2'000.0);
-  const OwnTrack track(scenario, *MakeWorld(scenario), PartsOf(TrainGauge{2.8, 2.83}));
+  const OwnTrack track(*MakeWorld(scenario), scenario.world.catenary,
+                       PartsOf(TrainGauge{2.8, 2.83}));
   const GaugeAhead gauge(track, MakeTransform(Eigen::Matrix3d::Identity(), {500.0, 0.0, 0.0}),
                          Vector3(500.0, 0.0, 2.0), 300.0);
   EXPECT_TRUE(gauge.PlaceInside(Vector3(600.0, 1.39, 1.0)));

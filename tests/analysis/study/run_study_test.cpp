@@ -38,7 +38,7 @@ class Study : public testing::Test {
 RunCourses CoursesOfWholeFrames(const ScenarioSpec& scenario, std::uint32_t num_frames) {
   const auto simulator = MakeSimulator(scenario, 2);
   const auto world = MakeWorld(scenario);
-  const OwnTrack track(scenario, *world);
+  const OwnTrack track(*world, scenario.world.catenary);
   ObjectSurvey survey(simulator->world(), LabelTable(scenario.labels), scenario.lidar.range_max_m,
                       scenario.output);
   RunCourses courses;

@@ -5,7 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "analysis/detectability/approach.h"
+#include "core/rail/world/own_track.h"
+#include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -27,9 +28,13 @@ namespace railcast {
   return scenario;
 }
 
+[[nodiscard]] inline OwnTrack OwnTrackOf(const ScenarioSpec& scenario) {
+  return {*MakeWorld(scenario), scenario.world.catenary};
+}
+
 /// A straight track of 2000 m.
 [[nodiscard]] inline const OwnTrack& StraightTrack() {
-  static const OwnTrack track(ScenarioOn(ElementType::kStraight, 2'000.0));
+  static const OwnTrack track = OwnTrackOf(ScenarioOn(ElementType::kStraight, 2'000.0));
   return track;
 }
 
