@@ -20,7 +20,9 @@ void AddRunChoices(CLI::App& command, RunChoices& choices) {
       .add_option(
           "--fields", choices.fields,
           "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
-          "of points: railcast, velodyne, ouster, hesai, livox or aeva")
+          "of points: railcast, velodyne, ouster, hesai, livox or aeva; those of the track, such "
+          "as "
+          "in_gauge, are not among all")
       ->capture_default_str();
   command.add_flag("--merged", choices.is_merged,
                    "Also write the clouds of all sensors together, in the vehicle's axes, with "
@@ -34,7 +36,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices) {
 void CheckFields(const std::string& fields) {
   if (ValueNamed<ros::PointLayout>(fields)) return;
   try {
-    static_cast<void>(FieldSelection(fields, true));
+    static_cast<void>(FieldSelection(fields, true, true));
   } catch (const InputError& error) {
     throw CLI::ValidationError(error.what());
   }

@@ -1,10 +1,12 @@
 #include "generator/run/run_plan.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/track_fields.h"
 #include "core/io/osi/sensor_view.h"
 #include "core/io/ros/frame_topics.h"
 #include "core/io/run/camera_files.h"
@@ -29,12 +31,12 @@ bool IsNameOfAFolder(const std::string& name) {
 void ChooseFields(const std::string& fields, bool has_velocity, SequenceSpec& spec) {
   const FrameFormat& format = *spec.files.format;
   if (!format.bag.empty()) {
-    spec.clouds = ros::ParseCloudSpec(fields, has_velocity);
+    spec.clouds = ros::ParseCloudSpec(fields, has_velocity, true);
   } else if (ValueNamed<ros::PointLayout>(fields)) {
     throw InputError("--fields " + fields + ": must be with --format mcap or rosbag2 (got " +
                      std::string(format.name) + ")");
   } else {
-    spec.files.fields = FieldSelection(fields, has_velocity);
+    spec.files.fields = FieldSelection(fields, has_velocity, true);
   }
 }
 
@@ -66,6 +68,24 @@ void PlanTrace(const FrameMaker& maker, std::size_t index, SensorPlan& sensor) {
   spec.trace = TraceName({osi::ProtobufVersion(), spec.num_frames, sensor.name, extension});
   spec.trace_topic = (sensor.name.empty() ? "lidar" : sensor.name) + ".SensorView";
   spec.sensor_view = MakeSensorViews(maker, sensor.scenario, index);
+}
+
+// Tells the fields of the track, if any are chosen, where the track is.
+void SetTrack(const FrameMaker& maker, const RunPlan& plan, SensorPlan& sensor) {
+  FieldSelection& fields =
+      sensor.spec.bag.empty() ? sensor.spec.files.fields : sensor.spec.clouds.fields;
+  if (!fields.NeedsTrack()) return;
+  const ScenarioSpec& scenario = sensor.scenario;
+  // The clouds of a bag share their fields, and these the sensor's place in the vehicle.
+  if (plan.is_in_folders() && !sensor.spec.bag.empty() &&
+      scenario.output.frame == OutputFrame::kVehicle) {
+    throw InputError("--fields " + fields.Text() +
+                     ": must be without fields of the track where several sensors have their "
+                     "points in the vehicle's axes in one bag");
+  }
+  fields.SetTrack(std::make_shared<const FrameTrack>(
+      FrameTrack{OwnTrack(*maker.StateAt(0).world, scenario.world.catenary), scenario.output,
+                 VehicleFromSensor(scenario.lidar.mount)}));
 }
 
 // The sequence of a scenario with one sensor.
@@ -221,6 +241,7 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     CheckSameFiles(plan.sensors[i].scenario, plan.sensors[i].spec.identity);
     PlanTrace(maker, i, plan.sensors[i]);
+    SetTrack(maker, plan, plan.sensors[i]);
   }
 }
 

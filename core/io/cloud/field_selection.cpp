@@ -4,11 +4,19 @@
 #include <set>
 
 #include "core/base/error.h"
+#include "core/io/cloud/track_fields.h"
 #include "core/scenario/json_rules.h"
 #include "railcast/frame.h"
 
 namespace railcast {
 namespace {
+
+std::vector<std::string> TrackNames() {
+  std::vector<std::string> names;
+  ForEachTrackField(
+      {}, [&](std::string_view name, std::string_view, const auto&) { names.emplace_back(name); });
+  return names;
+}
 
 std::vector<std::string> TableNames(bool has_velocity) {
   Frame frame;
@@ -37,12 +45,14 @@ std::string Join(const std::vector<std::string>& names, std::string_view separat
 
 FieldSelection::FieldSelection() : names_(TableNames(false)) {}
 
-FieldSelection::FieldSelection(std::string_view list, bool has_velocity) {
-  const std::vector<std::string> valid = TableNames(has_velocity);
+FieldSelection::FieldSelection(std::string_view list, bool has_velocity, bool has_track) {
+  std::vector<std::string> valid = TableNames(has_velocity);
   if (list == "all") {
     names_ = valid;
     return;
   }
+  const std::vector<std::string> of_track = TrackNames();
+  if (has_track) valid.insert(valid.end(), of_track.begin(), of_track.end());
   ErrorList errors;
   std::set<std::string, std::less<>> asked;
   while (true) {
@@ -51,6 +61,11 @@ FieldSelection::FieldSelection(std::string_view list, bool has_velocity) {
     if (!IsAmong(valid, name) && IsAmong(TableNames(true), name)) {
       errors.Add(
           {"--fields", "must be a field of a sensor without lidar.velocity", '"' + name + '"'});
+    } else if (!has_track && IsAmong(of_track, name)) {
+      errors.Add({"--fields",
+                  "must be a field of the frame itself, since only the files and bags of "
+                  "sequence and dataset have those of the track",
+                  '"' + name + '"'});
     } else if (!IsAmong(valid, name)) {
       errors.Add({"--fields", Unknown("field", name, valid), '"' + name + '"'});
     } else if (!asked.insert(name).second) {
@@ -66,6 +81,10 @@ FieldSelection::FieldSelection(std::string_view list, bool has_velocity) {
 
 bool FieldSelection::Has(std::string_view name) const {
   return IsAmong(names_, name);
+}
+
+bool FieldSelection::NeedsTrack() const {
+  return std::ranges::any_of(TrackNames(), [&](const auto& name) { return Has(name); });
 }
 
 std::string FieldSelection::Text() const {

@@ -17,12 +17,9 @@
 namespace railcast {
 namespace {
 
-void AppendCompressedFields(const Frame& frame,
-                            const FieldSelection& selection,
-                            std::string& bytes) {
+void AppendCompressedFields(const SelectedFields& fields, std::string& bytes) {
   std::string plain;
-  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
-    if (!selection.Has(name)) return;
+  fields.ForEach([&](std::string_view, std::string_view, const auto& values) {
     const std::size_t size = values.size() * sizeof(values[0]);
     const std::size_t begin = plain.size();
     plain.resize(begin + size);
@@ -45,10 +42,9 @@ void AppendNumber(Stored value, std::string& bytes) {
   bytes.append(digits.data(), end);
 }
 
-void AppendText(const Frame& frame, const FieldSelection& selection, std::string& bytes) {
-  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
-      if (!selection.Has(name)) return;
+void AppendText(std::size_t num_slots, const SelectedFields& fields, std::string& bytes) {
+  for (std::size_t slot = 0; slot < num_slots; ++slot) {
+    fields.ForEach([&](std::string_view, std::string_view, const auto& values) {
       using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
       AppendNumber(static_cast<Stored>(values[slot]), bytes);
       bytes += ' ';
@@ -78,7 +74,8 @@ void EncodePcd(const Frame& frame,
                const FieldSelection& fields,
                PcdEncoding encoding,
                std::string& bytes) {
-  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, fields);
+  const SelectedFields selected(frame, fields);
+  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, selected);
   const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
   const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   pcl::PCDWriter writer;
@@ -88,17 +85,17 @@ void EncodePcd(const Frame& frame,
           writer.generateHeaderBinary(cloud, origin, orientation) + "DATA binary\n";
       bytes.resize(header.size() + frame.num_slots() * cloud.point_step);
       header.copy(bytes.data(), header.size());
-      WeaveRows(frame, fields, cloud.point_step, bytes.data() + header.size());
+      WeaveRows(frame, selected, cloud.point_step, bytes.data() + header.size());
       break;
     }
     case PcdEncoding::kBinaryCompressed:
       bytes = writer.generateHeaderBinaryCompressed(cloud, origin, orientation) +
               "DATA binary_compressed\n";
-      AppendCompressedFields(frame, fields, bytes);
+      AppendCompressedFields(selected, bytes);
       break;
     case PcdEncoding::kAscii:
       bytes = writer.generateHeaderASCII(cloud, origin, orientation) + "DATA ascii\n";
-      AppendText(frame, fields, bytes);
+      AppendText(frame.num_slots(), selected, bytes);
       break;
   }
 }

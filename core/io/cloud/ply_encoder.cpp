@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/cloud/track_fields.h"
 #include "core/io/field_layout.h"
 
 namespace railcast {
@@ -36,12 +37,8 @@ std::vector<std::size_t> SlotsWithPoint(const Frame& frame) {
 
 // Calls `visit(name, values, Stored{})` for every selected field with the type the file stores.
 template <typename Visitor>
-void ForEachProperty(const Frame& frame,
-                     const FieldSelection& selection,
-                     PlyFlavour flavour,
-                     Visitor&& visit) {
-  ForEachField(frame, [&](std::string_view name, std::string_view unit, const auto& values) {
-    if (!selection.Has(name)) return;
+void ForEachProperty(const SelectedFields& fields, PlyFlavour flavour, Visitor&& visit) {
+  fields.ForEach([&](std::string_view name, std::string_view unit, const auto& values) {
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
     if (flavour == PlyFlavour::kPcl || IsCoordinate(name)) {
       visit(std::string(name), values, Stored{});
@@ -80,11 +77,12 @@ void EncodePly(const Frame& frame,
     CheckFitsInt(frame.label, "label");
     CheckFitsInt(frame.instance, "instance");
   }
+  const SelectedFields selected(frame, fields);
   const std::vector<std::size_t> slots = SlotsWithPoint(frame);
   std::string header =
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(slots.size()) + "\n";
   std::size_t step = 0;
-  ForEachProperty(frame, fields, flavour, [&](const std::string& name, const auto&, auto zero) {
+  ForEachProperty(selected, flavour, [&](const std::string& name, const auto&, auto zero) {
     header += "property " + std::string(PlyTypeName<decltype(zero)>()) + " " + name + "\n";
     step += sizeof zero;
   });
@@ -93,7 +91,7 @@ void EncodePly(const Frame& frame,
   bytes.resize(header.size() + slots.size() * step);
   header.copy(bytes.data(), header.size());
   char* place = bytes.data() + header.size();
-  ForEachProperty(frame, fields, flavour, [&](const std::string&, const auto& values, auto zero) {
+  ForEachProperty(selected, flavour, [&](const std::string&, const auto& values, auto zero) {
     const auto* from = values.data();
     for (std::size_t i = 0; i < slots.size(); ++i) {
       StoreAt<decltype(zero)>(place + i * step, from[slots[i]]);

@@ -28,10 +28,9 @@ void StoreColumn(const T* from, std::size_t count, std::size_t step, char* to) {
 
 }  // namespace
 
-pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const FieldSelection& selection) {
+pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const SelectedFields& fields) {
   pcl::PCLPointCloud2 cloud;
-  ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
-    if (!selection.Has(name)) return;
+  fields.ForEach([&](std::string_view name, std::string_view, const auto& values) {
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
     pcl::PCLPointField field;
     field.name = name;
@@ -47,15 +46,14 @@ pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const FieldSelection& sele
   return cloud;
 }
 
-void WeaveRows(const Frame& frame, const FieldSelection& selection, std::size_t step, char* to) {
+void WeaveRows(const Frame& frame, const SelectedFields& fields, std::size_t step, char* to) {
   // The block size keeps the rows of a block in the first-level cache while the fields are written
   // into them one after another.
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < frame.num_slots(); first += kBlock) {
     const std::size_t count = std::min(kBlock, frame.num_slots() - first);
     char* place = to + first * step;
-    ForEachField(frame, [&](std::string_view name, std::string_view, const auto& values) {
-      if (!selection.Has(name)) return;
+    fields.ForEach([&](std::string_view, std::string_view, const auto& values) {
       using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
       StoreColumn<Stored>(values.data() + first, count, step, place);
       place += sizeof(Stored);

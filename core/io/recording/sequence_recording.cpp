@@ -96,7 +96,7 @@ class CloudsOfBag {
   explicit CloudsOfBag(const SequenceSummary& summary)
       : file_((summary.directory / summary.run.bag).lexically_normal()) {
     if (!exists(file_)) file_ += kUnfinishedSuffix;
-    if (ros::ParseCloudSpec(summary.run.fields, true).layout != ros::PointLayout::kRailcast) {
+    if (ros::ParseCloudSpec(summary.run.fields, true, true).layout != ros::PointLayout::kRailcast) {
       throw InputError(ShownPath(summary.directory) + ": must have railcast's fields (got " +
                        summary.run.fields + "); open " + ShownPath(file_) + " instead");
     }

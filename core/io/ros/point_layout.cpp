@@ -248,7 +248,8 @@ void PutVendorPoints(const Frame& frame,
 }
 
 void PutOwnPoints(const Frame& frame, const FieldSelection& fields, PointCloud2& message) {
-  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, fields);
+  const SelectedFields selected(frame, fields);
+  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, selected);
   for (const pcl::PCLPointField& field : cloud.fields) {
     message.fields.push_back({field.name, field.offset, field.datatype, field.count});
   }
@@ -257,17 +258,17 @@ void PutOwnPoints(const Frame& frame, const FieldSelection& fields, PointCloud2&
   message.point_step = cloud.point_step;
   message.is_dense = std::ranges::all_of(frame.outcome, &HasPoint);
   message.data.resize(frame.num_slots() * cloud.point_step);
-  WeaveRows(frame, fields, cloud.point_step, reinterpret_cast<char*>(message.data.data()));
+  WeaveRows(frame, selected, cloud.point_step, reinterpret_cast<char*>(message.data.data()));
 }
 
 }  // namespace
 
-CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity) {
+CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity, bool has_track) {
   if (const auto layout = ValueNamed<PointLayout>(text)) {
     if (*layout == PointLayout::kAeva && !has_velocity) throw InputError(kNeedsVelocity);
     return {*layout, {}};
   }
-  CloudSpec spec{PointLayout::kRailcast, FieldSelection(text, has_velocity)};
+  CloudSpec spec{PointLayout::kRailcast, FieldSelection(text, has_velocity, has_track)};
   for (const std::string_view name : {"x", "y", "z"}) {
     if (spec.fields.Has(name)) continue;
     throw InputError("--fields: must contain x, y and z for messages of ROS 2 (got " +

@@ -56,9 +56,12 @@ struct CloudSpec {
 
 /// Parses what `--fields` says for messages: the name of a layout, "all", or a list of railcast's
 /// fields.
-/// @param has_velocity As FieldSelection takes it; frames without leave these fields out.
+/// @param has_velocity,has_track As FieldSelection takes them; frames without leave these fields
+///   out.
 /// @throws InputError as FieldSelection does, or "--fields: must contain x, y and z ...".
-[[nodiscard]] CloudSpec ParseCloudSpec(std::string_view text, bool has_velocity = false);
+[[nodiscard]] CloudSpec ParseCloudSpec(std::string_view text,
+                                       bool has_velocity = false,
+                                       bool has_track = false);
 
 /// The text that ParseCloudSpec() reads as this.
 [[nodiscard]] std::string TextOf(const CloudSpec& spec);

@@ -36,9 +36,10 @@ SequenceSpec SpecOf(const SequenceSummary& summary, const ScenarioSpec& scenario
       spec.fidelity_choice_json = manifest["fidelity_choice"].dump();
     }
   }
-  spec.files = {.format = &ParseFrameFormat(run.format),
-                .fields = run.fields.empty() ? FieldSelection() : FieldSelection(run.fields, true),
-                .labels = LabelTable(scenario.labels)};
+  spec.files = {
+      .format = &ParseFrameFormat(run.format),
+      .fields = run.fields.empty() ? FieldSelection() : FieldSelection(run.fields, true, true),
+      .labels = LabelTable(scenario.labels)};
   if (scenario.camera) {
     spec.camera = scenario.camera->name;
     spec.calibration_json =

@@ -3,10 +3,12 @@
 #include <pcl/PCLPointCloud2.h>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "railcast/frame.h"
@@ -14,27 +16,39 @@
 
 namespace railcast {
 
-/// Selects which fields of the frame's table (ForEachField() in railcast/frame.h) a file carries.
-/// They are always stored in the table's order.
+struct FrameTrack;
+
+/// Selects which fields of the frame's table (ForEachField() in railcast/frame.h) a file carries,
+/// and which of the points' places relative to the vehicle's track (core/io/cloud/track_fields.h).
+/// They are always stored in the table's order; those of the track come last.
 class FieldSelection {
  public:
   /// Selects every field that frames of all sensors have.
   FieldSelection();
-  /// @param list Names separated by commas, in any order; "all" selects every field.
+  /// @param list Names separated by commas, in any order; "all" selects every field of the frame.
   /// @param has_velocity Whether it is for frames with velocities (Frame::has_velocity).
+  /// @param has_track Whether the track of the frames' vehicle is known, so that the list may name
+  ///   its fields.
   /// @throws InputError if a name is unknown (the message names the closest and all valid ones) or
   ///   is given twice.
-  explicit FieldSelection(std::string_view list, bool has_velocity = false);
+  explicit FieldSelection(std::string_view list, bool has_velocity = false, bool has_track = false);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool Has(std::string_view name) const;
   /// The names separated by commas, as the second constructor reads them.
   [[nodiscard]] std::string Text() const;
 
-  bool operator==(const FieldSelection&) const = default;
+  /// Whether any field is one of the track. Frames can then be stored once their track is set.
+  [[nodiscard]] bool NeedsTrack() const;
+  void SetTrack(std::shared_ptr<const FrameTrack> track) { track_ = std::move(track); }
+  [[nodiscard]] const FrameTrack* track() const { return track_.get(); }
+
+  /// Whether both select the same fields.
+  bool operator==(const FieldSelection& other) const { return names_ == other.names_; }
 
  private:
   std::vector<std::string> names_;
+  std::shared_ptr<const FrameTrack> track_;
 };
 
 /// Encodings of the points of a PCD file.
