@@ -14,6 +14,7 @@
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/scenario_identity.h"
@@ -22,6 +23,8 @@
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
+#include "railcast/rail_world.h"
+#include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
@@ -84,6 +87,7 @@ RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& firs
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
   std::string topic;
+  std::optional<std::filesystem::path> track;  // Scenario with the track of the vehicle.
   int num_threads = 0;
   ReportOutput output;
 };
@@ -161,8 +165,16 @@ void AddDatasetSections(const std::vector<MeasuredSource>& sources, Report& repo
   report.sections.insert(report.sections.begin(), sections.begin(), sections.end());
 }
 
+std::optional<FrameTrack> TrackOf(const std::optional<std::filesystem::path>& file) {
+  if (!file) return std::nullopt;
+  const ScenarioSpec scenario = ReadScenario(*file);
+  // Recordings have their points in the sensor's axes, whatever the scenario's output.
+  return FrameTrack{OwnTrack(*MakeWorld(scenario), scenario.world.catenary), {}};
+}
+
 Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
                       std::size_t num_frames,
+                      const std::optional<FrameTrack>& track,
                       std::vector<RecordingInfo>& infos) {
   Statistics all;
   const ProgressLine progress;
@@ -170,14 +182,15 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
     for (const std::filesystem::path& path : source.recordings) {
       const std::uint64_t before = all.coverage.num_frames();
       const auto recording = OpenRecording(path);
-      all.Add(MeasureStatistics(*recording, [&](std::size_t num) {
+      const auto show = [&](std::size_t num) {
         const std::size_t done = before + num;
         if (num_frames > 0) {
           progress.Show("frames", static_cast<double>(done) / static_cast<double>(num_frames));
         } else {
           progress.Show(std::to_string(done) + " frames");
         }
-      }));
+      };
+      all.Add(MeasureStatistics(*recording, show, track ? &*track : nullptr));
       // Known only now.
       const auto info = std::ranges::find(infos, recording->info().source, &RecordingInfo::source);
       if (info != infos.end()) info->left_out = recording->info().left_out;
@@ -200,7 +213,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   const std::vector<MeasuredSource> sources =
       LookAtSources(WithTopic(options.sources, options.topic));
   SourcesAtFirstSight seen = LookAtRecordings(sources);
-  Statistics all = MeasureAll(sources, seen.num_frames, seen.infos);
+  Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");
@@ -230,6 +243,9 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
               "or a data set; several are summed up")
       ->required();
   AddTopic(*stats, options->topic);
+  stats->add_option("--track", options->track,
+                    "Scenario whose vehicle is on the recording's track, in the world of the "
+                    "recording's poses: counts the points in its structure gauge");
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();

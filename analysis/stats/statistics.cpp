@@ -39,15 +39,19 @@ const ScanTable* PointerTo(const std::optional<ScanTable>& table) {
   return table ? &*table : nullptr;
 }
 
-Statistics MeasurePair(const PairOfReaders& readers, const std::optional<ScanTable>& fixed) {
+Statistics MeasurePair(const PairOfReaders& readers,
+                       const std::optional<ScanTable>& fixed,
+                       const FrameTrack* track) {
   Statistics statistics;
   const RecordedFrame first = readers.first();
   const auto first_scan = ScanTableOf(first, fixed);
   statistics.Add(first, PointerTo(first_scan));
+  if (track != nullptr) statistics.gauge.Add(first, *track);
   if (!readers.second) return statistics;
   const RecordedFrame second = (*readers.second)();
   const auto second_scan = ScanTableOf(second, fixed);
   statistics.Add(second, PointerTo(second_scan));
+  if (track != nullptr) statistics.gauge.Add(second, *track);
   statistics.temporal_noise.Add(first, second, PointerTo(first_scan), PointerTo(second_scan));
   return statistics;
 }
@@ -79,6 +83,7 @@ void Statistics::Add(const Statistics& other) {
   classes.Add(other.classes);
   objects.Add(other.objects);
   difficulty.Add(other.difficulty);
+  gauge.Add(other.gauge);
   velocity.Add(other.velocity);
 }
 
@@ -88,7 +93,9 @@ void Statistics::ForgetRings() {
   coverage.ForgetRings();
 }
 
-Statistics MeasureStatistics(Recording& recording, const StatisticsProgress& on_progress) {
+Statistics MeasureStatistics(Recording& recording,
+                             const StatisticsProgress& on_progress,
+                             const FrameTrack* track) {
   const std::optional<ScanTable> fixed = FixedScanTable(recording.info());
   Statistics all;
   // Enough pairs in flight to keep all cores busy; more would only take memory.
@@ -104,7 +111,7 @@ Statistics MeasureStatistics(Recording& recording, const StatisticsProgress& on_
       });
   const auto measure = tbb::make_filter<PairOfReaders, Statistics>(
       tbb::filter_mode::parallel,
-      [&](const PairOfReaders& readers) { return MeasurePair(readers, fixed); });
+      [&](const PairOfReaders& readers) { return MeasurePair(readers, fixed, track); });
   const auto sum = tbb::make_filter<Statistics, void>(tbb::filter_mode::serial_in_order,
                                                       [&](const Statistics& statistics) {
                                                         all.Add(statistics);

@@ -12,6 +12,7 @@
 #include "analysis/stats/density.h"
 #include "analysis/stats/difficulty.h"
 #include "analysis/stats/dropout.h"
+#include "analysis/stats/gauge_points.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/intensity.h"
 #include "analysis/stats/noise.h"
@@ -36,9 +37,11 @@ struct Statistics {
   ClassBalance classes;
   ObjectPoints objects;
   Difficulty difficulty;
+  GaugePoints gauge;  ///< Empty without a track.
   Velocity velocity;
 
-  /// Adds everything except temporal noise, which needs two frames.
+  /// Adds everything except temporal noise, which needs two frames, and points in the gauge, which
+  /// need a track.
   /// @param scan Of the frame; null if it is not a grid.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
   void Add(const Statistics& other);
@@ -52,9 +55,11 @@ using StatisticsProgress = std::function<void(std::size_t num_frames)>;
 
 /// Reads a recording to its end. Frames are processed in parallel and summed in their order, so
 /// that the figures do not depend on the number of threads.
-/// @throws InputError as the recording does.
+/// @param track Of the vehicle, in the world of the recording's poses; null = not known.
+/// @throws InputError as the recording does, and if a frame has no pose although there is a track.
 [[nodiscard]] Statistics MeasureStatistics(Recording& recording,
-                                           const StatisticsProgress& on_progress);
+                                           const StatisticsProgress& on_progress,
+                                           const FrameTrack* track = nullptr);
 
 /// @param sources The recordings measured, one or more, all with the same labels and materials.
 /// @param command Command line, for a reader to repeat.

@@ -157,6 +157,9 @@ Report MakeStatisticsReport(const Statistics& statistics,
     report.sections.push_back(
         MakeOsdarBalanceSection(statistics.difficulty, sources.front().labels));
   }
+  if (!statistics.gauge.is_empty()) {
+    report.sections.push_back(statistics.gauge.MakeSection(names));
+  }
   report.sections.push_back(statistics.noise.MakeSection());
   report.sections.push_back(statistics.temporal_noise.MakeSection());
   if (!statistics.velocity.is_empty()) {

@@ -1,0 +1,77 @@
+#include "analysis/stats/gauge_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "analysis/estimate/estimate.h"
+#include "analysis/report/cell_text.h"
+#include "analysis/stats/bins.h"
+#include "core/base/error.h"
+
+namespace railcast {
+
+void GaugePoints::Add(const RecordedFrame& recorded, const FrameTrack& track) {
+  if (!recorded.has_pose) {
+    throw InputError(recorded.name + ": must have the sensor's pose for --track");
+  }
+  const Frame& frame = recorded.frame;
+  const TrackFields fields = TrackFieldsOf(frame, track);
+  std::uint64_t num_in_gauge = 0;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isfinite(frame.range_m[slot])) continue;
+    const std::size_t bin = BinOf(kBinDistances_m, static_cast<double>(frame.range_m[slot]));
+    ++all_[bin];
+    if (fields.in_gauge[slot] == 0) continue;
+    ++num_in_gauge;
+    ++in_gauge_[frame.label[slot]][bin];
+  }
+  ++num_frames_;
+  num_frames_with_any_ += num_in_gauge > 0 ? 1U : 0U;
+}
+
+void GaugePoints::Add(const GaugePoints& other) {
+  const auto add = [](const RangeCounts& counts, RangeCounts& sums) {
+    std::ranges::transform(counts, sums, sums.begin(), std::plus());
+  };
+  for (const auto& [label, counts] : other.in_gauge_) add(counts, in_gauge_[label]);
+  add(other.all_, all_);
+  num_frames_ += other.num_frames_;
+  num_frames_with_any_ += other.num_frames_with_any_;
+}
+
+Section GaugePoints::MakeSection(const Names& names) const {
+  Table table{.key = "points_in_gauge",
+              .title = "Points in the gauge by label and range",
+              .note = "The last row is the share of all points of the range, wherever they are.",
+              .columns = {{"label", "Label", ""}}};
+  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
+    std::string key = DistanceBinName(i);
+    std::ranges::replace(key, ' ', '_');
+    table.columns.push_back({std::move(key), DistanceBinText(i), "m"});
+  }
+  RangeCounts sums{};
+  for (const auto& [label, counts] : in_gauge_) {
+    std::vector<Cell> row = {label == 0 ? "no label" : names.OfLabel(label)};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      row.emplace_back(counts[i]);
+      sums[i] += counts[i];
+    }
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<Cell> shares = {"share, percent"};
+  for (std::size_t i = 0; i < sums.size(); ++i) shares.emplace_back(Percent(sums[i], all_[i]));
+  table.rows.push_back(std::move(shares));
+  table.is_open = true;
+  const std::uint64_t num = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+  return {.key = "gauge",
+          .title = "In the gauge",
+          .paragraphs = {Joined({CountText(num), " points in the structure gauge of the track, in ",
+                                 CountText(num_frames_with_any_), " of ", CountText(num_frames_),
+                                 " frames. Noise puts some points of the rails' heads into it."})},
+          .tables = {std::move(table)}};
+}
+
+}  // namespace railcast
