@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "analysis/braking_options.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/program/command_line.h"
@@ -43,24 +44,11 @@ void AddRuleOptions(CLI::App& command, RuleOptions& options) {
                   "An object is detected when it is seen in K of N consecutive frames")
       ->check(CLI::Validator(check, "K/N"))
       ->capture_default_str();
-  BrakingSpec& braking = options.spec.braking;
-  command
-      .add_option("--reaction-s", braking.reaction_s, "Seconds from the detection to full braking")
-      ->check(Number({0.0, 60.0}))
-      ->capture_default_str();
-  command
-      .add_option(
-          "--deceleration-mps2", braking.deceleration_mps2,
-          "Braking deceleration on the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
-      ->check(Number({0.01, 10.0}))
-      ->capture_default_str();
+  AddBrakingOptions(command, options.spec.braking);
   command
       .add_option("--speed-kmph", options.speed_kmph,
                   "Speed to brake from, instead of the vehicle's own at the detection")
       ->check(Number({0.0, 500.0}));
-  command.add_option("--margin-m", braking.margin_m, "Metres to be left before the object")
-      ->check(Number({0.0, 1000.0}))
-      ->capture_default_str();
 }
 
 }  // namespace railcast

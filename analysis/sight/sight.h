@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/detectability/object_detection.h"
+#include "railcast/scenario.h"
+
+namespace railcast {
+
+/// What is looked for from where.
+struct SightSpec {
+  /// Of the targets, above top of rail: what lies on the track, a child or an animal, a person.
+  std::vector<double> heights_m = {0.3, 1.0, 2.0};
+  double step_m = 10.0;  ///< From one place to the next, at least.
+  /// How far from the sensor the targets are sought; absent = its greatest range.
+  std::optional<double> range_m{};
+  BrakingSpec braking{};
+  /// Absent: the vehicle's own speed at the place.
+  std::optional<double> speed_mps{};
+};
+
+/// Width of a target, which stands square across the track on its axis.
+inline constexpr double kTargetWidth_m = 0.5;
+/// The nearest target's distance from the sensor.
+inline constexpr double kNearestTarget_m = 10.0;
+/// From one target to the next.
+inline constexpr double kTargetStep_m = 1.0;
+/// Sight does not end where a target is hidden on a shorter way than this, as behind a mast.
+inline constexpr double kMostHidden_m = 10.0;
+
+/// What ends the sight.
+enum class SightEnd {
+  kBlocked,
+  kRange,       ///< Nothing within the range.
+  kEndOfTrack,  ///< Nothing up to the end of the route: how far one could see on is not known.
+};
+
+/// How far ahead along the track a target is seen.
+struct Sight {
+  /// Along the track, from the sensor's place on it; 0 if the nearest target is hidden.
+  double distance_m{};
+  SightEnd end{};
+  std::string blocker;  ///< Label of most of what hides the first target out of sight.
+};
+
+/// A place on the vehicle's way.
+struct SightPlace {
+  std::uint32_t frame{};
+  double chainage_m{};          ///< Of the sensor.
+  double speed_mps{};           ///< Of the vehicle there.
+  double gradient{};            ///< Mean over the braking distance, in the direction of travel.
+  double stop_m{};              ///< Braking distance.
+  double needed_m{};            ///< With the margin.
+  std::vector<Sight> sights{};  ///< One for each height.
+
+  /// Whether the sight of a target is known to end before the distance needed.
+  [[nodiscard]] bool IsShort(std::size_t height) const {
+    return sights[height].end != SightEnd::kEndOfTrack && sights[height].distance_m < needed_m;
+  }
+};
+
+/// Looks for targets from places on the vehicle's way, at the times when it is there. A target is
+/// seen if at least half of its face is in line of sight of the sensor's nominal place: 16 rays,
+/// blocked by any surface but wires.
+/// @param scenario Of one sensor.
+/// @param on_progress Called with the share of the places that are done.
+/// @throws InputError as MakeSimulator() does, and "at 120 m: cannot stop: ..." (StopOf()).
+[[nodiscard]] std::vector<SightPlace> FollowSight(const ScenarioSpec& scenario,
+                                                  const SightSpec& spec,
+                                                  const std::function<void(double)>& on_progress);
+
+}  // namespace railcast

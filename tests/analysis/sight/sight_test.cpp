@@ -1,0 +1,166 @@
+#include "analysis/sight/sight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analysis/sight/sight_report.h"
+#include "core/base/units.h"
+#include "tests/core/rail/world/made_track.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kRange_m = 400.0;
+constexpr double kEye_m = 2.5;
+
+/// A bare line without plants, wires and relief. The vehicle stands at 100 m, its sensor over the
+/// axis.
+ScenarioSpec BareLine(ScenarioSpec scenario) {
+  WorldSpec& world = scenario.world;
+  world.tracks.resize(1);
+  world.catenary.enabled = false;
+  world.terrain.roughness_sigma_m = 0.0;
+  world.terrain.undulation_sigma_m = 0.0;
+  world.vegetation.trees_per_hectare = 0.0;
+  world.vegetation.grass = false;
+  scenario.vehicle.start_s_m = 100.0;
+  scenario.vehicle.pivot_distance_m = 0.0;
+  scenario.lidar.mount.position_m = {0.0, 0.0, kEye_m};
+  scenario.lidar.range_max_m = kRange_m;
+  return scenario;
+}
+
+std::vector<SightPlace> Follow(const ScenarioSpec& scenario, const SightSpec& spec) {
+  return FollowSight(scenario, spec, [](double) {});
+}
+
+TEST(Sight, ReachesToTheRangeOnStraightLevelTrack) {
+  const auto places = Follow(BareLine(ScenarioOn(ElementType::kStraight, 1'000.0)), {});
+  ASSERT_EQ(places.size(), 1U);
+  ASSERT_EQ(places[0].sights.size(), 3U);
+  EXPECT_NEAR(places[0].chainage_m, 100.0, 1e-6);
+  for (const Sight& sight : places[0].sights) {
+    EXPECT_EQ(sight.end, SightEnd::kRange);
+    EXPECT_DOUBLE_EQ(sight.distance_m, kRange_m);
+  }
+}
+
+TEST(Sight, IsNotKnownBeyondTheEndOfTheTrack) {
+  const auto places = Follow(BareLine(ScenarioOn(ElementType::kStraight, 350.5)), {});
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].sights[0].end, SightEnd::kEndOfTrack);
+  EXPECT_NEAR(places[0].sights[0].distance_m, 250.0, 1e-9);
+  EXPECT_FALSE(places[0].IsShort(0)) << "it may be longer";
+}
+
+// The line of sight along the chord touches the wall where it comes nearest to the centre of the
+// circle: R cos(s / (2 R)) = R - d, so s = 2 R acos((R - d) / R). Half of the target is seen where
+// the chord to a point between its inner columns, an eighth of its width from the axis, passes;
+// ds / dd = s / (2 d).
+TEST(Sight, EndsWhereTheChordTouchesAWallInsideACurve) {
+  constexpr double kRadius_m = 400.0;
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kArc, 1'000.0, kRadius_m));
+  NoiseWallSpec wall;
+  wall.name = "wall";
+  wall.side = TrackSide::kLeft;
+  wall.begin_s_m = 50.0;
+  wall.end_s_m = 600.0;
+  scenario.world.structures = {wall};
+  const auto places = Follow(scenario, {.heights_m = {1.0, 2.0}});
+  ASSERT_EQ(places.size(), 1U);
+  const double chord_m = 2.0 * kRadius_m * std::acos((kRadius_m - wall.distance_m) / kRadius_m);
+  const double tolerance_m =
+      kTargetStep_m + chord_m / (2.0 * wall.distance_m) * kTargetWidth_m / 8.0;
+  for (const Sight& sight : places[0].sights) {
+    EXPECT_EQ(sight.end, SightEnd::kBlocked);
+    EXPECT_NEAR(sight.distance_m, chord_m, tolerance_m);
+    EXPECT_EQ(sight.blocker, "noise_wall");
+  }
+  EXPECT_TRUE(places[0].IsShort(0) == (places[0].sights[0].distance_m < places[0].needed_m));
+}
+
+// On a crest of the vertical radius R, the line of sight from the height h_1 touches the track at
+// sqrt(2 R h_1) and sees the height h_2 as far beyond it: s = sqrt(2 R) (sqrt(h_1) + sqrt(h_2)).
+// Half of a target is seen where its third row of four is: h_2 = 5/8 of its height. What is touched
+// lies between top of rail and the ballast, 0.25 m below it.
+TEST(Sight, EndsBehindACrest) {
+  constexpr double kCrest_m = 600.0;
+  constexpr double kBreak = 0.04;
+  constexpr double kRadius_m = kCrest_m / kBreak;
+  constexpr double kTarget_m = 0.3;
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 1'500.0));
+  scenario.world.alignment.gradients_permil = {{0.0, 20.0}, {400.0, -20.0}};
+  scenario.world.alignment.gradient_smoothing_m = kCrest_m;
+  scenario.lidar.range_max_m = 600.0;
+  const auto places = Follow(scenario, {.heights_m = {kTarget_m}});
+  ASSERT_EQ(places.size(), 1U);
+  const auto sight_over_m = [&](double below_m) {
+    return std::sqrt(2.0 * kRadius_m) *
+           (std::sqrt(kEye_m + below_m) + std::sqrt(5.0 / 8.0 * kTarget_m + below_m));
+  };
+  EXPECT_EQ(places[0].sights[0].end, SightEnd::kBlocked);
+  EXPECT_GT(places[0].sights[0].distance_m, sight_over_m(0.0) - kTargetStep_m);
+  EXPECT_LT(places[0].sights[0].distance_m, sight_over_m(0.25));
+}
+
+TEST(Sight, NeedsTheBrakingDistanceOnTheGradientInTheDirectionOfTravel) {
+  constexpr double kSpeed_mps = 20.0;
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 1'500.0));
+  scenario.world.alignment.gradients_permil = {{0.0, 10.0}};
+  scenario.vehicle.start_s_m = 750.0;
+  // The first place only.
+  const SightSpec spec{
+      .heights_m = {1.0}, .step_m = 1'000.0, .range_m = 50.0, .speed_mps = kSpeed_mps};
+  for (const bool is_reverse : {false, true}) {
+    scenario.vehicle.motion.reverse = is_reverse;
+    const auto places = Follow(scenario, spec);
+    ASSERT_EQ(places.size(), 1U);
+    const double gradient = is_reverse ? -0.01 : 0.01;
+    EXPECT_NEAR(places[0].gradient, gradient, 1e-9);
+    EXPECT_NEAR(
+        places[0].needed_m,
+        2.0 * kSpeed_mps + kSpeed_mps * kSpeed_mps / (2.0 * (0.5 + 9.80665 * gradient)) + 15.0,
+        1e-6);
+    EXPECT_TRUE(places[0].IsShort(0)) << "the range is too short";
+  }
+}
+
+TEST(Sight, IsSoughtAtTheVehiclesOwnSpeedFromPlacesAStepApart) {
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 400.0));
+  scenario.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 20.0}};
+  const auto places = Follow(scenario, {.heights_m = {1.0}, .step_m = 50.0, .range_m = 50.0});
+  ASSERT_GE(places.size(), 6U);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    EXPECT_GE(places[i].chainage_m - places[i - 1].chainage_m, 50.0 - 1e-6);
+    EXPECT_LE(places[i].chainage_m - places[i - 1].chainage_m, 52.0 + 1e-6);
+    EXPECT_DOUBLE_EQ(places[i].speed_mps, 20.0);
+  }
+}
+
+/// A place 50 m behind the one before, with one target.
+SightPlace PlaceWith(double chainage_m, double sight_m, const std::string& blocker) {
+  return {.chainage_m = chainage_m,
+          .needed_m = 200.0,
+          .sights = {{sight_m, blocker.empty() ? SightEnd::kRange : SightEnd::kBlocked, blocker}}};
+}
+
+TEST(ShortSights, ArePartsOfTheWayWithOneBlocker) {
+  const std::vector<SightPlace> places = {
+      PlaceWith(0.0, 250.0, ""),         PlaceWith(50.0, 150.0, "tree"),
+      PlaceWith(100.0, 120.0, "tree"),   PlaceWith(150.0, 130.0, "tree"),
+      PlaceWith(200.0, 180.0, "tunnel"), PlaceWith(250.0, 300.0, ""),
+      PlaceWith(300.0, 190.0, "tunnel")};
+  const auto parts = ShortSights(places, {.heights_m = {0.3}});
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[0].blocker, "tree");
+  EXPECT_EQ(parts[0].from_s_m, 50.0);
+  EXPECT_EQ(parts[0].to_s_m, 150.0);
+  EXPECT_EQ(parts[0].worst.chainage_m, 100.0);
+  EXPECT_EQ(parts[0].spare_m(), -80.0);
+  EXPECT_EQ(parts[1].blocker, "tunnel");
+  EXPECT_EQ(parts[2].from_s_m, 300.0);
+}
+
+}  // namespace
+}  // namespace railcast
