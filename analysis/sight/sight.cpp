@@ -176,6 +176,9 @@ std::vector<SightPlace> FollowSight(const ScenarioSpec& given,
                                     const std::function<void(double)>& on_progress) {
   ScenarioSpec scenario = given;
   if (spec.range_m) scenario.lidar.range_max_m = *spec.range_m;
+  if (spec.speed_mps) {
+    scenario.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = *spec.speed_mps}};
+  }
   const double range_m = scenario.lidar.range_max_m;
   const auto simulator = MakeSimulator(scenario, 0);
   const auto& world = dynamic_cast<const RailWorld&>(simulator->world());
@@ -200,7 +203,7 @@ std::vector<SightPlace> FollowSight(const ScenarioSpec& given,
                                                : track.end_s_m() - lookout.chainage_m;
       lookout.reach_m = std::min(range_m, to_end_m);
       SightPlace place{
-          .frame = frame, .chainage_m = lookout.chainage_m, .speed_mps = spec.speed_mps.value_or(travel.speed_mps)};
+          .frame = frame, .chainage_m = lookout.chainage_m, .speed_mps = travel.speed_mps};
       AtPlace("at " + NumberText(std::round(place.chainage_m)) + " m: ",
               [&] { AddBraking(lookout, spec, place); });
       for (const double height_m : spec.heights_m) {

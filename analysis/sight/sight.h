@@ -19,7 +19,8 @@ struct SightSpec {
   /// How far from the sensor the targets are sought; absent = its greatest range.
   std::optional<double> range_m{};
   BrakingSpec braking{};
-  /// Absent: the vehicle's own speed at the place.
+  /// At which the vehicle runs from its start to the end of its route; absent = as the scenario has
+  /// it move.
   std::optional<double> speed_mps{};
 };
 

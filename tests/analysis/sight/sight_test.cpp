@@ -138,6 +138,16 @@ TEST(Sight, IsSoughtAtTheVehiclesOwnSpeedFromPlacesAStepApart) {
   }
 }
 
+TEST(Sight, IsSoughtOnTheWholeRouteAtAGivenSpeed) {
+  // The vehicle of the scenario stands.
+  const ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 400.0));
+  const auto places =
+      Follow(scenario, {.heights_m = {1.0}, .step_m = 100.0, .range_m = 50.0, .speed_mps = 30.0});
+  ASSERT_EQ(places.size(), 3U);
+  EXPECT_NEAR(places[2].chainage_m, 300.0, 3.0 * 2.0) << "a frame is 3 m";
+  EXPECT_DOUBLE_EQ(places[2].speed_mps, 30.0);
+}
+
 /// A place 50 m behind the one before, with one target.
 SightPlace PlaceWith(double chainage_m, double sight_m, const std::string& blocker) {
   return {.chainage_m = chainage_m,
