@@ -44,7 +44,7 @@ std::map<std::string, ComparedBins> ComparedBinsOf(const ModelError& error) {
   return by_target;
 }
 
-Span SpanOf(std::size_t bin) {
+Span DistancesOf(std::size_t bin) {
   return {.low = bin == 0 ? 0.0 : kBinDistances_m.at(bin - 1),
           .high = bin < kBinDistances_m.size() ? kBinDistances_m.at(bin)
                                                : std::numeric_limits<double>::infinity()};
@@ -72,7 +72,8 @@ Table PointsTable(const std::map<std::string, ComparedBins>& by_target) {
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const ComparedBin& bin = bins.at(i);
       if (bin.num_frames == 0) continue;
-      table.rows.push_back({target, SpanOf(i), bin.num_frames, PerFrame(bin.points, bin.num_frames),
+      table.rows.push_back({target, DistancesOf(i), bin.num_frames,
+                            PerFrame(bin.points, bin.num_frames),
                             PerFrame(bin.points_in_reference, bin.num_frames), bin.ratios.Mean()});
     }
   }
@@ -140,7 +141,7 @@ Chart RatioChart(const std::map<std::string, ComparedBins>& by_target) {
   for (const auto& [target, bins] : by_target) {
     ChartSeries series{target, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i + 1 < bins.size(); ++i) {
-      const Span span = SpanOf(i);
+      const Span span = DistancesOf(i);
       series.points.push_back(PointAt((span.low + span.high) / 2.0, bins.at(i).ratios.Mean()));
     }
     chart.series.push_back(std::move(series));

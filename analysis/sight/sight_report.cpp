@@ -8,7 +8,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPerMille = 1000.0;
 
 double Kmph(double speed_mps) {
@@ -45,7 +45,7 @@ Chart SightChart(const std::vector<SightPlace>& places, const SightSpec& spec) {
     for (const SightPlace& place : places) {
       const Sight& sight = place.sights[i];
       series.points.push_back(
-          {place.chainage_m, sight.end == SightEnd::kEndOfTrack ? kUnknown : sight.distance_m});
+          {place.chainage_m, sight.end == SightEnd::kEndOfTrack ? kNotKnown : sight.distance_m});
     }
     chart.series.push_back(std::move(series));
   }
@@ -141,7 +141,7 @@ void AddSightHeadlines(const std::vector<SightPlace>& places,
                        Report& report) {
   for (std::size_t i = 0; i < spec.heights_m.size(); ++i) {
     const std::string target = TargetText(spec.heights_m[i]);
-    double least_m = kUnknown;
+    double least_m = kNotKnown;
     std::uint64_t num_short = 0;
     for (const SightPlace& place : places) {
       num_short += place.IsShort(i) ? 1U : 0U;
