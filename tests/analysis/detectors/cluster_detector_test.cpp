@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/analysis/detectability/made_track.h"
 #include "tests/analysis/detectors/made_frames.h"
+#include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "tests/analysis/detectability/made_track.h"
 #include "tests/analysis/detectors/made_frames.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
 namespace {

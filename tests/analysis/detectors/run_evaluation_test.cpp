@@ -6,8 +6,8 @@
 #include <string>
 
 #include "analysis/detectors/alarm_report.h"
-#include "tests/analysis/detectability/made_track.h"
 #include "tests/analysis/detectors/made_frames.h"
+#include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
 namespace {
