@@ -73,7 +73,9 @@ Section MakeOsdarBalanceSection(const Difficulty& objects, const LabelTable& lab
   section.charts.push_back(
       {"osdar_balance",
        "Objects by class",
-       "",
+       "Where the bar of this data is much the shorter, a detector trained on it sees too few of "
+       "that "
+       "class.",
        {"", "", false, TextsOf(table, "class")},
        {"Share", "%"},
        {SeriesOf(table, {"class", "objects_percent"}, "here", SeriesStyle::kBars),
