@@ -80,27 +80,35 @@ Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
   table.key = "probability";
   table.title = "Distances by which objects are detected with a probability of 0.9";
   table.note =
-      "A log-logistic curve of hit and miss (MIL-HDBK-1823A), with an asymptote below 1 where the "
-      "likelihood ratio asks for it; bounds by the profile likelihood. Each run is inspected once, "
-      "since its frames are not independent.";
+      "With 95 % confidence by the ranks of the runs' distances of detection. The curve is the "
+      "log-logistic one of hit and miss (MIL-HDBK-1823A), with an asymptote below 1 where the "
+      "likelihood ratio asks for it; its bounds are those of the profile likelihood. For it each "
+      "run is inspected once, since its frames are not independent.";
   table.is_open = true;
   table.columns = {{"object", "Object", ""},
                    {"inspections", "Inspections", ""},
                    {"detected", "Detected", ""},
-                   {"d90_m", "0.9 at", "m"},
                    {"d90_95_m", "0.9 with 95 % confidence at", "m"},
+                   {"curve_d90_m", "Curve: 0.9 at", "m"},
+                   {"curve_d90_95_m", "Curve: with 95 % confidence", "m"},
                    {"asymptote", "Asymptote", ""}};
   std::string too_few;
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way || verdict.num_approached == 0) continue;
-    const std::vector<Inspection> inspections = InspectEach(ApproachesOf(runs, verdict.name));
+    const std::vector<InspectedApproach> approaches = ApproachesOf(runs, verdict.name);
+    const std::vector<Inspection> inspections = InspectEach(approaches);
     if (inspections.size() < DetectionFit::kMinTargets) {
       if (!too_few.empty()) too_few += ", ";
       too_few += verdict.name + " (" + NumberText(inspections.size()) + ")";
       continue;
     }
     const DetectionFit fit = FitDetection(inspections);
-    table.rows.push_back({verdict.name, fit.num_targets, fit.num_detected, fit.d90_m, fit.d90_95_m,
+    std::vector<double> detected_m;
+    for (const InspectedApproach& each : approaches) {
+      detected_m.push_back(std::isnan(each.detected_m) ? 0.0 : each.detected_m);
+    }
+    table.rows.push_back({verdict.name, fit.num_targets, fit.num_detected,
+                          DistanceOf90With95(detected_m), fit.d90_m, fit.d90_95_m,
                           AsymptoteCell(fit)});
     const bool has_curve = !std::isnan(fit.curve.middle_m);
     if (has_curve && section.charts.size() < kMaxCharts) {

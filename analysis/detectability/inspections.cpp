@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
+
+#include "analysis/estimate/tolerance_limit.h"
 
 namespace railcast {
 
@@ -26,6 +29,14 @@ std::vector<Inspection> InspectEach(const std::vector<InspectedApproach>& approa
                            .num_targets = 1});
   }
   return inspections;
+}
+
+double DistanceOf90With95(const std::vector<double>& detected_m) {
+  if (detected_m.size() < DetectionFit::kMinTargets) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double low_m = LimitsExceededBy90Percent(detected_m).low;
+  return low_m > 0.0 ? low_m : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace railcast

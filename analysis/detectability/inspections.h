@@ -20,4 +20,9 @@ struct InspectedApproach {
 /// @return As many as approaches, in their order.
 [[nodiscard]] std::vector<Inspection> InspectEach(const std::vector<InspectedApproach>& approaches);
 
+/// The distance by which 90 % of approaches detect their object with 95 % confidence, by ranks. NaN
+/// with fewer than DetectionFit::kMinTargets, or without such a distance.
+/// @param detected_m Of each approach; 0 without detection.
+[[nodiscard]] double DistanceOf90With95(const std::vector<double>& detected_m);
+
 }  // namespace railcast

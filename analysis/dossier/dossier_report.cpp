@@ -19,7 +19,7 @@ std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets)
         {.title = target.name + ": detected in time", .unit = "", .value = AnswerOf(target)});
     headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
                          .unit = "m",
-                         .value = target.fit.d90_95_m});
+                         .value = target.d90_95_m});
     headlines.push_back(
         {.title = target.name + ": needed, at most", .unit = "m", .value = target.most_needed_m});
   }

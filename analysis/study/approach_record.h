@@ -33,8 +33,10 @@ struct StudiedObject {
   std::map<std::string, Json> drawn{};  ///< Of the object itself, by JSON pointer.
 
   [[nodiscard]] std::string Target() const { return TargetOf(name); }
+  /// 0 without detection.
+  [[nodiscard]] double detected_m() const { return is_detected ? distance_m : 0.0; }
   /// Of what was not detected, the distance needed is missing.
-  [[nodiscard]] double spare_m() const { return (is_detected ? distance_m : 0.0) - needed_m; }
+  [[nodiscard]] double spare_m() const { return detected_m() - needed_m; }
   [[nodiscard]] bool is_in_time() const { return is_detected && spare_m() >= 0.0; }
   /// Whether the approach began too near to tell: detected at once, yet too late.
   [[nodiscard]] bool is_undecided() const { return is_from_start && !is_in_time(); }

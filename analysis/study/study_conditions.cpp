@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/detectability/inspections.h"
 #include "analysis/estimate/detection_curve.h"
 #include "analysis/estimate/estimate.h"
 #include "analysis/study/study_report.h"
@@ -23,12 +24,14 @@ struct Condition {
   std::uint64_t num_decided{};
   std::uint64_t num_in_time{};
   std::vector<Inspection> inspections;
+  std::vector<double> detected_m;
 
   void Add(const Observation& each) {
     ++num;
     if (!each.object->is_undecided()) ++num_decided;
     if (each.object->is_in_time()) ++num_in_time;
     inspections.push_back(each.inspection);
+    detected_m.push_back(each.object->detected_m());
   }
   [[nodiscard]] Estimate in_time() const { return Proportion(num_in_time, num_decided); }
 };
@@ -38,12 +41,14 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
   table.key = "conditions";
   table.title = "By what is drawn";
   table.note =
-      "Each factor by itself, over all values of the others. Distances need 60 inspections.";
+      "Each factor by itself, over all values of the others. Distances need 60 approaches.";
   table.is_open = true;
-  table.columns = {
-      {"factor", "Factor", ""},         {"value", "Value", ""},
-      {"approaches", "Approaches", ""}, {"in_time", "In time", ""},
-      {"d90_m", "0.9 at", "m"},         {"d90_95_m", "0.9 with 95 % confidence at", "m"}};
+  table.columns = {{"factor", "Factor", ""},
+                   {"value", "Value", ""},
+                   {"approaches", "Approaches", ""},
+                   {"in_time", "In time", ""},
+                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
+                   {"curve_d90_m", "Curve: 0.9 at", "m"}};
   for (const Factor& factor : factors) {
     std::vector<Condition> cells(factor.levels.size());
     for (std::size_t i = 0; i < observations.size(); ++i) {
@@ -53,14 +58,9 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
       const Condition& cell = cells[level];
       if (cell.num == 0) continue;
       double d90_m = kUnknown_m;
-      double d90_95_m = kUnknown_m;
-      if (cell.num >= DetectionFit::kMinTargets) {
-        const DetectionFit fit = FitDetection(cell.inspections);
-        d90_m = fit.d90_m;
-        d90_95_m = fit.d90_95_m;
-      }
-      table.rows.push_back(
-          {factor.name, factor.levels[level], cell.num, cell.in_time(), d90_m, d90_95_m});
+      if (cell.num >= DetectionFit::kMinTargets) d90_m = FitDetection(cell.inspections).d90_m;
+      table.rows.push_back({factor.name, factor.levels[level], cell.num, cell.in_time(),
+                            DistanceOf90With95(cell.detected_m), d90_m});
     }
   }
   return table;

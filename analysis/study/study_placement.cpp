@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/estimate/detection_curve.h"
+#include "analysis/detectability/inspections.h"
 #include "analysis/estimate/streams.h"
 #include "analysis/study/drawn_keys.h"
 #include "analysis/study/study_report.h"
@@ -26,7 +26,7 @@ struct PlacedView {
   std::uint64_t num_decided{};
   std::uint64_t num_in_time{};
   Moments distance_m;
-  std::vector<Inspection> inspections;
+  std::vector<double> detected_m;
   double d90_95_m = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -63,13 +63,11 @@ std::vector<PlacedView> ViewsOf(const std::vector<Observation>& observations,
     if (!object.is_undecided()) ++view.num_decided;
     if (object.is_in_time()) ++view.num_in_time;
     if (object.is_detected) view.distance_m.Add(object.distance_m);
-    view.inspections.push_back(observations[i].inspection);
+    view.detected_m.push_back(object.detected_m());
   }
   std::vector<PlacedView> sorted;
   for (auto& [key, view] : views) {
-    if (view.num >= DetectionFit::kMinTargets) {
-      view.d90_95_m = FitDetection(view.inspections).d90_95_m;
-    }
+    view.d90_95_m = DistanceOf90With95(view.detected_m);
     sorted.push_back(std::move(view));
   }
   std::ranges::stable_sort(sorted, [](const PlacedView& one, const PlacedView& other) {

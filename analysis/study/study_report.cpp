@@ -133,7 +133,7 @@ Report MakeStudyReport(const StudySpec& study,
   for (const TargetResult& target : targets) {
     report.headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
                                 .unit = "m",
-                                .value = target.fit.d90_95_m});
+                                .value = target.d90_95_m});
   }
   const std::vector<Factor> factors = FactorsOf(observations);
   Section placement = PlacementSection(observations, factors, recipe);

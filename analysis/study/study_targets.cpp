@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "analysis/detectability/detect_report.h"
 #include "analysis/detectability/detection_probability.h"
+#include "analysis/detectability/inspections.h"
+#include "analysis/estimate/tolerance_limit.h"
 #include "core/base/text.h"
 
 namespace railcast {
 
 std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations) {
   std::map<std::string, TargetResult> by_target;
+  // Of an approach that began too near to tell, it is not known from where it would be detected.
+  std::map<std::string, std::vector<double>> at_least_m, at_most_m;
   for (const Observation& each : observations) {
     const StudiedObject& object = *each.object;
     TargetResult& target = by_target[object.Target()];
@@ -24,11 +29,18 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
       target.least_distance_m = std::fmin(target.least_distance_m, object.distance_m);
     }
     target.most_needed_m = std::fmax(target.most_needed_m, object.needed_m);
+    at_least_m[object.Target()].push_back(object.detected_m());
+    at_most_m[object.Target()].push_back(
+        object.is_undecided() ? std::numeric_limits<double>::infinity() : object.detected_m());
   }
   std::vector<TargetResult> results;
   for (auto& [name, target] : by_target) {
     target.name = name;
-    if (target.has_fit()) target.fit = FitDetection(target.inspections);
+    if (target.has_fit()) {
+      target.fit = FitDetection(target.inspections);
+      target.d90_95_m = DistanceOf90With95(at_least_m[name]);
+      target.d90_at_most_m = LimitsExceededBy90Percent(at_most_m[name]).high;
+    }
     results.push_back(std::move(target));
   }
   return results;
@@ -38,8 +50,8 @@ std::string AnswerOf(const TargetResult& target) {
   if (!target.has_fit()) {
     return "too few approaches: " + NumberText(DetectionFit::kMinTargets) + " are needed";
   }
-  if (std::isnan(target.fit.d90_95_m)) return "no distance has 0.9 with 95 % confidence";
-  return target.fit.d90_95_m >= target.most_needed_m ? "yes" : "no";
+  if (target.d90_95_m >= target.most_needed_m) return "yes";
+  return target.d90_at_most_m < target.most_needed_m ? "no" : "not shown";
 }
 
 Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& targets) {
@@ -47,18 +59,20 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
   table.key = "verdicts";
   table.title = "Is it detected before the distance that the train needs?";
   table.note =
-      "Yes if the distance by which 90 % are detected, with 95 % confidence, is not less than the "
-      "greatest distance needed. The share in time is of the approaches that did not begin too "
-      "near "
-      "to tell.";
+      "Yes if 90 % are detected, with 95 % confidence, by the greatest distance needed, and no if "
+      "with the same confidence they are not, both by the ranks of all distances of detection; "
+      "between the two, it is not shown. The curve is that of hit and miss (MIL-HDBK-1823A), which "
+      "inspects each approach once. The share in time is of the approaches that did not begin too "
+      "near to tell.";
   table.is_open = true;
   table.columns = {{"target", "Target", ""},
                    {"answer", "Detected in time", ""},
                    {"approaches", "Approaches", ""},
                    {"detected", "Detected", ""},
                    {"in_time", "In time", ""},
-                   {"d90_m", "0.9 at", "m"},
                    {"d90_95_m", "0.9 with 95 % confidence at", "m"},
+                   {"curve_d90_m", "Curve: 0.9 at", "m"},
+                   {"curve_d90_95_m", "Curve: with 95 % confidence", "m"},
                    {"most_needed_m", "Needed, at most", "m"},
                    {"least_detected_at_m", "Detected at, at least", "m"},
                    {"asymptote", "Asymptote", ""}};
@@ -66,8 +80,8 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
     const std::uint64_t num = target.inspections.size();
     table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,
                           Proportion(target.num_in_time, num - target.num_undecided),
-                          target.fit.d90_m, target.fit.d90_95_m, target.most_needed_m,
-                          target.least_distance_m,
+                          target.d90_95_m, target.fit.d90_m, target.fit.d90_95_m,
+                          target.most_needed_m, target.least_distance_m,
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
   Section section{.key = "verdict", .title = "Verdict"};
