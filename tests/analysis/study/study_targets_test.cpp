@@ -1,0 +1,76 @@
+#include "analysis/study/study_targets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "analysis/study/approach_record.h"
+#include "analysis/study/study_factors.h"
+
+namespace railcast {
+namespace {
+
+/// Approaches to a person, each with its distance of detection; 0 = never.
+std::vector<ApproachRecord> ApproachesThatDetectAt(const std::vector<double>& detected_m,
+                                                   double needed_m) {
+  std::vector<ApproachRecord> approaches;
+  for (const double distance_m : detected_m) {
+    StudiedObject object;
+    object.name = "person";
+    object.is_detected = distance_m > 0.0;
+    object.distance_m = object.is_detected ? distance_m : std::numeric_limits<double>::quiet_NaN();
+    object.nearest_m = 5.0;
+    object.farthest_m = 200.0;
+    object.needed_m = needed_m;
+    ApproachRecord approach;
+    approach.scenario = static_cast<std::uint32_t>(approaches.size());
+    approach.objects = {object};
+    approaches.push_back(std::move(approach));
+  }
+  return approaches;
+}
+
+TargetResult TargetThatIsDetectedAt(const std::vector<double>& detected_m, double needed_m) {
+  const std::vector<ApproachRecord> approaches = ApproachesThatDetectAt(detected_m, needed_m);
+  return TargetsOf(ObservationsOf(approaches)).at(0);
+}
+
+/// 91, 92, ... in no order.
+std::vector<double> DistancesBeyond90(int num) {
+  std::vector<double> distances_m;
+  for (int i = 0; i < num; ++i) distances_m.push_back(91.0 + (i * 27) % num);
+  return distances_m;
+}
+
+TEST(StudyTargets, AreDetectedInTimeWhereAllApproachesDetectThemFartherAway) {
+  const TargetResult target = TargetThatIsDetectedAt(DistancesBeyond90(64), 77.0);
+  EXPECT_EQ(target.d90_95_m, 93.0);  // The third nearest of 64.
+  EXPECT_EQ(AnswerOf(target), "yes");
+}
+
+TEST(StudyTargets, AreDetectedTooLateOnlyIfTheRanksShowIt) {
+  // The 10th of 64 distances is what 90 % do not exceed with 95 % confidence, or the 11th.
+  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 150.0)), "no");
+  EXPECT_EQ(AnswerOf(TargetThatIsDetectedAt(DistancesBeyond90(64), 95.0)), "not shown");
+}
+
+TEST(StudyTargets, HaveNoDistanceWhereTooManyApproachesDetectNothing) {
+  std::vector<double> detected_m = DistancesBeyond90(64);
+  detected_m[3] = detected_m[17] = 0.0;
+  EXPECT_EQ(TargetThatIsDetectedAt(detected_m, 77.0).d90_95_m, 91.0);
+  detected_m[40] = 0.0;
+  const TargetResult target = TargetThatIsDetectedAt(detected_m, 77.0);
+  EXPECT_TRUE(std::isnan(target.d90_95_m));
+  EXPECT_EQ(AnswerOf(target), "not shown");
+}
+
+TEST(StudyTargets, HaveNoAnswerOfFewerThan60Approaches) {
+  const TargetResult target = TargetThatIsDetectedAt(DistancesBeyond90(59), 77.0);
+  EXPECT_TRUE(std::isnan(target.d90_95_m));
+  EXPECT_EQ(AnswerOf(target), "too few approaches: 60 are needed");
+}
+
+}  // namespace
+}  // namespace railcast
