@@ -50,7 +50,7 @@ Report MakeDossier(const FinishedStudy& study,
                      LimitsSection(sample, study.spec.detector.has_value()),
                      FactorsSection(WeighFactors(observations, factors), observations.size()),
                      ConditionsSection(observations, factors),
-                     YardsticksSection(),
+                     YardsticksSection(targets),
                      CredibilitySection(),
                      TraceabilitySection(study),
                      SignaturesSection()};

@@ -7,6 +7,7 @@
 #include "analysis/study/run_study.h"
 #include "analysis/study/study_factors.h"
 #include "analysis/study/study_spec.h"
+#include "analysis/study/study_targets.h"
 
 namespace railcast {
 
@@ -49,7 +50,8 @@ namespace railcast {
 [[nodiscard]] Section StudyAlarmsSection(const StudySpec& study,
                                          const std::vector<ApproachRecord>& approaches);
 
-/// Distances of detection that others have published, to compare with.
-[[nodiscard]] Section YardsticksSection();
+/// Distances of detection that others have published, and each target beside the driver where one
+/// is published for its kind: persons by their type, anything else by the target's name.
+[[nodiscard]] Section YardsticksSection(const std::vector<TargetResult>& targets);
 
 }  // namespace railcast

@@ -21,6 +21,7 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
   for (const Observation& each : observations) {
     const StudiedObject& object = *each.object;
     TargetResult& target = by_target[object.Target()];
+    if (target.inspections.empty()) target.type = object.type;
     target.inspections.push_back(each.inspection);
     target.num_detected += object.is_detected ? 1U : 0U;
     target.num_in_time += object.is_in_time() ? 1U : 0U;

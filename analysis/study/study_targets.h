@@ -15,6 +15,7 @@ namespace railcast {
 /// What a study knows of one target: of a kind of object in the way, over all approaches.
 struct TargetResult {
   std::string name{};
+  std::string type{};  ///< Of its first object.
   std::vector<Inspection> inspections{};
   std::uint64_t num_detected{};
   std::uint64_t num_in_time{};

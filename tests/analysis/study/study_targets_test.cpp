@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "analysis/study/approach_record.h"
 #include "analysis/study/study_factors.h"
+#include "analysis/study/study_report.h"
 
 namespace railcast {
 namespace {
@@ -70,6 +73,20 @@ TEST(StudyTargets, HaveNoAnswerOfFewerThan60Approaches) {
   const TargetResult target = TargetThatIsDetectedAt(DistancesBeyond90(59), 77.0);
   EXPECT_TRUE(std::isnan(target.d90_95_m));
   EXPECT_EQ(AnswerOf(target), "too few approaches: 60 are needed");
+}
+
+TEST(StudyTargets, StandBesideTheDriverWhereHisDistanceIsPublished) {
+  std::vector<TargetResult> targets(3);
+  targets[0] = {.name = "walker", .type = "person", .d90_95_m = 120.0};
+  targets[1] = {.name = "cube of 20 cm", .type = "box", .d90_95_m = 35.0};
+  targets[2] = {.name = "wagon", .type = "open_wagon", .d90_95_m = 180.0};
+  const Section section = YardsticksSection(targets);
+  const Table& table = section.tables.at(0);
+  ASSERT_EQ(table.rows.size(), 2U);  // No driver's distance of wagons is published.
+  EXPECT_EQ(std::get<double>(table.rows[0][2]), 240.0);
+  EXPECT_EQ(std::get<double>(table.rows[0][3]), 50.0);
+  EXPECT_EQ(std::get<double>(table.rows[1][2]), 175.0);
+  EXPECT_EQ(std::get<double>(table.rows[1][3]), 20.0);
 }
 
 }  // namespace
