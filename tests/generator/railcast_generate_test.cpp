@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <sstream>
 #include <string>
 
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
+#include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/example_run.h"
 #include "tests/generator/project_folder.h"
@@ -20,6 +23,28 @@ TEST(RailcastGenerate, ExplainsItself) {
     EXPECT_EQ(run.status, 0);
     EXPECT_NE(run.said.find("Usage:"), std::string::npos);
   }
+}
+
+TEST(RailcastGenerate, SaysWhichPointsAreInTheGauge) {
+  const TemporaryDirectory directory;
+  const std::string out = (directory.path() / "out").string();
+  const Ended run =
+      Generate("sequence " + scenarios_folder + "brake_person.json --frames 2 --out " + out +
+               " --fields x,y,z,label,track_lateral_m,track_height_m,in_gauge");
+  ASSERT_EQ(run.status, 0) << run.said;
+  const auto frames = ReadAll(directory.path() / "out");
+  ASSERT_EQ(frames.size(), 2U);
+  ASSERT_EQ(frames[0].foreign.size(), 3U);
+  std::size_t num_in_gauge = 0;
+  for (std::size_t slot = 0; slot < frames[0].frame.x.size(); ++slot) {
+    const float lateral_m = frames[0].foreign[0].values[slot];
+    const bool is_in_gauge = frames[0].foreign[2].values[slot] == 1.0F;
+    num_in_gauge += is_in_gauge ? 1U : 0U;
+    // The structure gauge is 2 m to either side and 5 m high, within some decimetres.
+    EXPECT_FALSE(is_in_gauge && std::abs(lateral_m) > 2.6F) << lateral_m;
+    EXPECT_FALSE(is_in_gauge && frames[0].foreign[1].values[slot] > 6.5F);
+  }
+  EXPECT_GT(num_in_gauge, 0U);
 }
 
 TEST(RailcastGenerate, ExitsWithTwoOnWrongUsage) {

@@ -6,6 +6,7 @@
 
 #include "analysis/sight/sight_report.h"
 #include "core/base/units.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
@@ -78,6 +79,38 @@ TEST(Sight, EndsWhereTheChordTouchesAWallInsideACurve) {
     EXPECT_EQ(sight.blocker, "noise_wall");
   }
   EXPECT_TRUE(places[0].IsShort(0) == (places[0].sights[0].distance_m < places[0].needed_m));
+}
+
+// As before a wall, at the half width that the vault has where the line of sight touches it:
+// halfway between the eye and the target, between the height of the vault's centre and the mean of
+// both.
+TEST(Sight, EndsAtTheVaultOfACurvedTunnel) {
+  constexpr double kRadius_m = 300.0;
+  constexpr double kVault_m = 3.5;
+  constexpr double kTarget_m = 2.0;
+  constexpr double kCentre_m = TunnelShape::kVaultCentre_m;
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kArc, 1'000.0, kRadius_m));
+  TunnelSpec tunnel;
+  tunnel.name = "tunnel";
+  tunnel.begin_s_m = 20.0;
+  tunnel.end_s_m = 700.0;
+  tunnel.radius_m = kVault_m;
+  tunnel.niche_spacing_m = 0.0;
+  tunnel.has_handrail = false;
+  scenario.world.structures = {tunnel};
+  const auto places = Follow(scenario, {.heights_m = {kTarget_m}});
+  ASSERT_EQ(places.size(), 1U);
+  const auto chord_m = [&](double touched_m) {
+    const double half_m = std::sqrt(kVault_m * kVault_m - std::pow(touched_m - kCentre_m, 2));
+    return 2.0 * kRadius_m * std::acos((kRadius_m - half_m) / kRadius_m);
+  };
+  const double tolerance_m =
+      kTargetStep_m + chord_m(kCentre_m) / (2.0 * kVault_m) * kTargetWidth_m / 8.0;
+  const Sight& sight = places[0].sights[0];
+  EXPECT_EQ(sight.end, SightEnd::kBlocked);
+  EXPECT_EQ(sight.blocker, "tunnel");
+  EXPECT_GT(sight.distance_m, chord_m(0.5 * (kEye_m + kTarget_m)) - tolerance_m);
+  EXPECT_LT(sight.distance_m, chord_m(kCentre_m) + tolerance_m);
 }
 
 // On a crest of the vertical radius R, the line of sight from the height h_1 touches the track at
