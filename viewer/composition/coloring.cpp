@@ -87,6 +87,8 @@ std::array<double, 2> FitScale(const FieldValues& field) {
   if (!sorted.empty()) {
     const std::size_t one_percent = sorted.size() / 100;
     ends = {sorted[one_percent], sorted[sorted.size() - 1 - one_percent]};
+    // Of a mark that few points bear, both percentiles are the value of all others.
+    if (ends[0] == ends[1]) ends = {sorted.front(), sorted.back()};
   }
   if (field.kind == FieldValues::Kind::kDifference) {
     const double end = std::max(std::abs(ends[0]), std::abs(ends[1]));

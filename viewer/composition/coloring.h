@@ -33,8 +33,8 @@ struct Coloring {
 };
 
 /// Returns the ends of a scale for these values: the 1st and 99th percentiles, so that a few
-/// outliers do not take up all its colours; for differences, ends symmetric about 0. The two are
-/// never equal.
+/// outliers do not take up all its colours, or the least and the greatest value where the
+/// percentiles are equal; for differences, ends symmetric about 0. The two are never equal.
 [[nodiscard]] std::array<double, 2> FitScale(const FieldValues& field);
 
 /// Colours points by a quantity.

@@ -67,6 +67,12 @@ TEST(FitScale, TakesAllOfLessThanAHundred) {
   EXPECT_EQ(FitScale(Amounts({4.0, -2.0, 3.0})), (Ends{-2.0, 4.0}));
 }
 
+TEST(FitScale, ShowsAMarkThatFewPointsBear) {
+  std::vector<double> marks(1000, 0.0);
+  marks[500] = 1.0;
+  EXPECT_EQ(FitScale(Amounts(marks)), (Ends{0.0, 1.0}));
+}
+
 TEST(FitScale, PassesOverWhatIsNoNumber) {
   EXPECT_EQ(FitScale(Amounts({kNoValue, 4.0, kInfinity, -2.0, -kInfinity})), (Ends{-2.0, 4.0}));
 }
