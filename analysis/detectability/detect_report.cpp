@@ -215,12 +215,12 @@ Table MeansTable(const std::vector<Verdict>& verdicts) {
   table.columns = {{"object", "Object", ""},
                    {"detected_at_m", "Detected at", "m"},
                    {"spare_m", "To spare", "m"},
-                   {"in_time", "In time", ""}};
+                   {"in_time_percent", "In time", "%"}};
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way) continue;
     table.rows.push_back(
         {verdict.name, verdict.distance_m.Mean(), verdict.spare_m.Mean(),
-         Proportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided)});
+         PercentProportion(verdict.num_in_time, verdict.num_approached - verdict.num_undecided)});
   }
   return table;
 }

@@ -68,16 +68,18 @@ Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule)
       "Samples are frames of all runs, up to the closest point. Frames of one run show the same "
       "object a little nearer each time and are not independent: the intervals are of their "
       "scatter.";
-  table.columns = {{"object", "Object", ""},
-                   {"distance_m", "Distance", "m"},
-                   {"frames", "Frames", ""},
-                   {"points", "Points a frame", ""},
-                   {"enough", "Frames with " + NumberText(rule.min_points) + " points", ""}};
+  table.columns = {
+      {"object", "Object", ""},
+      {"distance_m", "Distance", "m"},
+      {"frames", "Frames", ""},
+      {"points", "Points a frame", ""},
+      {"enough_percent", "Frames with " + NumberText(rule.min_points) + " points", "%"}};
   for (const Verdict& verdict : MakeVerdicts(runs)) {
     for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
-      table.rows.push_back(
-          {verdict.name, Span{kDistanceBin_m * index, kDistanceBin_m * (index + 1)},
-           bin.points.num(), bin.points.Mean(), Proportion(bin.num_enough, bin.points.num())});
+      table.rows.push_back({verdict.name,
+                            Span{kDistanceBin_m * index, kDistanceBin_m * (index + 1)},
+                            bin.points.num(), bin.points.Mean(),
+                            PercentProportion(bin.num_enough, bin.points.num())});
     }
   }
   return table;

@@ -47,6 +47,11 @@ struct Estimate {
 /// JASA 22), which stays in [0, 1] and holds at 0 and `num` successes.
 [[nodiscard]] Estimate Proportion(std::uint64_t num_successes, std::uint64_t num);
 
+/// As Proportion(), in percent, which is the unit of all shares in reports.
+[[nodiscard]] inline Estimate PercentProportion(std::uint64_t num_successes, std::uint64_t num) {
+  return Scaled(Proportion(num_successes, num), 100.0);
+}
+
 /// The rate of a Poisson count: `count` per `exposure`, with the exact interval (Garwood 1936,
 /// Biometrika 28); not enough below kMinSamples and without exposure.
 [[nodiscard]] Estimate PoissonRate(std::uint64_t count, double exposure);

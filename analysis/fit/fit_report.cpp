@@ -105,7 +105,7 @@ Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
       "The model fits where the line runs through the points: the share of the firings between two "
       "points of one surface that have none.",
       {"Range", "m", false, {}},
-      {"Share lost", "", false, {}},
+      {"Share lost", "%", false, {}},
       {}};
   std::vector<LossBin> sums(RangeBins().size());
   for (const auto& [metre, bin] : trials.losses) {
@@ -119,8 +119,8 @@ Chart LossChart(const RecordedTrials& trials, const FitResult& result) {
   ChartSeries fitted{"fitted", SeriesStyle::kLine, {}};
   for (const LossBin& bin : sums) {
     if (bin.num < kMinSamples) continue;
-    measured.points.push_back(PointAt(bin.range_m(), Proportion(bin.num_lost, bin.num)));
-    fitted.points.push_back({bin.range_m(), result.loss.At(bin.range_m())});
+    measured.points.push_back(PointAt(bin.range_m(), PercentProportion(bin.num_lost, bin.num)));
+    fitted.points.push_back({bin.range_m(), 100.0 * result.loss.At(bin.range_m())});
   }
   chart.series = {measured, fitted};
   return chart;

@@ -15,7 +15,7 @@ constexpr double kPresetMm = 1e3;
 
 Cell HoleCell(const PlaneFigures& figures, std::size_t bin) {
   const Holes::Count& count = figures.firings[bin];
-  return Proportion(count.num_missing, count.num_expected);
+  return PercentProportion(count.num_missing, count.num_expected);
 }
 
 Cell PlaneSigmaCell(const Noise& noise, std::size_t bin) {
@@ -37,8 +37,8 @@ Table RangeTable(const PresetComparison& comparison) {
       {{"range_m", "Range", "m"},
        {"recorded", "Points recorded", ""},
        {"simulated", "Points simulated", ""},
-       {"recorded_holes", "Holes recorded", ""},
-       {"simulated_holes", "Holes simulated", ""},
+       {"recorded_holes_percent", "Holes recorded", "%"},
+       {"simulated_holes_percent", "Holes simulated", "%"},
        {"recorded_planes_mm", "About planes, recorded", "mm"},
        {"simulated_planes_mm", "About planes, simulated", "mm"},
        {"recorded_turns_mm", "From turn to turn, recorded", "mm"},

@@ -97,20 +97,20 @@ Section Coverage::MakeSection() const {
                  {{"ring", "Ring", ""},
                   {"elevation_deg", "Elevation", "deg"},
                   {"firings", "Firings", ""},
-                  {"with_point", "With a point", ""}},
+                  {"with_point_percent", "With a point", "%"}},
                  {}};
   for (std::size_t i = 0; i < rings_.size(); ++i) {
     rings.rows.push_back({std::uint64_t{i}, rings_[i].elevation_deg.PlainMean(),
                           rings_[i].num_firings,
-                          Proportion(rings_[i].num_points, rings_[i].num_firings)});
+                          PercentProportion(rings_[i].num_points, rings_[i].num_firings)});
   }
   if (!rings_.empty()) {
     section.charts.push_back({"rings",
                               "Firings with a point by ring",
                               "Low rings look into the open, or lose their points.",
                               {"Ring, 0 the lowest", ""},
-                              {"Share", ""},
-                              {SeriesOf(rings, {"ring", "with_point"}, "share")}});
+                              {"Share", "%"},
+                              {SeriesOf(rings, {"ring", "with_point_percent"}, "share")}});
     section.tables.push_back(std::move(rings));
   }
 

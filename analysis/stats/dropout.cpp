@@ -22,20 +22,24 @@ using NamedCounts = std::vector<std::pair<Cell, const Count*>>;
 
 Table MakeTable(TableColumn first, const NamedCounts& counts) {
   Table table;
-  table.columns = {std::move(first), {"firings", "Firings", ""}, {"dropout", "Dropout", ""}};
+  table.columns = {
+      std::move(first), {"firings", "Firings", ""}, {"dropout_percent", "Dropout", "%"}};
   std::vector<Outcome> causes;
   for (const Outcome cause : kCauses) {
     for (const auto& [name, count] : counts) {
       if (count->of(cause) == 0) continue;
       causes.push_back(cause);
-      table.columns.push_back({std::string(OutcomeName(cause)), InWords(OutcomeName(cause)), ""});
+      table.columns.push_back(
+          {std::string(OutcomeName(cause)) + "_percent", InWords(OutcomeName(cause)), "%"});
       break;
     }
   }
   for (const auto& [name, count] : counts) {
-    std::vector<Cell> row = {name, count->num,
-                             Proportion(count->num - count->of(Outcome::kReturned), count->num)};
-    for (const Outcome cause : causes) row.emplace_back(Proportion(count->of(cause), count->num));
+    std::vector<Cell> row = {
+        name, count->num,
+        PercentProportion(count->num - count->of(Outcome::kReturned), count->num)};
+    for (const Outcome cause : causes)
+      row.emplace_back(PercentProportion(count->of(cause), count->num));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -57,12 +61,12 @@ Chart DropoutChart(const Table& table) {
       "The highest line below all causes is what loses most at that range: shares of the "
       "firings that met a surface there and brought no point of it back.",
       {"True range", "m"},
-      {"Dropout", ""},
+      {"Dropout", "%"},
       {}};
   for (std::size_t i = 2; i < table.columns.size(); ++i) {
     const TableColumn& column = table.columns[i];
     chart.series.push_back(SeriesOf(table, {"true_range_m", column.key},
-                                    column.key == "dropout" ? "all causes" : column.title));
+                                    column.key == "dropout_percent" ? "all causes" : column.title));
   }
   return chart;
 }
@@ -73,8 +77,8 @@ Chart LabelChart(const Table& table) {
           "The longest bars are the surfaces that lose most points, over all ranges, with 95 % "
           "intervals.",
           {"Label", "", false, TextsOf(table, "label")},
-          {"Dropout", ""},
-          {SeriesOf(table, {"label", "dropout"}, "dropout", SeriesStyle::kBars)}};
+          {"Dropout", "%"},
+          {SeriesOf(table, {"label", "dropout_percent"}, "dropout", SeriesStyle::kBars)}};
 }
 
 }  // namespace
@@ -135,12 +139,12 @@ Section Dropout::MakeSection(const Names& names) const {
       "outcomes",
       "What became of all firings",
       "",
-      {{"outcome", "Outcome", ""}, {"firings", "Firings", ""}, {"share", "Share", ""}},
+      {{"outcome", "Outcome", ""}, {"firings", "Firings", ""}, {"share_percent", "Share", "%"}},
       {}};
   for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
     const std::uint64_t num = all_.outcomes[i];
     if (num == 0) continue;
-    outcomes.rows.push_back({InWords(kOutcomeNames[i]), num, Proportion(num, all_.num)});
+    outcomes.rows.push_back({InWords(kOutcomeNames[i]), num, PercentProportion(num, all_.num)});
   }
   section.tables.push_back(std::move(outcomes));
 

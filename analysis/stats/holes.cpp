@@ -56,12 +56,12 @@ bool HasPoints(const Frame& frame, std::size_t column) {
 
 Table CountTable(const std::vector<Holes::Count>& counts, const Bins* bins) {
   Table table;
-  table.columns = {{}, {"expected", "Expected", ""}, {"holes", "Holes", ""}};
+  table.columns = {{}, {"expected", "Expected", ""}, {"holes_percent", "Holes", "%"}};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto& [num_expected, num_missing] = counts[i];
     if (num_expected == 0) continue;
     const Cell place = bins == nullptr ? Cell(std::to_string(i)) : Cell(bins->span(i));
-    table.rows.push_back({place, num_expected, Proportion(num_missing, num_expected)});
+    table.rows.push_back({place, num_expected, PercentProportion(num_missing, num_expected)});
   }
   return table;
 }
@@ -173,14 +173,14 @@ Section Holes::MakeSection() const {
       {},
       {}};
 
-  Table fill = {
-      "grid",
-      "The grid",
-      "",
-      {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share", "Share", ""}},
-      {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_, Filled()},
-       {std::string("holes among firings between two points of one surface"), all_.num_expected,
-        Share()}}};
+  Table fill = {"grid",
+                "The grid",
+                "",
+                {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share_percent", "Share", "%"}},
+                {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_,
+                  Scaled(Filled(), 100.0)},
+                 {std::string("holes among firings between two points of one surface"),
+                  all_.num_expected, Scaled(Share(), 100.0)}}};
   section.tables.push_back(std::move(fill));
   Table by_range = CountTable(by_range_, &RangeBins());
   by_range.key = "holes_by_range";
@@ -192,8 +192,8 @@ Section Holes::MakeSection() const {
        "Where the line rises, surfaces lose points: the share of the firings between two points of "
        "one surface that have none.",
        {"Range", "m"},
-       {"Holes", ""},
-       {SeriesOf(by_range, {"range_m", "holes"}, "holes")}});
+       {"Holes", "%"},
+       {SeriesOf(by_range, {"range_m", "holes_percent"}, "holes")}});
   section.tables.push_back(std::move(by_range));
   if (!smooth_.by_intensity().empty()) section.tables.push_back(SmoothTable(smooth_));
   if (by_ring_.empty()) return section;

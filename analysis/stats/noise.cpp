@@ -31,7 +31,7 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
       "as noise.",
       {{"range_m", "Range", "m"},
        {"points", "Points", ""},
-       {"outliers", "Outliers", ""},
+       {"outliers_percent", "Outliers", "%"},
        {"range_sigma_mm", "Along the beam", "mm"},
        {"robust_range_sigma_mm", "Along the beam, robust", "mm"},
        {"plane_sigma_mm", "Square to the plane", "mm"},
@@ -42,7 +42,7 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
     table.rows.push_back({RangeBins().span(i), bin.num_points,
-                          Proportion(bin.num_outliers, bin.num_points + bin.num_outliers),
+                          PercentProportion(bin.num_outliers, bin.num_points + bin.num_outliers),
                           Scaled(bin.RangeSigma_m(), kMm), Scaled(bin.RobustRangeSigma_m(), kMm),
                           Scaled(bin.PlaneSigma_m(), kMm), Scaled(bin.RobustPlaneSigma_m(), kMm)});
   }

@@ -79,14 +79,14 @@ Section ObjectPoints::MakeSection() const {
        {"label", "Label", ""},
        {"distance_m", "Distance", "m"},
        {"points", "Points a frame", ""},
-       {"returned", "Returned", ""}},
+       {"returned_percent", "Returned", "%"}},
       {}};
   for (const auto& [name, object] : objects_) {
     for (std::size_t i = 0; i < object.bins.size(); ++i) {
       const auto& [points, num_met, num_returned] = object.bins[i];
       if (points.num() == 0) continue;
       table.rows.push_back({name, object.label, RangeBins().span(i), points.Mean(),
-                            Proportion(num_returned, num_met)});
+                            PercentProportion(num_returned, num_met)});
     }
   }
   section.charts.push_back({"object_points",

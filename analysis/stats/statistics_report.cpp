@@ -128,9 +128,11 @@ Report MakeStatisticsReport(const Statistics& statistics,
 
   report.headlines.push_back({"Points a frame", "", statistics.coverage.PointsPerFrame()});
   const bool is_exact = !statistics.dropout.is_empty();
-  if (is_exact) report.headlines.push_back({"Dropout, exact", "", statistics.dropout.Share()});
+  if (is_exact)
+    report.headlines.push_back({"Dropout, exact", "%", Scaled(statistics.dropout.Share(), 100.0)});
   if (!statistics.holes.is_empty()) {
-    report.headlines.push_back({"Dropout, estimated from holes", "", statistics.holes.Share()});
+    report.headlines.push_back(
+        {"Dropout, estimated from holes", "%", Scaled(statistics.holes.Share(), 100.0)});
   } else if (!is_exact) {
     report.facts.emplace_back(
         "Dropout", "unknown: where the sensor fired without a return cannot be told for certain");

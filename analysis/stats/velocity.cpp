@@ -19,7 +19,7 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
                  "",
                  {{"range_m", "Range", "m"},
                   {"points", "Points", ""},
-                  {"share", "Share with a velocity", ""},
+                  {"share_percent", "Share with a velocity", "%"},
                   {"mean_mps", "Mean", "m/s"}},
                  {}};
   if (has_truth) {
@@ -33,7 +33,7 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
     const Velocity::Sum& sum = sums[i];
     if (sum.num_points == 0) continue;
     std::vector<Cell> row = {RangeBins().span(i), sum.num_points,
-                             Proportion(sum.measured_mps.num(), sum.num_points),
+                             PercentProportion(sum.measured_mps.num(), sum.num_points),
                              sum.measured_mps.Mean()};
     if (has_truth) {
       row.insert(row.end(), {sum.errors_mps.Mean(), sum.errors_mps.StandardDeviation(),
@@ -45,18 +45,19 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
 }
 
 Table DistributionTable(const std::map<std::int64_t, std::uint64_t>& distribution) {
-  Table table = {
-      "velocities",
-      "Points by velocity",
-      "",
-      {{"velocity_mps", "Velocity", "m/s"}, {"points", "Points", ""}, {"share", "Share", ""}},
-      {}};
+  Table table = {"velocities",
+                 "Points by velocity",
+                 "",
+                 {{"velocity_mps", "Velocity", "m/s"},
+                  {"points", "Points", ""},
+                  {"share_percent", "Share", "%"}},
+                 {}};
   std::uint64_t num_all = 0;
   for (const auto& [bin, num] : distribution) num_all += num;
   for (const auto& [bin, num] : distribution) {
     const double low_mps = kVelocityBin_mps * static_cast<double>(bin);
     table.rows.push_back(
-        {Span{low_mps, low_mps + kVelocityBin_mps}, num, Proportion(num, num_all)});
+        {Span{low_mps, low_mps + kVelocityBin_mps}, num, PercentProportion(num, num_all)});
   }
   return table;
 }
@@ -127,8 +128,8 @@ Section Velocity::MakeSection() const {
        "Points by velocity",
        "The highest peak is what stands still, moving at the sensor's own speed; bins of 2 m/s.",
        {"Velocity", "m/s"},
-       {"Share", "", true},
-       {SeriesOf(section.tables.back(), {"velocity_mps", "share"}, "points")}});
+       {"Share", "%", true},
+       {SeriesOf(section.tables.back(), {"velocity_mps", "share_percent"}, "points")}});
   return section;
 }
 

@@ -33,7 +33,9 @@ struct Condition {
     inspections.push_back(each.inspection);
     detected_m.push_back(each.object->detected_m());
   }
-  [[nodiscard]] Estimate in_time() const { return Proportion(num_in_time, num_decided); }
+  [[nodiscard]] Estimate in_time_percent() const {
+    return PercentProportion(num_in_time, num_decided);
+  }
 };
 
 Table LevelTable(const std::vector<Observation>& observations, const std::vector<Factor>& factors) {
@@ -46,7 +48,7 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
   table.columns = {{"factor", "Factor", ""},
                    {"value", "Value", ""},
                    {"approaches", "Approaches", ""},
-                   {"in_time", "In time", ""},
+                   {"in_time_percent", "In time", "%"},
                    {"d90_95_m", "0.9 with 95 % confidence at", "m"},
                    {"curve_d90_m", "Curve: 0.9 at", "m"}};
   for (const Factor& factor : factors) {
@@ -59,7 +61,7 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
       if (cell.num == 0) continue;
       double d90_m = kUnknown_m;
       if (cell.num >= DetectionFit::kMinTargets) d90_m = FitDetection(cell.inspections).d90_m;
-      table.rows.push_back({factor.name, factor.levels[level], cell.num, cell.in_time(),
+      table.rows.push_back({factor.name, factor.levels[level], cell.num, cell.in_time_percent(),
                             DistanceOf90With95(cell.detected_m), d90_m});
     }
   }
@@ -101,10 +103,12 @@ Table FailingTable(const std::vector<Observation>& observations,
   constexpr std::size_t kMostPairs = 10;
   Condition all;
   for (const Observation& each : observations) all.Add(each);
-  const double usual = all.in_time().value;
+  const double usual = all.in_time_percent().value;
   std::vector<Pair> pairs = PairsOf(observations, factors);
-  std::erase_if(pairs, [&](const Pair& pair) { return !(pair.cell.in_time().high < usual); });
-  std::ranges::stable_sort(pairs, {}, [](const Pair& pair) { return pair.cell.in_time().high; });
+  std::erase_if(pairs,
+                [&](const Pair& pair) { return !(pair.cell.in_time_percent().high < usual); });
+  std::ranges::stable_sort(pairs, {},
+                           [](const Pair& pair) { return pair.cell.in_time_percent().high; });
   pairs.resize(std::min(pairs.size(), kMostPairs));
   Table table;
   table.key = "failing";
@@ -116,9 +120,9 @@ Table FailingTable(const std::vector<Observation>& observations,
   table.columns = {{"one", "Value", ""},
                    {"other", "With", ""},
                    {"approaches", "Approaches", ""},
-                   {"in_time", "In time", ""}};
+                   {"in_time_percent", "In time", "%"}};
   for (const Pair& pair : pairs) {
-    table.rows.push_back({pair.one, pair.other, pair.cell.num, pair.cell.in_time()});
+    table.rows.push_back({pair.one, pair.other, pair.cell.num, pair.cell.in_time_percent()});
   }
   return table;
 }
@@ -158,20 +162,21 @@ Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num
                    {"degrees", "Degrees of freedom", ""},
                    {"ratio", "Likelihood ratio", ""},
                    {"p_value", "By chance", ""},
-                   {"share", "Share", ""}};
+                   {"share_percent", "Share", "%"}};
   Chart chart;
   chart.key = "factors";
   chart.title = "Which factor matters";
   chart.caption =
       "Shares of the sum of the factors' likelihood ratios; the distance itself is left out.";
   chart.x = {.title = "Factor", .unit = "", .categories = {}};
-  chart.y = {.title = "Share", .unit = ""};
+  chart.y = {.title = "Share", .unit = "%"};
   ChartSeries bars{"share", SeriesStyle::kBars, {}};
   for (const FactorWeight& weight : weights) {
-    table.rows.push_back(
-        {weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value, weight.share});
+    table.rows.push_back({weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value,
+                          100.0 * weight.share});
     if (weight.name == kDistance) continue;
-    bars.points.push_back({.x = static_cast<double>(bars.points.size()), .y = weight.share});
+    bars.points.push_back(
+        {.x = static_cast<double>(bars.points.size()), .y = 100.0 * weight.share});
     chart.x.categories.push_back(weight.name);
   }
   chart.series = {std::move(bars)};

@@ -125,13 +125,13 @@ Section PlacementSection(const std::vector<Observation>& observations,
                    {"placement", "Placement", ""},
                    {"approaches", "Approaches", ""},
                    {"detected", "Detected", ""},
-                   {"in_time", "In time", ""},
+                   {"in_time_percent", "In time", "%"},
                    {"distance_m", "Detected at, mean", "m"},
                    {"d90_95_m", "0.9 with 95 % confidence at", "m"}};
   for (const PlacedView& view : views) {
     table.rows.push_back({view.target, view.placement, view.num, view.num_detected,
-                          Proportion(view.num_in_time, view.num_decided), view.distance_m.Mean(),
-                          view.d90_95_m});
+                          PercentProportion(view.num_in_time, view.num_decided),
+                          view.distance_m.Mean(), view.d90_95_m});
   }
   section.tables = {std::move(table)};
   section.charts = {PlacementChart(views)};

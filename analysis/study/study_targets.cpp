@@ -70,7 +70,7 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
                    {"answer", "Detected in time", ""},
                    {"approaches", "Approaches", ""},
                    {"detected", "Detected", ""},
-                   {"in_time", "In time", ""},
+                   {"in_time_percent", "In time", "%"},
                    {"d90_95_m", "0.9 with 95 % confidence at", "m"},
                    {"curve_d90_m", "Curve: 0.9 at", "m"},
                    {"curve_d90_95_m", "Curve: with 95 % confidence", "m"},
@@ -80,7 +80,7 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
   for (const TargetResult& target : targets) {
     const std::uint64_t num = target.inspections.size();
     table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,
-                          Proportion(target.num_in_time, num - target.num_undecided),
+                          PercentProportion(target.num_in_time, num - target.num_undecided),
                           target.d90_95_m, target.fit.d90_m, target.fit.d90_95_m,
                           target.most_needed_m, target.least_distance_m,
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});

@@ -63,7 +63,7 @@ plot for [i=1:4] '$runs/$name.dat' index i+3 with yerrorlines linecolor rgb colo
 unset multiplot
 GNUPLOT
 }
-draw dropout 'Dropout' 'set yrange [0:1]'
+draw dropout 'Dropout (%)' 'set yrange [0:100]'
 draw density 'Points on a square metre of ground' 'set logscale y' 'set yrange [0.005:200]' \
   'set format y "%g"'
 draw noise 'Standard deviation of the range (mm)' 'set yrange [0:60]'

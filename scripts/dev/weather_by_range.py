@@ -39,7 +39,7 @@ def curve_of(rows, range_of, figure):
 
 def dropout_curve(report):
     return curve_of(read_rows(report, "dropout_by_range"),
-                    lambda row: middle_m(row["true_range_m"]), "dropout")
+                    lambda row: middle_m(row["true_range_m"]), "dropout_percent")
 
 
 def density_curve(report):
@@ -81,7 +81,7 @@ def table_line(rung, weather, report):
     dropout = read_rows(report, "dropout_by_range")
     noise = read_rows(report, "noise_from_truth")
     cells = [f"`{rung}`", weather, f"{points_a_frame(report):,.0f}", f"{100.0 * clutter:.1f} %"]
-    cells += [shown(dropout, band, "true_range_m", "dropout", 100.0, "%") for band in BANDS]
+    cells += [shown(dropout, band, "true_range_m", "dropout_percent", 1.0, "%") for band in BANDS]
     cells += [shown(noise, band, "range_m", "sigma_mm", 1.0, "mm") for band in BANDS]
     return "| " + " | ".join(cells) + " |"
 

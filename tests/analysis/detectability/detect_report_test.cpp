@@ -93,9 +93,9 @@ TEST(DetectReport, HasAnIntervalOverManySeedsOnly) {
   // degrees of freedom is 2.262.
   EXPECT_NEAR(spare.value, 8.5, 1e-9);
   EXPECT_NEAR(spare.high - spare.value, 2.2622 * 3.02765 / std::sqrt(10.0), 1e-3);
-  const auto share = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "in_time"));
-  EXPECT_EQ(share.value, 1.0);
-  EXPECT_GT(share.low, 0.6);
+  const auto share = std::get<Estimate>(CellOf(TableOf(many, "means"), 0, "in_time_percent"));
+  EXPECT_EQ(share.value, 100.0);
+  EXPECT_GT(share.low, 60.0);
 }
 
 TEST(DetectReport, SaysThatOneRunHasNoInterval) {
@@ -123,7 +123,7 @@ TEST(DetectReport, LeavesOpenWhatARunThatBeginsTooNearCannotTell) {
             "not known, begun too near in the one run");
   EXPECT_TRUE(std::isnan(std::get<double>(CellOf(verdicts, 0, "least_spare_m"))));
   EXPECT_EQ(std::get<std::uint64_t>(CellOf(verdicts, 0, "begun_too_near")), 1U);
-  EXPECT_EQ(std::get<Estimate>(CellOf(TableOf(report, "means"), 0, "in_time")).num, 0U);
+  EXPECT_EQ(std::get<Estimate>(CellOf(TableOf(report, "means"), 0, "in_time_percent")).num, 0U);
   // Series of the points, the rule and the distance needed, but none of a detection.
   EXPECT_EQ(SectionOf(report, "points").charts[0].series.size(), 3U);
 }

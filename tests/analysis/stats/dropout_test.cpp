@@ -80,14 +80,14 @@ TEST(Dropout, NamesItsCauses) {
   const Section section = dropout.MakeSection(Names(RecordingInfo{}));
   const Table& labels = SectionTableOf(section, "dropout_by_label");
   ASSERT_EQ(labels.columns.size(), 5U);
-  EXPECT_EQ(labels.columns[3].key, "below_threshold");
-  EXPECT_EQ(labels.columns[4].key, "sensor_dropout");
+  EXPECT_EQ(labels.columns[3].key, "below_threshold_percent");
+  EXPECT_EQ(labels.columns[4].key, "sensor_dropout_percent");
   ASSERT_EQ(labels.rows.size(), 1U);
   EXPECT_EQ(std::get<std::string>(labels.rows[0][0]), "7");
   const auto below = std::get<Estimate>(labels.rows[0][3]);
   const auto missed = std::get<Estimate>(labels.rows[0][4]);
-  EXPECT_NEAR(below.value + missed.value, 1.0, 1e-12);
-  EXPECT_GT(below.value, 0.9);
+  EXPECT_NEAR(below.value + missed.value, 100.0, 1e-10);
+  EXPECT_GT(below.value, 90.0);
 }
 
 TEST(Dropout, OfPartsIsThatOfTheWhole) {
