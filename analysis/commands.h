@@ -28,6 +28,8 @@ void AddCompare(CLI::App& app, ProgramCommand& command);
 void AddDetect(CLI::App& app, ProgramCommand& command);
 /// Evaluates an object detector, the reference one or that of files, on sequences.
 void AddEvaluate(CLI::App& app, ProgramCommand& command);
+/// Writes what an object detector reports live as a file for `evaluate`, until a signal ends it.
+void AddCollect(CLI::App& app, ProgramCommand& command);
 /// Charts how far along its track a scenario's vehicle sees, beside its braking distance.
 void AddSight(CLI::App& app, ProgramCommand& command);
 /// Simulates the approaches of a recipe and reports probabilities of detection.

@@ -11,6 +11,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);
   railcast::AddEvaluate(app, command);
+  railcast::AddCollect(app, command);
   railcast::AddSight(app, command);
   railcast::AddStudy(app, command);
   railcast::AddDossier(app, command);

@@ -47,6 +47,7 @@ class Frame:
     def __init__(self, head):
         self.run, self.number, self.num_packets = head[4], head[7], head[9]
         self.stamp_s = head[10] * 1e-9
+        self.duration_s = head[11] * 1e-9
         self.position_m = head[18:21]
         self.points_of_packet = {}
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/detectors/reported_detections.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scenario/json_reader.h"
 #include "core/scenario/json_source.h"
@@ -44,25 +45,30 @@ void Describe(Archive& a, ReportedFrame& s) {
   a.Required("detections", s.detections, "Of this frame; may be empty.");
 }
 
+ReportedFrame ReadDetectionLine(std::string_view line, const std::string& place) {
+  JsonSource source;
+  ReportedFrame frame;
+  frame.place = place;
+  if (const auto root = source.OpenText(std::string(line), place)) {
+    if (auto list = source.PlainMembers(*root)) {
+      ReadMembers(source, *root, std::move(*list), frame);
+    }
+  }
+  source.errors().ThrowIfAny();
+  return frame;
+}
+
 ReportedRun ReadDetectionLines(const std::string& text, const std::string& shown) {
   ReportedRun run;
   std::string_view rest = text;
   std::size_t number = 0;
   while (const auto line = TakeLine(rest)) {
-    const std::string place = shown + ":" + NumberText(++number);
-    JsonSource source;
-    ReportedFrame frame;
-    frame.place = place;
-    if (const auto root = source.OpenText(std::string(*line), place)) {
-      if (auto list = source.PlainMembers(*root)) {
-        ReadMembers(source, *root, std::move(*list), frame);
-      }
-      if (source.errors().empty() && !run.empty() && frame.frame <= run.back().frame) {
-        source.Fault(root->Child("frame"),
-                     "must be > that of the line before, " + NumberText(run.back().frame));
-      }
+    ReportedFrame frame = ReadDetectionLine(*line, shown + ":" + NumberText(++number));
+    if (!run.empty() && frame.frame <= run.back().frame) {
+      throw InputError({{frame.place + ": /frame",
+                         "must be > that of the line before, " + NumberText(run.back().frame),
+                         NumberText(frame.frame)}});
     }
-    source.errors().ThrowIfAny();
     run.push_back(std::move(frame));
   }
   return run;

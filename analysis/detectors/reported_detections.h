@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/detectors/detection.h"
@@ -54,6 +55,11 @@ using ReportedRun = std::vector<ReportedFrame>;
 /// @throws InputError as ReadDetectionLines() and ReadOpenLabelRun() do.
 [[nodiscard]] ReportedRun ReadReportedRun(const std::filesystem::path& file,
                                           const Transform& vehicle_from_sensor);
+
+/// Reads what a detector reports of one frame: a line of a file of detections, without its end.
+/// @param place Where it stands, for messages: "FILE:3".
+/// @throws InputError with a line for every fault: "FILE:3: /pointer: rule (got value)".
+[[nodiscard]] ReportedFrame ReadDetectionLine(std::string_view line, const std::string& place);
 
 /// @param shown Names the file in messages.
 /// @throws InputError with a line for every fault of the first faulty line: "FILE:3: /pointer: rule

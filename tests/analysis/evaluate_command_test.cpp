@@ -9,8 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "core/io/net/udp.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
+#include "tests/core/io/stream/listening_program.h"
+#include "tests/core/io/stream/live_stream.h"
 
 namespace railcast {
 namespace {
@@ -24,8 +27,16 @@ class EvaluateCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder();
+    const auto scenario = folder_->Write("scenario.json", Scenario(""));
+    run_ = scenario.parent_path() / "run";
+    MakeRun(scenario, run_);
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  /// @param more Further keys, each followed by a comma.
+  static std::string Scenario(const std::string& more) {
     const std::string scenarios = ScenariosDir().string();
-    const auto scenario = folder_->Write("scenario.json", R"({"version": 1,
+    return R"({"version": 1, )" + more + R"(
       "lidar": {"range_max_m": 150, "scan": {"rate_hz": 10, "pattern": {"type": "raster",
                 "horizontal_fov_deg": 20, "vertical_fov_deg": 20, "angular_resolution_deg": 0.5}}},
       "world": {"alignment": {"course": {"type": "elements", "elements": [
@@ -36,15 +47,18 @@ class EvaluateCommand : public testing::Test {
                   {"name": "beside", "type": "box", "s_m": 470, "d_m": 3, "h_m": 0,
                    "size_m": [2, 2, 3]}]},
       "vehicle": {"start_s_m": 400, "motion": {"profile": [{"time_s": 0, "speed_mps": 10}]}},
-      "materials": ")" + scenarios + R"(/materials/railway.json",
-      "labels": ")" + scenarios + R"(/labels.json"})");
-    run_ = scenario.parent_path() / "run";
+      "materials": ")" +
+           scenarios + R"(/materials/railway.json",
+      "labels": ")" +
+           scenarios + R"(/labels.json"})";
+  }
+
+  static void MakeRun(const std::filesystem::path& scenario, const std::filesystem::path& run) {
     const Ended made =
-        RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + run_.string() +
+        RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + run.string() +
                    " --frames 30 --fields x,y,z,label,time_ns --fidelity geometry");
     if (made.status != 0) throw std::runtime_error(made.said);
   }
-  static void TearDownTestSuite() { delete folder_; }
 
   /// Writes detections, one line for each frame of the run, and returns the file.
   static std::string Detections(const std::string& name,
@@ -62,10 +76,12 @@ class EvaluateCommand : public testing::Test {
     return folder_->Write(name, text).string();
   }
 
-  static Json Evaluate(const std::string& options) {
-    const auto out = run_.parent_path() / "report";
+  static Json Evaluate(const std::string& options) { return EvaluateRun(run_, options); }
+
+  static Json EvaluateRun(const std::filesystem::path& run, const std::string& options) {
+    const auto out = run.parent_path() / "report";
     const Ended ended =
-        Analyze("evaluate " + run_.string() + " " + options + " --out " + out.string());
+        Analyze("evaluate " + run.string() + " " + options + " --out " + out.string());
     if (ended.status != 0) throw std::runtime_error(ended.said);
     return Json::parse(ReadFileWhole(out / "evaluate.json"));
   }
@@ -116,6 +132,50 @@ TEST_F(EvaluateCommand, TakesWhatADetectorReported) {
   EXPECT_NEAR(Rows(late, "runs")[0].at("detected_at_m").get<double>(), 67.0, 0.1);
   const std::string none = Detections("none.jsonl", [](const Json&) { return Json::array(); });
   EXPECT_EQ(Rows(Evaluate("--detections " + none), "runs")[0].at("outcome"), "not detected");
+}
+
+TEST_F(EvaluateCommand, FindsTheSameInWhatADetectorSentLive) {
+  const std::string truth = Detections("filed.jsonl", TrueBoxes);
+  const std::string live = (run_.parent_path() / "live.jsonl").string();
+  ListeningProgram program(RAILCAST_ANALYZE " collect " + EndpointText(OwnEndpoint()) +
+                           " --frames 30 --out " + live);
+  std::vector<std::string> lines;
+  std::istringstream text(ReadFileWhole(truth));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  const UdpReceiver detector(kAnyLoopbackPort);
+  for (std::size_t i = lines.size(); i-- > 0;) detector.Answer(lines[i], program.at());
+  EXPECT_EQ(program.Rest(), "frames: 30, from 0 to 29, 0 missing between; 0 repeated datagrams\n");
+  EXPECT_EQ(program.ExitStatus(), 0);
+  EXPECT_EQ(ReadFileWhole(live), ReadFileWhole(truth));
+  EXPECT_EQ(Evaluate("--detections " + live).at("sections"),
+            Evaluate("--detections " + truth).at("sections"));
+}
+
+// The stream's frames are those of the run, and the client of the examples is the detector.
+TEST_F(EvaluateCommand, TakesWhatTheExampleDetectsInAStream) {
+  const std::filesystem::path scenario =
+      folder_->Write("vehicle.json", Scenario(R"("output": {"frame": "vehicle"},)"));
+  const std::filesystem::path run = run_.parent_path() / "vehicle_run";
+  MakeRun(scenario, run);
+  const std::string file = (run_.parent_path() / "example.jsonl").string();
+  ListeningProgram program(RAILCAST_ANALYZE " collect " + EndpointText(OwnEndpoint()) +
+                           " --frames 30 --out " + file);
+  const std::string host = EndpointText({program.at().address, 27'403});
+  const std::string commands = EndpointText(UdpReceiver(kAnyLoopbackPort).at());
+  const Ended ended = RunCommand(
+      RAILCAST_GENERATE " stream " + scenario.string() +
+      " --fidelity geometry --fields x,y,z --lockstep --pacing burst --duration 3 --to " + host +
+      " --commands-port " + commands.substr(commands.find(':') + 1) +
+      " & " RAILCAST_SOURCE_DIR "/examples/detections_client.py --frames 30 --stream " + host +
+      " --commands " + commands + " --to " + EndpointText(program.at()) + "; wait");
+  EXPECT_EQ(program.Rest(), "frames: 30, from 0 to 29, 0 missing between; 0 repeated datagrams\n")
+      << ended.said;
+  const Json row = Rows(EvaluateRun(run, "--detections " + file), "runs").at(0);
+  EXPECT_EQ(row.at("object"), "box");
+  // As the reference detector's, less what the train runs during the scan of 0.1 s and while the
+  // client computes.
+  EXPECT_LT(row.at("detected_at_m").get<double>(), 77.0);
+  EXPECT_GT(row.at("detected_at_m").get<double>(), 60.0);
 }
 
 TEST_F(EvaluateCommand, CountsAlarmsAtWhatIsBesideAndAtNothing) {

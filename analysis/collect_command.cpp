@@ -1,0 +1,135 @@
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "analysis/commands.h"
+#include "analysis/detectors/collected_lines.h"
+#include "core/base/error.h"
+#include "core/io/net/udp.h"
+#include "core/io/write_file.h"
+#include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::uint16_t kDetectionsPort = 27402;
+
+struct CollectOptions {
+  std::string at = "127.0.0.1:" + NumberText(kDetectionsPort);
+  std::optional<std::string> from;
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> num_frames;
+  std::filesystem::path out;
+};
+
+class Collecting {
+ public:
+  explicit Collecting(const CollectOptions& options) : options_(options) {
+    if (!options.from) return;
+    from_ = AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
+  }
+
+  /// Takes datagrams until there are enough or the time is over.
+  void Run(UdpReceiver& receiver) {
+    const ProgressLine progress;
+    bool is_over = false;
+    while (lines_.num_frames() < num_wanted_) {
+      is_over = is_over || StopRequested() || std::chrono::steady_clock::now() >= end_;
+      // What had arrived by then is still taken.
+      const auto received = receiver.Receive(is_over ? 0 : kPatience_ms);
+      if (!received && is_over) break;
+      if (!received) continue;
+      Take(*received);
+      progress.Show(NumberText(lines_.num_frames()) + " frames");
+    }
+    progress.End();
+  }
+
+  [[nodiscard]] const CollectedLines& lines() const { return lines_; }
+  [[nodiscard]] std::uint64_t num_strangers() const { return num_strangers_; }
+
+ private:
+  // The longest time until a run notices that it was stopped.
+  static constexpr int kPatience_ms = 20;
+
+  [[nodiscard]] static std::chrono::steady_clock::time_point EndAfter(
+      std::optional<double> duration_s) {
+    if (!duration_s) return std::chrono::steady_clock::time_point::max();
+    return std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                                  std::chrono::duration<double>(*duration_s));
+  }
+
+  void Take(const UdpReceiver::Received& received) {
+    if (from_ && !from_->Covers(received.from)) {
+      ++num_strangers_;
+      return;
+    }
+    lines_.Take({received.bytes.data(), received.bytes.size()}, EndpointText(received.from));
+  }
+
+  const CollectOptions& options_;
+  std::optional<Endpoint> from_;
+  std::uint64_t num_wanted_ =
+      options_.num_frames.value_or(std::numeric_limits<std::uint64_t>::max());
+  std::chrono::steady_clock::time_point end_ = EndAfter(options_.duration_s);
+  CollectedLines lines_;
+  std::uint64_t num_strangers_ = 0;
+};
+
+int RunCollect(const CollectOptions& options) {
+  CheckCanWrite(options.out);
+  Collecting collecting(options);
+  UdpReceiver receiver(ParseEndpoint(options.at, kDetectionsPort));
+  CatchStopSignals();
+  std::cout << "listening at " << EndpointText(receiver.at()) << std::endl;
+  collecting.Run(receiver);
+  std::cout << collecting.lines().Summary() << "\n";
+  if (options.from) {
+    std::cout << "datagrams of other senders: " << collecting.num_strangers() << ", dropped\n";
+  }
+  // An empty file would say that nothing was detected in any frame.
+  if (collecting.lines().num_frames() == 0) {
+    throw InputError({{EndpointText(receiver.at()), "must be sent a line for each frame", "none"}});
+  }
+  WriteFileWhole(options.out, collecting.lines().Text());
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddCollect(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<CollectOptions>();
+  CLI::App* collect = app.add_subcommand(
+      "collect",
+      "Listen to your object detector, which sends a datagram for each frame of a live stream, and "
+      "write its detections as a file for evaluate; until Ctrl-C");
+  collect
+      ->add_option("HOST:PORT", options->at,
+                   "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
+                   "multicast group what is sent to it")
+      ->capture_default_str();
+  collect
+      ->add_option("--from", options->from,
+                   "HOST or HOST:PORT whose datagrams are taken; default: those of all senders")
+      ->check(NonEmpty());
+  collect
+      ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")
+      ->check(Number({1e-3, 1e9}));
+  collect->add_option("--frames", options->num_frames, "Frames after which to end; default: no end")
+      ->transform(Whole({1}));
+  collect
+      ->add_option("--out", options->out,
+                   "File to write when all is collected: JSON lines (docs/evaluate.md)")
+      ->required()
+      ->check(NonEmpty());
+  collect->callback([&command, options] {
+    command = [options](const std::string&) { return RunCollect(*options); };
+  });
+}
+
+}  // namespace railcast
