@@ -1,5 +1,6 @@
 """The programs of examples/ that use the module run, and say what they should."""
 
+import csv
 import importlib.util
 import pathlib
 import subprocess
@@ -7,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from support import ROOT, SCENARIO, generate, np
+from support import BUILD, ROOT, SCENARIO, generate, np
 
 import railcast
 
@@ -52,6 +53,25 @@ class Examples(unittest.TestCase):
 
     def test_frames_are_loaded_for_training(self):
         self.assertEqual(self.lines_of("load_dataset", "out/demo")[0].split()[0], "2")
+
+    def test_a_driven_track_has_in_its_gauge_what_the_given_one_has(self):
+        """The rails' heads lie on the gauge's edge, so that centimetres change how many points are in it."""
+        run = self.folder / "out/hills"
+        generate("sequence", ROOT / "scenarios/hills.json", "--frames", 30, "--stride", 8, "--out", run)
+        driven = self.folder / "driven.json"
+        driven.write_text("\n".join(self.lines_of("driven_track", run, "2.6")), encoding="utf-8")
+        counts = []
+        for track in (run / "scenario.resolved.json", driven):
+            out = self.folder / f"stats_{track.stem}"
+            subprocess.run([BUILD / "analysis/railcast-analyze", "stats", run, "--track", track, "--out", out],
+                           check=True, capture_output=True)
+            with open(out / "csv/points_in_gauge.csv", encoding="utf-8", newline="") as lines:
+                counts.append({row["label"]: int(row["0_to_10_m"]) + int(row["10_to_25_m"])
+                               for row in csv.DictReader(lines) if "share" not in row["label"]})
+        given, own = counts
+        self.assertGreater(given["rail"], 1000)
+        self.assertLess(abs(own["rail"] / given["rail"] - 1), 0.3)
+        self.assertLess(sum(own.values()) - own["rail"], 0.05 * own["rail"])
 
     def test_batches_say_which_sample_each_row_is_of(self):
         dataset = railcast.Dataset(self.folder / "out/demo")
