@@ -96,16 +96,15 @@ Section MakePlanesSection(const PresetComparison& comparison) {
       {},
       {}};
   Table table = RangeTable(comparison);
-  for (const auto& [key, title, what] :
-       {std::array{"holes", "Holes in planes", "Holes"},
-        std::array{"turns_mm", "Noise from turn to turn", "Standard deviation"}}) {
+  for (const auto& [key, title, what, unit] :
+       {std::array{"holes_percent", "Holes in planes", "Holes", "%"},
+        std::array{"turns_mm", "Noise from turn to turn", "Standard deviation", "mm"}}) {
     const std::string name = key;
-    const bool is_share = name == "holes";
     section.charts.push_back({"preset_" + name,
                               title,
                               "The preset is right where its line lies on the recording's.",
                               {"Range", "m"},
-                              {what, is_share ? "" : "mm"},
+                              {what, unit},
                               {SeriesOf(table, {"range_m", "recorded_" + name}, "recorded"),
                                SeriesOf(table, {"range_m", "simulated_" + name}, "simulated")}});
   }

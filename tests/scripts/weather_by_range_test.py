@@ -14,8 +14,9 @@ import weather_by_range  # noqa: E402 (found through the line above)
 
 FILES = {
     "outcomes": ("outcome,firings", ["returned,700", "clutter,100"]),
-    "dropout_by_range": ("true_range_m,dropout,dropout_low,dropout_high,dropout_samples",
-                         ["10 to 15,0.25,0.2,0.3,400", "50 to 60,,,,5"]),
+    "dropout_by_range": (("true_range_m,dropout_percent,dropout_percent_low,dropout_percent_high,"
+                          "dropout_percent_samples"),
+                         ["10 to 15,25,20,30,400", "50 to 60,,,,5"]),
     "density_by_range": ("surface,range_m,per_m2,per_m2_low,per_m2_high,per_m2_samples",
                          ["rail,12,9,8,10,500", "ground,12,5,4,6,500"]),
     "noise_from_truth": ("range_m,sigma_mm,sigma_mm_low,sigma_mm_high,sigma_mm_samples",
@@ -64,7 +65,7 @@ class WeatherByRange(unittest.TestCase):
 
     def test_ranges_are_the_middles_of_the_bands_and_few_samples_are_left_out(self):
         _, blocks = made_of()
-        self.assertEqual(blocks["dropout"][0], "12.5 0.25 0.2 0.3")
+        self.assertEqual(blocks["dropout"][0], "12.5 25 20 30")
         self.assertEqual(blocks["noise"][0], "12.5 11 10 12")
 
     def test_density_is_that_of_ground(self):
@@ -73,9 +74,9 @@ class WeatherByRange(unittest.TestCase):
 
     def test_a_curve_without_points_keeps_its_place(self):
         _, blocks = made_of({"plausibility_fog": {"dropout_by_range": []},
-                             "surface_clear": {"dropout_by_range": ["10 to 15,0.5,0.4,0.6,90"]}})
+                             "surface_clear": {"dropout_by_range": ["10 to 15,50,40,60,90"]}})
         self.assertEqual(blocks["dropout"][1], "NaN NaN NaN NaN")
-        self.assertEqual(blocks["dropout"][4], "12.5 0.5 0.4 0.6")
+        self.assertEqual(blocks["dropout"][4], "12.5 50 40 60")
         self.assertEqual(len(blocks["dropout"]), 8)
 
 

@@ -187,7 +187,7 @@ TEST(Holes, AreNotWhereTheOwnVehicleIsInTheWay) {
   coverage.Add(recorded, nullptr);
   const Section section = coverage.MakeSection();
   // Elsewhere the lowest ring meets the wall everywhere.
-  EXPECT_EQ(std::get<Estimate>(SectionTableOf(section, "rings").rows.at(0).at(3)).value, 1.0);
+  EXPECT_EQ(std::get<Estimate>(SectionTableOf(section, "rings").rows.at(0).at(3)).value, 100.0);
 }
 
 TEST(Holes, OfAFrameWithoutAPointOrAGridAreNoNumber) {

@@ -82,7 +82,7 @@ TEST(VelocityStatistics, CountPointsWithoutAVelocity) {
   velocity.Add(Record(frame));
   const Section section = velocity.MakeSection();
   ASSERT_EQ(section.tables[0].rows.size(), 1U);
-  EXPECT_EQ(std::get<Estimate>(section.tables[0].rows[0][2]).value, 0.75);
+  EXPECT_EQ(std::get<Estimate>(section.tables[0].rows[0][2]).value, 75.0);
 }
 
 TEST(VelocityStatistics, AreSummedUpOfParts) {

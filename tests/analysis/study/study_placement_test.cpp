@@ -52,7 +52,7 @@ TEST(StudyPlacement, ListsWhatDetectsFirstAboveAllElse) {
   EXPECT_EQ(std::get<std::string>(table.rows[1].at(1)), "front");
   EXPECT_DOUBLE_EQ(std::get<Estimate>(table.rows[0].at(5)).value, 80.0);
   EXPECT_DOUBLE_EQ(std::get<Estimate>(table.rows[1].at(5)).value, 60.0);
-  EXPECT_EQ(std::get<Estimate>(table.rows[0].at(4)).value, 1.0);
+  EXPECT_EQ(std::get<Estimate>(table.rows[0].at(4)).value, 100.0);
   EXPECT_EQ(std::get<Estimate>(table.rows[1].at(4)).value, 0.0);
   ASSERT_EQ(section.charts.size(), 1U);
   EXPECT_EQ(section.charts[0].x.categories, (std::vector<std::string>{"roof", "front"}));

@@ -59,9 +59,10 @@ std::string AnalysedText(RecordedFrame recorded) {
   const Table& by_label = TableOf(section, "dropout_by_label");
   for (std::size_t i = 3; i < by_label.columns.size(); ++i) {
     if (i > 3) text += ", ";
-    text += by_label.columns[i].key;
+    const std::string& key = by_label.columns[i].key;
+    text += key.substr(0, key.rfind("_percent"));
     text += ' ';
-    text += WithOneDecimal(100.0 * std::get<Estimate>(by_label.rows.at(0)[i]).value);
+    text += WithOneDecimal(std::get<Estimate>(by_label.rows.at(0)[i]).value);
   }
   text += ')';
   for (const auto& row : TableOf(section, "outcomes").rows) {
