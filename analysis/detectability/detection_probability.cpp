@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/detectability/detect_report.h"
 #include "analysis/detectability/inspections.h"
@@ -29,6 +32,21 @@ std::vector<InspectedApproach> ApproachesOf(const std::vector<DetectRun>& runs,
   return approaches;
 }
 
+// The share of approaches that had detected by each distance.
+ChartSeries SharesDetected(std::vector<double> detected_m) {
+  std::ranges::sort(detected_m, std::greater{});
+  const auto num = static_cast<double>(detected_m.size());
+  ChartSeries steps{"share of approaches", SeriesStyle::kLine, {}};
+  double share = 0.0;
+  for (std::size_t i = 0; i < detected_m.size() && detected_m[i] > 0.0; ++i) {
+    steps.points.push_back({.x = detected_m[i], .y = share});
+    share = static_cast<double>(i + 1) / num;
+    steps.points.push_back({.x = detected_m[i], .y = share});
+  }
+  steps.points.push_back({.x = 0.0, .y = share});
+  return steps;
+}
+
 std::string RoundedText(double value_m) {
   return NumberText(std::round(10.0 * value_m) / 10.0);
 }
@@ -41,35 +59,40 @@ Cell AsymptoteCell(const DetectionFit& fit) {
 }
 
 Chart ProbabilityChart(const std::string& object,
+                       const std::vector<double>& detected_m,
                        const std::vector<Inspection>& inspected,
                        const DetectionFit& fit) {
   Chart chart;
   chart.key = KeyOfObject("probability_", object);
   chart.title = "Probability that " + object + " is detected";
-  chart.caption =
-      "By the time it is as near as this. Each inspection is a point at 1 or 0; the curve is the "
-      "most likely one.";
+  chart.caption = "By the time it is as near as this; the steps are what the approaches did.";
   chart.x = {.title = "Distance", .unit = "m"};
   chart.y = {.title = "Probability of detection", .unit = ""};
+  chart.series = {SharesDetected(detected_m)};
+  const double d90_95_m = DistanceOf90With95(detected_m);
+  if (!std::isnan(d90_95_m)) {
+    chart.series.push_back({"0.9 with 95 % confidence",
+                            SeriesStyle::kPoints,
+                            {{.x = d90_95_m, .y = 0.9, .label = RoundedText(d90_95_m) + " m"}}});
+  }
+  if (std::isnan(fit.curve.middle_m)) return chart;
+  chart.caption +=
+      " An inspection, a point at 1 or 0, keeps little of that; the curve is the most likely one "
+      "for all inspections.";
   ChartSeries inspections{"inspections", SeriesStyle::kPoints, {}};
   double farthest_m = 0.0;
   for (const Inspection& each : inspected) {
     inspections.points.push_back({.x = each.range_m, .y = static_cast<double>(each.num_detected)});
     farthest_m = std::max(farthest_m, each.range_m);
   }
-  ChartSeries curve{"most likely", SeriesStyle::kLine, {}};
+  ChartSeries curve{"curve of hit and miss", SeriesStyle::kLine, {}};
   constexpr int kNumPoints = 200;
   for (int i = 1; i <= kNumPoints; ++i) {
     const double distance_m = farthest_m * i / kNumPoints;
     curve.points.push_back({.x = distance_m, .y = fit.curve.At(distance_m)});
   }
-  chart.series = {std::move(curve), std::move(inspections)};
-  if (!std::isnan(fit.d90_95_m)) {
-    chart.series.push_back(
-        {"0.9 with 95 % confidence",
-         SeriesStyle::kPoints,
-         {{.x = fit.d90_95_m, .y = 0.9, .label = RoundedText(fit.d90_95_m) + " m"}}});
-  }
+  chart.series.push_back(std::move(curve));
+  chart.series.push_back(std::move(inspections));
   return chart;
 }
 
@@ -110,9 +133,8 @@ Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
     table.rows.push_back({verdict.name, fit.num_targets, fit.num_detected,
                           DistanceOf90With95(detected_m), fit.d90_m, fit.d90_95_m,
                           AsymptoteCell(fit)});
-    const bool has_curve = !std::isnan(fit.curve.middle_m);
-    if (has_curve && section.charts.size() < kMaxCharts) {
-      section.charts.push_back(ProbabilityChart(verdict.name, inspections, fit));
+    if (section.charts.size() < kMaxCharts) {
+      section.charts.push_back(ProbabilityChart(verdict.name, detected_m, inspections, fit));
     }
   }
   if (!too_few.empty()) {

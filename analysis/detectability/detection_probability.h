@@ -16,8 +16,11 @@ namespace railcast {
 [[nodiscard]] Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
                                              const std::vector<Verdict>& verdicts);
 
-/// The curve of one object, its inspections, and d90/95.
+/// Which share of the approaches had detected one object by a distance, the curve with its
+/// inspections where there is one, and d90/95.
+/// @param detected_m Of each approach; 0 without detection. Not empty.
 [[nodiscard]] Chart ProbabilityChart(const std::string& object,
+                                     const std::vector<double>& detected_m,
                                      const std::vector<Inspection>& inspected,
                                      const DetectionFit& fit);
 

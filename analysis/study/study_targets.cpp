@@ -17,7 +17,7 @@ namespace railcast {
 std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations) {
   std::map<std::string, TargetResult> by_target;
   // Of an approach that began too near to tell, it is not known from where it would be detected.
-  std::map<std::string, std::vector<double>> at_least_m, at_most_m;
+  std::map<std::string, std::vector<double>> at_most_m;
   for (const Observation& each : observations) {
     const StudiedObject& object = *each.object;
     TargetResult& target = by_target[object.Target()];
@@ -30,7 +30,7 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
       target.least_distance_m = std::fmin(target.least_distance_m, object.distance_m);
     }
     target.most_needed_m = std::fmax(target.most_needed_m, object.needed_m);
-    at_least_m[object.Target()].push_back(object.detected_m());
+    target.detected_m.push_back(object.detected_m());
     at_most_m[object.Target()].push_back(
         object.is_undecided() ? std::numeric_limits<double>::infinity() : object.detected_m());
   }
@@ -39,7 +39,7 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
     target.name = name;
     if (target.has_fit()) {
       target.fit = FitDetection(target.inspections);
-      target.d90_95_m = DistanceOf90With95(at_least_m[name]);
+      target.d90_95_m = DistanceOf90With95(target.detected_m);
       target.d90_at_most_m = LimitsExceededBy90Percent(at_most_m[name]).high;
     }
     results.push_back(std::move(target));
@@ -89,9 +89,9 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
   if (!study.question.empty()) section.paragraphs.push_back(study.question);
   section.tables.push_back(std::move(table));
   for (const TargetResult& target : targets) {
-    const bool has_curve = target.has_fit() && !std::isnan(target.fit.curve.middle_m);
-    if (!has_curve || section.charts.size() >= kMaxCharts) continue;
-    section.charts.push_back(ProbabilityChart(target.name, target.inspections, target.fit));
+    if (!target.has_fit() || section.charts.size() >= kMaxCharts) continue;
+    section.charts.push_back(
+        ProbabilityChart(target.name, target.detected_m, target.inspections, target.fit));
   }
   return section;
 }

@@ -17,6 +17,7 @@ struct TargetResult {
   std::string name{};
   std::string type{};  ///< Of its first object.
   std::vector<Inspection> inspections{};
+  std::vector<double> detected_m{};  ///< Of each approach; 0 without detection.
   std::uint64_t num_detected{};
   std::uint64_t num_in_time{};
   std::uint64_t num_undecided{};

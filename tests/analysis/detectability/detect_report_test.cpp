@@ -263,7 +263,15 @@ TEST(DetectReport, GivesTheDistanceOfAProbabilityWithConfidence) {
   EXPECT_LT(std::get<double>(CellOf(table, 0, "d90_95_m")), d90_m);
   EXPECT_GT(std::get<double>(CellOf(table, 0, "d90_95_m")),
             std::get<double>(CellOf(table, 0, "curve_d90_95_m")));
-  EXPECT_EQ(SectionOf(report, "probability").charts.size(), 1U);
+  ASSERT_EQ(SectionOf(report, "probability").charts.size(), 1U);
+  const Chart& chart = SectionOf(report, "probability").charts[0];
+  ASSERT_EQ(chart.series.size(), 4U);
+  const auto& steps = chart.series[0].points;
+  ASSERT_EQ(steps.size(), 2U * 300U + 1U);
+  EXPECT_EQ(steps.front().y, 0.0);
+  EXPECT_EQ(steps.back().x, 0.0);
+  EXPECT_EQ(steps.back().y, 1.0);
+  EXPECT_EQ(chart.series[1].points.at(0).x, std::get<double>(CellOf(table, 0, "d90_95_m")));
 }
 
 TEST(DetectReport, SaysThatRunsAreTooFewForAProbability) {
