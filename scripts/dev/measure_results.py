@@ -26,6 +26,7 @@ import tempfile
 import time
 
 import growth
+import metro_trial
 import results
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -338,7 +339,6 @@ def peers(_):
                            [[way, *cells, *leaves.get(way, ["-", "-"])] for way, cells in bare.items()])}
 
 
-# Each with the minutes that it takes on two cores.
 def study(build):
     """200 approaches of the shipped study on each rung, between two measurements of the raw trace."""
     def raw_ms():
@@ -368,12 +368,20 @@ def study(build):
                                     "a frame x raw trace"], rows)}
 
 
+def metro(build):
+    """Each object of the metro trial in each weather, and the false alarms of each weather."""
+    folder = ROOT / "out/metro"  # Kept: the same command goes on after an interruption.
+    said(build / "analysis/railcast-analyze", "study", ROOT / "scenarios/studies/metro_objects.json", "--out", folder)
+    return {"objects": table(1, *metro_trial.objects(folder / "csv"))}
+
+
+# Each with the minutes that it takes on two cores.
 PARTS = {"frontier": (frontier, 30), "instructions": (instructions, 15), "bench": (bench, 4), "detail": (detail, 15),
          "modules": (modules, 5), "settings": (settings, 3), "plants": (plants, 2), "weather": (weather, 5),
          "stability": (stability, 4), "python": (python, 2), "live": (live, 15), "insertion": (insertion, 5),
-         "situations": (situations, 10), "peers": (peers, 20), "study": (study, 3),
+         "situations": (situations, 10), "peers": (peers, 20), "study": (study, 3), "metro": (metro, 15),
          **{name: (lambda build, name=name: growth.measured(name, build), 2) for name in growth.NAMES}}
-UNTIMED = ("instructions", "plants", "weather", "stability", "situations")
+UNTIMED = ("instructions", "plants", "weather", "stability", "situations", "metro")
 
 
 def machine():
