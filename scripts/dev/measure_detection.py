@@ -29,6 +29,7 @@ NUM_APPROACHES = 64
 SHIFT_M = 2.5
 KEYS = ("study", "sensor", "object", "approaches", "detected", "answer", "most_needed_m", "least_detected_at_m",
         "d90_95_m", "curve_d90_m", "curve_d90_95_m")
+NOTHING_IN_WAY = "no approach comes to an object in the way"
 BEGIN, END = "<!-- figures: measure_detection.py -->", "<!-- end of the figures -->"
 
 
@@ -88,6 +89,8 @@ def rows_of(build, name, sensor, folder):
     write_study(name, sensor, inputs)
     done = subprocess.run([build / "analysis/railcast-analyze", "study", inputs / "study.json", "--out", out],
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    if NOTHING_IN_WAY in done.stderr:
+        return []
     if done.returncode != 0:
         sys.exit(f"{name}, {sensor}: {done.stderr.strip()}")
     file = out / "csv" / "verdicts.csv"
@@ -122,7 +125,7 @@ def cell(row):
 
 def page(rows):
     """The page's table: a row for each object, a column for each sensor."""
-    lines = ["| scenario | object | needed, m | " + " | ".join(SENSORS.values()) + " |",
+    lines = ["| scenario | object | needed, at most, m | " + " | ".join(SENSORS.values()) + " |",
              "|---|---|---|" + "---|" * len(SENSORS)]
     by_place = {(row["study"], row["object"], row["sensor"]): row for row in rows}
     for study, thing in dict.fromkeys((row["study"], row["object"]) for row in rows):
