@@ -93,10 +93,7 @@ def rows_of(build, name, sensor, folder):
         return []
     if done.returncode != 0:
         sys.exit(f"{name}, {sensor}: {done.stderr.strip()}")
-    file = out / "csv" / "verdicts.csv"
-    if not file.exists():
-        return []
-    with open(file, encoding="utf-8", newline="") as lines:
+    with open(out / "csv" / "verdicts.csv", encoding="utf-8", newline="") as lines:
         verdicts = list(csv.DictReader(lines))
 
     def metres(text):
