@@ -90,10 +90,11 @@ Chart FScoreChart(const Comparison& comparison) {
   Chart chart = {
       "f_score",
       "How much of each cloud the other has",
-      "The sooner a line comes near 1, the closer the clouds: precision is the share of B's points "
+      "The sooner a line comes near 100 %, the closer the clouds: precision is the share of B's "
+      "points "
       "with one of A within the distance, recall that of A's with one of B; means over pairs.",
       {"Distance", "m", true, {}},
-      {"Share", "", false, {}},
+      {"Share", "%", false, {}},
       {}};
   for (const char* const what : {"precision", "recall", "f_score"}) {
     ChartSeries series{

@@ -32,7 +32,9 @@ std::vector<double> ValuesOf(const std::optional<CloudDistances>& distances,
                                 distances->hausdorff_m,  distances->hausdorff95_m,
                                 distances->density_aware};
   for (const WithinDistance& within : distances->within) {
-    values.insert(values.end(), {within.precision, within.recall, within.f_score});
+    for (const double share : {within.precision, within.recall, within.f_score}) {
+      values.push_back(100.0 * share);
+    }
   }
   return values;
 }
@@ -138,9 +140,9 @@ std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m) {
     const std::string distance = NumberText(distance_m);
     const std::string key = Joined({"_", distance, "_m"});
     const std::string title = Joined({" within ", distance, " m"});
-    metrics.push_back({Joined({"precision", key}), Joined({"Precision", title}), ""});
-    metrics.push_back({Joined({"recall", key}), Joined({"Recall", title}), ""});
-    metrics.push_back({Joined({"f_score", key}), Joined({"F-score", title}), ""});
+    metrics.push_back({Joined({"precision_percent", key}), Joined({"Precision", title}), "%"});
+    metrics.push_back({Joined({"recall_percent", key}), Joined({"Recall", title}), "%"});
+    metrics.push_back({Joined({"f_score_percent", key}), Joined({"F-score", title}), "%"});
   }
   metrics.push_back({"jsd_range", "Divergence of ranges", "bit"});
   metrics.push_back({"jsd_intensity", "Divergence of intensities", "bit"});

@@ -20,8 +20,6 @@ namespace {
 constexpr std::uint32_t kNumTrees = 100;
 constexpr std::size_t kNumForestBins = 64;
 constexpr std::size_t kLeastInLeaf = 5;
-// A use of its own beside those of the simulation, which analysis shares no seed with.
-constexpr RandomUse kForestDraw{400};
 
 // The samples with each feature replaced by the bin between two of its quantiles.
 struct BinnedSamples {
@@ -76,7 +74,7 @@ class Draws {
 
   std::size_t Below(std::size_t limit) {
     if (num_used_ == words_.size()) {
-      words_ = RandomWords(seed_, kForestDraw, tree_, num_blocks_++);
+      words_ = RandomWords(seed_, RandomUse::kForestDraw, tree_, num_blocks_++);
       num_used_ = 0;
     }
     constexpr unsigned kWordBits = 32;

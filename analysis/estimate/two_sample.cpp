@@ -15,8 +15,6 @@ namespace railcast {
 namespace {
 
 constexpr std::size_t kNumFolds = TwoSampleTest::kNumFolds;
-// Beside RandomForest's use.
-constexpr RandomUse kShuffleDraw{401};
 
 // Runs of groups, as equal in their number of groups as can be.
 std::vector<std::size_t> FoldsOf(const std::vector<std::uint32_t>& group) {
@@ -46,8 +44,8 @@ std::vector<std::size_t> Shuffled(std::size_t num,
   std::vector<std::size_t> order(num);
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (std::size_t i = 0; i + 1 < num; ++i) {
-    const std::uint64_t word =
-        RandomWords(seed, kShuffleDraw, fold, static_cast<std::uint32_t>(i), feature)[0];
+    const std::uint64_t word = RandomWords(seed, RandomUse::kLabelShuffle, fold,
+                                           static_cast<std::uint32_t>(i), feature)[0];
     constexpr unsigned kWordBits = 32;
     std::swap(order[i], order[i + ((word * (num - i)) >> kWordBits)]);
   }

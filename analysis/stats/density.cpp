@@ -103,7 +103,7 @@ Table LawTable(const NamedCurves& curves) {
                  {{"surface", "Surface", ""},
                   {"points", "Points", ""},
                   {"exponent", "Exponent", ""},
-                  {"per_m2_at_10_m", "Density at 10 m", "1/m2"}},
+                  {"per_m2_at_10_m", "Density at 10 m", "1/m²"}},
                  {}};
   for (const auto& [name, curve] : curves) {
     const PowerLaw law = Density::LawOf(*curve);
@@ -121,8 +121,8 @@ Table CurveTable(const NamedCurves& curves) {
       "grid needs.",
       {{"surface", "Surface", ""},
        {"range_m", "Range", "m"},
-       {"area_m2", "Area seen", "m2"},
-       {"per_m2", "Density", "1/m2"},
+       {"area_m2", "Area seen", "m²"},
+       {"per_m2", "Density", "1/m²"},
        {"per_sr", "Density", "1/sr"}},
       {}};
   for (const auto& [name, curve] : curves) {
@@ -150,7 +150,7 @@ Chart CurveChart(NamedCurves curves) {
           "raster "
           "gives -3 on level ground and -2 on faces met under one incidence.",
           {"Range", "m", true},
-          {"Density", "1/m2", true},
+          {"Density", "1/m²", true},
           SeriesByName(CurveTable(curves), {"range_m", "per_m2", "", "surface"})};
 }
 

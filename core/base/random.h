@@ -45,6 +45,8 @@ enum class RandomUse : std::uint32_t {
   kDatasetDraw = 201,
   kMotionNoise = 300,
   kMotionDrift = 301,
+  kForestDraw = 400,
+  kLabelShuffle = 401,
 };
 
 /// Four independent, uniform 32-bit words that depend on the arguments only.

@@ -178,7 +178,7 @@ std::string MeshesText(std::span<const ObjectSpec> objects,
                                ShortText(size_m.z()) + " m, " +
                                CountText(mesh.model.num_triangles(), "triangle") + " of " +
                                CountText(mesh.num_faces + mesh.num_cornerless, "face") + ", " +
-                               ShortText(AreaOf_m2(mesh.model)) + " m2");
+                               ShortText(AreaOf_m2(mesh.model)) + " m²");
     text +=
         LeftOutText(mesh) + SimplifiedText(users.spec, mesh) + PartsText(mesh, labels, materials);
     for (const ObjectSpec* object : users.objects) text += WarningsText(*object, mesh);

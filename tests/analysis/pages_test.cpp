@@ -93,8 +93,8 @@ void ForEachQuantity(const Json& report, const std::function<void(const Json&)>&
 }
 
 TEST_F(CommandPages, HaveOneUnitForAQuantity) {
-  const std::set<std::string> units = {"",     "%",  "m", "mm",  "m²",  "m2",  "1/m2",
-                                       "1/sr", "ms", "s", "deg", "bit", "m/s", "x raw"};
+  const std::set<std::string> units = {"",   "%", "m",   "mm",  "m²",  "1/m²", "1/sr",
+                                       "ms", "s", "deg", "bit", "m/s", "x raw"};
   for (const char* const name : kNames) {
     SCOPED_TRACE(name);
     ForEachQuantity(JsonOf(name), [&](const Json& quantity) {

@@ -232,7 +232,7 @@ void CheckShape(const StructurePlace& place, const BuildingSpec& building, World
   } else if (MeetsItself(corners)) {
     faults.Add(pointer, "must not meet itself");
   } else if (FootprintArea_m2(corners) < kLeastArea_m2) {
-    faults.Add(pointer, "must have an area of at least " + NumberText(kLeastArea_m2) + " m2",
+    faults.Add(pointer, "must have an area of at least " + NumberText(kLeastArea_m2) + " m²",
                NumberText(FootprintArea_m2(corners)));
   }
 }

@@ -47,7 +47,7 @@ TEST_F(MeshReport, SaysWhatIsKeptAndWhatNotAndWhatEachPartIs) {
       Text({house}),
       "meshes    \"house\": " + file_.string() +
           "\n"
-          "          4 x 2 x 3 m, 3 triangles of 5 faces, 21.63 m2\n"
+          "          4 x 2 x 3 m, 3 triangles of 5 faces, 21.63 m²\n"
           "          left out: 2 triangles without area and 1 face with fewer than three "
           "different corners\n"
           "          \"Brick\": material masonry (by the word \"brick\"), label object (the "
