@@ -43,7 +43,7 @@ Report MakeDossier(const FinishedStudy& study,
   report.title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question;
   report.command = command;
   report.headlines = VerdictHeadlines(targets);
-  report.sections = {VerdictSection(study.spec, targets),
+  report.sections = {VerdictSection(targets),
                      ScopeSection(study, sample),
                      ModelErrorSection(error),
                      SensorSection(sample),

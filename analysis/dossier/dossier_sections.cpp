@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "analysis/report/processor.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -67,6 +68,10 @@ Section TraceabilitySection(const FinishedStudy& study) {
   const Json& identity = study.result.identity;
   const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
   add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
+  add("Machine", ProcessorName() +
+                     ", for the measured errors and this dossier; approaches have the same bytes "
+                     "on every processor with " +
+                     text("isa"));
   add("Study", text("study_xxh3"));
   add("Recipe", text("recipe_xxh3"));
   std::string bases;

@@ -1,9 +1,9 @@
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/pareto.h"
+#include "analysis/report/processor.h"
 #include "analysis/stats/names.h"
 #include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
@@ -124,14 +124,6 @@ Json DefeatsList(const std::vector<RowResult>& results) {
 }
 
 }  // namespace
-
-std::string ProcessorName() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  }
-  return "unknown";
-}
 
 std::string FrontierJson(const FrontierPlan& plan,
                          const FrontierCircumstances& circumstances,

@@ -45,9 +45,6 @@ struct FrontierCircumstances {
                                                    const LabelTable& labels,
                                                    const std::vector<RowResult>& results);
 
-/// Name of this machine's processor as the operating system reports it.
-[[nodiscard]] std::string ProcessorName();
-
 /// Contents of frontier.json beside the report: all numbers and their circumstances. Defined in
 /// frontier_json.cpp.
 [[nodiscard]] std::string FrontierJson(const FrontierPlan& plan,

@@ -159,7 +159,7 @@ Report MakeStudyReport(const StudySpec& study,
                        const std::vector<Observation>& observations,
                        const std::string& command) {
   Report report;
-  report.title = "Study " + study.file.stem().string();
+  report.title = study.question.empty() ? "A study of detection" : study.question;
   report.command = command;
   report.facts = FactsOfStudy(study, result);
   const std::vector<TargetResult> targets = TargetsOf(observations);
@@ -170,7 +170,7 @@ Report MakeStudyReport(const StudySpec& study,
   }
   const std::vector<Factor> factors = FactorsOf(observations);
   Section placement = PlacementSection(observations, factors, recipe);
-  report.sections = {VerdictSection(study, targets),
+  report.sections = {VerdictSection(targets),
                      FactorsSection(WeighFactors(observations, factors), observations.size()),
                      ConditionsSection(observations, factors), YardsticksSection(targets)};
   if (!placement.tables.empty()) {

@@ -55,7 +55,7 @@ std::string AnswerOf(const TargetResult& target) {
   return target.d90_at_most_m < target.most_needed_m ? "no" : "not shown";
 }
 
-Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& targets) {
+Section VerdictSection(const std::vector<TargetResult>& targets) {
   Table table;
   table.key = "verdicts";
   table.title = "Is it detected before the distance that the train needs?";
@@ -86,7 +86,6 @@ Section VerdictSection(const StudySpec& study, const std::vector<TargetResult>& 
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
   Section section{.key = "verdict", .title = "Verdict"};
-  if (!study.question.empty()) section.paragraphs.push_back(study.question);
   section.tables.push_back(std::move(table));
   for (const TargetResult& target : targets) {
     if (!target.has_fit() || section.charts.size() >= kMaxCharts) continue;

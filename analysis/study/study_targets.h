@@ -8,7 +8,6 @@
 #include "analysis/estimate/detection_curve.h"
 #include "analysis/report/report.h"
 #include "analysis/study/study_factors.h"
-#include "analysis/study/study_spec.h"
 
 namespace railcast {
 
@@ -39,8 +38,7 @@ struct TargetResult {
 /// Whether it is detected in time: "yes", "no", "not shown", or why that is not known.
 [[nodiscard]] std::string AnswerOf(const TargetResult& target);
 
-/// The study's question, the answer for each target, and its probability of detection.
-[[nodiscard]] Section VerdictSection(const StudySpec& study,
-                                     const std::vector<TargetResult>& targets);
+/// The answer for each target, and its probability of detection.
+[[nodiscard]] Section VerdictSection(const std::vector<TargetResult>& targets);
 
 }  // namespace railcast

@@ -11,4 +11,10 @@ inline Ended Generate(const std::string& arguments) {
   return RunCommand(std::string(RAILCAST_GENERATE) + " " + arguments);
 }
 
+/// As Generate(), for runs that wait for somebody, who may never come where a test fails: they are
+/// ended after two minutes, with status 124.
+inline Ended GenerateLive(const std::string& arguments) {
+  return RunCommand("timeout --foreground --kill-after=10 120 " RAILCAST_GENERATE " " + arguments);
+}
+
 }  // namespace railcast

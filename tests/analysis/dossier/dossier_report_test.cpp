@@ -7,6 +7,7 @@
 #include <string>
 
 #include "analysis/dossier/dossier_sections.h"
+#include "analysis/report/processor.h"
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"
 #include "tests/analysis/study/study_project.h"
@@ -103,6 +104,15 @@ TEST_F(DossierOfAStudy, ShowsThatSingleRaysSeeFewerPointsFarAway) {
   }
   ASSERT_GT(points_in_reference, 100U);
   EXPECT_LT(static_cast<double>(points), 0.95 * static_cast<double>(points_in_reference));
+}
+
+TEST_F(DossierOfAStudy, NamesTheMachineThatMadeIt) {
+  const Section section = TraceabilitySection(*study_);
+  const auto& rows = section.tables.at(0).rows;
+  const auto row =
+      std::ranges::find_if(rows, [](const auto& cells) { return Text(cells.at(0)) == "Machine"; });
+  ASSERT_NE(row, rows.end());
+  EXPECT_TRUE(Text(row->at(1)).starts_with(ProcessorName() + ", "));
 }
 
 TEST_F(DossierOfAStudy, SaysWhatIsVariedAndWhatIsNot) {

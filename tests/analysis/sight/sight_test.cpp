@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "analysis/sight/sight_report.h"
 #include "core/base/units.h"
 #include "core/rail/clearance/tunnel_shape.h"
+#include "core/rail/landform/landform.h"
+#include "core/rail/track/cross_section.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
@@ -111,6 +115,33 @@ TEST(Sight, EndsAtTheVaultOfACurvedTunnel) {
   EXPECT_EQ(sight.blocker, "tunnel");
   EXPECT_GT(sight.distance_m, chord_m(0.5 * (kEye_m + kTarget_m)) - tolerance_m);
   EXPECT_LT(sight.distance_m, chord_m(kCentre_m) + tolerance_m);
+}
+
+// As in a tunnel, but the slope of 1:1.5 beside the formation is farther out the higher the line of
+// sight touches it: between the mean height of the eye and the target's foot, and the eye's height.
+TEST(Sight, EndsAtTheSlopeOfACuttingInACurve) {
+  constexpr double kRadius_m = 400.0;
+  constexpr double kTarget_m = 1.0;
+  const TemporaryDirectory directory;
+  const auto plateau = directory.path() / "plateau.asc";
+  std::ofstream(plateau) << "ncols 3\nnrows 3\nxllcorner -1000\nyllcorner -500\ncellsize 800\n"
+                            "8 8 8\n8 8 8\n8 8 8\n";
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kArc, 600.0, kRadius_m));
+  scenario.world.terrain.half_width_m = 40.0;
+  scenario.world.terrain.elevation =
+      ElevationSpec{.file = plateau.string(), .origin_m = {0.0, 0.0, 0.0}};
+  const auto places = Follow(scenario, {.heights_m = {kTarget_m}});
+  ASSERT_EQ(places.size(), 1U);
+  const auto chord_m = [&](double touched_m) {
+    const double lateral_m =
+        kFormationEdge_m + (touched_m + CrossSection::kFormationDepth_m) / kCutAndFillSlope;
+    return 2.0 * kRadius_m * std::acos((kRadius_m - lateral_m) / kRadius_m);
+  };
+  const Sight& sight = places[0].sights[0];
+  EXPECT_EQ(sight.end, SightEnd::kBlocked);
+  EXPECT_EQ(sight.blocker, "ground");
+  EXPECT_GT(sight.distance_m, chord_m(0.5 * kEye_m) - kTargetStep_m);
+  EXPECT_LT(sight.distance_m, chord_m(kEye_m) + kTargetStep_m);
 }
 
 // On a crest of the vertical radius R, the line of sight from the height h_1 touches the track at

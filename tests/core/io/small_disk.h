@@ -79,6 +79,10 @@ inline constexpr char kSaysThrown = 't';
     const std::filesystem::path& disk,
     const std::function<std::string(const std::filesystem::path&)>& work,
     int parent) noexcept {
+  // A lock that another thread held at the fork is held forever here: the process must end all the
+  // same, and the test fail.
+  constexpr unsigned kMost_s = 300;
+  ::alarm(kMost_s);
   const std::string refused = MountSmallDisk(disk);
   if (!refused.empty()) ::_exit(WriteTo(parent, kSaysRefused + refused) ? 0 : 1);
   std::string said(1, kSaysMounted);

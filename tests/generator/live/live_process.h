@@ -60,7 +60,7 @@ class Stream {
  public:
   explicit Stream(const std::string& arguments)
       : run_(std::async(std::launch::async,
-                        [arguments] { return Generate("stream " + arguments); })) {}
+                        [arguments] { return GenerateLive("stream " + arguments); })) {}
 
   [[nodiscard]] Ended Wait() { return run_.get(); }
 

@@ -239,7 +239,10 @@ TEST(Ros2Stream, WaitsForTheStampOfEachFrameOnAStepTopic) {
   std::this_thread::sleep_for(std::chrono::milliseconds(kWhile_ms));
   say(StepAt(-1));
   FastReader& clouds = node.Read(kPoints, kCloudType);
-  while (clouds.WaitFor(1, kWhile_ms).empty()) say(StepAt(-1));
+  ASSERT_TRUE(WaitUntilTrue([&] {
+    say(StepAt(-1));
+    return !clouds.WaitFor(1, kWhile_ms).empty();
+  }));
   say(StepAt(-1));
   EXPECT_EQ(clouds.WaitFor(2, kWhile_ms).size(), 1U);
   // The stamps of 20 Hz.
@@ -314,7 +317,7 @@ TEST(Ros2Stream, StampsMessagesWithTheTimeOfDayIfAskedTo) {
   FastReader& clouds = node.Read(kPoints, kCloudType);
   auto& steps = node.Write("rt/step", ros::TypeOf<ros::Time>().dds_name);
   MessageBytes step = StepAt(0);
-  while (clouds.WaitFor(1, 100).empty()) steps.write(&step);
+  ASSERT_TRUE(WaitUntilTrue([&] { return steps.write(&step) && !clouds.WaitFor(1, 100).empty(); }));
   for (std::size_t i = 0; i < 3; ++i) {
     ASSERT_GT(clouds.WaitFor(i + 1).size(), i);
     const auto cloud = ros::FromCdr<ros::PointCloud2>(clouds.WaitFor(i + 1)[i]);

@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 
 /// A running `railcast-generate replay`.
 std::future<Ended> Replaying(const std::string& arguments) {
-  return std::async(std::launch::async, [arguments] { return Generate("replay " + arguments); });
+  return std::async(std::launch::async,
+                    [arguments] { return GenerateLive("replay " + arguments); });
 }
 
 /// The coarse scenario, or another sensor before its wagon, in the sensor's axes.

@@ -33,8 +33,8 @@ class SteppedReplay {
  public:
   explicit SteppedReplay(const std::string& arguments)
       : controller_(port_), run_(std::async(std::launch::async, [arguments, this] {
-          return Generate("replay " + arguments + " --domain " + std::to_string(domain) +
-                          " --lockstep --pacing burst --commands-port " + port_);
+          return GenerateLive("replay " + arguments + " --domain " + std::to_string(domain) +
+                              " --lockstep --pacing burst --commands-port " + port_);
         })) {}
 
   void Step() {
