@@ -90,10 +90,10 @@ class InterruptedRun : public testing::TestWithParam<const char*> {
 TEST_P(InterruptedRun, GivesTheSameBytesHoweverOftenItIsKilled) {
   const auto expected = Undisturbed();
   const std::uint64_t whole = expected.at("frames.jsonl").size();
-  constexpr std::uint64_t kTrials = 20;
+  constexpr std::uint64_t kTrials = 10;
   for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
     const TemporaryDirectory directory;
-    const std::chrono::microseconds delay(37 * trial);
+    const std::chrono::microseconds delay(75 * trial);
     RunAndKill(Spec(directory.path()), GetParam(), whole * trial / kTrials / 3, delay);
     RunAndKill(Spec(directory.path()), GetParam(), whole * (trial + kTrials) / kTrials / 3, delay);
     const auto result = RunSequence(Spec(directory.path()), MakeExampleFrame, NoHooks());

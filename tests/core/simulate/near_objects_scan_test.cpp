@@ -106,5 +106,23 @@ TEST(NearObjectsScan, HoldsTheSameOfAPatternThatDoesNotRepeat) {
   EXPECT_GT(ExpectSameOnObjects(spec, {0, 1, 40}), 20U);
 }
 
+// The sensors of docs/detection_table.md.
+TEST(NearObjectsScan, HoldsTheSameOfAPersonAt100MetresOnRealSensors) {
+  for (const std::string sensor : {"pandar64", "vls128", "rosette"}) {
+    SCOPED_TRACE(sensor);
+    ScenarioSpec spec = ReadShipped("brake_person.json");
+    const MountSpec mount = spec.lidar.mount;
+    spec.lidar = ReadScenarioText(R"({"version": 1, "file": "minimal.json",
+                                      "lidar": {"file": "sensors/)" +
+                                      sensor + R"(.json"}})",
+                                  RAILCAST_SOURCE_DIR "/scenarios/given.json")
+                     .lidar;
+    spec.lidar.mount = mount;
+    spec.fidelity = Fidelity::kFootprint;
+    spec.vehicle.start_s_m = spec.world.objects.at(0).s_m - 100.0;
+    EXPECT_GT(ExpectSameOnObjects(spec, {0}), 5U);
+  }
+}
+
 }  // namespace
 }  // namespace railcast
