@@ -32,7 +32,7 @@ RunCourses CoursesOn(Fidelity fidelity,
     scenario.fidelity = fidelity;
     scenario.effects = {};
   }
-  return ApproachScanner(num_threads, {}, study.gauge)
+  return ApproachScanner(num_threads, {}, study.gauge, study.objects)
       .Follow(scenario, frames, kNever, [] { return false; })
       .value();
 }

@@ -31,6 +31,12 @@ std::string TargetOf(const std::string& name) {
   return std::all_of(begin, name.end(), is_digit) ? name.substr(0, slash) : name;
 }
 
+bool IsAskedAbout(const std::string& name, const std::vector<std::string>& objects) {
+  return objects.empty() || std::ranges::any_of(objects, [&](const std::string& asked) {
+           return asked == name || asked == TargetOf(name);
+         });
+}
+
 ApproachRecord RecordOf(const DrawnScenario& drawn,
                         const RunCourses& courses,
                         const std::vector<std::uint32_t>& frames,

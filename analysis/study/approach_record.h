@@ -17,6 +17,10 @@ namespace railcast {
 /// "person/2".
 [[nodiscard]] std::string TargetOf(const std::string& name);
 
+/// Whether a study asks about an object.
+/// @param objects StudySpec::objects.
+[[nodiscard]] bool IsAskedAbout(const std::string& name, const std::vector<std::string>& objects);
+
 /// An object in the way, as a study records it.
 struct StudiedObject {
   std::string name{};

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/study/approach_record.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "railcast/lidar.h"
@@ -116,6 +117,7 @@ std::optional<RunCourses> ApproachScanner::Follow(const ScenarioSpec& scenario,
     RecordedFrame recorded;
     recorded.frame = EmptyFrame(simulator, index, duration_ns);
     for (const ObjectInFrame& object : survey.Describe(recorded.frame, no_views)) {
+      if (!IsAskedAbout(object.name, objects_)) continue;
       recorded.objects.push_back(ToRecorded(object, recorded.frame));
     }
     AddFrame(recorded, vehicle_from_sensor, own_track, courses);
@@ -181,7 +183,10 @@ std::optional<EvaluatedRun> ApproachScanner::Evaluate(const ScenarioSpec& scenar
   }
   effort_.num_frames += frames.size();
   effort_.num_traced += frames.size();
-  return evaluator.Finish({}, scenario.seed, detect);
+  EvaluatedRun run = evaluator.Finish({}, scenario.seed, detect);
+  std::erase_if(run.run.courses.objects,
+                [&](const auto& object) { return !IsAskedAbout(object.first, objects_); });
+  return run;
 }
 
 }  // namespace railcast

@@ -30,10 +30,15 @@ class ApproachScanner {
  public:
   /// @param num_threads,isa As MakeSimulator() takes them.
   /// @param gauge Of the train; absent = the structure gauge.
+  /// @param objects Those that are followed: StudySpec::objects.
   explicit ApproachScanner(int num_threads,
                            std::string isa = {},
-                           std::optional<TrainGauge> gauge = {})
-      : num_threads_(num_threads), isa_(std::move(isa)), gauge_(gauge) {}
+                           std::optional<TrainGauge> gauge = {},
+                           std::vector<std::string> objects = {})
+      : num_threads_(num_threads),
+        isa_(std::move(isa)),
+        gauge_(gauge),
+        objects_(std::move(objects)) {}
 
   /// Whether it has the geometry of a scenario already.
   [[nodiscard]] bool HasSceneOf(const ScenarioSpec& scenario) const;
@@ -75,6 +80,7 @@ class ApproachScanner {
   int num_threads_;
   std::string isa_;
   std::optional<TrainGauge> gauge_;
+  std::vector<std::string> objects_;
   std::optional<ScenarioSpec> shared_;  ///< What the simulator's geometry depends on.
   std::unique_ptr<Simulator> simulator_;
   std::shared_ptr<const RailWorld> world_;  ///< Of the scenario.

@@ -1,6 +1,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/study/study_spec.h"
 #include "core/base/error.h"
@@ -49,6 +50,11 @@ template <class Archive>
 void Describe(Archive& a, StudySpec& s) {
   a.Optional("question", s.question, "What the study is to answer.");
   a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());
+  std::optional<std::vector<std::string>> objects;
+  a.Optional("objects", objects, "Names of those asked about; absent = all in the way.",
+             NonEmptyString());
+  a.Ensure({"objects"}, !objects || !objects->empty(), "must not be empty");
+  if (objects) s.objects = std::move(*objects);
   a.Optional("detection", s.detect.rule, "When an object counts as detected.");
   a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
   a.Optional("gauge", s.gauge, "Of the train, instead of the structure gauge.");

@@ -30,8 +30,9 @@ namespace {
 /// that of the same scene, if it can be had.
 class ScannerPool {
  public:
-  ScannerPool(std::string isa, std::optional<TrainGauge> gauge, std::size_t num_most)
-      : isa_(std::move(isa)), gauge_(gauge), num_most_(num_most) {}
+  /// @param study Must outlive the pool.
+  ScannerPool(const StudySpec& study, std::string isa, std::size_t num_most)
+      : study_(study), isa_(std::move(isa)), num_most_(num_most) {}
 
   [[nodiscard]] std::unique_ptr<ApproachScanner> Take(const ScenarioSpec& scenario,
                                                       int num_threads) {
@@ -42,7 +43,7 @@ class ScannerPool {
     }
     if (num_made_ < num_most_ || idle_.empty()) {
       ++num_made_;
-      return std::make_unique<ApproachScanner>(num_threads, isa_, gauge_);
+      return std::make_unique<ApproachScanner>(num_threads, isa_, study_.gauge, study_.objects);
     }
     return TakeFrom(idle_.begin());  // The one that has been idle for longest.
   }
@@ -70,8 +71,8 @@ class ScannerPool {
     return taken;
   }
 
+  const StudySpec& study_;
   std::string isa_;
-  std::optional<TrainGauge> gauge_;
   std::size_t num_most_;
   std::mutex mutex_;
   Idle idle_;
@@ -120,6 +121,27 @@ void CheckIsStudied(const ScenarioSpec& scenario) {
   }
 }
 
+bool Has(const ScenarioSpec& scenario, const std::string& asked) {
+  return std::ranges::any_of(
+             scenario.world.objects,
+             [&](const ObjectSpec& object) { return IsAskedAbout(object.name, {asked}); }) ||
+         std::ranges::any_of(scenario.world.trains,
+                             [&](const TrainSpec& train) { return train.name == TargetOf(asked); });
+}
+
+// What is asked about must be in some scenario. Most often the first one has it all.
+void CheckAreThere(const StudySpec& study, const ScenarioDrawer& drawer) {
+  std::vector<std::string> missing = study.objects;
+  for (std::uint32_t i = 0; i < drawer.recipe().num_scenarios && !missing.empty(); ++i) {
+    const ScenarioSpec scenario = drawer.Draw(i).scenario;
+    std::erase_if(missing, [&](const std::string& asked) { return Has(scenario, asked); });
+  }
+  if (missing.empty()) return;
+  const auto at = std::ranges::find(study.objects, missing.front()) - study.objects.begin();
+  throw InputError(ShownPath(study.file) + ": /objects/" + std::to_string(at) +
+                   ": must be an object of a scenario (got " + ShownText(missing.front()) + ")");
+}
+
 /// Nothing if it was stopped.
 std::optional<ApproachRecord> RecordBy(ApproachScanner& scanner,
                                        const StudySpec& study,
@@ -157,6 +179,7 @@ StudyResult RunStudy(const StudySpec& study,
   constexpr std::size_t kMostIdle = 4;
   const auto begin = std::chrono::steady_clock::now();
   const Recipe& recipe = drawer.recipe();
+  CheckAreThere(study, drawer);
   StudyResult result;
   result.identity = IdentityOfStudy(study, recipe, drawer.bases(), choices);
   StudyDirectory directory(choices.directory, result.identity, recipe.num_scenarios, choices.shard);
@@ -167,7 +190,7 @@ StudyResult RunStudy(const StudySpec& study,
   const std::vector<std::uint32_t> frames = FramesOf(recipe);
   const int num_threads =
       choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
-  ScannerPool scanners(choices.isa, study.gauge, static_cast<std::size_t>(num_threads) + kMostIdle);
+  ScannerPool scanners(study, choices.isa, static_cast<std::size_t>(num_threads) + kMostIdle);
   const std::uint32_t num_before = directory.num_done();
   const auto make = [&](const ScenarioTurn& turn) -> std::optional<Json> {
     const std::uint32_t number = choices.shard.ScenarioAt(num_before + turn.index);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/detectability/object_detection.h"
 #include "analysis/detectors/cluster_detector.h"
@@ -15,6 +16,9 @@ struct StudySpec {
   std::filesystem::path file;
   std::string question;  ///< In the words of whoever asks; may be empty.
   std::string recipe;    ///< Absolute name of the recipe's file.
+  /// What is asked about: names of objects ("wagons/3"), or of all that are placed under a name
+  /// ("person"). Empty = all that come in the way.
+  std::vector<std::string> objects;
   DetectSpec detect;
   /// Whose detections are studied; absent = an object is seen by the number of points on it.
   std::optional<ClusterDetectorSpec> detector;

@@ -106,6 +106,41 @@ TEST_F(Study, FindsTheVerdictsOfWholeFrames) {
   EXPECT_LT(scanner.effort().num_traced, 8U * 50U);
 }
 
+TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
+  nlohmann::json recipe = StudiedRecipe(6);
+  recipe["objects"][1]["object"]["d_m"] = 0;
+  recipe["objects"][1]["count"]["values"] = {1};
+  const auto file = WriteStudy(Path("some"), recipe);
+  const StudyResult all = RunStudyIn(file, {.directory = Path("all")});
+  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
+  study["objects"] = {"worker"};
+  WriteFileWhole(file, study.dump());
+  const StudyResult asked = RunStudyIn(file, {.directory = Path("asked")});
+  ASSERT_EQ(asked.approaches.size(), all.approaches.size());
+  for (std::size_t i = 0; i < asked.approaches.size(); ++i) {
+    EXPECT_EQ(all.approaches[i].objects.size(), 2U);
+    ASSERT_EQ(asked.approaches[i].objects.size(), 1U);
+    const StudiedObject& object = asked.approaches[i].objects.front();
+    EXPECT_EQ(object.Target(), "worker");
+    const auto same =
+        std::ranges::find(all.approaches[i].objects, object.name, &StudiedObject::name);
+    ASSERT_NE(same, all.approaches[i].objects.end());
+    EXPECT_EQ(object.is_detected, same->is_detected);
+    EXPECT_EQ(object.frame, same->frame);
+  }
+  EXPECT_LT(asked.num_traced, all.num_traced);
+}
+
+TEST_F(Study, SaysThatWhatItAsksAboutIsInNoScenario) {
+  const auto file = WriteStudy(Path("none"), StudiedRecipe(3));
+  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
+  study["objects"] = {"person", "wagon/2"};
+  WriteFileWhole(file, study.dump());
+  EXPECT_EQ(MessageOf([&] { (void)RunStudyIn(file, {.directory = Path("out")}); }),
+            ShownPath(file) + ": /objects/1: must be an object of a scenario (got \"wagon/2\")");
+  EXPECT_FALSE(std::filesystem::exists(Path("out")));
+}
+
 TEST_F(Study, GivesTheSameLinesOnAnyNumberOfThreadsAndInShards) {
   const auto file = Write(7);
   const StudyResult all = RunStudyIn(file, {.directory = Path("one"), .num_threads = 1});
