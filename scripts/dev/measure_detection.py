@@ -41,12 +41,12 @@ def resolved(path):
 
 
 def studies():
-    """{name: (scenario, frames, what is laid over it)}."""
-    brakes = {f"brake_{what}_{weather}": (SCENARIOS / f"brake_{what}.json", 300, overlay)
+    """{name: (scenario, frames, objects asked about, None for all in the way, what is laid over it)}."""
+    brakes = {f"brake_{what}_{weather}": (SCENARIOS / f"brake_{what}.json", 300, None, overlay)
               for what in ("person", "wagon")
               for weather, overlay in [("clear", {}), ("rain", {"file": str(SCENARIOS / "weather/heavy_rain.json")}),
                                        ("fog", {"file": str(SCENARIOS / "weather/thick_fog.json")})]}
-    situations = {name: (SCENARIOS / "situations" / f"{name}.json", frames, None)
+    situations = {name: (SCENARIOS / "situations" / f"{name}.json", frames, objects, None)
                   for name, (frames, objects) in SITUATIONS.items() if objects}
     return brakes | situations
 
@@ -62,7 +62,7 @@ def moved(scenario):
 
 def write_study(name, sensor, folder):
     """The study of a scenario with one sensor where the scenario's first one sits."""
-    path, num_frames, weather = studies()[name]
+    path, num_frames, objects, weather = studies()[name]
     scenario = resolved(path)
     own = scenario["lidars"][0] if "lidars" in scenario else scenario.get("lidar", {})
     lidar = {"file": str(SCENARIOS / "sensors" / f"{sensor}.json")}
@@ -77,6 +77,8 @@ def write_study(name, sensor, folder):
     study = {"version": 1, "question": f"From where on is what stands in the way of {name} detected?",
              "recipe": "recipe.json", "detection": {"points": 5, "frames": 3, "of_frames": 5},
              "braking": {"reaction_s": 2, "deceleration_mps2": 0.5, "margin_m": 15}}
+    if objects:
+        study["objects"] = objects
     folder.mkdir(parents=True, exist_ok=True)
     for file, content in (("scenario", over), ("recipe", recipe), ("study", study)):
         (folder / f"{file}.json").write_text(json.dumps(content, indent=1), encoding="utf-8")

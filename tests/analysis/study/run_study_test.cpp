@@ -110,7 +110,7 @@ TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
   nlohmann::json recipe = StudiedRecipe(6);
   recipe["objects"][1]["object"]["d_m"] = 0;
   recipe["objects"][1]["count"]["values"] = {1};
-  const auto file = WriteStudy(Path("some"), recipe);
+  const auto file = WriteStudy(Path("."), recipe);
   const StudyResult all = RunStudyIn(file, {.directory = Path("all")});
   nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
   study["objects"] = {"worker"};
@@ -132,7 +132,7 @@ TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
 }
 
 TEST_F(Study, SaysThatWhatItAsksAboutIsInNoScenario) {
-  const auto file = WriteStudy(Path("none"), StudiedRecipe(3));
+  const auto file = WriteStudy(Path("."), StudiedRecipe(3));
   nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
   study["objects"] = {"person", "wagon/2"};
   WriteFileWhole(file, study.dump());
