@@ -139,7 +139,7 @@ void CheckAreThere(const StudySpec& study, const ScenarioDrawer& drawer) {
   if (missing.empty()) return;
   const auto at = std::ranges::find(study.objects, missing.front()) - study.objects.begin();
   throw InputError(ShownPath(study.file) + ": /objects/" + std::to_string(at) +
-                   ": must be an object of a scenario (got " + ShownText(missing.front()) + ")");
+                   ": must be an object of a scenario (got " + Quoted(missing.front()) + ")");
 }
 
 /// Nothing if it was stopped.

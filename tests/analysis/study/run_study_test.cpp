@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/study/approach_scan.h"
 #include "core/io/run/object_survey.h"
@@ -25,6 +26,12 @@ class Study : public testing::Test {
   }
   [[nodiscard]] std::filesystem::path Write(std::uint32_t num_scenarios) const {
     return WriteStudy(directory_.path(), StudiedRecipe(num_scenarios));
+  }
+  /// Lets a study that Write() wrote ask about some objects.
+  static void Ask(const std::filesystem::path& file, const std::vector<std::string>& objects) {
+    nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
+    study["objects"] = objects;
+    WriteFileWhole(file, study.dump());
   }
   [[nodiscard]] std::string Lines(const std::string& folder) const {
     return ReadFileWhole(Path(folder) / "approaches.jsonl");
@@ -110,11 +117,10 @@ TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
   nlohmann::json recipe = StudiedRecipe(6);
   recipe["objects"][1]["object"]["d_m"] = 0;
   recipe["objects"][1]["count"]["values"] = {1};
-  const auto file = WriteStudy(Path("."), recipe);
+  const auto file = Write(6);
+  WriteFileWhole(Path("recipe.json"), recipe.dump());
   const StudyResult all = RunStudyIn(file, {.directory = Path("all")});
-  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
-  study["objects"] = {"worker"};
-  WriteFileWhole(file, study.dump());
+  Ask(file, {"worker"});
   const StudyResult asked = RunStudyIn(file, {.directory = Path("asked")});
   ASSERT_EQ(asked.approaches.size(), all.approaches.size());
   for (std::size_t i = 0; i < asked.approaches.size(); ++i) {
@@ -132,10 +138,8 @@ TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
 }
 
 TEST_F(Study, SaysThatWhatItAsksAboutIsInNoScenario) {
-  const auto file = WriteStudy(Path("."), StudiedRecipe(3));
-  nlohmann::json study = nlohmann::json::parse(ReadFileWhole(file));
-  study["objects"] = {"person", "wagon/2"};
-  WriteFileWhole(file, study.dump());
+  const auto file = Write(3);
+  Ask(file, {"person", "wagon/2"});
   EXPECT_EQ(MessageOf([&] { (void)RunStudyIn(file, {.directory = Path("out")}); }),
             ShownPath(file) + ": /objects/1: must be an object of a scenario (got \"wagon/2\")");
   EXPECT_FALSE(std::filesystem::exists(Path("out")));
