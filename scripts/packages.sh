@@ -23,6 +23,7 @@ build_packages=(
   libjpeg62-turbo-dev
   libkainjow-mustache-dev
   liblz4-dev
+  liblzf-dev
   libnlopt-cxx-dev
   libopenmesh-dev
   libpcap-dev

@@ -11,12 +11,12 @@
 #include <string_view>
 #include <system_error>
 
-#include <pcl/io/pcd_io.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/cloud/pcd_encoder.h"
 #include "core/io/stream/stream_clouds.h"
 #include "core/io/write_file.h"
 
@@ -24,15 +24,6 @@ namespace railcast {
 namespace {
 
 constexpr char kIndexName[] = "frames.csv";
-
-std::string PcdBytes(const ReceivedFrame& frame) {
-  const pcl::PCLPointCloud2 cloud = MakePclCloud(frame);
-  std::string bytes = pcl::PCDWriter().generateHeaderBinary(cloud, Eigen::Vector4f::Zero(),
-                                                            Eigen::Quaternionf::Identity());
-  bytes += "DATA binary\n";
-  bytes.append(cloud.data.begin(), cloud.data.end());
-  return bytes;
-}
 
 void PutPose(const Transform& pose, std::ostream& line) {
   const Vector3 position_m = pose.translation();
@@ -95,7 +86,7 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
 void ReceivedFiles::Write(const ReceivedFrame& frame) {
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "frames/%06u.pcd", num_files_++);
-  WriteFileWhole(directory_ / name.data(), PcdBytes(frame));
+  WriteFileWhole(directory_ / name.data(), EncodePcd(MakePclCloud(frame), false));
   const StreamHeader& header = frame.header;
   lines_ << name.data() << ',' << header.run << ',' << header.frame << ',' << header.stamp_ns;
   PutPose(header.world_from_sensor, lines_);

@@ -1,16 +1,15 @@
 # Finds the libraries that railcast::io is linked with. Both the build and the installed package
 # include this file.
 #
-# PCL's own package file would also require VTK; three of PCL's libraries suffice.
+# PCL's own package file would also require VTK; two of PCL's libraries suffice.
 find_package(TBB REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)
-find_path(PCL_INCLUDE_DIR pcl/io/pcd_io.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl-1.14 REQUIRED)
+find_path(PCL_INCLUDE_DIR pcl/PCLPointCloud2.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl-1.14 REQUIRED)
 find_library(PCL_COMMON_LIBRARY pcl_common REQUIRED)
-find_library(PCL_IO_LIBRARY pcl_io REQUIRED)
 find_library(PCL_KDTREE_LIBRARY pcl_kdtree REQUIRED)
 find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
@@ -28,7 +27,6 @@ function(railcast_import name library)
                                                      INTERFACE_INCLUDE_DIRECTORIES "${ARGN}")
 endfunction()
 railcast_import(pcl_common ${PCL_COMMON_LIBRARY} ${PCL_INCLUDE_DIR})
-railcast_import(pcl_io ${PCL_IO_LIBRARY} ${PCL_INCLUDE_DIR})
 railcast_import(pcl_kdtree ${PCL_KDTREE_LIBRARY} ${PCL_INCLUDE_DIR})
 railcast_import(pcap ${PCAP_LIBRARY})
 railcast_import(lz4 ${LZ4_LIBRARY})

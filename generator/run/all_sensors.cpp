@@ -2,7 +2,6 @@
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>
-#include <pcl/io/pcd_io.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/cloud/pcd_encoder.h"
 #include "core/io/content_hash.h"
 #include "core/io/field_layout.h"
 #include "core/io/recording/line_reader.h"
@@ -128,19 +128,7 @@ void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
 }
 
 std::string MergedCloud::Pcd(bool is_compressed) const {
-  const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
-  const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  pcl::PCDWriter writer;
-  // PCL compresses no empty cloud.
-  if (!is_compressed || num_points() == 0) {
-    std::string bytes = writer.generateHeaderBinary(merged_, origin, orientation) + "DATA binary\n";
-    bytes.append(merged_.data.begin(), merged_.data.end());
-    return bytes;
-  }
-  std::ostringstream stream;
-  Check(writer.writeBinaryCompressed(stream, merged_, origin, orientation) == 0,
-        "a merged cloud can be compressed");
-  return std::move(stream).str();
+  return EncodePcd(merged_, is_compressed);
 }
 
 // From the axes of a sensor's points to those of the merged cloud. Points in vehicle or world axes

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/pcd_encoder.h"
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/cloud/ply_reader.h"
 #include "core/io/cloud/woven_cloud.h"
@@ -43,27 +44,6 @@ void AddCells(const std::vector<std::size_t>& sizes, CloudRows& rows) {
   (rows.line_begins.empty() ? rows.row_bytes : rows.num_words) = place;
 }
 
-/// Copies values stored field by field to rows, or back.
-void Transpose(const std::vector<std::size_t>& field_bytes,
-               std::size_t num_rows,
-               std::string_view from,
-               bool is_to_rows,
-               std::string& to) {
-  std::size_t row_bytes = 0;
-  for (const std::size_t size : field_bytes) row_bytes += size;
-  to.resize(num_rows * row_bytes);
-  std::size_t before = 0;
-  for (const std::size_t size : field_bytes) {
-    for (std::size_t row = 0; row < num_rows; ++row) {
-      const std::size_t in_rows = row * row_bytes + before;
-      const std::size_t in_fields = num_rows * before + row * size;
-      std::memcpy(&to[is_to_rows ? in_rows : in_fields], &from[is_to_rows ? in_fields : in_rows],
-                  size);
-    }
-    before += size;
-  }
-}
-
 void TakePcdApart(const std::string& file, const std::string& bytes, CloudParts& parts) {
   const PcdHeader header = CheckPcd(file, bytes);
   CloudRows& rows = parts.rows;
@@ -79,6 +59,7 @@ void TakePcdApart(const std::string& file, const std::string& bytes, CloudParts&
     Transpose(parts.field_bytes, header.points, rows.table.bytes, true, rows.bytes);
   } else {
     rows.bytes = bytes.substr(header.data_begin);
+    if (header.data == "binary") rows.bytes.resize(header.points * header.PointStep());
   }
   if (header.data == "ascii") FindLines(rows);
   AddCells(header.data == "ascii" ? counts : parts.field_bytes, rows);

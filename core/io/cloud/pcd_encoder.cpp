@@ -1,7 +1,4 @@
-#include "railcast/io/cloud_files.h"
-
-#include <pcl/io/lzf.h>
-#include <pcl/io/pcd_io.h>
+#include "core/io/cloud/pcd_encoder.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +8,15 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/base/number_type.h"
 #include "core/io/cloud/woven_cloud.h"
 #include "core/io/field_layout.h"
+#include "railcast/io/cloud_files.h"
+
+// The header of liblzf is one of C.
+extern "C" {
+#include <lzf.h>
+}
 
 namespace railcast {
 namespace {
@@ -53,15 +57,64 @@ void AppendText(std::size_t num_slots, const SelectedFields& fields, std::string
   }
 }
 
+struct PcdType {
+  std::size_t size{};
+  char letter{};
+};
+
+PcdType PcdTypeOf(const pcl::PCLPointField& field) {
+  return VisitNumberType(static_cast<NumberType>(field.datatype), [](auto zero) -> PcdType {
+    using Value = decltype(zero);
+    const char letter = std::is_floating_point_v<Value> ? 'F' : std::is_signed_v<Value> ? 'I' : 'U';
+    return {sizeof zero, letter};
+  });
+}
+
 }  // namespace
+
+std::string PcdHeaderOf(const pcl::PCLPointCloud2& cloud, std::string_view data) {
+  std::string names, sizes, types, counts;
+  std::size_t offset = 0;
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    Check(field.offset == offset, "the fields of a cloud are packed");
+    const PcdType type = PcdTypeOf(field);
+    offset += type.size * field.count;
+    names += ' ' + field.name;
+    sizes += ' ' + std::to_string(type.size);
+    types += {' ', type.letter};
+    counts += ' ' + std::to_string(field.count);
+  }
+  Check(cloud.point_step == offset, "the points of a cloud are packed");
+  const std::size_t num_points = std::size_t{cloud.width} * cloud.height;
+  std::string header = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n";
+  header += "FIELDS" + names + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" + counts + '\n';
+  header += "WIDTH " + std::to_string(cloud.width) + "\nHEIGHT " + std::to_string(cloud.height);
+  header += "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(num_points);
+  header += "\nDATA " + std::string(data) + '\n';
+  return header;
+}
+
+std::string EncodePcd(const pcl::PCLPointCloud2& cloud, bool is_compressed) {
+  const std::string rows(cloud.data.begin(), cloud.data.end());
+  if (!is_compressed || rows.empty()) return PcdHeaderOf(cloud, "binary") + rows;
+  std::vector<std::size_t> field_bytes;
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    field_bytes.push_back(PcdTypeOf(field).size * field.count);
+  }
+  std::string fields;
+  Transpose(field_bytes, std::size_t{cloud.width} * cloud.height, rows, false, fields);
+  std::string bytes = PcdHeaderOf(cloud, "binary_compressed");
+  AppendCompressed(fields, bytes);
+  return bytes;
+}
 
 void AppendCompressed(const std::string& plain, std::string& bytes) {
   Check(plain.size() < std::numeric_limits<std::uint32_t>::max() / 2, "a frame is below 2 GiB");
   // LZF adds at most one byte per 32 where nothing repeats.
   std::string packed(plain.size() + plain.size() / 16 + 64, '\0');
   const std::uint32_t packed_size =
-      pcl::lzfCompress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
-                       static_cast<std::uint32_t>(packed.size()));
+      lzf_compress(plain.data(), static_cast<std::uint32_t>(plain.size()), packed.data(),
+                   static_cast<std::uint32_t>(packed.size()));
   Check(packed_size > 0 || plain.empty(), "LZF output fits its bound");
   std::array<char, 8> sizes{};
   StoreAt<std::uint32_t>(sizes.data(), packed_size);
@@ -76,25 +129,20 @@ void EncodePcd(const Frame& frame,
                std::string& bytes) {
   const SelectedFields selected(frame, fields);
   const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, selected);
-  const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
-  const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  pcl::PCDWriter writer;
   switch (encoding) {
     case PcdEncoding::kBinary: {
-      const std::string header =
-          writer.generateHeaderBinary(cloud, origin, orientation) + "DATA binary\n";
+      const std::string header = PcdHeaderOf(cloud, "binary");
       bytes.resize(header.size() + frame.num_slots() * cloud.point_step);
       header.copy(bytes.data(), header.size());
       WeaveRows(frame, selected, cloud.point_step, bytes.data() + header.size());
       break;
     }
     case PcdEncoding::kBinaryCompressed:
-      bytes = writer.generateHeaderBinaryCompressed(cloud, origin, orientation) +
-              "DATA binary_compressed\n";
+      bytes = PcdHeaderOf(cloud, "binary_compressed");
       AppendCompressedFields(selected, bytes);
       break;
     case PcdEncoding::kAscii:
-      bytes = writer.generateHeaderASCII(cloud, origin, orientation) + "DATA ascii\n";
+      bytes = PcdHeaderOf(cloud, "ascii");
       AppendText(frame.num_slots(), selected, bytes);
       break;
   }

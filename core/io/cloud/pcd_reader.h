@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/number_type.h"
+
 namespace railcast {
 
 /// One entry of a PCD file's FIELDS, SIZE, TYPE and COUNT lines.
@@ -14,6 +16,8 @@ struct PcdField {
   std::uint64_t size{};   ///< Size of one element in bytes: 1, 2, 4 or 8.
   char type{};            ///< 'I', 'U' or 'F'.
   std::uint64_t count{};  ///< Number of elements.
+
+  [[nodiscard]] NumberType number_type() const;
 };
 
 /// The header of a PCD v0.7 (or 0.6 with the same keys) file.
@@ -30,7 +34,7 @@ struct PcdHeader {
 };
 
 /// Reads the header of a PCD file held in `bytes` and checks it against the length of the points: a
-/// damaged file gives an error here, while PCL's reader would crash on it.
+/// damaged file gives an error here.
 /// @param file Named in errors.
 /// @param plain Receives the points of a compressed file: each field for all points, one field
 ///   after another.
@@ -38,5 +42,9 @@ struct PcdHeader {
 [[nodiscard]] PcdHeader CheckPcd(const std::string& file,
                                  std::string_view bytes,
                                  std::string* plain = nullptr);
+
+/// Packs the numbers of an ASCII file as in a binary one: point after point, fields in order.
+/// @pre CheckPcd() has accepted the text.
+[[nodiscard]] std::string PackAscii(std::string_view text, const PcdHeader& header);
 
 }  // namespace railcast

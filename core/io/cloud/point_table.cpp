@@ -18,45 +18,6 @@ namespace {
 
 constexpr std::string_view kCloudComparePrefix = "scalar_";
 
-NumberType TypeOf(const PcdField& field) {
-  if (field.type == 'F') return field.size == 4 ? NumberType::kFloat : NumberType::kDouble;
-  const bool is_signed = field.type == 'I';
-  switch (field.size) {
-    case 1:
-      return is_signed ? NumberType::kInt8 : NumberType::kUint8;
-    case 2:
-      return is_signed ? NumberType::kInt16 : NumberType::kUint16;
-    case 4:
-      return is_signed ? NumberType::kInt32 : NumberType::kUint32;
-    default:
-      return is_signed ? NumberType::kInt64 : NumberType::kUint64;
-  }
-}
-
-/// Packs the numbers as in a binary file: point after point, fields in order.
-/// @pre CheckPcd has accepted the text.
-std::string PackAscii(std::string_view text, const PcdHeader& header) {
-  std::string packed(header.points * header.PointStep(), '\0');
-  char* place = packed.data();
-  while (const auto line = TakeLine(text)) {
-    const auto words = Words(*line);
-    std::size_t word = 0;
-    if (words.empty()) continue;
-    for (const PcdField& field : header.fields) {
-      VisitNumberType(TypeOf(field), [&](auto zero) {
-        for (std::uint64_t i = 0; i < field.count; ++i, place += sizeof zero) {
-          using Value = decltype(zero);
-          // As in CheckPcd, a number too large for a float becomes infinite.
-          using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
-          const auto value = static_cast<Value>(ParseNumber<Parsed>(words[word++]).value_or(0));
-          std::memcpy(place, &value, sizeof value);
-        }
-      });
-    }
-  }
-  return packed;
-}
-
 /// Adds a column for each field of the header.
 /// @param begin Offset of the points in the table's bytes.
 /// @param is_planar Whether the values of each field are stored together.
@@ -68,7 +29,7 @@ void AddColumns(const PcdHeader& header,
   for (const PcdField& field : header.fields) {
     const std::size_t size = field.size * field.count;
     columns.push_back({.name = field.name,
-                       .type = TypeOf(field),
+                       .type = field.number_type(),
                        .offset = begin + (is_planar ? header.points * offset : offset),
                        .step = is_planar ? size : header.PointStep()});
     offset += size;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <type_traits>
 
@@ -58,6 +59,26 @@ void WeaveRows(const Frame& frame, const SelectedFields& fields, std::size_t ste
       StoreColumn<Stored>(values.data() + first, count, step, place);
       place += sizeof(Stored);
     });
+  }
+}
+
+void Transpose(const std::vector<std::size_t>& field_bytes,
+               std::size_t num_rows,
+               std::string_view from,
+               bool is_to_rows,
+               std::string& to) {
+  std::size_t row_bytes = 0;
+  for (const std::size_t size : field_bytes) row_bytes += size;
+  to.resize(num_rows * row_bytes);
+  std::size_t before = 0;
+  for (const std::size_t size : field_bytes) {
+    for (std::size_t row = 0; row < num_rows; ++row) {
+      const std::size_t in_rows = row * row_bytes + before;
+      const std::size_t in_fields = num_rows * before + row * size;
+      std::memcpy(&to[is_to_rows ? in_rows : in_fields], &from[is_to_rows ? in_fields : in_rows],
+                  size);
+    }
+    before += size;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <pcl/PCLPointCloud2.h>
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "core/io/cloud/track_fields.h"
 #include "railcast/frame.h"
@@ -18,8 +20,12 @@ namespace railcast {
 /// @pre `to` has room for num_slots() * step bytes.
 void WeaveRows(const Frame& frame, const SelectedFields& fields, std::size_t step, char* to);
 
-/// Appends the data of a PCD file of encoding binary_compressed: both sizes and the LZF of `plain`.
-/// @param plain Each field for all points, one field after another.
-void AppendCompressed(const std::string& plain, std::string& bytes);
+/// Copies values stored field by field, each for all rows, to rows, or back.
+/// @param field_bytes Of each field in a row.
+void Transpose(const std::vector<std::size_t>& field_bytes,
+               std::size_t num_rows,
+               std::string_view from,
+               bool is_to_rows,
+               std::string& to);
 
 }  // namespace railcast

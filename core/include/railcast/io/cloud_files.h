@@ -194,7 +194,7 @@ void EncodeFrameFiles(const Frame& frame,
 
 /// Reads a PCD file of any encoding and with any fields, whether or not railcast wrote it.
 ///
-/// PCL parses the file after CheckPcd (pcd_reader.h) has verified it. Compressed and ASCII files
+/// It gives what pcl::io::loadPCDFile() does of files that are whole. Compressed and ASCII files
 /// give the same cloud as binary ones.
 /// @throws InputError with one line if the file cannot be read or is damaged.
 [[nodiscard]] pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file);

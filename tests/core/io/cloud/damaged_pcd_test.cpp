@@ -66,6 +66,8 @@ TEST(CheckPcd, NamesTheFaultOfDamagedPoints) {
   const std::string binary = Example(PcdEncoding::kBinary);
   EXPECT_EQ(Message(binary.substr(0, binary.size() - 1)),
             "a.pcd: POINTS: 6 need 96 bytes, the file has 95");
+  EXPECT_EQ(Message(binary + std::string(65'537, '\0')),
+            "a.pcd: POINTS: 6 need 96 bytes, the file has 65633");
   EXPECT_EQ(Message(binary + "x"), "a.pcd: POINTS: 6 need 96 bytes, the file has 97");
   const std::string ascii = Example(PcdEncoding::kAscii);
   EXPECT_EQ(Message(ascii.substr(0, ascii.rfind('\n', ascii.size() - 2) + 1)),

@@ -5,7 +5,12 @@
 #include <pcl/point_types.h>
 
 #include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "core/io/cloud/pcd_encoder.h"
 #include "core/io/field_layout.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
@@ -110,6 +115,92 @@ TEST(EncodePcd, WritesTheHeaderOtherProgramsExpect) {
             "FIELDS x y z intensity ring label instance outcome\nSIZE 4 4 4 4 2 4 4 1\n"
             "TYPE F F F F U U U U\nCOUNT 1 1 1 1 1 1 1 1\nWIDTH 3\nHEIGHT 2\n"
             "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 6\n");
+}
+
+/// A cloud with fields of all types that PCL writes to text, and of several numbers.
+pcl::PCLPointCloud2 CloudOfAllTypes() {
+  pcl::PCLPointCloud2 cloud;
+  for (const auto& [type, count] : std::vector<std::pair<std::uint8_t, std::uint32_t>>{
+           {7, 1}, {7, 3}, {8, 1}, {1, 1}, {2, 2}, {3, 1}, {4, 1}, {5, 1}, {6, 1}}) {
+    pcl::PCLPointField field;
+    field.name = "field" + std::to_string(cloud.fields.size());
+    field.offset = cloud.point_step;
+    field.datatype = type;
+    field.count = count;
+    cloud.point_step += count * static_cast<std::uint32_t>(pcl::getFieldSize(type));
+    cloud.fields.push_back(field);
+  }
+  cloud.width = 50;
+  cloud.height = 4;
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.is_dense = 1;
+  cloud.data.resize(std::size_t{cloud.height} * cloud.row_step);
+  for (std::size_t i = 0; i < cloud.data.size(); ++i) {
+    // Floats and doubles of moderate size.
+    cloud.data[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3D + i / 4 % 4 : i * i % 97);
+  }
+  return cloud;
+}
+
+void ExpectSameCloud(const pcl::PCLPointCloud2& one, const pcl::PCLPointCloud2& other) {
+  EXPECT_EQ(one.width, other.width);
+  EXPECT_EQ(one.height, other.height);
+  EXPECT_EQ(one.point_step, other.point_step);
+  EXPECT_EQ(one.row_step, other.row_step);
+  EXPECT_EQ(one.is_dense, other.is_dense);
+  EXPECT_EQ(one.data, other.data);
+  ASSERT_EQ(one.fields.size(), other.fields.size());
+  for (std::size_t i = 0; i < one.fields.size(); ++i) {
+    EXPECT_EQ(one.fields[i].name, other.fields[i].name);
+    EXPECT_EQ(one.fields[i].offset, other.fields[i].offset);
+    EXPECT_EQ(one.fields[i].datatype, other.fields[i].datatype);
+    EXPECT_EQ(one.fields[i].count, other.fields[i].count);
+  }
+}
+
+TEST(ReadPcd, GivesTheCloudsOfPclsReader) {
+  const TemporaryDirectory directory;
+  const pcl::PCLPointCloud2 cloud = CloudOfAllTypes();
+  pcl::PCLPointCloud2 with_nan = cloud;
+  StoreAt<float>(reinterpret_cast<char*>(with_nan.data.data()) + 8,
+                 std::numeric_limits<float>::quiet_NaN());
+  const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
+  const Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  pcl::PCDWriter writer;
+  for (const pcl::PCLPointCloud2* written :
+       std::initializer_list<const pcl::PCLPointCloud2*>{&cloud, &with_nan}) {
+    const auto file = [&](const std::string& name) { return (directory.path() / name).string(); };
+    // Enough digits for any double.
+    ASSERT_EQ(writer.writeASCII(file("ascii.pcd"), *written, origin, orientation, 17), 0);
+    ASSERT_EQ(writer.writeBinary(file("binary.pcd"), *written, origin, orientation), 0);
+    ASSERT_EQ(writer.writeBinaryCompressed(file("lzf.pcd"), *written, origin, orientation), 0);
+    for (const std::string name : {"ascii.pcd", "binary.pcd", "lzf.pcd"}) {
+      SCOPED_TRACE(name);
+      pcl::PCLPointCloud2 by_pcl;
+      ASSERT_EQ(pcl::io::loadPCDFile(file(name), by_pcl), 0);
+      ExpectSameCloud(ReadPcd(file(name)), by_pcl);
+    }
+  }
+}
+
+TEST(EncodePcd, WritesCloudsThatPclReads) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "cloud.pcd";
+  const pcl::PCLPointCloud2 cloud = CloudOfAllTypes();
+  for (const bool is_compressed : {false, true}) {
+    const std::string bytes = EncodePcd(cloud, is_compressed);
+    EXPECT_EQ(EncodePcd(cloud, is_compressed), bytes);
+    WriteFileWhole(file, bytes);
+    pcl::PCLPointCloud2 by_pcl;
+    ASSERT_EQ(pcl::io::loadPCDFile(file.string(), by_pcl), 0);
+    ExpectSameCloud(by_pcl, cloud);
+    const std::string data = is_compressed ? "binary_compressed" : "binary";
+    pcl::PCDWriter writer;
+    EXPECT_EQ(PcdHeaderOf(cloud, data),
+              writer.generateHeaderBinary(cloud, Eigen::Vector4f::Zero(),
+                                          Eigen::Quaternionf::Identity()) +
+                  "DATA " + data + "\n");
+  }
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/base/out_of_memory.h"
+#include "core/base/text.h"
+#include "core/io/cloud/pcd_reader.h"
+#include "core/io/cloud/woven_cloud.h"
+#include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+
+namespace railcast {
+namespace {
+
+// The points of a file, point after point.
+std::string RowsOf(const PcdHeader& header, std::string_view points, const std::string& plain) {
+  if (header.data == "binary") {
+    return std::string(points.substr(0, header.points * header.PointStep()));
+  }
+  if (header.data == "ascii") return PackAscii(points, header);
+  std::vector<std::size_t> field_bytes;
+  for (const PcdField& field : header.fields) field_bytes.push_back(field.size * field.count);
+  std::string rows;
+  Transpose(field_bytes, header.points, plain, true, rows);
+  return rows;
+}
+
+// What PCL calls dense.
+bool IsFinite(const PcdHeader& header, const std::string& rows) {
+  const std::uint64_t step = header.PointStep();
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields) {
+    const bool is_finite = VisitNumberType(field.number_type(), [&](auto zero) {
+      if constexpr (std::is_floating_point_v<decltype(zero)>) {
+        for (std::size_t point = 0; point < header.points; ++point) {
+          for (std::uint64_t i = 0; i < field.count; ++i) {
+            std::memcpy(&zero, &rows[point * step + offset + i * sizeof zero], sizeof zero);
+            if (!std::isfinite(zero)) return false;
+          }
+        }
+      }
+      return true;
+    });
+    if (!is_finite) return false;
+    offset += field.size * field.count;
+  }
+  return true;
+}
+
+pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
+  std::string plain;
+  const PcdHeader header = CheckPcd(ShownPath(file), bytes, &plain);
+  const std::string rows = RowsOf(header, std::string_view(bytes).substr(header.data_begin), plain);
+  pcl::PCLPointCloud2 cloud;
+  for (const PcdField& field : header.fields) {
+    pcl::PCLPointField of_pcl;
+    of_pcl.name = field.name;
+    of_pcl.offset = cloud.point_step;
+    of_pcl.datatype = static_cast<std::uint8_t>(field.number_type());
+    of_pcl.count = static_cast<std::uint32_t>(field.count);
+    cloud.fields.push_back(of_pcl);
+    cloud.point_step += static_cast<std::uint32_t>(field.size * field.count);
+  }
+  cloud.width = static_cast<std::uint32_t>(header.width);
+  cloud.height = static_cast<std::uint32_t>(header.height);
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.is_dense = IsFinite(header, rows) ? 1 : 0;
+  cloud.data.assign(rows.begin(), rows.end());
+  return cloud;
+}
+
+}  // namespace
+
+pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
+  return WithinMemory([&] { return ReadingText(file); },
+                      [&] { return ParsePcd(file, ReadFileWhole(file)); });
+}
+
+}  // namespace railcast
