@@ -96,5 +96,13 @@ TEST(RailcastAnalyze, LeavesTheNumbersWhereGnuplotIsMissing) {
   EXPECT_FALSE(std::filesystem::exists(out / "frontier.png"));
 }
 
+// Of PCL, what reads and writes files depends on VTK, which is most of what a user would install.
+TEST(RailcastAnalyze, LoadsNoVtk) {
+  const Ended run = RunCommand("ldd " RAILCAST_ANALYZE);
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.said.find("libembree"), std::string::npos) << run.said;
+  EXPECT_EQ(run.said.find("libvtk"), std::string::npos) << run.said;
+}
+
 }  // namespace
 }  // namespace railcast

@@ -414,5 +414,13 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   EXPECT_GT(ReadPly(file).width, 1000U);
 }
 
+// Of PCL, what reads and writes files depends on VTK, which is most of what a user would install.
+TEST(RailcastGenerate, LoadsNoVtk) {
+  const Ended run = RunCommand("ldd " RAILCAST_GENERATE);
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.said.find("libembree"), std::string::npos) << run.said;
+  EXPECT_EQ(run.said.find("libvtk"), std::string::npos) << run.said;
+}
+
 }  // namespace
 }  // namespace railcast

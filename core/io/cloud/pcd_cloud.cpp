@@ -16,7 +16,7 @@ namespace railcast {
 namespace {
 
 // The points of a file, point after point.
-std::string RowsOf(const PcdHeader& header, std::string_view points, const std::string& plain) {
+std::string PackRows(const PcdHeader& header, std::string_view points, const std::string& plain) {
   if (header.data == "binary") {
     return std::string(points.substr(0, header.points * header.PointStep()));
   }
@@ -53,7 +53,8 @@ bool IsFinite(const PcdHeader& header, const std::string& rows) {
 pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
   std::string plain;
   const PcdHeader header = CheckPcd(ShownPath(file), bytes, &plain);
-  const std::string rows = RowsOf(header, std::string_view(bytes).substr(header.data_begin), plain);
+  const std::string rows =
+      PackRows(header, std::string_view(bytes).substr(header.data_begin), plain);
   pcl::PCLPointCloud2 cloud;
   for (const PcdField& field : header.fields) {
     pcl::PCLPointField of_pcl;
