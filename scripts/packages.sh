@@ -20,7 +20,7 @@ build_packages=(
   libgdal-dev
   libgmock-dev
   libgtest-dev
-  libjpeg62-turbo-dev
+  libjpeg-dev
   libkainjow-mustache-dev
   liblz4-dev
   liblzf-dev
