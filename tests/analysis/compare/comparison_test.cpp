@@ -126,7 +126,7 @@ TEST(Comparison, FindsNoDifferenceBetweenTheSame) {
   }
   for (std::size_t i = 0; i < comparison.metrics().size(); ++i) {
     const bool is_share = comparison.metrics()[i].key.ends_with("_0.1_m");
-    EXPECT_EQ(comparison.summaries()[i].largest, is_share ? 1.0 : 0.0)
+    EXPECT_EQ(comparison.summaries()[i].largest, is_share ? 100.0 : 0.0)
         << comparison.metrics()[i].key;
     EXPECT_EQ(comparison.summaries()[i].moments.Mean().num, 12U) << comparison.metrics()[i].key;
   }
