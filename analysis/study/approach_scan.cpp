@@ -22,6 +22,7 @@ constexpr std::size_t kKeptWindows = 8;
 ScenarioSpec SharedPartOf(ScenarioSpec scenario) {
   const ScenarioSpec usual;
   scenario.world.objects.clear();
+  scenario.world.trains.clear();
   scenario.vehicle.start_s_m = usual.vehicle.start_s_m;
   scenario.vehicle.motion = usual.vehicle.motion;
   scenario.weather = usual.weather;
@@ -80,9 +81,10 @@ bool ApproachScanner::HasSceneOf(const ScenarioSpec& scenario) const {
 void ApproachScanner::Use(const ScenarioSpec& scenario) {
   ScenarioSpec shared = SharedPartOf(scenario);
   if (shared != shared_) {
-    // Without objects, so that none is part of what is kept.
+    // Without objects and trains, so that none is part of what is kept.
     ScenarioSpec bare = scenario;
     bare.world.objects.clear();
+    bare.world.trains.clear();
     simulator_.reset();  // Its memory is freed first.
     shared_.reset();
     simulator_ = MakeSimulator(bare, num_threads_, isa_);

@@ -24,8 +24,8 @@ namespace railcast {
 /// Simulates approaches as far as their verdicts depend on it: of all frames, only those up to the
 /// detection, and of their firings, only those that may meet an object in the way.
 ///
-/// Scenarios that follow one another and differ in objects, motion, weather and seed alone share
-/// their geometry. What is found of a scenario does not depend on those before it.
+/// Scenarios that follow one another and differ in objects, trains, motion, weather and seed alone
+/// share their geometry. What is found of a scenario does not depend on those before it.
 class ApproachScanner {
  public:
   /// @param num_threads,isa As MakeSimulator() takes them.

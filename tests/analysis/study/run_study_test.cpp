@@ -113,6 +113,39 @@ TEST_F(Study, FindsTheVerdictsOfWholeFrames) {
   EXPECT_LT(scanner.effort().num_traced, 8U * 50U);
 }
 
+TEST_F(Study, SharesTheGeometryOfTheLineAmongTrains) {
+  const StudySpec study = ReadStudy(Write(1));
+  const Recipe recipe = ReadStudyRecipe(study);
+  ScenarioSpec scenario = ScenarioDrawer(recipe).Draw(0).scenario;
+  scenario.world.objects.clear();
+  TrainSpec train;
+  train.name = "wagons";
+  train.vehicles.resize(2);
+  for (TrainVehicleSpec& vehicle : train.vehicles) vehicle.type = TypeNamed("open_wagon");
+  scenario.world.trains = {train};
+  std::vector<std::uint32_t> frames;
+  for (std::uint32_t i = 0; i < 20; ++i) frames.push_back(i);
+  const auto points_at = [&](double s_m, ApproachScanner& scanner) {
+    scenario.world.trains[0].s_m = s_m;
+    const auto courses =
+        scanner.Follow(scenario, frames, {.min_points = 400}, [] { return false; });
+    std::vector<std::uint32_t> points;
+    for (const auto& [name, course] : courses.value().objects) {
+      for (const Sighting& sighting : course.sightings) points.push_back(sighting.points);
+    }
+    return points;
+  };
+  ApproachScanner kept(2);
+  const auto first = points_at(430.0, kept);
+  scenario.world.trains[0].s_m = 425.0;
+  EXPECT_TRUE(kept.HasSceneOf(scenario));
+  ApproachScanner fresh(2);
+  const auto second = points_at(425.0, fresh);
+  EXPECT_GT(std::ranges::max(second), 100U);
+  EXPECT_NE(first, second);
+  EXPECT_EQ(points_at(425.0, kept), second);
+}
+
 TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
   nlohmann::json recipe = StudiedRecipe(6);
   recipe["objects"][1]["object"]["d_m"] = 0;
