@@ -73,6 +73,7 @@ Section TraceabilitySection(const FinishedStudy& study) {
                      "on every processor with " +
                      text("isa"));
   add("Study", text("study_xxh3"));
+  add("Asked about", study.spec.ObjectsText());
   add("Recipe", text("recipe_xxh3"));
   std::string bases;
   for (const Json& hash : identity.at("bases_xxh3")) {

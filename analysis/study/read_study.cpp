@@ -65,6 +65,13 @@ void Describe(Archive& a, StudySpec& s) {
   if (speed_kmph) s.detect.speed_mps = MpsFromKmph(*speed_kmph);
 }
 
+std::string StudySpec::ObjectsText() const {
+  if (objects.empty()) return "all objects in the way";
+  std::string text;
+  for (const std::string& name : objects) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 StudySpec ReadStudy(const std::filesystem::path& file) {
   JsonSource source;
   StudySpec study;

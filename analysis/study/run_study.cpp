@@ -2,6 +2,7 @@
 
 #include <tbb/info.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <limits>
@@ -9,7 +10,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/study/approach_scan.h"
 #include "analysis/study/study_directory.h"
@@ -121,20 +124,16 @@ void CheckIsStudied(const ScenarioSpec& scenario) {
   }
 }
 
-bool Has(const ScenarioSpec& scenario, const std::string& asked) {
-  return std::ranges::any_of(
-             scenario.world.objects,
-             [&](const ObjectSpec& object) { return IsAskedAbout(object.name, {asked}); }) ||
-         std::ranges::any_of(scenario.world.trains,
-                             [&](const TrainSpec& train) { return train.name == TargetOf(asked); });
-}
-
 // What is asked about must be in some scenario. Most often the first one has it all.
 void CheckAreThere(const StudySpec& study, const ScenarioDrawer& drawer) {
   std::vector<std::string> missing = study.objects;
   for (std::uint32_t i = 0; i < drawer.recipe().num_scenarios && !missing.empty(); ++i) {
-    const ScenarioSpec scenario = drawer.Draw(i).scenario;
-    std::erase_if(missing, [&](const std::string& asked) { return Has(scenario, asked); });
+    const auto world = MakeWorld(drawer.Draw(i).scenario);
+    std::erase_if(missing, [&](const std::string& asked) {
+      return std::ranges::any_of(world->objects(), [&](const SceneObject& object) {
+        return IsAskedAbout(object.name, {asked});
+      });
+    });
   }
   if (missing.empty()) return;
   const auto at = std::ranges::find(study.objects, missing.front()) - study.objects.begin();

@@ -45,7 +45,10 @@ struct StudyResult {
 [[nodiscard]] Recipe ReadStudyRecipe(const StudySpec& study);
 
 /// Makes the approaches that the folder does not hold yet, one on each thread.
-/// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do.
+/// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do, and if no scenario
+/// has
+///   what the study asks about: "study.json: /objects/1: must be an object of a scenario (got
+///   "x")".
 [[nodiscard]] StudyResult RunStudy(const StudySpec& study,
                                    const ScenarioDrawer& drawer,
                                    const StudyChoices& choices,

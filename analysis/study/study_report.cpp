@@ -57,6 +57,7 @@ std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& s
       {"Recipe", ShownPath(study.recipe) + " (" + text("recipe_xxh3") + ")"},
       {"Bases", bases},
       {"Approaches", NumberText(result.approaches.size())},
+      {"Asked about", study.ObjectsText()},
       {"Detected", SeenText(study)},
       {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
                       " m/s2, margin " + NumberText(braking.margin_m) + " m"},

@@ -12,7 +12,6 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <ranges>
-#include <sstream>
 #include <string>
 #include <utility>
 

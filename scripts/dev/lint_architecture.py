@@ -54,6 +54,7 @@ LIBRARY_OWNERS = {
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
     "Boost.Asio": (r"boost/(?:asio|beast)/", ("core/io/net",)),
     "libpng": (r"png\.h$", ("core/io",)),
+    "liblzf": (r"lzf\.h$", ("core/io",)),
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
     "OpenSSL": (r"openssl/", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),

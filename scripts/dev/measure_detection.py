@@ -41,7 +41,7 @@ def resolved(path):
 
 
 def studies():
-    """{name: (scenario, frames, objects asked about, None for all in the way, what is laid over it)}."""
+    """{name: (scenario, frames, objects asked about or None for all in the way, what is laid over it)}."""
     brakes = {f"brake_{what}_{weather}": (SCENARIOS / f"brake_{what}.json", 300, None, overlay)
               for what in ("person", "wagon")
               for weather, overlay in [("clear", {}), ("rain", {"file": str(SCENARIOS / "weather/heavy_rain.json")}),
@@ -73,7 +73,9 @@ def write_study(name, sensor, folder):
     if weather is not None:
         over["weather"] = weather
     recipe = {"version": 1, "seed": 5, "num_scenarios": NUM_APPROACHES, "num_frames": num_frames,
-              "bases": [{"file": "scenario.json"}], "draws": moved(scenario)}
+              "bases": [{"file": "scenario.json"}], "draws": moved(scenario),
+              # A vehicle that couples to wagons meets them where they stand nearer.
+              "set": {"/vehicle/may_overlap": True}}
     study = {"version": 1, "question": f"From where on is what stands in the way of {name} detected?",
              "recipe": "recipe.json", "detection": {"points": 5, "frames": 3, "of_frames": 5},
              "braking": {"reaction_s": 2, "deceleration_mps2": 0.5, "margin_m": 15}}

@@ -29,6 +29,9 @@ void MakeExampleFrameSlowly(std::uint32_t index,
                             Frame& frame,
                             std::vector<ObjectInFrame>& objects) {
   MakeExampleFrame(index, frame, objects);
+  // The last ones are never reached: the process is killed long before.
+  constexpr std::uint32_t kFrameNeverMade = 36;
+  if (index >= kFrameNeverMade) std::this_thread::sleep_for(std::chrono::minutes(1));
   std::this_thread::sleep_for(std::chrono::microseconds(300));
 }
 
@@ -54,11 +57,12 @@ void RunAndKill(const SequenceSpec& spec,
                 const std::string& format,
                 std::uint64_t frames_bytes,
                 std::chrono::microseconds delay) {
+  // Before the fork, after which a child of several threads may do next to nothing.
+  ::setenv(kDirectoryOfChild, spec.directory.c_str(), 1);
+  ::setenv(kFormatOfChild, format.c_str(), 1);
   const pid_t child = ::fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    ::setenv(kDirectoryOfChild, spec.directory.c_str(), 1);
-    ::setenv(kFormatOfChild, format.c_str(), 1);
     ::execl("/proc/self/exe", "child", "--gtest_also_run_disabled_tests", "--gtest_brief=1",
             "--gtest_filter=DISABLED_ChildOfInterruptedRun.*", nullptr);
     ::_exit(127);
@@ -67,7 +71,10 @@ void RunAndKill(const SequenceSpec& spec,
   const fs::path frames = spec.directory / "frames.jsonl";
   while (::waitpid(child, nullptr, WNOHANG) == 0) {
     const std::uintmax_t size = fs::file_size(frames, no_file_yet);
-    if (no_file_yet || size < frames_bytes) continue;
+    if (no_file_yet || size < frames_bytes) {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+      continue;
+    }
     std::this_thread::sleep_for(delay);
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);

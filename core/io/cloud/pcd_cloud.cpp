@@ -1,5 +1,8 @@
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -14,6 +17,10 @@
 
 namespace railcast {
 namespace {
+
+static_assert(static_cast<int>(NumberType::kInt64) == pcl::PCLPointField::INT64 &&
+                  static_cast<int>(NumberType::kUint64) == pcl::PCLPointField::UINT64,
+              "PCL gives the types the same numbers");
 
 // The points of a file, point after point.
 std::string PackRows(const PcdHeader& header, std::string_view points, const std::string& plain) {

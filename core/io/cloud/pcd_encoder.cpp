@@ -4,8 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/number_type.h"
@@ -95,14 +100,16 @@ std::string PcdHeaderOf(const pcl::PCLPointCloud2& cloud, std::string_view data)
 }
 
 std::string EncodePcd(const pcl::PCLPointCloud2& cloud, bool is_compressed) {
-  const std::string rows(cloud.data.begin(), cloud.data.end());
-  if (!is_compressed || rows.empty()) return PcdHeaderOf(cloud, "binary") + rows;
+  const std::size_t num_points = std::size_t{cloud.width} * cloud.height;
+  Check(cloud.data.size() == num_points * cloud.point_step, "a cloud has all its points");
+  const std::string_view rows(reinterpret_cast<const char*>(cloud.data.data()), cloud.data.size());
+  if (!is_compressed || rows.empty()) return PcdHeaderOf(cloud, "binary").append(rows);
   std::vector<std::size_t> field_bytes;
   for (const pcl::PCLPointField& field : cloud.fields) {
     field_bytes.push_back(PcdTypeOf(field).size * field.count);
   }
   std::string fields;
-  Transpose(field_bytes, std::size_t{cloud.width} * cloud.height, rows, false, fields);
+  Transpose(field_bytes, num_points, rows, false, fields);
   std::string bytes = PcdHeaderOf(cloud, "binary_compressed");
   AppendCompressed(fields, bytes);
   return bytes;

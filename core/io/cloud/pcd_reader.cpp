@@ -151,7 +151,7 @@ void CheckAscii(const HeaderReader& reader, const PcdHeader& header, std::string
 /// Whether data have this size, or end in the zeros that PCL's writer of PCLPointCloud2 leaves
 /// behind them: up to a page.
 bool HasSize(std::string_view data, std::uint64_t expected) {
-  constexpr std::size_t kMostPadding = 65536;
+  constexpr std::size_t kMostPadding = 65536;  // The largest page that Linux has, on ARM.
   return data.size() >= expected && data.size() - expected <= kMostPadding &&
          data.find_first_not_of('\0', expected) == std::string_view::npos;
 }

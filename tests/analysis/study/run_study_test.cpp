@@ -172,9 +172,9 @@ TEST_F(Study, FollowsOnlyWhatItAsksAbout) {
 
 TEST_F(Study, SaysThatWhatItAsksAboutIsInNoScenario) {
   const auto file = Write(3);
-  Ask(file, {"person", "wagon/2"});
+  Ask(file, {"person", "person/1", "wagon/2"});
   EXPECT_EQ(MessageOf([&] { (void)RunStudyIn(file, {.directory = Path("out")}); }),
-            ShownPath(file) + ": /objects/1: must be an object of a scenario (got \"wagon/2\")");
+            ShownPath(file) + ": /objects/2: must be an object of a scenario (got \"wagon/2\")");
   EXPECT_FALSE(std::filesystem::exists(Path("out")));
 }
 

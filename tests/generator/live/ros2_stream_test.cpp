@@ -276,16 +276,16 @@ TEST(Ros2Stream, IsDrivenByTheNodeThatBrakesAsByTheClient) {
   const std::string frames_port = FreePort();
   const std::string commands_port = FreePort();
   const auto report_of = [&](const std::string& stream, const std::string& driver) {
-    const Ended ended =
-        Generate("stream " + scenario + " --lockstep --pacing burst --duration 20 " + stream +
-                 " >/dev/null & pid=$!; " + driver + " --front 0 --resolution 0.5; status=$?; " +
-                 "kill -INT $pid; wait $pid; exit $status");
+    const Ended ended = GenerateLive(
+        "stream " + scenario + " --lockstep --pacing burst --duration 20 " + stream +
+        " >/dev/null & pid=$!; timeout 120 " + driver + " --front 0 --resolution 0.5; status=$?; " +
+        "kill -INT $pid; wait $pid; exit $status");
     EXPECT_EQ(ended.status, 0) << ended.said;
     return ended.said;
   };
   const std::string by_node = report_of(
       "--protocol ros2 --domain " + domain + " --step-topic /step --commands-topic /brake",
-      "PYTHONPATH=" RAILCAST_SOURCE_DIR "/tests/generator/live/ros_stand_in ROS_DOMAIN_ID=" +
+      "env PYTHONPATH=" RAILCAST_SOURCE_DIR "/tests/generator/live/ros_stand_in ROS_DOMAIN_ID=" +
           domain +
           " RAILCAST_FAST_BRIDGE=" RAILCAST_FAST_BRIDGE " " RAILCAST_SOURCE_DIR
           "/examples/brake_node.py --points /coarse/points --step /step");

@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
+#include "core/io/cloud/cloud_rows.h"
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -59,6 +63,19 @@ TEST(CheckPcd, NamesTheFaultOfADamagedHeader) {
   EXPECT_EQ(Message(sound), "no error");
   for (const Damage& damage : damages) {
     EXPECT_EQ(Message(Replaced(sound, damage.from, damage.to)), damage.message);
+  }
+}
+
+// As PCL writes a PCLPointCloud2.
+TEST(CheckPcd, TakesZerosBehindThePoints) {
+  for (const PcdEncoding encoding : {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed}) {
+    const std::string sound = Example(encoding);
+    EXPECT_EQ(Message(sound + std::string(65'536, '\0')), "no error");
+    EXPECT_NE(Message(sound + std::string(65'537, '\0')), "no error");
+    EXPECT_NE(Message(sound + std::string(100, '\0') + "x"), "no error");
+    const CloudParts parts = TakeCloudApart("a.pcd", sound + std::string(300, '\0'), {});
+    EXPECT_EQ(PutCloudTogether(parts, parts.rows.bytes, parts.rows.table.num_points()),
+              std::vector{sound});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <pcl/point_types.h>
 
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
@@ -117,11 +118,20 @@ TEST(EncodePcd, WritesTheHeaderOtherProgramsExpect) {
             "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 6\n");
 }
 
-/// A cloud with fields of all types that PCL writes to text, and of several numbers.
+/// A cloud with fields of all types, and of several numbers.
 pcl::PCLPointCloud2 CloudOfAllTypes() {
   pcl::PCLPointCloud2 cloud;
-  for (const auto& [type, count] : std::vector<std::pair<std::uint8_t, std::uint32_t>>{
-           {7, 1}, {7, 3}, {8, 1}, {1, 1}, {2, 2}, {3, 1}, {4, 1}, {5, 1}, {6, 1}}) {
+  for (const auto& [type, count] : std::vector<std::pair<std::uint8_t, std::uint32_t>>{{7, 1},
+                                                                                       {7, 3},
+                                                                                       {8, 1},
+                                                                                       {1, 1},
+                                                                                       {2, 2},
+                                                                                       {3, 1},
+                                                                                       {4, 1},
+                                                                                       {5, 1},
+                                                                                       {6, 1},
+                                                                                       {9, 1},
+                                                                                       {10, 1}}) {
     pcl::PCLPointField field;
     field.name = "field" + std::to_string(cloud.fields.size());
     field.offset = cloud.point_step;
@@ -158,10 +168,11 @@ void ExpectSameCloud(const pcl::PCLPointCloud2& one, const pcl::PCLPointCloud2& 
   }
 }
 
-TEST(ReadPcd, GivesTheCloudsOfPclsReader) {
+TEST(ReadPcd, GivesTheCloudsThatPclWritesAndReads) {
   const TemporaryDirectory directory;
   const pcl::PCLPointCloud2 cloud = CloudOfAllTypes();
   pcl::PCLPointCloud2 with_nan = cloud;
+  with_nan.is_dense = 0;
   StoreAt<float>(reinterpret_cast<char*>(with_nan.data.data()) + 8,
                  std::numeric_limits<float>::quiet_NaN());
   const Eigen::Vector4f origin = Eigen::Vector4f::Zero();
@@ -176,9 +187,12 @@ TEST(ReadPcd, GivesTheCloudsOfPclsReader) {
     ASSERT_EQ(writer.writeBinaryCompressed(file("lzf.pcd"), *written, origin, orientation), 0);
     for (const std::string name : {"ascii.pcd", "binary.pcd", "lzf.pcd"}) {
       SCOPED_TRACE(name);
+      ExpectSameCloud(ReadPcd(file(name)), *written);
       pcl::PCLPointCloud2 by_pcl;
       ASSERT_EQ(pcl::io::loadPCDFile(file(name), by_pcl), 0);
-      ExpectSameCloud(ReadPcd(file(name)), by_pcl);
+      // PCL 1.13 takes 64-bit integers in text for something else.
+      if (name == "ascii.pcd") continue;
+      ExpectSameCloud(by_pcl, *written);
     }
   }
 }

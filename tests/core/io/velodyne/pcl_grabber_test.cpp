@@ -3,6 +3,7 @@
 #include <pcl/io/vlp_grabber.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <fstream>
@@ -268,7 +269,11 @@ TEST_P(PclGrabber, HearsOurPacketsOnLoopback) {
   for (const Datagrams::Item& item : datagrams.items) {
     sender.Send(datagrams, {&item, 1});
     // The receiver sets the pace, since its buffer holds 92 packets.
-    while (WaitingBytes(port) > 0) std::this_thread::yield();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (WaitingBytes(port) > 0) {
+      if (std::chrono::steady_clock::now() > end) FAIL() << "nobody reads the packets";
+      std::this_thread::yield();
+    }
   }
   ExpectSweeps(sweeps.First(frames.size() - 1), frames);
   // stop() waits for one more datagram.
