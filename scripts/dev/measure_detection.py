@@ -26,7 +26,9 @@ PAGE = ROOT / "docs" / "detection_table.md"
 FIGURES = ROOT / "docs" / "detection_table.csv"
 SENSORS = {"vir2rail": "raster", "pandar64": "Pandar64", "vls128": "VLS-128", "rosette": "rosette"}
 NUM_APPROACHES = 64
-SHIFT_M = 2.5
+SHIFT_M = (-2.5, 2.5)
+# Of trains that reach into the gauge on a part of their way only.
+OWN_SHIFTS_M = {"foul_wagon": (-5, -2.5)}
 KEYS = ("study", "sensor", "object", "approaches", "detected", "answer", "most_needed_m", "least_detected_at_m",
         "d90_95_m", "curve_d90_m", "curve_d90_95_m")
 NOTHING_IN_WAY = "no approach comes to an object in the way"
@@ -51,12 +53,12 @@ def studies():
     return brakes | situations
 
 
-def moved(scenario):
-    """Draws that move what stands on the line by up to SHIFT_M along it."""
+def moved(scenario, shift_m):
+    """Draws that move what stands on the line along it."""
     world = scenario["world"]
     places = [(f"/world/objects/{i}/s_m", each) for i, each in enumerate(world.get("objects", []))]
     places += [(f"/world/trains/{i}/s_m", each) for i, each in enumerate(world.get("trains", []))]
-    return {pointer: {"type": "uniform", "min": each["s_m"] - SHIFT_M, "max": each["s_m"] + SHIFT_M}
+    return {pointer: {"type": "uniform", "min": each["s_m"] + shift_m[0], "max": each["s_m"] + shift_m[1]}
             for pointer, each in places if "s_m" in each and "motion" not in each and "shape" not in each}
 
 
@@ -73,7 +75,7 @@ def write_study(name, sensor, folder):
     if weather is not None:
         over["weather"] = weather
     recipe = {"version": 1, "seed": 5, "num_scenarios": NUM_APPROACHES, "num_frames": num_frames,
-              "bases": [{"file": "scenario.json"}], "draws": moved(scenario),
+              "bases": [{"file": "scenario.json"}], "draws": moved(scenario, OWN_SHIFTS_M.get(name, SHIFT_M)),
               # A vehicle that couples to wagons meets them where they stand nearer.
               "set": {"/vehicle/may_overlap": True}}
     study = {"version": 1, "question": f"From where on is what stands in the way of {name} detected?",
