@@ -45,10 +45,8 @@ struct StudyResult {
 [[nodiscard]] Recipe ReadStudyRecipe(const StudySpec& study);
 
 /// Makes the approaches that the folder does not hold yet, one on each thread.
-/// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do, and if no scenario
-/// has
-///   what the study asks about: "study.json: /objects/1: must be an object of a scenario (got
-///   "x")".
+/// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do; if no scenario has
+///   what is asked about, "study.json: /objects/1: must be an object of a scenario (got "wagon")".
 [[nodiscard]] StudyResult RunStudy(const StudySpec& study,
                                    const ScenarioDrawer& drawer,
                                    const StudyChoices& choices,
