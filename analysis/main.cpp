@@ -1,4 +1,3 @@
-#include <pcl/console/print.h>
 
 #include "analysis/commands.h"
 
@@ -25,8 +24,6 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // PCL warns of single neighbourhoods that it cannot use; the figures account for them already.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   return railcast::ProgramMain(
       {.name = "railcast-analyze",
        .description = "LiDAR simulation for railways: measures and compares point clouds.",

@@ -1,4 +1,3 @@
-#include <pcl/console/print.h>
 
 #include "generator/commands.h"
 
@@ -26,8 +25,6 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // PCL warns whenever points that it has drawn for a plane are on a line, and draws others.
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
   return railcast::ProgramMain(
       {.name = "railcast-generate",
        .description = "LiDAR simulation for railways: makes frames from a scenario.",

@@ -24,6 +24,7 @@ build_packages=(
   libkainjow-mustache-dev
   liblz4-dev
   liblzf-dev
+  libnanoflann-dev
   libnlopt-cxx-dev
   libopenmesh-dev
   libpcap-dev

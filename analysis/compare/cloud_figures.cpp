@@ -182,9 +182,9 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   for (const float velocity_mps : cloud.velocity_mps) {
     if (std::isfinite(velocity_mps)) velocities.push_back(CellOf(velocity_mps));
   }
-  for (const pcl::PointXYZ& point : *cloud.points) {
+  for (const Eigen::Vector3f& point_m : cloud.points_m) {
     constexpr std::int64_t kCellsARow = 10'000'000;
-    cells.push_back(CellOf(point.y) * kCellsARow + CellOf(point.x));
+    cells.push_back(CellOf(point_m.y()) * kCellsARow + CellOf(point_m.x()));
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -225,8 +225,8 @@ std::optional<CloudDistances> DistancesOf(const ComparedCloud& a,
                                           const ComparedCloud& b,
                                           const std::vector<double>& distances_m) {
   if (a.size() == 0 || b.size() == 0) return std::nullopt;
-  const NearestSearch in_a(a.points), in_b(b.points);
-  return DistancesOf(in_b.Of(*a.points), in_a.Of(*b.points), distances_m);
+  const NearestSearch in_a(a.points_m), in_b(b.points_m);
+  return DistancesOf(in_b.Of(a.points_m), in_a.Of(b.points_m), distances_m);
 }
 
 double BinnedCloud::Bin::MeanIntensity() const {

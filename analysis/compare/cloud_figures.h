@@ -1,8 +1,6 @@
 #pragma once
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,14 +17,14 @@ namespace railcast {
 /// The points of a frame, of all its returns, in the sensor frame; points that are not finite are
 /// left out.
 struct ComparedCloud {
-  pcl::PointCloud<pcl::PointXYZ>::Ptr points{new pcl::PointCloud<pcl::PointXYZ>()};
+  std::vector<Eigen::Vector3f> points_m;
   std::vector<float> range_m;        ///< Distance from the sensor's origin.
   std::vector<float> intensity;      ///< NaN where the intensity is not finite; empty if unknown.
   std::vector<std::uint16_t> rings;  ///< Empty if unknown.
   /// Along the beams; NaN where a point has none; empty if unknown.
   std::vector<float> velocity_mps;
 
-  [[nodiscard]] std::size_t size() const { return points->size(); }
+  [[nodiscard]] std::size_t size() const { return points_m.size(); }
 };
 
 [[nodiscard]] inline ComparedCloud CloudOf(const RecordedFrame& recorded) {
@@ -35,7 +33,7 @@ struct ComparedCloud {
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     const float x = frame.x[slot], y = frame.y[slot], z = frame.z[slot];
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) continue;
-    cloud.points->push_back({x, y, z});
+    cloud.points_m.emplace_back(x, y, z);
     cloud.range_m.push_back(std::hypot(x, y, z));
     if (recorded.Has("intensity")) cloud.intensity.push_back(frame.intensity[slot]);
     if (recorded.Has("ring")) cloud.rings.push_back(frame.ring[slot]);

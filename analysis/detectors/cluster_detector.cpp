@@ -1,5 +1,7 @@
 #include "analysis/detectors/cluster_detector.h"
 
+#include "core/io/quiet_pcl.h"
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>

@@ -1,7 +1,7 @@
 #include "analysis/stats/plane_patches.h"
 
-#include <pcl/common/point_tests.h>
-#include <pcl/kdtree/kdtree_flann.h>
+#include "core/io/quiet_pcl.h"
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
@@ -16,6 +16,7 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/estimate/streams.h"
+#include "core/io/cloud/nearest_points.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -210,24 +211,22 @@ std::vector<FlatPiece> FindInGrid(const RecordedFrame& recorded, const ScanTable
 
 std::vector<FlatPiece> FindInCloud(const RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
-  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
+  std::vector<Eigen::Vector3f> points_m;
   std::vector<std::size_t> slots;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!HasSurfacePoint(recorded, slot)) continue;
-    cloud->emplace_back(frame.x[slot], frame.y[slot], frame.z[slot]);
+    points_m.emplace_back(frame.x[slot], frame.y[slot], frame.z[slot]);
     slots.push_back(slot);
   }
   std::vector<FlatPiece> pieces;
   if (slots.size() < kNearestPoints) return pieces;
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
-  tree.setInputCloud(cloud);
+  const NearestSearch search(points_m);
   const std::size_t stride = std::max<std::size_t>(1, slots.size() / kMaxPatches);
-  std::vector<int> found;
-  std::vector<float> squares_m2;
+  std::vector<std::uint32_t> found;
   for (std::size_t i = frame.index % stride; i < slots.size(); i += stride) {
-    tree.nearestKSearch(static_cast<int>(i), static_cast<int>(kNearestPoints), found, squares_m2);
+    search.FindNearest(points_m[i], kNearestPoints, found);
     Points points;
-    for (const int k : found) Gather(recorded, slots[static_cast<std::size_t>(k)], points);
+    for (const std::uint32_t k : found) Gather(recorded, slots[k], points);
     if (auto piece = MakePiece(points)) pieces.push_back(std::move(*piece));
   }
   return pieces;

@@ -1,7 +1,7 @@
 # Finds the libraries that railcast::io is linked with. Both the build and the installed package
 # include this file.
 #
-# PCL's own package file would also require VTK; two of PCL's libraries suffice.
+# Of PCL, headers suffice; its own package file would also require VTK.
 find_package(TBB REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
@@ -9,8 +9,6 @@ find_package(PNG REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_path(PCL_INCLUDE_DIR pcl/PCLPointCloud2.h PATH_SUFFIXES pcl-1.13 pcl-1.12 pcl-1.14 REQUIRED)
-find_library(PCL_COMMON_LIBRARY pcl_common REQUIRED)
-find_library(PCL_KDTREE_LIBRARY pcl_kdtree REQUIRED)
 find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_library(ZSTD_LIBRARY zstd REQUIRED)
@@ -26,8 +24,10 @@ function(railcast_import name library)
   set_target_properties(railcast::${name} PROPERTIES IMPORTED_LOCATION ${library}
                                                      INTERFACE_INCLUDE_DIRECTORIES "${ARGN}")
 endfunction()
-railcast_import(pcl_common ${PCL_COMMON_LIBRARY} ${PCL_INCLUDE_DIR})
-railcast_import(pcl_kdtree ${PCL_KDTREE_LIBRARY} ${PCL_INCLUDE_DIR})
+if(NOT TARGET railcast::pcl_headers)
+  add_library(railcast::pcl_headers INTERFACE IMPORTED GLOBAL)
+  set_target_properties(railcast::pcl_headers PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${PCL_INCLUDE_DIR})
+endif()
 railcast_import(pcap ${PCAP_LIBRARY})
 railcast_import(lz4 ${LZ4_LIBRARY})
 railcast_import(zstd ${ZSTD_LIBRARY})

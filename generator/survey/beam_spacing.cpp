@@ -1,30 +1,29 @@
 #include "generator/survey/beam_spacing.h"
 
-#include <pcl/kdtree/kdtree_flann.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+
+#include "core/io/cloud/nearest_points.h"
 
 namespace railcast {
 namespace {
 
-using Directions = pcl::PointCloud<pcl::PointXYZ>;
+using Directions = std::vector<Eigen::Vector3f>;
 
 /// Enough neighbours of an even grid, and of rows that are ten times as far apart as their beams.
-constexpr std::array<int, 2> kNumNeighbors{13, 120};
+constexpr std::array<std::size_t, 2> kNumNeighbors{13, 120};
 
-Directions::Ptr DirectionsOf(const SurveyFrame& frame) {
-  const Directions::Ptr directions(new Directions);
-  directions->reserve(frame.beams.size());
+Directions DirectionsOf(const SurveyFrame& frame) {
+  Directions directions;
+  directions.reserve(frame.beams.size());
   for (const SurveyBeam& beam : frame.beams) {
-    const Eigen::Vector3f ahead = (beam.point_m - beam.origin_m).normalized().cast<float>();
-    directions->emplace_back(ahead.x(), ahead.y(), ahead.z());
+    directions.emplace_back((beam.point_m - beam.origin_m).normalized().cast<float>());
   }
   return directions;
 }
@@ -33,17 +32,16 @@ Directions::Ptr DirectionsOf(const SurveyFrame& frame) {
 /// none.
 std::array<float, 2> NearestAlongAndAcross(const Directions& directions,
                                            std::size_t beam,
-                                           const pcl::Indices& neighbors) {
+                                           const std::vector<std::uint32_t>& neighbors) {
   // Beams of one direction, as two returns of one firing, are no neighbours.
   constexpr float kSame_rad = 2e-4F;
-  const Eigen::Vector3f ahead = directions[beam].getVector3fMap();
+  const Eigen::Vector3f& ahead = directions[beam];
   const Eigen::Vector3f along = Eigen::Vector3f::UnitZ().cross(ahead).normalized();
   const Eigen::Vector3f across = ahead.cross(along);
   std::array<float, 2> nearest_rad{std::numeric_limits<float>::infinity(),
                                    std::numeric_limits<float>::infinity()};
-  for (const int neighbor : neighbors) {
-    const Eigen::Vector3f offset =
-        directions[static_cast<std::size_t>(neighbor)].getVector3fMap() - ahead;
+  for (const std::uint32_t neighbor : neighbors) {
+    const Eigen::Vector3f offset = directions[neighbor] - ahead;
     const float distance_rad = offset.norm();
     if (distance_rad < kSame_rad) continue;
     float& nearest =
@@ -57,16 +55,13 @@ std::array<float, 2> NearestAlongAndAcross(const Directions& directions,
 
 std::vector<float> SpacingsOf_rad(const SurveyFrame& frame) {
   if (!frame.has_origins || frame.beams.empty()) return {};
-  const Directions::Ptr directions = DirectionsOf(frame);
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
-  tree.setInputCloud(directions);
+  const NearestSearch search(DirectionsOf(frame));
   std::vector<float> spacings_rad(frame.beams.size());
   tbb::parallel_for(std::size_t{0}, spacings_rad.size(), [&](std::size_t i) {
-    pcl::Indices neighbors;
-    std::vector<float> squared;
-    for (const int num : kNumNeighbors) {
-      tree.nearestKSearch(static_cast<int>(i), num, neighbors, squared);
-      const auto [along_rad, across_rad] = NearestAlongAndAcross(*directions, i, neighbors);
+    std::vector<std::uint32_t> neighbors;
+    for (const std::size_t num : kNumNeighbors) {
+      search.FindNearest(search.points_m()[i], num, neighbors);
+      const auto [along_rad, across_rad] = NearestAlongAndAcross(search.points_m(), i, neighbors);
       spacings_rad[i] = std::max(along_rad, across_rad);
       if (std::isfinite(spacings_rad[i])) break;
     }

@@ -1,9 +1,5 @@
 #include "generator/survey/surfel_maker.h"
 
-#include <pcl/common/centroid.h>
-#include <pcl/kdtree/kdtree_flann.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
@@ -14,20 +10,23 @@
 #include <map>
 #include <utility>
 
+#include "core/io/cloud/nearest_points.h"
+
 namespace railcast {
 namespace {
 
 using Cell2 = std::array<std::int32_t, 2>;
+using Indices = std::vector<std::uint32_t>;
 
 /// Neighbours that determine the plane of a surface, or what may be a line, as AdaSplats has it for
 /// lines: more of them smooth over what a beam at a grazing angle meets.
-constexpr int kNeighbors = 13;
-constexpr int kNeighborsOfSparse = 120;
+constexpr std::size_t kNeighbors = 13;
+constexpr std::size_t kNeighborsOfSparse = 120;
 /// Shares of the points' spread from which on they are a line, and no surface.
 constexpr float kLeastLinearity = 0.9F;
 constexpr float kMostScatter = 0.06F;
 /// An isolated point has fewer neighbours within the greatest gap.
-constexpr int kLeastNeighbors = 4;
+constexpr std::size_t kLeastNeighbors = 4;
 /// Of surfaces whose reflectance is not known.
 constexpr double kUnknownReflectivity = 0.3;
 /// Below this cosine of incidence, echoes say little about the reflectivity.
@@ -57,42 +56,47 @@ struct Spread {
 /// The points of a tile and those beside it.
 class TilePoints {
  public:
-  TilePoints(const SurveyVoxels& cloud,
-             const std::vector<std::uint32_t>& indices,
-             const Vector3& origin_m)
-      : origin_m_(origin_m), points_(new pcl::PointCloud<pcl::PointXYZ>) {
-    for (const std::uint32_t index : indices) {
-      const Eigen::Vector3f point_m =
-          (cloud.MeanOf(cloud.voxels()[index]) - origin_m).cast<float>();
-      points_->emplace_back(point_m.x(), point_m.y(), point_m.z());
-    }
-    tree_.setInputCloud(points_);
-  }
+  TilePoints(const SurveyVoxels& cloud, const Indices& indices, const Vector3& origin_m)
+      : origin_m_(origin_m), search_(PointsOf(cloud, indices, origin_m)) {}
 
-  [[nodiscard]] Eigen::Vector3f At(std::size_t i) const { return (*points_)[i].getVector3fMap(); }
+  [[nodiscard]] const Eigen::Vector3f& At(std::size_t i) const { return search_.points_m()[i]; }
   [[nodiscard]] const Vector3& origin_m() const { return origin_m_; }
   /// The nearest points by distance, the point itself first.
-  void FindNearest(std::size_t i, int num, pcl::Indices& found) const {
-    std::vector<float> squared_m2;
-    tree_.nearestKSearch(static_cast<int>(i), num, found, squared_m2);
+  void FindNearest(std::size_t i, std::size_t num, Indices& found) const {
+    search_.FindNearest(At(i), num, found);
   }
-  [[nodiscard]] Spread SpreadOf(const pcl::Indices& indices) const {
-    Eigen::Matrix3f covariance_m2 = Eigen::Matrix3f::Zero();
-    Eigen::Vector4f mean_m = Eigen::Vector4f::Zero();
-    pcl::computeMeanAndCovarianceMatrix(*points_, indices, covariance_m2, mean_m);
+  [[nodiscard]] Spread SpreadOf(const Indices& indices) const {
+    Eigen::Matrix3Xf points_m(3, std::ssize(indices));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      points_m.col(static_cast<Eigen::Index>(i)) = At(indices[i]);
+    }
+    const Eigen::Vector3f mean_m = points_m.rowwise().mean();
+    points_m.colwise() -= mean_m;
+    const Eigen::Matrix3f covariance_m2 =
+        points_m * points_m.transpose() / static_cast<float>(indices.size());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(covariance_m2);
     constexpr float kLeast_m2 = 1e-10F;
-    return {mean_m.head<3>(), solver.eigenvectors(), solver.eigenvalues().cwiseMax(kLeast_m2)};
+    return {mean_m, solver.eigenvectors(), solver.eigenvalues().cwiseMax(kLeast_m2)};
   }
 
  private:
+  static std::vector<Eigen::Vector3f> PointsOf(const SurveyVoxels& cloud,
+                                               const Indices& indices,
+                                               const Vector3& origin_m) {
+    std::vector<Eigen::Vector3f> points_m;
+    for (const std::uint32_t index : indices) {
+      points_m.emplace_back((cloud.MeanOf(cloud.voxels()[index]) - origin_m).cast<float>());
+    }
+    return points_m;
+  }
+
   Vector3 origin_m_;
-  pcl::PointCloud<pcl::PointXYZ>::Ptr points_;
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree_;
+  NearestSearch search_;
 };
 
-pcl::Indices First(const pcl::Indices& indices, int num) {
-  return {indices.begin(), indices.begin() + std::min<std::ptrdiff_t>(num, std::ssize(indices))};
+Indices First(const Indices& indices, std::size_t num) {
+  return {indices.begin(),
+          indices.begin() + std::min(std::ssize(indices), static_cast<std::ptrdiff_t>(num))};
 }
 
 /// How far a rectangle reaches from its centre to its four sides.
@@ -121,14 +125,14 @@ struct Gap {
 
 /// Looks for the nearest point of the same surface on each side.
 Reach ReachOf(const TilePoints& points,
-              const pcl::Indices& neighbors,
+              const Indices& neighbors,
               const Axes& axes,
               const Gap& gap) {
   constexpr float kSameSurface_m = 0.05F;
   constexpr float kSteepest = 0.5F;
   Reach reach;
-  for (const int neighbor : neighbors) {
-    const Eigen::Vector3f offset_m = points.At(static_cast<std::size_t>(neighbor)) - axes.center_m;
+  for (const std::uint32_t neighbor : neighbors) {
+    const Eigen::Vector3f offset_m = points.At(neighbor) - axes.center_m;
     const float a_m = axes.u.dot(offset_m);
     const float b_m = axes.v.dot(offset_m);
     const float distance_m = std::hypot(a_m, b_m);
@@ -150,12 +154,12 @@ class TileSurfels {
   /// Makes the surfel of point `i`, which is that of voxel `index`, if it has neighbours.
   void Add(std::size_t i, std::uint32_t index, std::vector<MadeSurfel>& made) {
     points_.FindNearest(i, kNeighbors, neighbors_);
-    if (std::ssize(neighbors_) <= kLeastNeighbors) return;
+    if (neighbors_.size() <= kLeastNeighbors) return;
     MadeSurfel surfel{.voxel = index};
     const SurveyVoxel& voxel = cloud_.voxels()[index];
     const Eigen::Vector3f view = voxel.view_sum.normalized();
     const Gap gap{static_cast<float>(rules_.max_gap_m), voxel.spacing_m, view};
-    const auto fourth = static_cast<std::size_t>(neighbors_[kLeastNeighbors]);
+    const std::uint32_t fourth = neighbors_[kLeastNeighbors];
     if (DistanceToFourth_m(i) > rules_.max_gap_m && AddSparse(i, index, made)) return;
     if (!gap.IsBridged(points_.At(fourth) - points_.At(i))) return;
     const Axes axes = AxesOf(i, view, surfel.kind);
@@ -171,7 +175,7 @@ class TileSurfels {
 
  private:
   [[nodiscard]] double DistanceToFourth_m(std::size_t i) const {
-    const auto fourth = static_cast<std::size_t>(neighbors_[kLeastNeighbors]);
+    const std::uint32_t fourth = neighbors_[kLeastNeighbors];
     return double{(points_.At(fourth) - points_.At(i)).norm()};
   }
   /// Adds a point that may be one of a wire, whose points are far from one another.
@@ -193,7 +197,7 @@ class TileSurfels {
     Spread spread = points_.SpreadOf(neighbors_);
     if (spread.linearity() > kLeastLinearity) {
       // The nearest points of a sparse surface all lie on one scan line.
-      pcl::Indices wide;
+      Indices wide;
       points_.FindNearest(i, kNeighborsOfSparse, wide);
       const Spread of_wide = points_.SpreadOf(wide);
       const bool is_line =
@@ -232,7 +236,7 @@ class TileSurfels {
     Reach reach = ReachOf(points_, neighbors_, axes, gap);
     if (surfel.kind == SurfelKind::kSurface && !reach.is_closed() &&
         neighbors_.size() < kNeighborsOfSparse) {
-      pcl::Indices wide;
+      Indices wide;
       points_.FindNearest(i, kNeighborsOfSparse, wide);
       reach = ReachOf(points_, wide, axes, gap);
     }
@@ -259,7 +263,7 @@ class TileSurfels {
   const SurveyVoxels& cloud_;
   const SurfelRules& rules_;
   const TilePoints& points_;
-  pcl::Indices neighbors_;
+  Indices neighbors_;
 };
 
 using VoxelsOfTiles = std::map<Cell2, std::vector<std::uint32_t>>;

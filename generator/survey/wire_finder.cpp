@@ -1,9 +1,5 @@
 #include "generator/survey/wire_finder.h"
 
-#include <pcl/kdtree/kdtree_flann.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -11,6 +7,8 @@
 #include <limits>
 #include <map>
 #include <numeric>
+
+#include "core/io/cloud/nearest_points.h"
 
 namespace railcast {
 namespace {
@@ -64,24 +62,19 @@ std::map<std::size_t, std::vector<std::size_t>> Chains(const std::vector<MadeSur
                                                        const std::vector<std::size_t>& candidates) {
   if (candidates.empty()) return {};
   const Vector3 origin_m = surfels[candidates.front()].center_m;
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+  std::vector<Eigen::Vector3f> points_m;
   for (const std::size_t i : candidates) {
-    const Eigen::Vector3f point_m = (surfels[i].center_m - origin_m).cast<float>();
-    points->emplace_back(point_m.x(), point_m.y(), point_m.z());
+    points_m.emplace_back((surfels[i].center_m - origin_m).cast<float>());
   }
-  pcl::KdTreeFLANN<pcl::PointXYZ> tree;
-  tree.setInputCloud(points);
+  const NearestSearch search(points_m);
   Groups groups(candidates.size());
-  pcl::Indices found;
-  std::vector<float> squared_m2;
+  std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Eigen::Vector3f direction = surfels[candidates[i]].half_u_m.normalized();
-    tree.radiusSearch(static_cast<int>(i), double{kLongestWireGap_m}, found, squared_m2);
-    for (const int index : found) {
-      const auto other = static_cast<std::size_t>(index);
+    search.FindWithin(points_m[i], kLongestWireGap_m, found);
+    for (const std::uint32_t other : found) {
       if (other <= i) continue;
-      const Eigen::Vector3f offset_m =
-          (*points)[other].getVector3fMap() - (*points)[i].getVector3fMap();
+      const Eigen::Vector3f offset_m = points_m[other] - points_m[i];
       const Eigen::Vector3f other_direction = surfels[candidates[other]].half_u_m.normalized();
       const float allowed_m = kOffLine_m + kOffLineShare * offset_m.norm();
       const bool follows = offset_m.cross(direction).norm() <= allowed_m &&

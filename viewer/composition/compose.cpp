@@ -1,8 +1,5 @@
 #include "viewer/composition/compose.h"
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,16 +27,15 @@
 namespace railcast {
 namespace {
 
-pcl::PointCloud<pcl::PointXYZ>::Ptr CloudOf(const ShownFrame& shown, const Transform& to_from_own) {
-  auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  cloud->reserve(shown.num_points());
+std::vector<Eigen::Vector3f> PointsOf(const ShownFrame& shown, const Transform& to_from_own) {
+  std::vector<Eigen::Vector3f> points_m;
+  points_m.reserve(shown.num_points());
   for (std::size_t i = 0; i < shown.num_points(); ++i) {
     const float* const own_m = shown.positions_m.data() + 3 * i;
     const Vector3 point_m = to_from_own * Eigen::Map<const Eigen::Vector3f>(own_m).cast<double>();
-    const Eigen::Vector3f rounded_m = point_m.cast<float>();
-    cloud->emplace_back(rounded_m.x(), rounded_m.y(), rounded_m.z());
+    points_m.emplace_back(point_m.cast<float>());
   }
-  return cloud;
+  return points_m;
 }
 
 std::array<double, 2> FitDistances_m(const FieldValues& distances) {
@@ -259,9 +255,9 @@ std::vector<float> DistancesToNearest_m(const ShownFrame& of, const ShownFrame& 
   if (of.num_points() == 0 || other.num_points() == 0) {
     return std::vector<float>(of.num_points(), std::numeric_limits<float>::quiet_NaN());
   }
-  const NearestSearch search(CloudOf(other, Transform::Identity()));
+  const NearestSearch search(PointsOf(other, Transform::Identity()));
   const Transform other_from_of = FirstFromSecond(other, of).value_or(Transform::Identity());
-  return search.Of(*CloudOf(of, other_from_of)).distance_m;
+  return search.Of(PointsOf(of, other_from_of)).distance_m;
 }
 
 Composition ComposeDistances(const std::shared_ptr<const ShownFrame>& a,

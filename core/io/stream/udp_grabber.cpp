@@ -1,5 +1,7 @@
 #include "railcast/io/udp_grabber.h"
 
+#include "core/io/quiet_pcl.h"
+
 #include <pcl/conversions.h>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "generator/insert/plan/recorded_ground.h"
 
+#include "core/io/quiet_pcl.h"
+
 #include <pcl/segmentation/sac_segmentation.h>
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,7 @@
 #include "generator/insert/plan/registered_poses.h"
 
+#include "core/io/quiet_pcl.h"
+
 #include <pcl/features/normal_3d.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/icp.h>

@@ -16,6 +16,12 @@ namespace {
 
 const std::vector<double> kBinEnds_m = {0.05, 0.2};
 
+pcl::PointCloud<pcl::PointXYZ> PclCloud(const std::vector<Eigen::Vector3f>& points_m) {
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  for (const Eigen::Vector3f& p : points_m) cloud.emplace_back(p.x(), p.y(), p.z());
+  return cloud;
+}
+
 CloudDistances Distances(const std::vector<MadePoint>& a, const std::vector<MadePoint>& b) {
   return DistancesOf(MadeCloud(a), MadeCloud(b), kBinEnds_m).value();
 }
@@ -115,8 +121,8 @@ TEST(CloudDistances, AreThoseOfOpen3d) {
   const ComparedCloud a = MadeCloud(WithNoise(MadePlane(0.0F), 0.4));
   const ComparedCloud b = MadeCloud(WithNoise(MadePlane(0.3F), 0.7));
   const auto file_a = folder.Write("a.pcd", ""), file_b = folder.Write("b.pcd", "");
-  pcl::io::savePCDFileBinary(file_a.string(), *a.points);
-  pcl::io::savePCDFileBinary(file_b.string(), *b.points);
+  pcl::io::savePCDFileBinary(file_a.string(), PclCloud(a.points_m));
+  pcl::io::savePCDFileBinary(file_b.string(), PclCloud(b.points_m));
   const Ended ended = RunCommand(
       "/usr/bin/python3 -c \"import open3d as o, numpy as n; a, b = (o.io.read_point_cloud(f) for "
       "f "
