@@ -62,6 +62,13 @@ document_packages=(
   weasyprint
 )
 
+# Called by scripts/package.sh.
+package_packages=(
+  dpkg-dev
+  file
+  lintian
+)
+
 # Imported by the Python module.
 python_packages=(
   python3-numpy
@@ -87,9 +94,11 @@ site_packages=(
 test_packages=(
   "${display_packages[@]}"
   "${document_packages[@]}"
+  "${package_packages[@]}"
   "${python_packages[@]}"
   "${site_packages[@]}"
   chromium
+  debootstrap
   poppler-utils
   python3
   python3-jsonschema

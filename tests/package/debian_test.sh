@@ -1,0 +1,93 @@
+#!/usr/bin/env bash
+# Makes the Debian packages of a build, checks them with lintian, installs them into an empty Debian 12, runs the main job
+# there without a compiler, removes them and looks for what is left: debian_test.sh SOURCE_DIR BUILD_DIR WORK_DIR.
+# Exits with 77, which skips the test, where no empty Debian can be made.
+set -euo pipefail
+source_dir=$1 build=$2 work=$3
+
+skip() {
+  echo "skipped: $*"
+  exit 77
+}
+fail() {
+  echo "failed: $*" >&2
+  exit 1
+}
+
+((EUID == 0)) || skip "only root can make an empty Debian"
+for tool in debootstrap lintian dpkg-shlibdeps; do
+  command -v "$tool" >/dev/null || skip "$tool is not installed"
+done
+(
+  # shellcheck source=/dev/null
+  source /etc/os-release
+  [[ "${VERSION_CODENAME:-}" == bookworm ]]
+) || skip "the packages of this system are not for Debian 12"
+
+root=$work/root
+umount_all() {
+  local folder
+  for folder in dev/pts dev proc; do
+    if mountpoint -q "$root/$folder"; then umount "$root/$folder"; fi
+  done
+}
+trap umount_all EXIT
+umount_all
+rm -rf "$work"
+mkdir -p "$work"
+
+"$source_dir/scripts/package.sh" "$build"
+packages=("$build"/packages/*.deb)
+for package in railcast railcast-import railcast-viewer python3-railcast railcast-dev; do
+  compgen -G "$build/packages/${package}_*.deb" >/dev/null || fail "there is no package $package"
+done
+
+debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$work/debootstrap.log" 2>&1 ||
+  skip "debootstrap: $(tail -1 "$work/debootstrap.log")"
+mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" ||
+  skip "nothing can be mounted here"
+mkdir "$root/packages"
+cp "${packages[@]}" "$root/packages"
+# The files of no package: what postinst scripts of libraries write stays when those are removed.
+inside() {
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"
+}
+inside apt-get update -q >"$work/apt.log" || skip "apt-get update: $(tail -1 "$work/apt.log")"
+inside apt-get install -q -y --no-install-recommends xvfb xauth >>"$work/apt.log" 2>&1 || fail "xvfb: see $work/apt.log"
+
+# The programs alone: no library of PCL, VTK or GDAL comes with them.
+inside sh -c 'apt-get install -q -y --no-install-recommends /packages/railcast_*.deb' >>"$work/apt.log" 2>&1 ||
+  fail "railcast is not installed: see $work/apt.log"
+if inside dpkg-query -W -f='${Package}\n' | grep -E '^lib(pcl|vtk|gdal)'; then fail "railcast needs these packages"; fi
+scenarios=/usr/share/railcast/scenarios
+inside railcast-generate sequence "$scenarios/st_gallen_approach.json" --out /root/demo --frames 2
+inside railcast-analyze verify /root/demo
+inside railcast-analyze stats /root/demo --format text >"$work/stats.txt"
+grep -q "person" "$work/stats.txt" || fail "stats does not mention the person: see $work/stats.txt"
+said=$(inside railcast-generate import map.osm --out /root/lines 2>&1) && fail "import ran without its package"
+[[ "$said" == *"which is not installed (Debian package railcast-import)" ]] || fail "import said: $said"
+for page in railcast-generate railcast-generate-sequence railcast-analyze-stats; do
+  zcat "$root/usr/share/man/man1/$page.1.gz" | grep -q '^\.SH NAME' || fail "$page has no manual page"
+done
+inside bash -c 'source /usr/share/bash-completion/completions/railcast-generate
+  COMP_WORDS=(railcast-generate seq) COMP_CWORD=1; _railcast_generate; [[ "${COMPREPLY[*]}" == sequence ]]' ||
+  fail "bash completes nothing"
+
+# All others.
+inside sh -c 'apt-get install -q -y --no-install-recommends /packages/*.deb' >>"$work/apt.log" 2>&1 ||
+  fail "the packages are not installed: see $work/apt.log"
+inside xvfb-run --auto-servernum railcast-view /root/demo --frame 1 --camera driver --color-by label \
+  --size 640x360 --screenshot /root/demo.png
+(($(stat -c %s "$root/root/demo.png") > 20000)) || fail "the viewer's picture is empty"
+inside python3 -c "
+import railcast
+frame = railcast.Simulator('$scenarios/st_gallen_approach.json').scan(30)
+assert len(frame.points()) > 1000
+print(railcast.__file__)" | grep -qx /usr/lib/python3/dist-packages/railcast/__init__.py || fail "python3-railcast"
+inside railcast-generate import --help | grep -q '^Fit the lines of a map' || fail "import does not run"
+inside sh -c 'test -e /usr/lib/*/cmake/railcast/railcastConfig.cmake' || fail "railcast-dev has no CMake file"
+
+inside sh -c 'apt-get purge -q -y "*railcast*"' >>"$work/apt.log" 2>&1 || fail "purge: see $work/apt.log"
+left=$(inside find / -xdev -iname '*railcast*' -not -path '/packages/*' -not -path '/root/*' -not -path '/var/log/*')
+[[ -z "$left" ]] || fail "removing the packages left: $left"
+echo "passed"
