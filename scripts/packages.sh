@@ -69,6 +69,12 @@ package_packages=(
   lintian
 )
 
+# Called by pip wheel.
+wheel_packages=(
+  binutils
+  patchelf
+)
+
 # Imported by the Python module.
 python_packages=(
   python3-numpy
@@ -97,11 +103,15 @@ test_packages=(
   "${package_packages[@]}"
   "${python_packages[@]}"
   "${site_packages[@]}"
+  "${wheel_packages[@]}"
   chromium
   debootstrap
   poppler-utils
   python3
+  python3-ipykernel
   python3-jsonschema
+  python3-matplotlib
+  python3-nbclient
   python3-open3d
   python3-pip
   python3-venv

@@ -1,21 +1,27 @@
-"""Builds the wheel of the Python module for pip (PEP 517), with nothing but CMake and this file.
+"""Builds the wheel of the Python module and of the programs for pip (PEP 517), with CMake and patchelf.
 
 It needs no packages of the Python registry, so that pip's isolated build works without a network.
 
-    pip install .                                               configures and builds build/python
-    pip install . --config-settings build-dir=build/release     takes the module of that build
+    pip wheel .                                               configures and builds build/python
+    pip wheel . --config-settings build-dir=build/release     takes what that build has
+
+The wheel runs on other systems of the same machine and version of Python: its libraries are inside.
 """
 
 import base64
 import hashlib
 import pathlib
+import platform
 import re
+import shutil
 import subprocess
 import sys
 import sysconfig
 import tempfile
 import tomllib
 import zipfile
+
+import wheel_libraries
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFIGURATION = {
@@ -35,11 +41,11 @@ def run(*command):
 
 
 def build():
-    """Builds the module; returns the build's folder."""
+    """Builds module and programs; returns the build's folder."""
     folder = ROOT / "build" / "python"
     settings = [f"-D{name}={value}" for name, value in CONFIGURATION.items()]
     run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", *settings)
-    run("cmake", "--build", folder, "--target", "railcast_python")
+    run("cmake", "--build", folder, "--target", "railcast_python", "railcast-generate", "railcast-analyze")
     return folder
 
 
@@ -50,39 +56,64 @@ def project():
     return {**table, "version": version}
 
 
-def tag():
+PROGRAMS = ("railcast-generate", "railcast-analyze")
+
+
+def tag(binaries):
+    """The oldest systems that the wheel runs on (PEP 600)."""
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+    system = re.sub("[-.]", "_", sysconfig.get_platform())
+    if system.startswith("linux_") and platform.libc_ver()[0] == "glibc":
+        major, minor = wheel_libraries.least_libc(binaries)
+        system = system.replace("linux_", f"manylinux_{major}_{minor}_", 1)
+    return f"{python}-{python}-{system}"
 
 
-def description_files(table):
+def description_files(table, wheel_tag):
     """The files of the wheel that describe it, without its record."""
     metadata = ["Metadata-Version: 2.1", f"Name: {table['name']}", f"Version: {table['version']}",
                 f"Summary: {table['description']}", f"License: {table['license']['text']}",
                 f"Requires-Python: {table['requires-python']}",
                 *(f"Requires-Dist: {name}" for name in table["dependencies"])]
-    wheel = ["Wheel-Version: 1.0", "Generator: railcast", "Root-Is-Purelib: false", f"Tag: {tag()}"]
-    return {"METADATA": "\n".join(metadata) + "\n", "WHEEL": "\n".join(wheel) + "\n"}
+    wheel = ["Wheel-Version: 1.0", "Generator: railcast", "Root-Is-Purelib: false", f"Tag: {wheel_tag}"]
+    scripts = ["[console_scripts]", *(f"{name} = railcast.programs:{name.split('-')[1]}" for name in PROGRAMS)]
+    return {"METADATA": metadata, "WHEEL": wheel, "entry_points.txt": scripts}
 
 
-def write_wheel(path, package, table):
-    info = f"{table['name']}-{table['version']}.dist-info"
+def write_wheel(path, tree):
+    """Packs the files of a folder, with a record of them."""
+    info, = (folder.name for folder in tree.glob("*.dist-info"))
     record = []
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as wheel:
-
-        def add(name, content):
+        for file in sorted(entry for entry in tree.rglob("*") if entry.is_file()):
+            name, content = file.relative_to(tree).as_posix(), file.read_bytes()
             # A fixed time, so that the same files make the same wheel.
             entry = zipfile.ZipInfo(name)
-            entry.external_attr = 0o644 << 16
+            entry.external_attr = (0o100755 if file.stat().st_mode & 0o100 else 0o100644) << 16
             wheel.writestr(entry, content, zipfile.ZIP_DEFLATED)
             digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
             record.append(f"{name},sha256={digest},{len(content)}\n")
-
-        for file in sorted(package.iterdir()):
-            add(f"{package.name}/{file.name}", file.read_bytes())
-        for name, text in description_files(table).items():
-            add(f"{info}/{name}", text.encode())
         wheel.writestr(zipfile.ZipInfo(f"{info}/RECORD"), "".join(record) + f"{info}/RECORD,,\n")
+
+
+def gather(build_folder, tree):
+    """Copies what is in the wheel to `tree`; returns its programs and libraries, and the licences of the latter."""
+    prefix = tree / "prefix"
+    for component in ("python", "programs"):
+        run("cmake", "--install", build_folder, "--component", component, "--prefix", prefix)
+    init, = prefix.rglob("railcast/__init__.py")
+    package = tree / "railcast"
+    shutil.move(init.parent, package)
+    shutil.copy(ROOT / "generator" / "python" / "programs.py", package)
+    shutil.move(prefix / "share" / "railcast" / "scenarios", package / "scenarios")
+    (package / "bin").mkdir()
+    binaries = list(package.glob("*.so"))
+    for name in PROGRAMS:
+        binaries.append(pathlib.Path(shutil.move(prefix / "bin" / name, package / "bin" / name)))
+    shutil.rmtree(prefix)
+    libraries = tree / "railcast.libs"
+    licences = wheel_libraries.bundle(binaries, libraries)
+    return [*binaries, *libraries.iterdir()], licences
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
@@ -90,12 +121,22 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     del metadata_directory
     folder = (config_settings or {}).get("build-dir") or build()
     table = project()
-    name = f"{table['name']}-{table['version']}-{tag()}.whl"
-    with tempfile.TemporaryDirectory() as prefix:
-        run("cmake", "--install", folder, "--component", "python", "--prefix", prefix)
-        init, = pathlib.Path(prefix).rglob("railcast/__init__.py")
-        write_wheel(pathlib.Path(wheel_directory) / name, init.parent, table)
-    return name
+    with tempfile.TemporaryDirectory() as name:
+        tree = pathlib.Path(name)
+        binaries, licences = gather(folder, tree)
+        wheel_tag = tag(binaries)
+        stem = f"{re.sub('[-_.]+', '_', table['name'])}-{table['version']}"
+        info = tree / f"{stem}.dist-info"
+        (info / "licenses").mkdir(parents=True)
+        for file, lines in description_files(table, wheel_tag).items():
+            (info / file).write_text("\n".join(lines) + "\n", "utf-8")
+        shutil.copy(ROOT / "scripts" / "packaging" / "copyright", info / "licenses" / "railcast")
+        for library, licence in licences.items():
+            if licence:
+                shutil.copy(licence, info / "licenses" / library)
+        wheel = f"{stem}-{wheel_tag}.whl"
+        write_wheel(pathlib.Path(wheel_directory) / wheel, tree)
+    return wheel
 
 
 def build_sdist(sdist_directory, config_settings=None):

@@ -48,16 +48,19 @@ mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind
   skip "nothing can be mounted here"
 mkdir "$root/packages"
 cp "${packages[@]}" "$root/packages"
-# The files of no package: what postinst scripts of libraries write stays when those are removed.
 inside() {
   chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"
 }
 inside apt-get update -q >"$work/apt.log" || skip "apt-get update: $(tail -1 "$work/apt.log")"
-inside apt-get install -q -y --no-install-recommends xvfb xauth >>"$work/apt.log" 2>&1 || fail "xvfb: see $work/apt.log"
-
 # The programs alone: no library of PCL, VTK or GDAL comes with them.
+num_packages() {
+  inside dpkg-query -W | wc -l
+}
+num_before=$(num_packages)
 inside sh -c 'apt-get install -q -y --no-install-recommends /packages/railcast_*.deb' >>"$work/apt.log" 2>&1 ||
   fail "railcast is not installed: see $work/apt.log"
+echo "railcast brings $(($(num_packages) - num_before - 1)) packages"
+(($(num_packages) - num_before <= 30)) || fail "railcast brings too many packages"
 if inside dpkg-query -W -f='${Package}\n' | grep -E '^lib(pcl|vtk|gdal)'; then fail "railcast needs these packages"; fi
 scenarios=/usr/share/railcast/scenarios
 inside railcast-generate sequence "$scenarios/st_gallen_approach.json" --out /root/demo --frames 2
@@ -74,6 +77,7 @@ inside bash -c 'source /usr/share/bash-completion/completions/railcast-generate
   fail "bash completes nothing"
 
 # All others.
+inside apt-get install -q -y --no-install-recommends xvfb xauth >>"$work/apt.log" 2>&1 || fail "xvfb: see $work/apt.log"
 inside sh -c 'apt-get install -q -y --no-install-recommends /packages/*.deb' >>"$work/apt.log" 2>&1 ||
   fail "the packages are not installed: see $work/apt.log"
 inside xvfb-run --auto-servernum railcast-view /root/demo --frame 1 --camera driver --color-by label \

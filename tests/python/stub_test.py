@@ -32,7 +32,7 @@ class Stub(unittest.TestCase):
         named |= {node.name for node in self.stub.body if isinstance(node, ast.FunctionDef)}
         named |= {node.target.id for node in self.stub.body if isinstance(node, ast.AnnAssign)}
         self.assertEqual(named, public)
-        self.assertEqual(set(railcast.__all__), public | {"Dataset"})
+        self.assertEqual(set(railcast.__all__), public | {"Dataset", "SCENARIOS"})
 
     def test_members_are_those_of_the_classes(self):
         for name, node in self.classes.items():
