@@ -35,6 +35,7 @@ build_packages=(
   librandom123-dev
   libsqlite3-dev
   libssl-dev  # SHA-256 of the types of messages.
+  libsystemd-dev  # Says to systemd that a stream is ready.
   libtbb-dev
   libvtk9-dev
   libx11-dev
@@ -104,7 +105,9 @@ test_packages=(
   "${python_packages[@]}"
   "${site_packages[@]}"
   "${wheel_packages[@]}"
+  buildah
   chromium
+  crun
   debootstrap
   poppler-utils
   python3

@@ -22,6 +22,7 @@ void DurationHistogram::Add(std::int64_t duration_ns) {
   ++bins_[std::min(static_cast<std::size_t>(bin), kNumBins - 1)];
   ++count_;
   max_ns_ = std::max(max_ns_, duration_ns);
+  total_ns_ += std::max<std::int64_t>(0, duration_ns);
 }
 
 std::int64_t DurationHistogram::QuantileNs(double fraction) const {

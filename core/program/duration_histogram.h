@@ -17,6 +17,7 @@ class DurationHistogram {
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
+  [[nodiscard]] std::int64_t total_ns() const { return total_ns_; }
   /// Returns the smallest duration that at least this fraction of all does not exceed; 0 if the
   /// histogram is empty.
   [[nodiscard]] std::int64_t QuantileNs(double fraction) const;
@@ -25,6 +26,7 @@ class DurationHistogram {
   std::vector<std::uint64_t> bins_;
   std::uint64_t count_ = 0;
   std::int64_t max_ns_ = 0;
+  std::int64_t total_ns_ = 0;
 };
 
 }  // namespace railcast

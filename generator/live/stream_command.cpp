@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <initializer_list>
 #include <iostream>
@@ -14,18 +13,19 @@
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/write_file.h"
-#include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_channel.h"
+#include "generator/live/live_health.h"
 #include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
 #include "generator/live/ouster_service.h"
 #include "generator/live/ros_output.h"
 #include "generator/live/ros_plan.h"
+#include "generator/live/run_surroundings.h"
 #include "generator/live/stamp_clock.h"
 #include "generator/live/step_topic.h"
 #include "generator/live/stream_options.h"
@@ -260,6 +260,18 @@ std::vector<CommandSource*> SourcesOf(std::initializer_list<CommandSource*> all)
   return sources;
 }
 
+/// Answers those who watch over the run.
+std::unique_ptr<HttpServer> OpenHealth(const StreamOptions& options, const LiveHealth& health) {
+  if (!options.health_port) return nullptr;
+  auto server = AtPlace("--health-port: ", [&] {
+    return std::make_unique<HttpServer>(
+        ParseEndpoint("127.0.0.1", *options.health_port),
+        [&health](const HttpRequest& request) { return health.Answer(request); });
+  });
+  std::cout << "health at " << EndpointText(server->at()) << "\n";
+  return server;
+}
+
 std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
                                      const std::vector<SensorStreamSpec>& plan,
                                      const ScenarioSpec& scenario) {
@@ -269,81 +281,11 @@ std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
   return server;
 }
 
-/// The time since 1970.
-std::int64_t UtcNow_ns() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 void BeginRos(const StreamOptions& options, RosOutput* ros) {
   if (ros == nullptr) return;
   if (StatesTimeOfDay(options)) ros->SetClockAhead(UtcNow_ns());
   ros->Begin();
 }
-
-/// Lets stamps state the time of day from now on, if asked to.
-void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns) {
-  if (StatesTimeOfDay(options)) streams.SetClocks(UtcNow_ns(), lead_ns);
-}
-
-/// Connects a run with its commands and the user, and shows its progress.
-class RunSurroundings {
- public:
-  RunSurroundings(LiveStreams& streams, CommandLoop* commands, const StreamOptions& options)
-      : streams_(streams),
-        commands_(commands),
-        options_(options),
-        is_offline_(IsOffline(options)),
-        lag_(options.drops_late) {}
-
-  [[nodiscard]] LiveHooks Hooks() {
-    return {.is_stopped = [this] { return IsStopped(); },
-            .begin_frames = [this](std::int64_t stamp_ns) { return BeginFrames(stamp_ns); },
-            .end_frames = [this](const RunState& state) { EndFrames(state); }};
-  }
-  void End() {
-    SayCaptureFaults();
-    line_.End();
-  }
-
- private:
-  // A run without receivers serves only its capture, so it ends when the capture fails.
-  [[nodiscard]] bool IsStopped() const {
-    return StopRequested() || (is_offline_ && !streams_.CaptureFaults().empty());
-  }
-
-  [[nodiscard]] NextFrames BeginFrames(std::int64_t stamp_ns) {
-    if (commands_ == nullptr) return NextFrames::kMake;
-    const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
-    if (next != NextFrames::kReset) return next;
-    streams_.Restart();
-    // Where commands are heard, no frame is begun before its stamp.
-    SetClocks(streams_, options_, 0);
-    return next;
-  }
-
-  void EndFrames(const RunState& state) {
-    if (commands_ != nullptr) commands_->EndFrames(state.stamp_ns);
-    SayCaptureFaults();
-    if (const auto lag = lag_.After(state)) line_.Say(*lag);
-    line_.Show(LiveProgress(state));
-  }
-
-  void SayCaptureFaults() {
-    const std::vector<std::string> faults = streams_.CaptureFaults();
-    for (; num_faults_said_ < faults.size(); ++num_faults_said_) {
-      line_.Say(faults[num_faults_said_]);
-    }
-  }
-
-  LiveStreams& streams_;
-  CommandLoop* commands_;
-  const StreamOptions& options_;
-  bool is_offline_;
-  TerminalLine line_;
-  LagReport lag_;
-  std::size_t num_faults_said_ = 0;
-};
 
 void ReportSteps(const StepTopic* steps) {
   if (steps == nullptr || steps->faults().count == 0) return;
@@ -414,6 +356,8 @@ int RunStream(const StreamOptions& options) {
     WriteMetadataBeside(stream, PickSensor(scenario, stream.name).lidar);
   }
   const auto http = OpenHttp(options, plan, scenario);
+  LiveHealth health;
+  const auto health_server = OpenHealth(options, health);
   const auto channel = OpenChannel(options, scenario.models);
   const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
   const auto twists = OpenTwists(options, scenario, ros.get());
@@ -429,8 +373,9 @@ int RunStream(const StreamOptions& options) {
   streams.WarmUp(StopRequested);
   std::cout << ShownLines(Describe(plan, ros_plan, scenario)) << std::flush;
 
-  RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options);
+  RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options, health);
   SetClocks(streams, options, spec.lead_ns);
+  surroundings.Begin();
   const LiveResult result = RunBy(options, spec, streams, surroundings);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();

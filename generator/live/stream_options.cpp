@@ -76,6 +76,11 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
                   "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
                   "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
       ->check(NonEmpty());
+  stream
+      .add_option("--health-port", options.health_port,
+                  "TCP port of 127.0.0.1 at which to answer GET /health and GET /metrics; default: "
+                  "none")
+      ->transform(Whole({1, 65535}));
   AddCommandOptions(stream, options);
   stream
       .add_option("--commands-log", options.commands_log,

@@ -65,6 +65,7 @@ LIBRARY_OWNERS = {
     "Cyclone DDS": (r"dds/", ("core/io/dds",)),
     "protobuf": (r"google/protobuf/|osi_sensor_view\.pb\.h", ("core/io/osi",)),
     "SQLite": (r"sqlite3\.h$", ("core/io/bag",)),
+    "libsystemd": (r"systemd/", ("generator/live",)),
     "NLopt": (r"nlopt\.hpp$", ("analysis/estimate",)),
     "zstd": (r"zstd\.h$", ("core/io/mcap",)),
     "LZ4": (r"lz4\w*\.h$", ("core/io/mcap",)),

@@ -71,6 +71,10 @@ function(railcast_document_package package component)
   endif()
 endfunction()
 
+# A unit for systemd, with the path of the packages.
+install(FILES ${packaging}/railcast-stream@.service DESTINATION lib/systemd/system COMPONENT programs
+        EXCLUDE_FROM_ALL)
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The railcast authors")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)

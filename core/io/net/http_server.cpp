@@ -51,7 +51,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
                                  .target = std::string(request.target()),
                                  .body = request.body()});
     response_ = {static_cast<http::status>(answer.status), request.version()};
-    response_.set(http::field::content_type, "application/json");
+    response_.set(http::field::content_type, answer.content_type);
     response_.keep_alive(request.keep_alive());
     response_.body() = std::move(answer.body);
     response_.prepare_payload();

@@ -17,7 +17,8 @@ struct HttpRequest {
 
 struct HttpAnswer {
   unsigned status = 200;
-  std::string body;  ///< JSON.
+  std::string body;
+  std::string content_type = "application/json";
 };
 
 /// Answers HTTP requests on a thread of its own, while the object lives.

@@ -1,0 +1,150 @@
+#include "generator/live/live_health.h"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "core/program/version.h"
+
+namespace railcast {
+namespace {
+
+double Seconds(std::int64_t time_ns) {
+  return static_cast<double>(time_ns) / 1e9;
+}
+
+/// Escapes a value of a label as Prometheus' text format wants it.
+std::string LabelValue(std::string_view text) {
+  std::string value;
+  for (const char c : text) {
+    if (c == '\n') {
+      value += "\\n";
+      continue;
+    }
+    if (c == '\\' || c == '"') value += '\\';
+    value += c;
+  }
+  return value;
+}
+
+std::string Number(double value) {
+  return nlohmann::json(value).dump();
+}
+
+void AddMetric(std::string& text,
+               std::string_view name,
+               std::string_view type,
+               std::string_view help) {
+  text.append("# HELP ").append(name).append(" ").append(help).append("\n# TYPE ");
+  text.append(name).append(" ").append(type).append("\n");
+}
+
+}  // namespace
+
+LiveHealth::LiveHealth(Now now_ns) : now_ns_(std::move(now_ns)), heard_ns_(now_ns_()) {}
+
+void LiveHealth::Begin() {
+  const std::lock_guard lock(mutex_);
+  phase_ = Phase::kRunning;
+  heard_ns_ = now_ns_();
+}
+
+void LiveHealth::Beat() {
+  const std::lock_guard lock(mutex_);
+  heard_ns_ = now_ns_();
+}
+
+void LiveHealth::Update(const RunState& state) {
+  const std::lock_guard lock(mutex_);
+  heard_ns_ = now_ns_();
+  stamp_ns_ = state.stamp_ns;
+  behind_ns_ = state.behind_ns;
+  sensors_.resize(state.records.size());
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const LiveRecord& record = state.records[i];
+    sensors_[i] = {.name = record.name,
+                   .frames = record.frames,
+                   .late_frames = record.late_frames,
+                   .dropped_frames = record.dropped_frames,
+                   .compute_ns = record.compute.total_ns(),
+                   .max_compute_ns = record.compute.max_ns()};
+  }
+}
+
+void LiveHealth::End() {
+  const std::lock_guard lock(mutex_);
+  phase_ = Phase::kEnding;
+}
+
+std::string LiveHealth::Status() const {
+  if (phase_ == Phase::kStarting) return "starting";
+  if (phase_ == Phase::kEnding) return "ending";
+  return now_ns_() - heard_ns_ > kStalled_ns ? "stalled" : "running";
+}
+
+std::string LiveHealth::Line() const {
+  SensorCounts all;
+  for (const SensorCounts& sensor : sensors_) {
+    all.frames += sensor.frames;
+    all.late_frames += sensor.late_frames;
+    all.dropped_frames += sensor.dropped_frames;
+  }
+  const nlohmann::ordered_json line = {{"status", Status()},
+                                       {"frames", all.frames},
+                                       {"late_frames", all.late_frames},
+                                       {"dropped_frames", all.dropped_frames},
+                                       {"behind_s", Seconds(behind_ns_)}};
+  return line.dump() + "\n";
+}
+
+std::string LiveHealth::Metrics() const {
+  std::string text;
+  AddMetric(text, "railcast_info", "gauge", "The program's version.");
+  text += "railcast_info{version=\"" + LabelValue(ProgramVersion()) + "\"} 1\n";
+  AddMetric(text, "railcast_running", "gauge", "1 while frames are made.");
+  text += std::string("railcast_running ") + (Status() == "running" ? "1" : "0") + "\n";
+  AddMetric(text, "railcast_simulated_seconds", "gauge", "Simulation time of the last frame.");
+  text += "railcast_simulated_seconds " + Number(Seconds(stamp_ns_)) + "\n";
+  AddMetric(text, "railcast_behind_seconds", "gauge", "Delay with which frames begin.");
+  text += "railcast_behind_seconds " + Number(Seconds(behind_ns_)) + "\n";
+  const auto add = [&](std::string_view name, std::string_view type, std::string_view help,
+                       const auto& value_of) {
+    AddMetric(text, name, type, help);
+    for (const SensorCounts& sensor : sensors_) {
+      text.append(name).append("{sensor=\"").append(LabelValue(sensor.name)).append("\"} ");
+      text.append(value_of(sensor)).append("\n");
+    }
+  };
+  add("railcast_frames_total", "counter", "Frames that were made.",
+      [](const SensorCounts& counts) { return std::to_string(counts.frames); });
+  add("railcast_late_frames_total", "counter", "Frames that were not made in time.",
+      [](const SensorCounts& counts) { return std::to_string(counts.late_frames); });
+  add("railcast_dropped_frames_total", "counter",
+      "Frames that were left out because they were late.",
+      [](const SensorCounts& counts) { return std::to_string(counts.dropped_frames); });
+  add("railcast_compute_seconds_total", "counter", "Time in which frames were made.",
+      [](const SensorCounts& counts) { return Number(Seconds(counts.compute_ns)); });
+  add("railcast_compute_seconds_max", "gauge", "Longest time in which a frame was made.",
+      [](const SensorCounts& counts) { return Number(Seconds(counts.max_compute_ns)); });
+  return text;
+}
+
+HttpAnswer LiveHealth::Answer(const HttpRequest& request) const {
+  const std::lock_guard lock(mutex_);
+  const std::string_view path =
+      std::string_view(request.target).substr(0, request.target.find('?'));
+  const bool is_read = request.method == "GET" || request.method == "HEAD";
+  if (path == "/health" && is_read) {
+    return {.status = Status() == "running" ? 200U : 503U, .body = Line()};
+  }
+  if (path == "/metrics" && is_read) {
+    return {.body = Metrics(), .content_type = "text/plain; version=0.0.4; charset=utf-8"};
+  }
+  constexpr unsigned kNotFound = 404, kNotAllowed = 405;
+  const bool is_known = path == "/health" || path == "/metrics";
+  return {.status = is_known ? kNotAllowed : kNotFound,
+          .body = is_known ? "{\"error\":\"only GET is answered\"}\n"
+                           : "{\"error\":\"there are /health and /metrics\"}\n"};
+}
+
+}  // namespace railcast
