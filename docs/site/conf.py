@@ -9,7 +9,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 project = "railcast"
 html_title = "railcast"
 copyright = "the railcast authors"  # pylint: disable=redefined-builtin
-version = re.search(r"^project\(railcast VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"), re.M)[1]
+_cmake = (ROOT / "CMakeLists.txt").read_text("utf-8")
+version = re.search(r"^project\(railcast VERSION (\S+)", _cmake, re.M)[1]
+version += re.search(r'^set\(RAILCAST_PRERELEASE "(.*)"\)', _cmake, re.M)[1]
 html_theme = "furo"  # Light and dark, and for narrow screens, too.
 html_copy_source = False
 root_doc = "README"

@@ -52,7 +52,10 @@ def build():
 def project():
     """Table `project` of pyproject.toml, with the version that CMake has."""
     table = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    version = re.search(r"project\(railcast VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"))[1]
+    text = (ROOT / "CMakeLists.txt").read_text("utf-8")
+    version = re.search(r"project\(railcast VERSION (\S+)", text)[1]
+    # PEP 440 writes 1.0.0-rc.1 as 1.0.0rc1.
+    version += re.search(r'set\(RAILCAST_PRERELEASE "(.*)"\)', text)[1].replace("-rc.", "rc")
     return {**table, "version": version}
 
 

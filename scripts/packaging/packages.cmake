@@ -46,7 +46,8 @@ add_custom_target(
   COMMAND ${CMAKE_COMMAND} -D BUILD_DIR=${PROJECT_BINARY_DIR} -P ${packaging}/uninstall.cmake
   COMMENT "Removing what cmake --install has copied")
 
-# What Debian wants in each package.
+# What Debian wants in each package. Its 1.0.0~rc.1 comes before 1.0.0.
+string(REPLACE "-" "~" package_version ${RAILCAST_VERSION})
 set(RAILCAST_MAINTAINER
     "The railcast authors <railcast@example.org>"
     CACHE STRING "Who publishes the Debian packages")
@@ -76,6 +77,7 @@ install(FILES ${packaging}/railcast-stream@.service DESTINATION lib/systemd/syst
         EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VERSION ${package_version})
 set(CPACK_PACKAGE_VENDOR "The railcast authors")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -125,7 +127,7 @@ if(RAILCAST_BUILD_IMPORT)
     railcast-import science "LiDAR simulation for railways: lines from maps
  Adds the command 'railcast-generate import', which fits the lines of maps
  (OpenStreetMap, railML, GeoJSON) and writes them as alignments of scenarios."
-    DEPENDS "railcast (= ${PROJECT_VERSION})"
+    DEPENDS "railcast (= ${package_version})"
     COMPONENTS import)
 endif()
 if(RAILCAST_BUILD_VIEWER)
