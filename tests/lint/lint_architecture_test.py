@@ -112,8 +112,7 @@ class Libraries(unittest.TestCase):
             "OpenMesh/Core/IO/MeshIO.hh": "core/mesh and tests include OpenMesh",
             "nlohmann/json.hpp": "core/mesh, core/scenario, core/fidelity, core/io, core/recipe, generator, analysis and "
                                  "tests include nlohmann",
-            "pcl/point_types.h": "core/io, core/include/railcast/io, generator, analysis, viewer and "
-                                 "tests include PCL",
+            "pcl/point_types.h": "core/io, core/include/railcast/io, generator, analysis and tests include PCL",
             "vtkRenderer.h": "viewer and tests include VTK",
             "CLI/CLI.hpp": "core/program, generator, analysis, viewer and tests include CLI11",
         }.items():
