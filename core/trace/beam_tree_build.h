@@ -1,7 +1,5 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <memory>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "core/trace/beam_tree.h"
+#include "core/trace/embree.h"
 
 namespace railcast {
 

@@ -104,15 +104,13 @@ void PosedFigures::IntersectRays(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     RTCRayHit ray = rtcGetRayHitFromRayHitN(args->rayhit, args->N, i);
     if (!MayMeetBox(ray.ray, self.figures()[args->primID].window_box_m)) continue;
-    if (!self.Intersect(args->primID, *args->context, ray)) continue;
+    if (!self.Intersect(args->primID, static_cast<RayQueryContext&>(*args->context), ray)) continue;
     RTCRayN_tfar(rays, args->N, i) = ray.ray.tfar;
     rtcCopyHitToHitN(hits, &ray.hit, args->N, i);
   }
 }
 
-bool PosedFigures::Intersect(std::size_t figure,
-                             RTCIntersectContext& context,
-                             RTCRayHit& ray) const {
+bool PosedFigures::Intersect(std::size_t figure, RayQueryContext& context, RTCRayHit& ray) const {
   const TraceFigure& its = figures()[figure];
   const float time = ray.ray.time * static_cast<float>(its.num_steps - 1);
   const auto step = std::min(static_cast<std::uint32_t>(time), its.num_steps - 2);
@@ -138,7 +136,7 @@ bool PosedFigures::Intersect(std::size_t figure,
         piece_from_window * (origin_m - window_from_piece.col(3));
     Eigen::Map<Eigen::Vector3f>(&local.ray.dir_x) = piece_from_window * direction;
     context.instID[0] = static_cast<unsigned>(figure);
-    rtcIntersect1(model.scene, &context, &local);
+    RayQuery(context).Intersect1(model.scene, local);
     context.instID[0] = RTC_INVALID_GEOMETRY_ID;
     if (local.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     is_hit = true;

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <vector>
 
+#include "core/trace/embree.h"
 #include "core/trace/trace_scene.h"
 
 namespace railcast {
@@ -45,7 +44,7 @@ class PosedFigures {
   static void ReportBox(const RTCBoundsFunctionArguments* args);
   static void IntersectRays(const RTCIntersectFunctionNArguments* args);
   /// Returns whether the ray hits a piece nearer than before, and puts the hit into it.
-  bool Intersect(std::size_t figure, RTCIntersectContext& context, RTCRayHit& ray) const;
+  bool Intersect(std::size_t figure, RayQueryContext& context, RTCRayHit& ray) const;
 
   TraceFigures figures_;
   std::vector<std::size_t> first_poses_;  ///< By figure, index into `poses_`.

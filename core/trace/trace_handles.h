@@ -8,12 +8,12 @@
 #include <type_traits>
 #include <vector>
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/trace/beam_tree_build.h"
+#include "core/trace/embree.h"
 #include "core/trace/trace_scene.h"
 
 namespace railcast {
@@ -110,6 +110,7 @@ using OwnedGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Releas
 inline OwnedGeometry NewGeometry(RTCDevice device, RTCGeometryType type) {
   OwnedGeometry geometry(rtcNewGeometry(device, type));
   if (geometry == nullptr) throw std::bad_alloc();
+  rtcSetGeometryMask(geometry.get(), ~0U);  // Embree 4 begins with 1.
   return geometry;
 }
 

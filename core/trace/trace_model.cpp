@@ -1,4 +1,3 @@
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/trace/embree.h"
 #include "core/trace/trace_handles.h"
 #include "core/trace/trace_program.h"
 #include "core/trace/trace_scene.h"
@@ -115,7 +115,7 @@ TraceModel::TraceModel(const TraceDevice& device, const Model& model, bool is_pa
   RTCDevice const embree = handle_->device->device;
   const auto doing = [&] { return handle_->Doing(); };
   RTCSceneFlags flags = model.is_foliage ? kOpen : kWatertight;
-  if (is_passable) flags = flags | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+  if (is_passable) flags = flags | kFilteredByQuery;
   BuildScene(embree, flags, handle_->scene, doing, [&] {
     for (std::size_t i = 0; i < model.parts.size(); ++i) {
       AttachPart(embree, handle_->scene, model.parts[i], static_cast<unsigned>(i));

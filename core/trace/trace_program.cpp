@@ -1,7 +1,5 @@
 #include "core/trace/trace_program.h"
 
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <memory>
 #include <type_traits>
@@ -9,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
+#include "core/trace/embree.h"
 
 namespace railcast {
 namespace {

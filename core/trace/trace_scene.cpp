@@ -1,6 +1,5 @@
 #include "core/trace/trace_scene.h"
 
-#include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -14,6 +13,7 @@
 
 #include "core/base/error.h"
 #include "core/trace/beam_kernels.h"
+#include "core/trace/embree.h"
 #include "core/trace/posed_figures.h"
 #include "core/trace/trace_handles.h"
 #include "railcast/lidar.h"
@@ -364,33 +364,29 @@ void LoadRays(const RayTile& tile, std::size_t first, RTCRayHit16& packet) {
 // What Embree is told about the rays of a packet. Neighbouring rays part among leaves: there it is
 // faster not to follow them through the scene together. Ranges are the same but for their last
 // bits; of coplanar faces, another one may be hit.
-RTCIntersectContextFlags CoherenceOf(bool has_foliage) {
-  return has_foliage ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+Coherence CoherenceOf(bool has_foliage) {
+  return has_foliage ? Coherence::kIncoherent : Coherence::kCoherent;
 }
 
 // Traces a tile packet by packet and passes each to `store(packet, first_ray)`.
 template <typename Store>
-void TracePackets(RTCScene scene,
-                  RTCIntersectContextFlags coherence,
-                  const RayTile& tile,
-                  const Store& store) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = coherence;
+void TracePackets(RTCScene scene, Coherence coherence, const RayTile& tile, const Store& store) {
+  RayQueryContext context;
+  InitContext(context);
+  RayQuery query(context, coherence, nullptr);
   alignas(64) int valid[kPacketSize];
   std::fill_n(valid, kPacketSize, -1);
   for (std::size_t first = 0; first < tile.num_rays; first += kPacketSize) {
     alignas(64) RTCRayHit16 packet;
     LoadRays(tile, first, packet);
-    rtcIntersect16(valid, scene, &context, &packet);
+    query.Intersect16(valid, scene, packet);
     store(packet, first);
   }
 }
 
 /// Collects what a packet hits.
-struct CollectingContext {
-  RTCIntersectContext embree;  // First, since Embree passes on the pointer to it.
-  const float* range_m;        ///< Of the packet's rays.
+struct CollectingContext : RayQueryContext {
+  const float* range_m;  ///< Of the packet's rays.
   std::vector<PlacementHits>* hits;
 };
 
@@ -408,7 +404,8 @@ void Collect(std::uint32_t placement, std::uint32_t lane_bit, std::vector<Placem
 
 // Takes note of hits and rejects them, so that the rays go on.
 void CollectAndGoOn(const RTCFilterFunctionNArguments* args) {
-  const auto& context = *reinterpret_cast<const CollectingContext*>(args->context);
+  const auto& context =
+      static_cast<const CollectingContext&>(static_cast<const RayQueryContext&>(*args->context));
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     args->valid[i] = 0;
@@ -426,15 +423,14 @@ void TraceScene::CastThrough(const RayTile& tile,
   hits.clear();
   if (parts_->instances.empty()) return;
   CollectingContext context{{}, tile.range_m + first, &hits};
-  rtcInitIntersectContext(&context.embree);
-  context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  context.embree.filter = &CollectAndGoOn;
+  InitContext(context);
+  RayQuery query(context, Coherence::kCoherent, &CollectAndGoOn);
   alignas(64) int valid[kPacketSize];
   std::fill_n(valid, kPacketSize, -1);
   alignas(64) RTCRayHit16 packet;
   LoadRays(tile, first, packet);
   for (unsigned lane = 0; lane < kPacketSize; ++lane) packet.ray.id[lane] = lane;
-  rtcIntersect16(valid, parts_->scene, &context.embree, &packet);
+  query.Intersect16(valid, parts_->scene, packet);
 }
 
 void TraceScene::Cast(RayTile& tile) const {

@@ -14,7 +14,8 @@ def found(file, pattern):
 class Version(unittest.TestCase):
     """The wheel of the Python module takes it from CMakeLists.txt."""
 
-    version = found("CMakeLists.txt", r"^project\(railcast VERSION (\d+\.\d+\.\d+) ")[0]
+    number = found("CMakeLists.txt", r"^project\(railcast VERSION (\d+\.\d+\.\d+) ")[0]
+    version = number + found("CMakeLists.txt", r'^set\(RAILCAST_PRERELEASE "(.*)"\)')[0]
 
     def test_the_citation_names_it(self):
         self.assertEqual(found("CITATION.cff", r"^version: (.*)$"), [self.version])
@@ -24,7 +25,7 @@ class Version(unittest.TestCase):
 
     def test_examples_and_pages_ask_for_it(self):
         for file in ("examples/CMakeLists.txt", "docs/embedding.md", "docs/engine.md"):
-            self.assertEqual(found(file, r"find_package\(railcast (\S+) "), [self.version.rpartition(".")[0]], file)
+            self.assertEqual(found(file, r"find_package\(railcast (\S+) "), [self.number.rpartition(".")[0]], file)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
 #include <cstring>
@@ -8,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/trace/embree.h"
 #include "railcast/scene.h"
 #include "tests/support/ray_cast.h"
 
@@ -35,8 +35,8 @@ class PlainEmbree {
   [[nodiscard]] std::vector<RayHit> Cast(std::span<const Ray> rays) const {
     std::vector<RayHit> hits;
     for (const Ray& ray : rays) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
+      RayQueryContext context;
+      InitContext(context);
       RTCRayHit query{};
       query.ray.org_x = ray.origin_m.x();
       query.ray.org_y = ray.origin_m.y();
@@ -48,7 +48,7 @@ class PlainEmbree {
       query.ray.mask = ~0U;
       query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_, &context, &query);
+      RayQuery(context).Intersect1(scene_, query);
       hits.push_back({query.ray.tfar, query.hit.geomID + 1});  // The invalid id + 1 = 0.
     }
     return hits;

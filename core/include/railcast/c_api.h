@@ -33,7 +33,7 @@ extern "C" {
 /// it with their own.
 int railcast_c_api_version(void);
 
-/// Version of railcast, such as "0.1.0".
+/// Version of railcast, such as "1.0.0" or "1.0.0-rc.1".
 const char* railcast_version(void);
 
 enum railcast_status {

@@ -226,7 +226,7 @@ TEST(CApi, NamesOutcomesAndVersions) {
   EXPECT_STREQ(railcast_outcome_name(10), "cover_blocked");
   EXPECT_EQ(railcast_outcome_name(11), nullptr);
   EXPECT_EQ(railcast_c_api_version(), RAILCAST_C_API_VERSION);
-  EXPECT_THAT(railcast_version(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_THAT(railcast_version(), testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+(-rc\\.[0-9]+)?"));
 }
 
 }  // namespace
