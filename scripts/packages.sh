@@ -94,6 +94,7 @@ site_packages=(
   python3-breathe
   python3-myst-parser
   python3-sphinx
+  webp
 )
 
 # Called by the tests: independent readers and validators, and a tool that operates the viewer's

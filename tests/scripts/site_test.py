@@ -3,12 +3,15 @@
 Usage: site_test.py BUILD_DIR. Skipped where Sphinx or what else the script needs is absent.
 """
 
+import html
 import importlib.util
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import unittest
+from urllib.parse import unquote
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SKIPPED = 77  # For ctest.
@@ -39,6 +42,23 @@ class Site(unittest.TestCase):
         self.assertIn('"docs/effects"', index)
         self.assertIn("power_ratio", index)
 
+    def test_pictures_load_fast(self):
+        pictures = [path for path in (BUILD / "site/_images").iterdir() if path.suffix != ".svg"]
+        self.assertGreater(len(pictures), 30)
+        for picture in pictures:
+            self.assertEqual(picture.suffix, ".webp", picture)
+            self.assertLess(picture.stat().st_size, 200_000, picture)
+
+    def test_every_link_and_picture_leads_somewhere(self):
+        site = BUILD / "site"
+        pages = {path: path.read_text(encoding="utf-8") for path in site.rglob("*.html")}
+        self.assertGreater(len(pages), 80)
+        for page, text in pages.items():
+            for target in re.findall(r'(?:href|src)="([^"#?]+)', text):
+                if re.match(r"[a-z]+:", target):
+                    continue
+                self.assertTrue((page.parent / html.unescape(unquote(target))).exists(), f"{page}: {target}")
+
     def test_repairs_the_theme(self):
         self.assertNotIn("import Gumshoe", self.text("_static/scripts/furo.js"))
         self.assertIn("(prefers-color-scheme: dark)", self.text("_static/styles/furo.css"))
@@ -47,7 +67,7 @@ class Site(unittest.TestCase):
 if __name__ == "__main__":
     BUILD = pathlib.Path(sys.argv.pop())
     missing = [name for name in ("breathe", "furo", "myst_parser", "sphinx") if not importlib.util.find_spec(name)]
-    missing += [] if shutil.which("doxygen") else ["doxygen"]
+    missing += [name for name in ("cwebp", "doxygen") if not shutil.which(name)]
     if missing:
         print(f"skipped: no {', '.join(missing)} (site_packages of scripts/packages.sh)")
         sys.exit(SKIPPED)
