@@ -2,7 +2,7 @@
 
 // Embree 3 or 4, whichever is installed. They differ in how a query gets its arguments: RayQuery
 // hides it.
-#if __has_include(<embree4/rtcore.h>)
+#if __has_include(<embree4/rtcore.h>) && !defined(RAILCAST_EMBREE_3)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>

@@ -69,7 +69,8 @@ void RunSurroundings::EndFrames(const RunState& state) {
   const std::string progress = LiveProgress(state);
   line_.Show(progress);
   health_.Update(state);
-  manager_.SayAlive(progress);
+  manager_.SetStatus(progress);
+  manager_.SayAlive();
 }
 
 void RunSurroundings::SayCaptureFaults() {

@@ -23,14 +23,14 @@ ServiceManager::ServiceManager() : pause_ns_(5'000'000'000) {
 }
 
 void ServiceManager::SayReady() {
-  ::sd_notify(0, "READY=1\nSTATUS=making frames");
+  ::sd_notify(0, ("READY=1\nSTATUS=" + status_).c_str());
 }
 
-void ServiceManager::SayAlive(const std::string& status) {
+void ServiceManager::SayAlive() {
   const std::int64_t now_ns = SteadyNow_ns();
   if (now_ns - said_ns_ < pause_ns_) return;
   said_ns_ = now_ns;
-  ::sd_notify(0, ("WATCHDOG=1" + (status.empty() ? "" : "\nSTATUS=" + status)).c_str());
+  ::sd_notify(0, ("WATCHDOG=1\nSTATUS=" + status_).c_str());
 }
 
 void ServiceManager::SayStopping() {

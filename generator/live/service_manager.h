@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace railcast {
 
@@ -12,14 +13,16 @@ class ServiceManager {
   ServiceManager();
 
   void SayReady();
+  /// Sets the line that `systemctl status` shows from the next SayAlive() on that is passed on.
+  void SetStatus(std::string status) { status_ = std::move(status); }
   /// To be called often; the manager hears of it as often as its watchdog wants.
-  /// @param status One line that `systemctl status` shows; empty: keeps the one before.
-  void SayAlive(const std::string& status = {});
+  void SayAlive();
   void SayStopping();
 
  private:
   std::int64_t pause_ns_;
   std::int64_t said_ns_{};
+  std::string status_ = "making frames";
 };
 
 }  // namespace railcast

@@ -36,6 +36,9 @@ CONFIGURATION = {
 }
 
 
+TARGETS = ("railcast_python", "railcast-generate", "railcast-analyze", "railcast_manuals")
+
+
 def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
@@ -45,7 +48,7 @@ def build():
     folder = ROOT / "build" / "python"
     settings = [f"-D{name}={value}" for name, value in CONFIGURATION.items()]
     run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", *settings)
-    run("cmake", "--build", folder, "--target", "railcast_python", "railcast-generate", "railcast-analyze")
+    run("cmake", "--build", folder, "--target", *TARGETS)
     return folder
 
 
@@ -122,6 +125,9 @@ def gather(build_folder, tree):
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Called by pip."""
     del metadata_directory
+    for tool in ("patchelf", "strip", "readelf"):
+        if not shutil.which(tool):
+            raise FileNotFoundError(f"{tool} is needed to make a wheel (Debian: patchelf, binutils)")
     folder = (config_settings or {}).get("build-dir") or build()
     table = project()
     with tempfile.TemporaryDirectory() as name:

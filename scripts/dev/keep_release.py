@@ -71,9 +71,11 @@ def main():
     build = pathlib.Path(sys.argv[1]).resolve()
     said = run(build / "generator/railcast-generate", "--version")
     version = re.match(r"railcast (\d+\.\d+\.\d+\S*?)(\+\S+)?$", said.strip())
-    if "dirty" in said:
+    if version is None or "dirty" in said:
         sys.exit(f"{build} was not built of a commit: {said}")
     folder = ROOT / "tests/releases" / version[1]
+    if folder.exists():
+        sys.exit(f"{folder} is there already")
     folder.mkdir(parents=True)
     keep(build, folder)
     print(folder, sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()), "bytes")

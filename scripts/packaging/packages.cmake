@@ -144,14 +144,19 @@ if(RAILCAST_BUILD_PYTHON)
  training programs."
     DEPENDS python3-numpy "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})"
             "python3 (<< ${Python_VERSION_MAJOR}.${next_python})"
+    RECOMMENDS railcast  # Has the scenarios.
     SCRIPTS ${packaging}/python/postinst ${packaging}/python/prerm
     COMPONENTS python)
+endif()
+set(assimp_package "")
+if(RAILCAST_BUILD_ASSIMP)
+  set(assimp_package libassimp-dev)
 endif()
 railcast_package(
   railcast-dev libdevel "LiDAR simulation for railways: libraries
  Headers, libraries and CMake files of railcast's core for programs in C++, of
  its files and streams, and of its interface for programs in C."
-  DEPENDS libeigen3-dev libembree-dev libopenmesh-dev libtbb-dev
+  DEPENDS libeigen3-dev libembree-dev libopenmesh-dev libtbb-dev ${assimp_package}
   RECOMMENDS libpcl-dev libjpeg-dev liblz4-dev libpcap-dev libpng-dev libsqlite3-dev libssl-dev libxxhash-dev
              libyaml-cpp-dev libzstd-dev zlib1g-dev
   COMPONENTS core c io)

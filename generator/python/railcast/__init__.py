@@ -17,9 +17,11 @@ from .dataset import Dataset
 
 def _folder_of_scenarios():
     here = pathlib.Path(__file__).resolve().parent
-    # In a wheel, where the package is installed below /usr or /usr/local, and among the sources.
-    places = here / "scenarios", here.parents[3] / "share" / "railcast" / "scenarios", here.parents[2] / "scenarios"
-    return next((place for place in places if place.is_dir()), places[1])
+    # In a wheel; where the package is installed below /usr or /usr/local; among the sources.
+    places = [here / "scenarios"]
+    if len(here.parents) > 3:
+        places += [here.parents[3] / "share" / "railcast" / "scenarios", here.parents[2] / "scenarios"]
+    return next((place for place in places if place.is_dir()), places[0])
 
 
 SCENARIOS: pathlib.Path = _folder_of_scenarios()

@@ -61,8 +61,9 @@ class Service(unittest.TestCase):
         self.assertNotIn("WATCHDOG=1", self.hear("READY=1")[:-2])
         # The watchdog wants to hear of it every 0.3 s.
         begin = time.monotonic()
-        for _ in range(8):
-            self.hear("WATCHDOG=1")
+        statuses = [line for _ in range(8) for line in self.hear("WATCHDOG=1") if line.startswith("STATUS=")]
+        self.assertEqual(len(statuses), 8)
+        self.assertRegex(statuses[-1], r"^STATUS=[\d.]+ s, [1-9]\d* frames, \d+ late")
         self.assertLess(time.monotonic() - begin, PATIENCE_S / 4)
         status, line = get(port, "/health")
         self.assertEqual(status, 200)
