@@ -150,7 +150,7 @@ if(RAILCAST_BUILD_PYTHON)
 endif()
 set(assimp_package "")
 if(RAILCAST_BUILD_ASSIMP)
-  set(assimp_package libassimp-dev)
+  set(assimp_package libassimp-dev zlib1g-dev)  # The former names the latter's library.
 endif()
 railcast_package(
   railcast-dev libdevel "LiDAR simulation for railways: libraries
@@ -158,7 +158,7 @@ railcast_package(
  its files and streams, and of its interface for programs in C."
   DEPENDS libeigen3-dev libembree-dev libopenmesh-dev libtbb-dev ${assimp_package}
   RECOMMENDS libpcl-dev libjpeg-dev liblz4-dev libpcap-dev libpng-dev libsqlite3-dev libssl-dev libxxhash-dev
-             libyaml-cpp-dev libzstd-dev zlib1g-dev
+             libyaml-cpp-dev libzstd-dev
   COMPONENTS core c io)
 
 include(CPack)

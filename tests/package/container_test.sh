@@ -5,7 +5,7 @@
 set -euo pipefail
 source_dir=$1 build=$2 work=$3
 containerfile=$source_dir/scripts/packaging/Containerfile
-root=$(dirname "$work")/debian/root
+debian=$(dirname "$work")/debian/debian.tar
 
 fail() {
   echo "failed: $*" >&2
@@ -24,7 +24,7 @@ if [[ -x "$linter" ]]; then
 fi
 
 export BUILDAH_ISOLATION=chroot STORAGE_DRIVER=vfs
-if ((EUID == 0)) && command -v buildah >/dev/null && [[ -d "$root/usr/bin" ]]; then
+if ((EUID == 0)) && command -v buildah >/dev/null && [[ -e "$debian" ]]; then
   rm -rf "$work"
   mkdir -p "$work/context/scripts/packaging" "$work/context/packages"
   buildah="buildah --root $work/storage --runroot $work/run"
@@ -38,8 +38,7 @@ if ((EUID == 0)) && command -v buildah >/dev/null && [[ -d "$root/usr/bin" ]]; t
 
   base=$($buildah from scratch) || fail "buildah makes no container"
   mounted=$($buildah mount "$base")
-  tar -C "$root" --exclude='./proc/*' --exclude='./dev/*' --exclude=./packages --exclude='./root/*' -c . |
-    tar -C "$mounted" -x
+  tar -C "$mounted" --exclude="./dev/*" -xf "$debian"
   $buildah umount "$base" >/dev/null
   $buildah commit -q "$base" docker.io/library/debian:bookworm-slim >/dev/null
   $buildah bud --pull=never -f "$work/context/Containerfile" -t railcast "$work/context" >"$work/build.log" 2>&1 ||

@@ -40,6 +40,7 @@ done
 
 debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$work/debootstrap.log" 2>&1 ||
   skip "debootstrap: $(tail -1 "$work/debootstrap.log")"
+tar -C "$root" --exclude='./var/cache/apt/archives/*' -cf "$work/debian.tar" .  # For container_test.sh.
 mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" ||
   skip "nothing can be mounted here"
 mkdir "$root/packages"
