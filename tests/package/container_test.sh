@@ -36,8 +36,10 @@ if ((EUID == 0)) && command -v buildah >/dev/null && [[ -e "$debian" ]]; then
     sed -n '/^FROM .*bookworm-slim/,$p' "$containerfile"
   } >"$work/context/Containerfile"
 
-  base=$($buildah from scratch) || fail "buildah makes no container"
-  mounted=$($buildah mount "$base")
+  base=$($buildah from scratch) && mounted=$($buildah mount "$base") || {
+    echo "skipped: buildah may not make containers here"
+    exit 77
+  }
   tar -C "$mounted" --exclude="./dev/*" -xf "$debian"
   $buildah umount "$base" >/dev/null
   $buildah commit -q "$base" docker.io/library/debian:bookworm-slim >/dev/null

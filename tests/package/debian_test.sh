@@ -5,6 +5,10 @@
 set -euo pipefail
 # The mounts below vanish with this process, however it ends.
 if [[ -z "${RAILCAST_OWN_MOUNTS:-}" ]] && ((EUID == 0)); then
+  if ! unshare --mount true 2>/dev/null; then
+    echo "skipped: no mounts of its own are allowed here"
+    exit 77
+  fi
   RAILCAST_OWN_MOUNTS=yes exec unshare --mount "$0" "$@"
 fi
 source_dir=$1 build=$2 work=$3
