@@ -1,4 +1,3 @@
-
 #include "analysis/commands.h"
 
 namespace {

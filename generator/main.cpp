@@ -1,4 +1,3 @@
-
 #include "generator/commands.h"
 
 namespace {

@@ -24,6 +24,9 @@ import zipfile
 import wheel_libraries
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAMS = ("railcast-generate", "railcast-analyze")
+# The manual pages are installed with the programs.
+TARGETS = ("railcast_python", *PROGRAMS, "railcast_manuals")
 CONFIGURATION = {
     "CMAKE_BUILD_TYPE": "Release",
     "CMAKE_UNITY_BUILD": "ON",
@@ -34,9 +37,6 @@ CONFIGURATION = {
     "RAILCAST_BUILD_TESTS": "OFF",
     "RAILCAST_BUILD_BENCHMARKS": "OFF",
 }
-
-
-TARGETS = ("railcast_python", "railcast-generate", "railcast-analyze", "railcast_manuals")
 
 
 def run(*command):
@@ -60,9 +60,6 @@ def project():
     # PEP 440 writes 1.0.0-rc.1 as 1.0.0rc1.
     version += re.search(r'set\(RAILCAST_PRERELEASE "(.*)"\)', text)[1].replace("-rc.", "rc")
     return {**table, "version": version}
-
-
-PROGRAMS = ("railcast-generate", "railcast-analyze")
 
 
 def tag(binaries):
