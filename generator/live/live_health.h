@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "core/io/net/http_server.h"
+#include "generator/live/live_clock.h"
 #include "generator/live/live_run.h"
 
 namespace railcast {
@@ -27,11 +27,7 @@ class LiveHealth {
   using Now = std::function<std::int64_t()>;
 
   /// @param now_ns A clock that never goes back.
-  explicit LiveHealth(Now now_ns = [] {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  });
+  explicit LiveHealth(Now now_ns = [] { return MonotonicClock().NowNs(); });
 
   /// Frames are made from now on.
   void Begin();

@@ -3,17 +3,10 @@
 #include <systemd/sd-daemon.h>
 
 #include <algorithm>
-#include <chrono>
+
+#include "generator/live/live_clock.h"
 
 namespace railcast {
-namespace {
-
-std::int64_t SteadyNow_ns() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
-}  // namespace
 
 ServiceManager::ServiceManager() : pause_ns_(5'000'000'000) {
   std::uint64_t watchdog_us = 0;
@@ -27,7 +20,7 @@ void ServiceManager::SayReady() {
 }
 
 void ServiceManager::SayAlive() {
-  const std::int64_t now_ns = SteadyNow_ns();
+  const std::int64_t now_ns = MonotonicClock().NowNs();
   if (now_ns - said_ns_ < pause_ns_) return;
   said_ns_ = now_ns;
   ::sd_notify(0, ("WATCHDOG=1\nSTATUS=" + status_).c_str());
