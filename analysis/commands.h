@@ -22,6 +22,8 @@ namespace railcast {
 
 /// Reports dropout, density, noise, intensity and coverage of recordings, ours or foreign.
 void AddStats(CLI::App& app, ProgramCommand& command);
+/// Writes what a reader of a data set must know before using it.
+void AddCard(CLI::App& app, ProgramCommand& command);
 /// Measures how far two recordings are apart, or what each effect of a scenario changes.
 void AddCompare(CLI::App& app, ProgramCommand& command);
 /// Compares the distance at which objects are detected with the distance a train needs to stop.

@@ -6,6 +6,7 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
   app.require_subcommand(1);
   app.fallthrough();
   railcast::AddStats(app, command);
+  railcast::AddCard(app, command);
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);
   railcast::AddEvaluate(app, command);

@@ -14,7 +14,7 @@ using PairOfPatches = PatchPairs::Pair;
 using PatchList = std::vector<Patch> PairOfPatches::*;
 
 // Forests of so many patches grow within seconds; more would hardly narrow the intervals.
-constexpr std::size_t kMaxPatches = 24'000;
+constexpr std::size_t kMostPatchesKept = 24'000;
 
 std::uint64_t CountPatches(const std::vector<PairOfPatches>& pairs, PatchList list) {
   std::uint64_t num = 0;
@@ -94,7 +94,7 @@ ToldApart::Feature DescribedFeature(const PatchPairs& patches,
 void PatchPairs::Add(Pair pair) {
   if (num_seen_++ % stride_ != 0) return;
   pairs_.push_back(std::move(pair));
-  if (num_a() + num_b() <= kMaxPatches) return;
+  if (num_a() + num_b() <= kMostPatchesKept) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < pairs_.size(); i += 2) std::swap(pairs_[kept++], pairs_[i]);
   pairs_.resize(kept);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/dossier/dossier_sections.h"
+#include "analysis/limits/limit_sections.h"
 #include "analysis/study/study_factors.h"
 #include "analysis/study/study_report.h"
 #include "analysis/study/study_targets.h"

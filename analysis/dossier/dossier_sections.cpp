@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "analysis/report/processor.h"
@@ -10,28 +9,7 @@
 
 namespace railcast {
 
-extern const char* const kLimits;
 extern const char* const kCredibility;
-
-Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector) {
-  std::set<std::string> rungs;
-  for (const ScenarioSpec& scenario : sample) rungs.emplace(NameOf(scenario.fidelity));
-  Table table;
-  table.key = "limits";
-  table.title = "What differs from reality";
-  table.note = "On the rungs that the study used; docs/effects.md and docs/world.md have the rest.";
-  table.is_open = true;
-  table.columns = {
-      {"real", "In reality", ""}, {"model", "Modelled", ""}, {"errs", "Which way it errs", ""}};
-  for (const Json& row : Json::parse(kLimits)) {
-    const bool is_due = std::ranges::any_of(
-        row.at("rungs"), [&](const Json& rung) { return rungs.contains(rung.get<std::string>()); });
-    if (!is_due || (has_detector && row.value("without_detector", false))) continue;
-    table.rows.push_back({row.at("real").get<std::string>(), row.at("model").get<std::string>(),
-                          row.at("errs").get<std::string>()});
-  }
-  return {.key = "limits", .title = "What is not modelled", .tables = {std::move(table)}};
-}
 
 Section CredibilitySection() {
   Table table;

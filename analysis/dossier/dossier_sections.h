@@ -16,14 +16,6 @@ namespace railcast {
 [[nodiscard]] Section ScopeSection(const FinishedStudy& study,
                                    const std::vector<ScenarioSpec>& sample);
 
-/// For each sensor of the sample whether it is a preset that was compared with recordings, and with
-/// which result.
-[[nodiscard]] Section SensorSection(const std::vector<ScenarioSpec>& sample);
-
-/// What the sample's rungs do not model, and which way that errs.
-/// @param has_detector Whether the study has one; otherwise points on objects are counted.
-[[nodiscard]] Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector);
-
 /// The questions that rules on simulations ask, with their answers or as open.
 [[nodiscard]] Section CredibilitySection();
 

@@ -22,6 +22,10 @@ namespace railcast {
 /// Text for the terminal: everything but the charts, with tables in aligned columns.
 [[nodiscard]] std::string ReportText(const Report& report);
 
+/// Markdown for the README of a folder that has the report's charts/ and csv/ beside it. Tables
+/// that are not open are links to their files.
+[[nodiscard]] std::string ReportMarkdown(const Report& report);
+
 /// The headlines only, one per line.
 [[nodiscard]] std::string HeadlinesText(const Report& report);
 

@@ -161,24 +161,36 @@ void ReadReport(const PlacedJson& report, DatasetOverview& overview) {
   overview.frames_by_sensor = report.CountsOf("frames_by_sensor", num_frames);
 }
 
-}  // namespace
-
-DatasetOverview ReadDatasetOverview(const fs::path& directory) {
+// Calls a function with the content of manifest.json and returns its result.
+template <typename Use>
+auto ReadDatasetManifest(const fs::path& directory, const Use& use) {
   const fs::path file = directory / kDatasetManifestFile;
   const std::string manifest = ReadFileWhole(file);
   CheckManifestHash(manifest, ShownPath(file));
-  DatasetOverview overview;
-  overview.source = directory;
-  const auto hash = ReadRecordedJson<StrictJson>(
-      manifest, ShownPath(file), [&](const StrictJson& json) -> std::string {
-        overview.num_scenarios = json.at("num_scenarios");
-        overview.num_frames = json.at("num_frames");
-        overview.num_points = json.at("points");
-        overview.data_hash = json.at("data_xxh3");
-        return json.at("files_xxh3").at(std::string(kReportFile));
-      });
-  const std::string report =
-      ReadHashedFile(directory, {std::string(kReportFile), hash, {}}, kDatasetManifestFile);
+  return ReadRecordedJson<StrictJson>(manifest, ShownPath(file), use);
+}
+
+}  // namespace
+
+std::string ReadDatasetFile(const fs::path& directory, std::string_view name) {
+  const std::string file(name);
+  const auto hash = ReadDatasetManifest(directory, [&](const StrictJson& json) -> std::string {
+    return json.at("files_xxh3").at(file);
+  });
+  return ReadHashedFile(directory, {file, hash, {}}, kDatasetManifestFile);
+}
+
+DatasetOverview ReadDatasetOverview(const fs::path& directory) {
+  auto overview = ReadDatasetManifest(directory, [&](const StrictJson& json) {
+    DatasetOverview counted;
+    counted.source = directory;
+    counted.data_hash = json.at("data_xxh3");
+    counted.num_scenarios = json.at("num_scenarios");
+    counted.num_frames = json.at("num_frames");
+    counted.num_points = json.at("points");
+    return counted;
+  });
+  const std::string report = ReadDatasetFile(directory, kReportFile);
   const std::string place = ShownPath(directory / kReportFile);
   return ReadRecordedJson<StrictOrderedJson>(report, place, [&](const StrictOrderedJson& json) {
     ReadReport({json, place}, overview);

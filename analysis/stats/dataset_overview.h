@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,12 @@ struct DatasetOverview {
 /// @throws InputError with one line if a file cannot be read, has changed since it was written, or
 ///   is not what railcast-generate writes.
 [[nodiscard]] DatasetOverview ReadDatasetOverview(const std::filesystem::path& directory);
+
+/// Reads a file that is named in a finished data set's manifest.json.
+/// @param name Relative to the data set: "recipe.json".
+/// @throws InputError as ReadDatasetOverview() does.
+[[nodiscard]] std::string ReadDatasetFile(const std::filesystem::path& directory,
+                                          std::string_view name);
 
 /// The section of a data set: balance of its classes, objects by type, distance and occlusion,
 /// weathers, parts, bases and sensors. Defined in dataset_section.cpp.

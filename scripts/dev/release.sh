@@ -2,8 +2,8 @@
 # Makes a release of the present commit, or says what stands against it: release.sh [--check].
 #
 # Checks that nothing is uncommitted, that CHANGELOG.md, CITATION.cff and docs/results.json are of the version, and that
-# what the release before wrote is kept in tests/releases; runs all tests; makes packages, wheel and site in
-# out/release, with their sums; and sets the tag. --check stops after the checks, which take a second.
+# what the release before wrote is kept in tests/releases; runs all tests; makes packages, wheel, samples and site
+# in out/release, with their sums; and sets the tag. --check stops after the checks, which take a second.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -41,6 +41,8 @@ mkdir -p "$out"
 cp build/package/packages/*.deb "$out"
 python=/usr/bin/python3
 "$python" -m pip wheel . --no-deps --no-index --config-settings build-dir="$PWD/build/package" --wheel-dir "$out"
+scripts/make_samples.sh build/package
+tar -C out -czf "$out/railcast-$version-samples.tar.gz" samples
 scripts/make_site.sh build/package
 tar -C build/package -czf "$out/railcast-$version-site.tar.gz" site
 git archive --prefix "railcast-$version/" -o "$out/railcast-$version.tar.gz" HEAD

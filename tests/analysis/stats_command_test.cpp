@@ -13,6 +13,7 @@
 #include "core/io/image/png.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
+#include "tests/analysis/made_dataset.h"
 #include "tests/core/io/damage.h"
 
 namespace railcast {
@@ -255,21 +256,6 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
     EXPECT_NO_THROW(static_cast<void>(JsonTableOf(roof, table))) << table;
     EXPECT_THROW(static_cast<void>(JsonTableOf(both, table)), std::out_of_range) << table;
   }
-}
-
-// A data set of three scenarios of two frames.
-std::filesystem::path MakeSmallDataset(const TemporaryFolder& folder, const std::string& options) {
-  const auto recipe = folder.Write(
-      "recipe.json", R"({"version": 1, "num_scenarios": 3, "num_frames": 2, "bases": [{"file": ")" +
-                         (ScenariosDir() / "minimal.json").string() +
-                         R"("}], "set": {"/lidar/scan/pattern/angular_resolution_deg": 1.0,
-                           "/world/vegetation/trees_per_hectare": 0,
-                           "/world/vegetation/grass": false}})");
-  const auto out = recipe.parent_path() / "set";
-  const Ended run = RunCommand(RAILCAST_GENERATE " dataset " + recipe.string() + " --out " +
-                               out.string() + " " + options);
-  if (run.status != 0) throw std::runtime_error(run.said);
-  return out;
 }
 
 Json StatsOf(const std::filesystem::path& source, const std::filesystem::path& out) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "analysis/dossier/dossier_sections.h"
+#include "analysis/limits/limit_sections.h"
 #include "analysis/report/processor.h"
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "analysis/dossier/dossier_sections.h"
+#include "analysis/limits/limit_sections.h"
 #include "core/io/sensor_tables.h"
 #include "core/scenario/json_text.h"
 

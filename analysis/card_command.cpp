@@ -1,0 +1,77 @@
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "analysis/card/dataset_card.h"
+#include "analysis/commands.h"
+#include "analysis/report/formats.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/run/run_folder.h"
+#include "core/io/write_file.h"
+#include "core/program/version.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCardFile = "README.md";
+
+struct CardOptions {
+  fs::path dataset;
+  std::string licence;
+  ReportOutput output;
+};
+
+// A data set holds what its manifest names and nothing else.
+void CheckIsOutside(const fs::path& out, const fs::path& dataset) {
+  const fs::path inner = fs::weakly_canonical(out);
+  const fs::path outer = fs::weakly_canonical(dataset);
+  if (std::ranges::mismatch(outer, inner).in1 != outer.end()) return;
+  throw InputError("--out: must be outside the data set, which holds nothing but its own files" +
+                   std::string(" (got ") + ShownPath(out) + ")");
+}
+
+int RunCard(const CardOptions& options, const std::string& command_line) {
+  const fs::path& out = options.output.out;
+  if (!out.empty()) CheckIsOutside(out, options.dataset);
+  Report report = MakeDatasetCard(options.dataset, options.licence, command_line);
+  for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
+  if (!out.empty()) {
+    MakeFolders(out);
+    WriteFileWhole(out / kCardFile, ReportMarkdown(report));
+  }
+  EmitReport(report, options.output, "card");
+  if (!out.empty() && !options.output.is_json) {
+    std::cout << kCardFile << " in " << ShownPath(out) << "\n" << std::flush;
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddCard(CLI::App& app, ProgramCommand& command) {
+  const auto options = std::make_shared<CardOptions>();
+  CLI::App* card = app.add_subcommand(
+      "card",
+      "Write the card of a data set: pictures, parts, classes, recipe, licence and limits, as "
+      "README.md and page");
+  card->add_option("DATASET", options->dataset,
+                   "Folder that railcast-generate dataset or merge made, whole and finished")
+      ->required()
+      ->check(NonEmpty());
+  card->add_option("--licence", options->licence,
+                   "Licence under which the data set is given away, such as CC-BY-4.0")
+      ->check(NonEmpty());
+  AddReportOptions(*card, options->output);
+  card->callback([&command, options] {
+    command = [options](const std::string& line) { return RunCard(*options, line); };
+  });
+}
+
+}  // namespace railcast
