@@ -120,6 +120,8 @@ test_packages=(
   python3-pip
   python3-venv
   python3-yaml
+  qemu-user  # Stands for a processor without AVX.
+  strace  # Stands for an old kernel.
   tshark
   xdotool
 )
@@ -130,6 +132,27 @@ check_packages=(
   clang-format-14
   clang-tidy-14
   git
+)
+
+# Called by scripts/dev/arm64.sh.
+cross_packages=(
+  g++-aarch64-linux-gnu
+  mmdebstrap
+  qemu-user
+)
+
+# What the core alone is compiled with, and its tests, for another processor by scripts/dev/arm64.sh.
+core_packages=(
+  libc6-dev
+  libeigen3-dev
+  libembree-dev
+  libgmock-dev
+  libgtest-dev
+  libopenmesh-dev
+  librandom123-dev
+  libstdc++-12-dev
+  libtbb-dev
+  nlohmann-json3-dev
 )
 
 # Built into railcast-peers by scripts/dev/compare_peers.sh.
