@@ -6,11 +6,13 @@
 #include <memory>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "core/trace/beam_kernels.h"
 #include "core/trace/trace_scene.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/recorded_bytes.h"
 
 namespace railcast {
 namespace {
@@ -57,16 +59,19 @@ RayTile TileOf(const BeamRays& beam) {
   return tile;
 }
 
+// Draws stand in braces, where their order is that of the text: arguments in parentheses are
+// evaluated in any order, which differs between processors.
+
 /// Triangles of up to `size_m` in a ball of 1 m.
 Mesh Confetti(int num, float size_m, std::mt19937& random) {
   std::uniform_real_distribution<float> uniform(-1.0F, 1.0F);
   Mesh mesh;
   for (int i = 0; i < num; ++i) {
-    const Eigen::Vector3f middle(uniform(random), uniform(random), uniform(random));
+    const Eigen::Vector3f middle{uniform(random), uniform(random), uniform(random)};
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     for (int corner = 0; corner < 3; ++corner) {
       mesh.vertices.push_back(
-          middle + size_m * Eigen::Vector3f(uniform(random), uniform(random), uniform(random)));
+          middle + size_m * Eigen::Vector3f{uniform(random), uniform(random), uniform(random)});
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
@@ -93,9 +98,9 @@ class Clouds {
       TracePlacement placement{model, {}, surface};
       surface += 2;
       const Eigen::Vector3d at =
-          30.0 * Eigen::Vector3d(uniform(random), uniform(random), 0.3 * uniform(random));
+          30.0 * Eigen::Vector3d{uniform(random), uniform(random), 0.3 * uniform(random)};
       const Eigen::Vector3d axis =
-          Eigen::Vector3d(uniform(random), uniform(random), uniform(random)).normalized();
+          Eigen::Vector3d{uniform(random), uniform(random), uniform(random)}.normalized();
       const int num_steps = i % 3 == 0 ? 3 : 1;
       for (int step = 0; step < num_steps; ++step) {
         Eigen::Affine3d place = Eigen::Affine3d::Identity();
@@ -164,7 +169,7 @@ TEST(TraceBeam, HitsWhatEmbreeHits) {
     }
   }
   EXPECT_GT(num, 1'000'000U);
-  EXPECT_GT(num_hits, num / 4);
+  EXPECT_GT(num_hits, num / 5);
   // Rays within rounding of an edge: measured 1.3e-5.
   EXPECT_LT(static_cast<double>(num_different), 5e-5 * static_cast<double>(num));
 }
@@ -172,9 +177,15 @@ TEST(TraceBeam, HitsWhatEmbreeHits) {
 TEST(TraceBeam, GivesTheSameBytesOnEveryInstructionSet) {
   const Clouds clouds;
   const std::vector<BeamKernel>& kernels = AvailableBeamKernels();
+  std::string aims, ranges;
+  const auto append = [](const auto& values, std::string& bytes) {
+    bytes.append(reinterpret_cast<const char*>(&values), sizeof values);
+  };
   for (BeamRays& beam : BeamsAround(500)) {
     BeamRays first = beam;
+    append(beam.direction_x, aims);
     clouds.scene().CastBeamWith(kernels.front(), first);
+    append(first.range_m, ranges);
     for (const BeamKernel& kernel : kernels) {
       BeamRays other = beam;
       clouds.scene().CastBeamWith(kernel, other);
@@ -186,6 +197,8 @@ TEST(TraceBeam, GivesTheSameBytesOnEveryInstructionSet) {
       }
     }
   }
+  RecordBytes("aims", aims);
+  RecordBytes("ranges", ranges);
 }
 
 /// `num` plates of 1 m behind each other from 20 m on, the nearest last in the mesh. Each has its
@@ -250,16 +263,24 @@ struct OnlyRays final : RayCaster {
 TEST(TraceBeam, OfAHostThatKnowsRaysOnlyGivesTheSameFacets) {
   const Clouds clouds;
   const OnlyRays host(clouds.scene());
+  std::size_t num = 0;
+  std::size_t num_different = 0;
   for (BeamRays& beam : BeamsAround(300)) {
     BeamRays ours = beam;
     clouds.scene().CastBeam(ours);
     host.CastBeam(beam);
     ASSERT_EQ(beam.num_rays, kNumSubRays);
     for (std::size_t i = 0; i < ours.num_rays; ++i) {
-      ASSERT_EQ(ours.facets[ours.facet[i]].surface, beam.facets[beam.facet[i]].surface);
-      ASSERT_NEAR(ours.range_m[i], beam.range_m[i], 1e-3F);
+      ++num;
+      const bool is_same =
+          ours.facets[ours.facet[i]].surface == beam.facets[beam.facet[i]].surface &&
+          std::fabs(ours.range_m[i] - beam.range_m[i]) < 1e-3F;
+      num_different += is_same ? 0U : 1U;
     }
   }
+  EXPECT_EQ(num, 300 * kNumSubRays);
+  // Rays within rounding of an edge, as above: a quarter of one is expected.
+  EXPECT_LE(num_different, 2U);
 }
 
 TEST(TraceBeam, LeavesBeamsAloneInAnEmptyScene) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/recorded_bytes.h"
 
 namespace railcast {
 namespace {
@@ -94,6 +95,8 @@ TEST(TraceScene, RangesAloneObeyTheMaskToo) {
   scene.scene.Cast(full);
   scene.scene.CastRanges(ranges);
   EXPECT_TRUE(std::equal(full.range_m, full.range_m + kTileSize, ranges.range_m));
+  RecordBytesOf("aims", full.direction_x);
+  RecordBytesOf("ranges", full.range_m);
 }
 
 /// Random leaves of some 0.3 m between 5 and 15 m ahead.
@@ -101,7 +104,7 @@ Model Leaves(bool is_foliage) {
   std::mt19937 dice(7);
   std::uniform_real_distribution<float> unit(-1.0F, 1.0F);
   const auto point = [&](float size_m) -> Eigen::Vector3f {
-    return Eigen::Vector3f(unit(dice), unit(dice), unit(dice)) * size_m;
+    return Eigen::Vector3f{unit(dice), unit(dice), unit(dice)} * size_m;
   };
   Mesh leaves;
   constexpr std::uint32_t kNumLeaves = 3000;

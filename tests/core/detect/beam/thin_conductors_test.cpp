@@ -61,9 +61,9 @@ std::unique_ptr<RayTile> ScatteredRays() {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;
   for (std::size_t i = 0; i < kTileSize; ++i) {
-    const Vector3 origin_m(normal(engine), normal(engine), normal(engine));
+    const Vector3 origin_m{normal(engine), normal(engine), normal(engine)};
     SetRay(*rays, i, origin_m,
-           Vector3(normal(engine), normal(engine), normal(engine)).normalized());
+           Vector3{normal(engine), normal(engine), normal(engine)}.normalized());
   }
   return rays;
 }
@@ -85,8 +85,8 @@ WireSet MakeWires() {
   std::mt19937 engine(5);
   std::normal_distribution<double> normal(0.0, 15.0);
   for (int i = 0; i < 200; ++i) {
-    const Vector3 begin_m(normal(engine), normal(engine), normal(engine));
-    const Vector3 run_m(normal(engine), normal(engine), normal(engine));
+    const Vector3 begin_m{normal(engine), normal(engine), normal(engine)};
+    const Vector3 run_m{normal(engine), normal(engine), normal(engine)};
     wires.Add({begin_m, begin_m + 0.3 * run_m, begin_m + 0.5 * run_m}, 6e-3, 4);
   }
   return wires;

@@ -20,6 +20,7 @@
 #include "core/detect/kernels/surface_response.h"
 #include "core/detect/kernels/threshold.h"
 #include "railcast/outcome.h"
+#include "tests/support/recorded_bytes.h"
 
 namespace railcast {
 namespace {
@@ -66,6 +67,7 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   const auto& all = AvailableKernels();
   const auto expected = MixedTile();
   RunAll(all.front(), *expected);
+  RecordBytesOf("tile", *expected);
   for (const Kernels& kernels : all) {
     const auto tile = MixedTile();
     RunAll(kernels, *tile);
@@ -168,6 +170,10 @@ TEST(Kernels, OfPhysicsGiveTheSameBitsOnEveryInstructionSet) {
   const auto expected_rays = MixedRays();
   const auto expected = MixedPhysicalTile();
   const auto expected_values = RunPhysics(all.front(), *expected_rays, *expected);
+  RecordBytesOf("rays", *expected_rays);
+  RecordBytesOf("tile", *expected);
+  RecordBytes("values", {reinterpret_cast<const char*>(expected_values.data()),
+                         expected_values.size() * sizeof(float)});
   for (const Kernels& kernels : all) {
     const auto rays = MixedRays();
     const auto tile = MixedPhysicalTile();
