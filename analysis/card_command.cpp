@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -28,18 +27,23 @@ struct CardOptions {
   ReportOutput output;
 };
 
-// A data set holds what its manifest names and nothing else.
-void CheckIsOutside(const fs::path& out, const fs::path& dataset) {
-  const fs::path inner = fs::weakly_canonical(out);
-  const fs::path outer = fs::weakly_canonical(dataset);
-  if (std::ranges::mismatch(outer, inner).in1 != outer.end()) return;
-  throw InputError("--out: must be outside the data set, which holds nothing but its own files" +
-                   std::string(" (got ") + ShownPath(out) + ")");
+void CheckOut(const fs::path& out, const fs::path& dataset) {
+  // A data set holds what its manifest names and nothing else.
+  if (IsInFolder(out, dataset)) {
+    throw InputError(
+        "--out: must be outside the data set, which holds nothing but its own files (got " +
+        ShownPath(out) + ")");
+  }
+  // People write files of this name, too.
+  const fs::path readme = out / kCardFile;
+  if (fs::exists(readme) && !ReadFileWhole(readme).starts_with("# Data set ")) {
+    throw InputError(ShownPath(readme) + ": must be a card, which is replaced, or not be there");
+  }
 }
 
 int RunCard(const CardOptions& options, const std::string& command_line) {
   const fs::path& out = options.output.out;
-  if (!out.empty()) CheckIsOutside(out, options.dataset);
+  if (!out.empty()) CheckOut(out, options.dataset);
   Report report = MakeDatasetCard(options.dataset, options.licence, command_line);
   for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
   if (!out.empty()) {

@@ -125,7 +125,8 @@ Report MakeDatasetCard(const fs::path& dataset,
                        const std::string& licence,
                        const std::string& command) {
   if (!IsDataset(dataset)) {
-    throw InputError(ShownPath(dataset) + ": must be a data set of railcast-generate dataset");
+    throw InputError(ShownPath(dataset) +
+                     ": must be a data set that railcast-generate dataset made, with frames");
   }
   const DatasetContent content = ReadDatasetContent(dataset);
   if (!content.shard.is_whole()) {
@@ -137,7 +138,7 @@ Report MakeDatasetCard(const fs::path& dataset,
   const SeenScenarios seen = LookAtScenarios(sequences);
   Report report;
   // A path that ends in a slash has an empty last component.
-  report.title = "Data set " + ShownText((fs::weakly_canonical(dataset)).filename().string());
+  report.title = "Data set " + ShownText(fs::weakly_canonical(dataset).filename().string());
   report.command = command;
   report.facts = {{"Licence", licence.empty() ? "not stated" : ShownText(licence)},
                   {"Data hash", overview.data_hash}};
@@ -148,7 +149,11 @@ Report MakeDatasetCard(const fs::path& dataset,
                      LicenceSection(licence, seen)};
   if (!seen.sample.empty()) {
     report.sections.push_back(SensorSection(seen.sample));
-    report.sections.push_back(LimitsSection(seen.sample, true));
+    Section limits = LimitsSection(seen.sample, true);
+    limits.paragraphs = {
+        "How it errs is told for a detector that is tested on these frames: one that detects too "
+        "late on them detects earlier in reality."};
+    report.sections.push_back(std::move(limits));
   }
   return report;
 }

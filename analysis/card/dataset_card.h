@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "analysis/report/report.h"
@@ -21,7 +20,7 @@ namespace railcast {
                                      const std::string& licence,
                                      const std::string& command);
 
-/// The section on the recipe: what it draws, and what the data set's bytes depend on.
+/// The section on the recipe: what it says, and what the data set's bytes depend on.
 /// @throws InputError with one line if recipe.json or dataset.json is damaged.
 [[nodiscard]] Section MadeOfSection(const std::filesystem::path& dataset);
 

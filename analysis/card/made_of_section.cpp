@@ -9,89 +9,96 @@
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/strict_json.h"
+#include "core/recipe/recipe.h"
 
 namespace railcast {
 namespace {
 
-// Words as they are, numbers and anything else as in JSON: "0, 40, 80".
+// Words as they are, and lists of words and numbers without brackets: "0, 40, 80".
 std::string ValueText(const StrictOrderedJson& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
   std::string text;
-  for (const auto& item : value) text += (text.empty() ? "" : ", ") + ValueText(item);
-  return text;
-}
-
-/// "uniform, min 5, max 25".
-std::string DrawText(const StrictOrderedJson& draw) {
-  if (!draw.is_object()) return ValueText(draw);
-  std::string text = draw.value("type", "");
-  for (const auto& [key, value] : draw.items()) {
-    if (key != "type") text += (text.empty() ? "" : ", ") + key + " " + ValueText(value);
+  for (const auto& item : value) {
+    if (item.is_structured()) return value.dump();
+    text += (text.empty() ? "" : ", ") + ValueText(item);
   }
   return text;
 }
 
-/// "open (weight 2), woods", or the families of a random weather.
-std::string GroupText(const StrictOrderedJson& group) {
-  if (group.contains("random_weather")) return "random " + ValueText(group["random_weather"]);
-  std::string text;
-  for (const auto& option : group.at("options")) {
-    text += (text.empty() ? "" : ", ") + option.at("name").get<std::string>();
-    if (option.contains("weight")) text += " (weight " + option["weight"].dump() + ")";
+/// A value for a scenario, a distribution, or an object to place: "uniform, min 5, max 25".
+std::string DrawText(const StrictOrderedJson& typed) {
+  if (!typed.is_object() || !typed.contains("type")) return ValueText(typed);
+  std::string text = ValueText(typed["type"]);
+  for (const auto& [key, value] : typed.items()) {
+    if (key != "type") text += ", " + key + " " + ValueText(value);
   }
   return text;
 }
 
-void AddDraws(const StrictOrderedJson& of, const std::string& prefix, Table& table) {
-  if (!of.contains("draws")) return;
-  for (const auto& [pointer, draw] : of["draws"].items()) {
-    table.rows.push_back({prefix + pointer, DrawText(draw)});
+void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Table& table);
+
+// An entry of a list, such as a group or a base, by its name or its file.
+void AddEntryRows(const StrictOrderedJson& entry, const std::string& path, Table& table) {
+  StrictOrderedJson rest = entry;
+  const char* const title = entry.contains("name") ? "name" : "file";
+  const std::string name = ValueText(entry.at(title));
+  rest.erase(title);
+  if (rest.empty()) {
+    table.rows.push_back({path, name});
+  } else {
+    AddRecipeRows(rest, path + ": " + name, table);
   }
 }
 
-Table DrawsTable(const StrictOrderedJson& recipe) {
-  Table table = {.key = "draws",
-                 .title = "What is set and drawn",
-                 .note = "In each scenario; docs/dataset.md has the meanings of the keys.",
-                 .columns = {{"what", "What", ""}, {"values", "Values", ""}},
-                 .is_open = true};
-  if (recipe.contains("set")) {
-    for (const auto& [pointer, value] : recipe["set"].items()) {
-      table.rows.push_back({pointer, ValueText(value)});
-    }
-  }
-  if (recipe.contains("groups")) {
-    for (const auto& group : recipe["groups"]) {
-      const std::string name = group.at("name");
-      table.rows.push_back({name, GroupText(group)});
-      if (!group.contains("options")) continue;
-      for (const auto& option : group["options"]) {
-        AddDraws(option, option.at("name").get<std::string>() + ": ", table);
+// A row for each value of the recipe.
+void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Table& table) {
+  if (value.is_object() && !value.contains("type")) {
+    for (const auto& [key, member] : value.items()) {
+      const std::string at = path.empty() ? key : path + ": " + key;
+      // What a JSON pointer leads to is part of a scenario.
+      if (key.starts_with('/')) {
+        table.rows.push_back({at, DrawText(member)});
+      } else {
+        AddRecipeRows(member, at, table);
       }
     }
+  } else if (value.is_array() && !value.empty() && value.front().is_object()) {
+    for (const auto& entry : value) AddEntryRows(entry, path, table);
+  } else {
+    table.rows.push_back({path, DrawText(value)});
   }
-  AddDraws(recipe, "", table);
-  if (recipe.contains("start_s_m")) {
-    table.rows.push_back({std::string("start_s_m"), DrawText(recipe["start_s_m"])});
-  }
-  if (!recipe.contains("objects")) return table;
-  for (const auto& object : recipe["objects"]) {
-    const std::string prefix = object.at("name").get<std::string>() + ": ";
-    for (const char* const key : {"count", "ahead_m", "gauge"}) {
-      if (object.contains(key)) table.rows.push_back({prefix + key, DrawText(object[key])});
-    }
-    AddDraws(object, prefix, table);
-  }
+}
+
+Table RecipeTable(const StrictOrderedJson& recipe) {
+  Table table = {.key = "recipe",
+                 .title = "What the recipe says",
+                 .note = "docs/dataset.md of railcast has the meanings of the keys.",
+                 .columns = {{"key", "Key", ""}, {"value", "Value", ""}},
+                 .is_open = true};
+  StrictOrderedJson shown = recipe;
+  shown.erase("$schema");
+  shown.erase("version");
+  AddRecipeRows(shown, "", table);
   return table;
 }
 
-std::string BasesText(const StrictOrderedJson& recipe) {
-  std::string text;
+// Whether bases are plans for recordings, which choose format and fields.
+bool HasRecordings(const StrictOrderedJson& recipe) {
   for (const auto& base : recipe.at("bases")) {
-    text += (text.empty() ? "" : ", ") + base.at("file").get<std::string>();
+    if (base.contains("recordings")) return true;
   }
-  return text;
+  return false;
+}
+
+std::string CommandText(const StrictOrderedJson& recipe, const StrictJson& identity) {
+  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
+  std::string command = "railcast-generate dataset RECIPE --out DIR";
+  const bool has_recordings = HasRecordings(recipe);
+  if (!has_recordings || text("format") != "same") command += " --format " + text("format");
+  if (!has_recordings) command += " --fields " + text("fields") + " --isa " + text("isa");
+  if (!has_recordings && identity.at("merged").get<bool>()) command += " --merged";
+  return command + ", with the recipe where its names of files lead to the bases";
 }
 
 Table OriginTable(const StrictOrderedJson& recipe, const StrictJson& identity) {
@@ -103,16 +110,10 @@ Table OriginTable(const StrictOrderedJson& recipe, const StrictJson& identity) {
     table.rows.push_back({std::string(what), std::move(value)});
   };
   const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
-  add("Seed", NumberText(recipe.value("seed", std::uint64_t{1})));
-  add("Scenarios", recipe.at("num_scenarios").dump());
-  add("Bases", BasesText(recipe));
-  if (recipe.contains("split")) add("Divided by", recipe["split"].value("by", "scenario"));
+  add("Seed", NumberText(recipe.value("seed", Recipe{}.seed)));
   add("Recipe", "recipe.json in the data set, hash " + text("recipe_xxh3"));
-  add("Made by", "railcast " + text("version") + ", Embree " + text("embree"));
-  add("To make it again", "railcast-generate dataset RECIPE --out DIR --format " + text("format") +
-                              " --fields " + text("fields") + " --isa " + text("isa") +
-                              (identity.value("merged", false) ? " --merged" : "") +
-                              ", with the recipe where its names of files lead to the bases");
+  add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
+  add("To make it again", CommandText(recipe, identity));
   return table;
 }
 
@@ -127,7 +128,7 @@ Section MadeOfSection(const std::filesystem::path& dataset) {
             identity, ShownPath(dataset / kDatasetFile), [&](const StrictJson& of_run) {
               return Section{.key = "recipe",
                              .title = "Recipe",
-                             .tables = {DrawsTable(of_recipe), OriginTable(of_recipe, of_run)}};
+                             .tables = {RecipeTable(of_recipe), OriginTable(of_recipe, of_run)}};
             });
       });
 }

@@ -21,7 +21,9 @@ Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector
   Table table;
   table.key = "limits";
   table.title = "What differs from reality";
-  table.note = "On the rungs of these scenarios; docs/effects.md and docs/world.md have the rest.";
+  table.note =
+      "On the rungs of these scenarios; docs/effects.md and docs/world.md of railcast have the "
+      "rest.";
   table.is_open = true;
   table.columns = {
       {"real", "In reality", ""}, {"model", "Modelled", ""}, {"errs", "Which way it errs", ""}};

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,24 +16,29 @@ extern const char* const kValidatedSensors;
 
 namespace {
 
-// The scenario's sensor with everything that its shipped file says, on the scenario's mount.
-std::optional<LidarSpec> ShippedSensor(const ScenarioSpec& scenario) {
-  const auto text = SensorFileOf(scenario.lidar.name);
+using ComparedSensors = std::map<std::string, Json>;
+
+// A shipped sensor, on the mount and under the name of the scenario's own.
+std::optional<LidarSpec> ShippedSensor(const std::string& name, const ScenarioSpec& scenario) {
+  const auto text = SensorFileOf(name);
   if (!text) return std::nullopt;
   Json resolved = Json::parse(ResolvedScenarioJson(scenario));
   Json lidar = Json::parse(*text);
   lidar.erase("version");
   lidar.erase("$schema");
   lidar["mount"] = resolved.at("lidar").at("mount");
+  lidar["name"] = scenario.lidar.name;
   resolved["lidar"] = std::move(lidar);
   return ReadScenarioText(resolved.dump(), "sensor.json").lidar;
 }
 
-std::string StateOf(const ScenarioSpec& scenario, bool is_compared) {
-  const auto shipped = ShippedSensor(scenario);
-  if (!shipped || !is_compared) return "not validated: not compared with recordings";
-  if (*shipped != scenario.lidar) return "not validated: changed from the preset";
-  return "preset compared with a recording";
+// The preset that a scenario's sensor is; of several sensors each has a name of its own.
+ComparedSensors::const_iterator PresetOf(const ScenarioSpec& scenario,
+                                         const ComparedSensors& compared) {
+  return std::ranges::find_if(compared, [&](const auto& preset) {
+    const auto shipped = ShippedSensor(preset.first, scenario);
+    return shipped && *shipped == scenario.lidar;
+  });
 }
 
 double NumberOrAbsent(const Json& value) {
@@ -42,7 +48,7 @@ double NumberOrAbsent(const Json& value) {
 }  // namespace
 
 Section SensorSection(const std::vector<ScenarioSpec>& sample) {
-  std::map<std::string, Json> compared;
+  ComparedSensors compared;
   for (const Json& row : Json::parse(kValidatedSensors)) {
     compared.emplace(row.at("sensor").get<std::string>(), row);
   }
@@ -51,7 +57,8 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
   table.title = "The sensor's preset against recordings";
   table.note =
       "On planes of one recording of each sensor, on halves of the scene that no parameter was "
-      "fitted to (docs/validation.md): error of the number of points over bins of range, error of "
+      "fitted to (docs/validation.md of railcast): error of the number of points over bins of "
+      "range, error of "
       "the intensities over cells, simulated over recorded noise, and the share of firings on "
       "planes without a point. Nothing of these recordings is of railways, and none is in rain or "
       "fog.";
@@ -65,11 +72,18 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
                    {"holes_simulated", "Holes, simulated", ""}};
   std::set<std::pair<std::string, std::string>> seen;
   for (const ScenarioSpec& scenario : sample) {
-    const std::string name = scenario.lidar.name.empty() ? "without a name" : scenario.lidar.name;
-    const auto row = compared.find(name);
-    const std::string state = StateOf(scenario, row != compared.end());
+    std::string name = scenario.lidar.name.empty() ? "without a name" : scenario.lidar.name;
+    const auto row = PresetOf(scenario, compared);
+    const bool is_shown = row != compared.end();
+    std::string state = "preset compared with a recording";
+    if (!is_shown) {
+      state =
+          std::string("not validated: ") +
+          (compared.contains(name) ? "changed from the preset" : "not compared with recordings");
+    } else if (row->first != name) {
+      name += " (" + row->first + ")";
+    }
     if (!seen.emplace(name, state).second) continue;
-    const bool is_shown = state.starts_with("preset");
     const auto figure = [&](const char* key) -> Cell {
       return is_shown ? NumberOrAbsent(row->second.at(key))
                       : std::numeric_limits<double>::quiet_NaN();

@@ -9,7 +9,7 @@ namespace {
 
 // Text without a meaning in Markdown, on one line.
 std::string EscapedText(std::string_view text) {
-  constexpr std::string_view kMarks = "\\`*_{}[]<>#|~$";
+  constexpr std::string_view kMarks = "\\`*_{}[]<>&#|~$";
   std::string plain;
   for (const char letter : text) {
     if (kMarks.find(letter) != std::string_view::npos) plain += '\\';

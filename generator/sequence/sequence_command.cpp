@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
@@ -106,10 +107,7 @@ bool Report(const std::optional<std::filesystem::path>& summary,
 
 // A file in the directory of the frames would be a stranger there.
 void CheckSummary(const std::filesystem::path& summary, const std::filesystem::path& out) {
-  const auto directory = std::filesystem::weakly_canonical(out);
-  const auto file = std::filesystem::weakly_canonical(summary);
-  if (std::mismatch(directory.begin(), directory.end(), file.begin(), file.end()).first ==
-      directory.end()) {
+  if (IsInFolder(summary, out)) {
     throw InputError("--summary: must not be in the directory of --out (got " + ShownPath(summary) +
                      ")");
   }

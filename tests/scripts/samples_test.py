@@ -30,7 +30,7 @@ class MakeSamples(unittest.TestCase):
         self.assertLess(size, 25e6)
 
     def test_each_is_whole_and_has_a_card(self):
-        names = sorted(folder.name for folder in self.out.iterdir())
+        names = sorted(folder.name for folder in self.out.iterdir() if folder.is_dir())
         self.assertEqual(names, ["crossing", "persons", "weather"])
         self.assertEqual(self.said.count(": whole; read "), 3)
         for name in names:
@@ -40,6 +40,30 @@ class MakeSamples(unittest.TestCase):
             self.assertGreaterEqual(len(links), 3)
             for link in links:
                 self.assertTrue((self.out / name / link).is_file(), f"{name}: {link}")
+
+    def test_licences_that_cards_name_are_there(self):
+        self.assertIn("LICENSE.ttobench", (self.out / "weather/README.md").read_text())
+        self.assertTrue((self.out / "LICENSE.ttobench").is_file())
+        self.assertTrue((self.out / "LICENSE").is_file())
+
+    def test_a_card_has_the_command_that_makes_the_data_set_again(self):
+        card = (self.out / "weather/README.md").read_text().replace("\\", "")
+        options = re.search(r"RECIPE --out DIR (.*), with the recipe", card)[1].split()
+        again = self.out.parent / "again"
+        subprocess.run([BUILD / "generator/railcast-generate", "dataset", ROOT / "scenarios/recipes/weather_sample.json",
+                        "--out", again, *options], check=True, capture_output=True)
+        first, second = (json.loads((folder / "manifest.json").read_text())["data_xxh3"]
+                         for folder in (self.out / "weather/weather", again))
+        self.assertEqual(first, second)
+
+    def test_nothing_else_is_deleted(self):
+        kept = self.out.parent / "mine"
+        kept.mkdir()
+        (kept / "thesis.txt").write_text("x")
+        run = subprocess.run([ROOT / "scripts/make_samples.sh", kept / "nothing", kept], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(run.stderr, f"error: {kept}/nothing/generator/railcast-generate is not there\n")
+        self.assertTrue((kept / "thesis.txt").is_file())
 
     def test_each_shows_what_it_is_named_after(self):
         def report(name):
@@ -55,5 +79,5 @@ class MakeSamples(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    BUILD = sys.argv.pop(1)
+    BUILD = Path(sys.argv.pop(1)).resolve()
     unittest.main()

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <system_error>
@@ -29,6 +30,18 @@ bool LockFolder(int folder) {
 }
 
 }  // namespace
+
+bool IsInFolder(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const auto followed = [](const std::filesystem::path& given) {
+    std::error_code error;
+    const auto whole = std::filesystem::weakly_canonical(given, error);
+    if (error) throw FileError(given, error.value());
+    return whole;
+  };
+  const auto outer = followed(folder);
+  const auto inner = followed(path);
+  return std::ranges::mismatch(outer, inner).in1 == outer.end();
+}
 
 void MakeFolders(const std::filesystem::path& folder) {
   std::error_code error;

@@ -47,6 +47,11 @@ class LineFile {
   int descriptor_;
 };
 
+/// Whether a path leads to a folder or into it, links followed. Neither need exist.
+/// @throws InputError if the system cannot follow a path, such as a link to itself.
+[[nodiscard]] bool IsInFolder(const std::filesystem::path& path,
+                              const std::filesystem::path& folder);
+
 /// Makes a folder and those that it lies in, unless they are there.
 /// @throws InputError if the system refuses.
 void MakeFolders(const std::filesystem::path& folder);

@@ -169,7 +169,10 @@ std::vector<fs::path> FinishedSequences(const fs::path& directory, const Dataset
       of_sensors.push_back(fs::is_directory(recording) ? recording : scenario);
     }
     for (fs::path& sequence : of_sensors) {
-      CheckIsFinished(sequence);
+      // Recordings of other programs do not say of themselves that they are finished.
+      if (sequence.filename() != kRecordingFolder || IsThere(sequence / kRunFile)) {
+        CheckIsFinished(sequence);
+      }
       sequences.push_back(std::move(sequence));
     }
   }

@@ -3,7 +3,6 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -16,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
@@ -326,10 +326,7 @@ InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
 }
 
 void CheckIsApart(const InsertChoices& choices) {
-  const fs::path recording = fs::weakly_canonical(choices.recording);
-  const fs::path out = fs::weakly_canonical(choices.directory);
-  const auto end = std::mismatch(recording.begin(), recording.end(), out.begin(), out.end()).first;
-  if (end != recording.end()) return;
+  if (!IsInFolder(choices.directory, choices.recording)) return;
   throw InputError("--out: must not be in the recording's directory (got " +
                    ShownPath(choices.directory) + ")");
 }

@@ -15,7 +15,7 @@ using testing::Not;
 TEST(ReportMarkdown, BeginsWithTitleFactsAndHeadlines) {
   const std::string text = ReportMarkdown(MadeReport());
   EXPECT_TRUE(
-      text.starts_with("# Statistics of \\<out/demo\\> & \"more\"\n\n- **Input**: out/demo, "
+      text.starts_with("# Statistics of \\<out/demo\\> \\& \"more\"\n\n- **Input**: out/demo, "
                        "a sequence\n"))
       << text.substr(0, 200);
   EXPECT_THAT(text, HasSubstr("- **Sensor**: VLP-16 \\<script\\>alert(1)\\</script\\>\n"));
