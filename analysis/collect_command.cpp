@@ -109,7 +109,7 @@ void AddCollect(CLI::App& app, ProgramCommand& command) {
       "Listen to your object detector, which sends a datagram for each frame of a live stream, and "
       "write its detections as a file for evaluate; until Ctrl-C");
   collect
-      ->add_option("HOST:PORT", options->at,
+      ->add_option("ADDRESS", options->at,
                    "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
                    "multicast group what is sent to it")
       ->capture_default_str();

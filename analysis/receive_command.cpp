@@ -151,7 +151,7 @@ void AddReceive(CLI::App& app, ProgramCommand& command) {
   CLI::App* receive = app.add_subcommand(
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
   receive
-      ->add_option("HOST:PORT", options->at,
+      ->add_option("ADDRESS", options->at,
                    "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
                    "multicast group what is sent to it")
       ->capture_default_str();

@@ -8,10 +8,11 @@ import subprocess
 MORE = re.compile(r" {20,}(\S.*)$")
 SECTION = re.compile(r"\s*(?:\[Option Group: (.+)\]|([A-Z]\w*):)$")
 NOTE = re.compile(r"\s*\[(.+)\]$")
+# CLI11 writes a default as "=all", from its version 2.4 on as " [all] ".
 NAME = re.compile(r"(?P<names>\S+)"
-                  r"(?: (?P<type>[A-Z]\S*?)(?::(?P<values>\{[^}]*\}|\S+ to [-+.\w]+))?(?:=(?P<default>\S+))?"
+                  r"(?: (?P<type>[A-Z]\S*?)(?::(?P<values>\{[^}]*\}|\S+ to [-+.\w]+))?(?:=(?P<default>\S+)| \[(?P<newer_default>.*)\])?"
                   r"(?P<several> x \d+| \.\.\.)?)?"
-                  r"(?P<required> REQUIRED)?(?P<relations>(?: (?:Needs|Excludes):(?: --[-\w]+)+)*)$")
+                  r"(?P<required> REQUIRED)?(?P<relations>(?:  ?(?:Needs|Excludes):(?: --[-\w]+)+)*)$")
 COLUMN = 28  # Where texts begin, beyond the indentation of the names.
 
 
@@ -58,8 +59,8 @@ def read_option(name, text):
     match = NAME.fullmatch(name)
     if not match:
         raise ValueError(f"cannot read the option {name!r}")
-    return Option(match["names"].split(","), match["type"] or "", match["values"] or "", match["default"] or "",
-                  (match["several"] or "").strip(), bool(match["required"]), match["relations"].strip(), text or "")
+    return Option(match["names"].split(","), match["type"] or "", match["values"] or "", match["default"] or match["newer_default"] or "",
+                  (match["several"] or "").strip(), bool(match["required"]), " ".join(match["relations"].split()), text or "")
 
 
 def read_help(words, text):

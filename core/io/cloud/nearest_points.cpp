@@ -33,7 +33,8 @@ struct PointsWithin {
   float square_m2;
   std::vector<std::pair<float, std::uint32_t>> found;
 
-  // The names are nanoflann's.
+  // The names are nanoflann's; its version 1.6 needs the first and the last.
+  using DistanceType = float;
   [[nodiscard]] std::size_t size() const { return found.size(); }
   [[nodiscard]] bool full() const { return true; }
   [[nodiscard]] float worstDist() const { return square_m2; }
@@ -41,6 +42,7 @@ struct PointsWithin {
     if (distance_m2 < square_m2) found.emplace_back(distance_m2, index);
     return true;
   }
+  void sort() { std::ranges::sort(found); }
 };
 
 using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, TreePoints>,
@@ -101,7 +103,7 @@ void NearestSearch::FindWithin(const Eigen::Vector3f& place_m,
                                std::vector<std::uint32_t>& found) const {
   PointsWithin within{.square_m2 = radius_m * radius_m, .found = {}};
   tree_->index.findNeighbors(within, place_m.data(), {});
-  std::ranges::sort(within.found);
+  within.sort();
   found.clear();
   for (const auto& [square_m2, index] : within.found) found.push_back(index);
 }

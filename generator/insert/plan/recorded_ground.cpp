@@ -2,7 +2,8 @@
 
 #include "core/io/quiet_pcl.h"
 
-#include <pcl/segmentation/sac_segmentation.h>
+#include <pcl/sample_consensus/mlesac.h>
+#include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -111,27 +112,30 @@ RecordedGround FitPlane(const LocalCloud::Ptr& cloud, double radius_m) {
   constexpr double kMostSlope_rad = RadFromDeg(30.0);
   constexpr double kLeastShare = 0.3;
   constexpr int kMostSteps = 500;
-  pcl::SACSegmentation<pcl::PointXYZ> segmentation;
-  segmentation.setModelType(pcl::SACMODEL_PERPENDICULAR_PLANE);
-  segmentation.setMethodType(pcl::SAC_MLESAC);
-  segmentation.setAxis(Eigen::Vector3f::UnitZ());
-  segmentation.setEpsAngle(kMostSlope_rad);
-  segmentation.setDistanceThreshold(kMostDistance_m);
-  segmentation.setMaxIterations(kMostSteps);
-  segmentation.setOptimizeCoefficients(true);
-  segmentation.setInputCloud(cloud);
-  pcl::PointIndices inliers;
-  pcl::ModelCoefficients plane;
-  segmentation.segment(inliers, plane);
-  const auto num_in_plane = static_cast<double>(inliers.indices.size());
-  if (inliers.indices.size() < kFewestPoints ||
+  // As pcl::SACSegmentation does it, which brings models of all shapes.
+  using PlaneModel = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
+  const PlaneModel::Ptr model(new PlaneModel(cloud));
+  model->setAxis(Eigen::Vector3f::UnitZ());
+  model->setEpsAngle(kMostSlope_rad);
+  pcl::MaximumLikelihoodSampleConsensus<pcl::PointXYZ> consensus(model, kMostDistance_m);
+  consensus.setMaxIterations(kMostSteps);
+  if (!consensus.computeModel()) return {};
+  pcl::Indices inliers;
+  Eigen::VectorXf sampled;
+  Eigen::VectorXf plane;
+  consensus.getInliers(inliers);
+  consensus.getModelCoefficients(sampled);
+  model->optimizeModelCoefficients(inliers, sampled, plane);
+  model->selectWithinDistance(plane, kMostDistance_m, inliers);
+  const auto num_in_plane = static_cast<double>(inliers.size());
+  if (inliers.size() < kFewestPoints ||
       num_in_plane < kLeastShare * static_cast<double>(cloud->size()) ||
-      !CoverArea(LocalCloud(*cloud, inliers.indices), radius_m)) {
+      !CoverArea(LocalCloud(*cloud, inliers), radius_m)) {
     return {};
   }
   RecordedGround ground;
-  Vector3 normal(plane.values[0], plane.values[1], plane.values[2]);
-  double offset_m = plane.values[3];
+  Vector3 normal = plane.head<3>().cast<double>();
+  double offset_m = plane[3];
   if (normal.z() < 0.0) {
     normal = -normal;
     offset_m = -offset_m;
@@ -140,13 +144,13 @@ RecordedGround FitPlane(const LocalCloud::Ptr& cloud, double radius_m) {
   ground.up = normal.normalized();
   ground.height_m = -offset_m / ground.up.z();
   double sum_m2 = 0.0;
-  for (const int index : inliers.indices) {
+  for (const int index : inliers) {
     const Vector3 point_m =
         (*cloud)[static_cast<std::size_t>(index)].getVector3fMap().cast<double>();
     sum_m2 += std::pow(ground.up.dot(point_m) + offset_m, 2);
   }
   ground.residual_m = std::sqrt(sum_m2 / num_in_plane);
-  ground.num_points = inliers.indices.size();
+  ground.num_points = inliers.size();
   return ground;
 }
 
