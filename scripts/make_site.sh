@@ -50,7 +50,8 @@ sed -n '/^@media not print {$/,/} }$/{
   s/\[data-theme="dark"\]/:not([data-theme="light"])/
   p
 }' "$colors" >"$work/dark.css"
-cat "$work/dark.css" >>"$colors"
+# It also lacks the style sheet that takes away the margins which browsers give to pages.
+{ cat "$work/dark.css"; echo 'body{margin:0}'; } >>"$colors"
 
 # Pictures load fast on phones: WebP, at most 200 kB each.
 most_bytes=200000
