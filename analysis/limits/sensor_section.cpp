@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/limits/limit_sections.h"
 #include "core/io/sensor_tables.h"
@@ -71,7 +72,10 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
                    {"holes_recorded", "Holes, recorded", ""},
                    {"holes_simulated", "Holes, simulated", ""}};
   std::set<std::pair<std::string, std::string>> seen;
+  std::vector<LidarSpec> looked_at;  // A preset is read from its file for each comparison.
   for (const ScenarioSpec& scenario : sample) {
+    if (std::ranges::find(looked_at, scenario.lidar) != looked_at.end()) continue;
+    looked_at.push_back(scenario.lidar);
     std::string name = scenario.lidar.name.empty() ? "without a name" : scenario.lidar.name;
     const auto row = PresetOf(scenario, compared);
     const bool is_shown = row != compared.end();
