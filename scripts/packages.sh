@@ -1,9 +1,22 @@
 # The Debian 12 packages that railcast needs, in one place. To be sourced by bash.
 # shellcheck shell=bash disable=SC2034  # The lists are for the scripts that source this.
 
+# The libraries of the core and of its tests.
+core_packages=(
+  libeigen3-dev
+  libembree-dev
+  libgmock-dev
+  libgtest-dev
+  libopenmesh-dev
+  librandom123-dev
+  libtbb-dev
+  nlohmann-json3-dev
+)
+
 # For configuring and building every target. The tests' libraries are included because the presets
 # build the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
 build_packages=(
+  "${core_packages[@]}"
   cmake
   cyclonedds-dev
   g++
@@ -12,38 +25,30 @@ build_packages=(
   libbenchmark-dev
   libboost-dev
   libcli11-dev
-  libeigen3-dev
-  libembree-dev
   libexpat1-dev
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
-  libgmock-dev
-  libgtest-dev
   libjpeg-dev
   libkainjow-mustache-dev
   liblz4-dev
   liblzf-dev
   libnanoflann-dev
   libnlopt-cxx-dev
-  libopenmesh-dev
   libpcap-dev
   libpcl-dev
   libpng-dev
   libproj-dev
   libprotobuf-dev
-  librandom123-dev
   libsqlite3-dev
   libssl-dev  # SHA-256 of the types of messages.
   libsystemd-dev  # Says to systemd that a stream is ready.
-  libtbb-dev
   libvtk9-dev
   libx11-dev
   libxxhash-dev
   libyaml-cpp-dev
   libzstd-dev
   ninja-build
-  nlohmann-json3-dev
   pkg-config
   protobuf-compiler
   pybind11-dev
@@ -139,20 +144,6 @@ cross_packages=(
   g++-aarch64-linux-gnu
   mmdebstrap
   qemu-user
-)
-
-# What the core alone is compiled with, and its tests, for another processor by scripts/dev/arm64.sh.
-core_packages=(
-  libc6-dev
-  libeigen3-dev
-  libembree-dev
-  libgmock-dev
-  libgtest-dev
-  libopenmesh-dev
-  librandom123-dev
-  libstdc++-12-dev
-  libtbb-dev
-  nlohmann-json3-dev
 )
 
 # Built into railcast-peers by scripts/dev/compare_peers.sh.

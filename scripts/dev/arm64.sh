@@ -16,7 +16,8 @@ if [[ ! -e "$root.done" ]]; then
   rm -rf "$root"
   mkdir -p "$cross"
   # Unpacked only: nothing of it runs but by the emulator.
-  mmdebstrap --architectures=arm64 --variant=extract --include="$(IFS=, && echo "${core_packages[*]}")" \
+  libraries=("${core_packages[@]}" libc6-dev libstdc++-12-dev)
+  mmdebstrap --architectures=arm64 --variant=extract --include="$(IFS=, && echo "${libraries[*]}")" \
     bookworm "$root"
   touch "$root.done"
 fi
