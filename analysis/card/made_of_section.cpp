@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -40,8 +41,9 @@ void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Tabl
 
 // An entry of a list, such as a group or a base, by its name or its file.
 void AddEntryRows(const StrictOrderedJson& entry, const std::string& path, Table& table) {
-  StrictOrderedJson rest = entry;
   const char* const title = entry.contains("name") ? "name" : "file";
+  if (!entry.contains(title)) return AddRecipeRows(entry, path, table);
+  StrictOrderedJson rest = entry;
   const std::string name = ValueText(entry.at(title));
   rest.erase(title);
   if (rest.empty()) {
@@ -83,25 +85,31 @@ Table RecipeTable(const StrictOrderedJson& recipe) {
   return table;
 }
 
-// Whether bases are plans for recordings, which choose format and fields.
-bool HasRecordings(const StrictOrderedJson& recipe) {
+/// What the command that makes a data set again takes from its recipe.
+struct RecipeFacts {
+  std::uint64_t seed{};
+  bool has_recordings{};  ///< Whether bases are plans for recordings, which choose the fields.
+};
+
+RecipeFacts FactsOfRecipe(const StrictOrderedJson& recipe) {
+  RecipeFacts facts{.seed = recipe.value("seed", Recipe{}.seed)};
   for (const auto& base : recipe.at("bases")) {
-    if (base.contains("recordings")) return true;
+    facts.has_recordings = facts.has_recordings || base.contains("recordings");
   }
-  return false;
+  return facts;
 }
 
-std::string CommandText(const StrictOrderedJson& recipe, const StrictJson& identity) {
+std::string CommandText(const RecipeFacts& recipe, const StrictJson& identity) {
   const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
   std::string command = "railcast-generate dataset RECIPE --out DIR";
-  const bool has_recordings = HasRecordings(recipe);
+  const bool has_recordings = recipe.has_recordings;
   if (!has_recordings || text("format") != "same") command += " --format " + text("format");
   if (!has_recordings) command += " --fields " + text("fields") + " --isa " + text("isa");
   if (!has_recordings && identity.at("merged").get<bool>()) command += " --merged";
   return command + ", with the recipe where its names of files lead to the bases";
 }
 
-Table OriginTable(const StrictOrderedJson& recipe, const StrictJson& identity) {
+Table OriginTable(const RecipeFacts& recipe, const StrictJson& identity) {
   Table table = {.key = "made_of",
                  .title = "What the bytes depend on",
                  .columns = {{"what", "What", ""}, {"value", "Value", ""}},
@@ -110,7 +118,7 @@ Table OriginTable(const StrictOrderedJson& recipe, const StrictJson& identity) {
     table.rows.push_back({std::string(what), std::move(value)});
   };
   const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
-  add("Seed", NumberText(recipe.value("seed", Recipe{}.seed)));
+  add("Seed", NumberText(recipe.seed));
   add("Recipe", "recipe.json in the data set, hash " + text("recipe_xxh3"));
   add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
   add("To make it again", CommandText(recipe, identity));
@@ -120,17 +128,17 @@ Table OriginTable(const StrictOrderedJson& recipe, const StrictJson& identity) {
 }  // namespace
 
 Section MadeOfSection(const std::filesystem::path& dataset) {
-  const std::string recipe = ReadDatasetFile(dataset, kRecipeFile);
-  const std::string identity = ReadDatasetFile(dataset, kDatasetFile);
-  return ReadRecordedJson<StrictOrderedJson>(
-      recipe, ShownPath(dataset / kRecipeFile), [&](const StrictOrderedJson& of_recipe) {
-        return ReadRecordedJson<StrictJson>(
-            identity, ShownPath(dataset / kDatasetFile), [&](const StrictJson& of_run) {
-              return Section{.key = "recipe",
-                             .title = "Recipe",
-                             .tables = {RecipeTable(of_recipe), OriginTable(of_recipe, of_run)}};
-            });
-      });
+  RecipeFacts facts;
+  const auto read_recipe = [&](const StrictOrderedJson& recipe) {
+    facts = FactsOfRecipe(recipe);
+    return RecipeTable(recipe);
+  };
+  Table recipe = ReadRecordedJson<StrictOrderedJson>(ReadDatasetFile(dataset, kRecipeFile),
+                                                     ShownPath(dataset / kRecipeFile), read_recipe);
+  const auto read_identity = [&](const StrictJson& run) { return OriginTable(facts, run); };
+  Table origin = ReadRecordedJson<StrictJson>(ReadDatasetFile(dataset, kDatasetFile),
+                                              ShownPath(dataset / kDatasetFile), read_identity);
+  return {.key = "recipe", .title = "Recipe", .tables = {std::move(recipe), std::move(origin)}};
 }
 
 }  // namespace railcast
