@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -59,10 +60,9 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
   table.note =
       "On planes of one recording of each sensor, on halves of the scene that no parameter was "
       "fitted to (docs/validation.md of railcast): error of the number of points over bins of "
-      "range, error of "
-      "the intensities over cells, simulated over recorded noise, and the share of firings on "
-      "planes without a point. Nothing of these recordings is of railways, and none is in rain or "
-      "fog.";
+      "range, error of the intensities over cells, simulated over recorded noise, and the share of "
+      "firings on planes without a point. Nothing of these recordings is of railways, and none is "
+      "in rain or fog.";
   table.is_open = true;
   table.columns = {{"sensor", "Sensor", ""},
                    {"state", "State", ""},

@@ -93,6 +93,16 @@ TEST(CardCommand, KeepsOutOfTheDataSet) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+TEST(CardCommand, DoesNotFollowALinkToItself) {
+  const TemporaryFolder folder;
+  const fs::path set = MakeSmallDataset(folder, "");
+  const fs::path out = set.parent_path() / "loop";
+  fs::create_symlink("loop", out);
+  const Ended run = Analyze("card " + set.string() + " --out " + out.string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, out.string() + ": Too many levels of symbolic links\n");
+}
+
 TEST(CardCommand, ReplacesACardButNoOtherReadme) {
   const TemporaryFolder folder;
   const fs::path set = MakeSmallDataset(folder, "");

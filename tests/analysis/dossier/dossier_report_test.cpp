@@ -131,41 +131,6 @@ TEST_F(DossierOfAStudy, SaysWhatIsVariedAndWhatIsNot) {
   EXPECT_TRUE(Text(place.at(3)).starts_with("object /d_m: -")) << Text(place.at(3));
 }
 
-TEST_F(DossierOfAStudy, CallsASensorWithoutRecordingNotValidated) {
-  const Section section = SensorSection(ReadSample(*study_));
-  ASSERT_EQ(section.tables.at(0).rows.size(), 1U);
-  EXPECT_EQ(Text(section.tables.at(0).rows[0].at(1)),
-            "not validated: not compared with recordings");
-}
-
-TEST_F(DossierOfAStudy, TakesAPresetForValidatedOnlyAsItWasCompared) {
-  std::vector<ScenarioSpec> sample = ReadSample(*study_);
-  nlohmann::json scenario = nlohmann::json::parse(ResolvedScenarioJson(sample.front()));
-  scenario["lidar"] = {{"file", RAILCAST_SOURCE_DIR "/scenarios/sensors/vls128.json"},
-                       {"mount", {{"position_m", {1.0, 0.0, 3.0}}}}};
-  sample = {ReadScenarioText(scenario.dump(), "scenario.json")};
-  const Section section = SensorSection(sample);
-  const std::vector<Cell>& row = section.tables.at(0).rows.at(0);
-  EXPECT_EQ(Text(row.at(0)), "VLS-128");
-  EXPECT_EQ(Text(row.at(1)), "preset compared with a recording");
-  EXPECT_EQ(std::get<double>(row.at(2)), 0.008);
-  sample.front().lidar.receiver.range_noise_floor_m += 0.001;
-  const Section changed = SensorSection(sample);
-  EXPECT_EQ(Text(changed.tables.at(0).rows.at(0).at(1)), "not validated: changed from the preset");
-  EXPECT_TRUE(std::isnan(std::get<double>(changed.tables.at(0).rows.at(0).at(2))));
-}
-
-TEST_F(DossierOfAStudy, ListsTheLimitsOfItsRungAlone) {
-  const Table table = LimitsSection(ReadSample(*study_), false).tables.at(0);
-  EXPECT_NO_THROW(RowOf(table, 0, "A beam has a width"));
-  EXPECT_NO_THROW(RowOf(table, 0, "Glass lets light through"));
-  EXPECT_THROW(RowOf(table, 0, "Rain and snow weaken echoes"), std::runtime_error);
-  const std::string points = "A detector must tell obstacles from track and clutter";
-  EXPECT_NO_THROW(RowOf(table, 0, points));
-  EXPECT_THROW(RowOf(LimitsSection(ReadSample(*study_), true).tables.at(0), 0, points),
-               std::runtime_error);
-}
-
 TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
   const Report report = MakeDossier(*study_, ReadSample(*study_), ModelError{}, "command");
   EXPECT_EQ(report.title, "Seen?");
