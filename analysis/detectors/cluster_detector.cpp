@@ -55,7 +55,7 @@ std::vector<pcl::PointIndices> ClustersOf(const std::vector<PlaceByTrack>& place
   tree->setInputCloud(plan);
   pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
   extraction.setClusterTolerance(spec.cluster_distance_m);
-  extraction.setMinClusterSize(static_cast<int>(spec.min_points));
+  extraction.setMinClusterSize(static_cast<pcl::uindex_t>(spec.min_points));
   extraction.setSearchMethod(tree);
   extraction.setInputCloud(plan);
   extraction.extract(clusters);

@@ -115,9 +115,9 @@ std::vector<std::pair<std::size_t, std::size_t>> MatchEchoes(const std::vector<f
   std::sort(candidates.begin(), candidates.end());
   std::vector<std::pair<std::size_t, std::size_t>> matches;
   for (const auto& [distance_m, i, k] : candidates) {
-    const bool is_taken = std::any_of(
-        matches.begin(), matches.end(),
-        [i = i, k = k](const auto& match) { return match.first == i || match.second == k; });
+    const bool is_taken = std::any_of(matches.begin(), matches.end(), [&](const auto& match) {
+      return match.first == i || match.second == k;
+    });
     if (!is_taken) matches.emplace_back(i, k);
   }
   return matches;

@@ -80,8 +80,11 @@ Survey MakeSurvey(const FramesOfSurvey& frames,
     CheckByBeams(frames, cloud, options.keeps_moving, surfels);
   }
   survey.num_moving = num_before - surfels.size();
-  survey.num_linear = std::ranges::count(surfels, SurfelKind::kLinear, &MadeSurfel::kind);
-  survey.num_scattered = std::ranges::count(surfels, SurfelKind::kOther, &MadeSurfel::kind);
+  const auto count = [&](SurfelKind kind) {
+    return static_cast<std::size_t>(std::ranges::count(surfels, kind, &MadeSurfel::kind));
+  };
+  survey.num_linear = count(SurfelKind::kLinear);
+  survey.num_scattered = count(SurfelKind::kOther);
   if (surfels.empty()) {
     throw InputError("the survey: must have surfaces (got " + std::to_string(survey.num_points) +
                      " points of " + std::to_string(survey.num_frames) + " frames and no surface)");

@@ -269,7 +269,7 @@ bool FacetParts::LookAcross(const WideBeams& beams,
   // The first set shows where in the strip the surface lies, the others how much of it.
   std::optional<ThinStrip> strip;
   float share_of_one = 1.0F / static_cast<float>(kNumCloserSubRays);
-  for (const std::size_t first_set : {0, 1}) {
+  for (const std::size_t first_set : {0U, 1U}) {
     strip = FitStrip(places, share_of_one * static_cast<float>(places.size()));
     if (!strip) return false;
     const BeamSubRays rays = SubRaysIn(*strip, first_set, first_set == 0 ? 1 : kNumStripSets - 1);

@@ -101,7 +101,7 @@ inline void ApplyPulseStretch(DetectTile& tile, const PulseStretchParameters& pa
     const float root = std::sqrt(1.0F + 4.0F * nearer * spread2 / (range_m * range_m));
     const float shift_m = range_m * (1.0F - root) / (1.0F + root);
     // The comparison is false where nothing was hit.
-    tile.peak_shift_m[i] = (range_m > 0.0F) & p.moves_peak ? shift_m : 0.0F;
+    tile.peak_shift_m[i] = ((range_m > 0.0F) & p.moves_peak) ? shift_m : 0.0F;
     tile.power_ratio[i] *= p.lowers_power ? lowered : 1.0F;
   }
 }

@@ -83,7 +83,7 @@ double RetainedGround::Height_m(const CrossSection& section,
     // Other tracks behind the wall lie in cuttings or on embankments of their own.
     const double step_d_m = StepAt(static_cast<std::size_t>(&wall - walls_.data()), s_m).front_m;
     const double sign = SignOf(wall.spec->side);
-    const double beside_m = section.DistanceFromTracksIf_m(d_m, [&, s_m = s_m](double track_d_m) {
+    const double beside_m = section.DistanceFromTracksIf_m(d_m, [&](double track_d_m) {
       return sign * (track_d_m - step_d_m) >= 0.0 && !is_in_tunnel(track_d_m);
     }) - kFormationEdge_m;
     height_m = CutAndFill_m(behind_wall_m, beside_m);

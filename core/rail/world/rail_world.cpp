@@ -315,10 +315,11 @@ std::shared_ptr<const RailWorld> RailWorld::WithoutObject(const std::string& nam
     throw InputError({{"/name", "must be the name of an object that is there", Quoted(name)}});
   }
   const auto index = found - objects().begin();
-  if (things_->ways->at(index).boom) {
+  const ObjectWay& way = things_->ways->at(static_cast<std::size_t>(index));
+  if (way.boom) {
     throw InputError({{"/name", "must not be a barrier of a level crossing", Quoted(name)}});
   }
-  if (things_->ways->at(index).is_in_train) {
+  if (way.is_in_train) {
     throw InputError({{"/name", "must not be a vehicle of a train", Quoted(name)}});
   }
   Things changed = *things_;

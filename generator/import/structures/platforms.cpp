@@ -119,7 +119,7 @@ class PlatformFinder {
     }
     const bool is_right = right && at.right_m - right->d_m <= kFarthestEdge_m;
     const bool is_left = left && left->d_m - at.left_m <= kFarthestEdge_m;
-    const double between_m = right && left ? left->d_m - right->d_m - 2.0 * kEdge_m
+    const double between_m = right && left ? left->d_m - right->d_m - 2.0 * edge_m_
                                            : std::numeric_limits<double>::infinity();
     std::optional<double> width_m;
     if (shape_.is_area) width_m = at.left_m - at.right_m;
@@ -128,10 +128,9 @@ class PlatformFinder {
     if (is_left) edges_[{left->track, TrackSide::kRight}].push_back({s_m, width_m, between_m});
   }
 
-  static constexpr double kEdge_m = PlatformSpec{}.edge_distance_m;
-
   const PlatformShape& shape_;
   const LineWorld& world_;
+  double edge_m_ = PlatformSpec{}.edge_distance_m;
   std::map<TrackEdge, std::vector<EdgeMetre>> edges_;
   std::optional<std::pair<std::size_t, double>> across_;
 };

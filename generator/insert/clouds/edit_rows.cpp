@@ -73,7 +73,7 @@ class RowDraft {
   template <typename Value>
   void Set(std::size_t cell, Value value) {
     const auto [type, place] = rows_.cells[cell];
-    VisitNumberType(type, [&, place = place](auto zero) {
+    VisitNumberType(type, [&](auto zero) {
       const auto stored = Convert<decltype(zero)>(value);
       if (rows_.is_text()) {
         words_[place] = WordOf(stored);
@@ -90,9 +90,8 @@ class RowDraft {
       words_[place] = Words(*TakeLine(other))[place];
       return;
     }
-    VisitNumberType(type, [&, place = place](auto zero) {
-      std::memcpy(&bytes_[place], &other[place], sizeof zero);
-    });
+    VisitNumberType(type,
+                    [&](auto zero) { std::memcpy(&bytes_[place], &other[place], sizeof zero); });
   }
 
   void AppendTo(std::string& all) const {

@@ -75,7 +75,7 @@ TEST_F(OutOfMemoryDeathTest, SaysWhichModelDoesNotFit) {
   const std::string line =
       "^out of memory while building \"ball\" for ray tracing \\(980000 triangles\\)\n$";
   // Less than the triangles need, and less than the acceleration structure needs.
-  for (const std::size_t more_bytes : {8'000'000, 60'000'000}) {
+  for (const std::size_t more_bytes : {8'000'000U, 60'000'000U}) {
     EXPECT_EXIT(BuildLargeModelWithin(more_bytes), testing::ExitedWithCode(1), line) << more_bytes;
   }
 }
