@@ -133,10 +133,11 @@ test_packages=(
 
 # Called by scripts/dev/check.sh.
 check_packages=(
-  clang-14
+  clang-19
   clang-format-14
-  clang-tidy-14
+  clang-tidy-19
   git
+  libclang-rt-19-dev  # Sanitizers and libFuzzer.
 )
 
 # Called by scripts/dev/arm64.sh.

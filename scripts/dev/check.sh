@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the checks that a change must pass before it is merged.
 #
-#   check.sh            format, architecture, links, build, tests, core and the fuzzers with clang
+#   check.sh            format, architecture, links, build, tests, programs and fuzzers with clang
 #   check.sh --fast     format, architecture and links of the docs only: seconds, no build
 #   check.sh --tidy     all of the above, and clang-tidy over the sources that differ from main
 #   check.sh --tidy-all as --tidy, over every source: takes minutes
@@ -39,8 +39,8 @@ check_docs() {
 # part of the build, with each compiled by clang on its own, including its headers.
 check_tidy() {
   echo "== clang-tidy"
-  cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
-    -D CMAKE_CXX_COMPILER=clang++-14 -D CMAKE_BUILD_TYPE=RelWithDebInfo \
+  cmake -B build/tidy -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-19 \
+    -D CMAKE_CXX_COMPILER=clang++-19 -D CMAKE_BUILD_TYPE=RelWithDebInfo \
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
   "$@" | sort --unique | while read -r file; do
     if [[ -f "$file" ]] && grep --quiet --fixed-strings "\"$PWD/$file\"" \
@@ -48,15 +48,19 @@ check_tidy() {
       echo "$file"
     fi
   done | xargs --no-run-if-empty --max-args=1 --max-procs="$(nproc)" \
-    clang-tidy-14 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
+    clang-tidy-19 -p build/tidy --quiet 2> >(grep -v ' warnings\? generated' >&2)
 }
 
-# The fuzzers need clang; building them compiles all of core with clang, with warnings as errors.
-# The tests beside them replay the corpora with the address and undefined-behaviour sanitizers.
+# Compiles the programs with clang, with warnings as errors, and the fuzzers, which need it. The tests beside these
+# replay the corpora with the address and undefined-behaviour sanitizers.
 check_clang() {
   echo "== clang"
-  cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-14 \
-    -D CMAKE_CXX_COMPILER=clang++-14 -D RAILCAST_BUILD_FUZZERS=ON >/dev/null
+  cmake -B build/clang -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-19 \
+    -D CMAKE_CXX_COMPILER=clang++-19 -D CMAKE_CXX_FLAGS=-O0 -D CMAKE_UNITY_BUILD=ON \
+    -D CMAKE_COMPILE_WARNING_AS_ERROR=ON -D RAILCAST_BUILD_TESTS=OFF >/dev/null
+  cmake --build build/clang
+  cmake -B build/fuzz -G Ninja --log-level=ERROR -D CMAKE_C_COMPILER=clang-19 \
+    -D CMAKE_CXX_COMPILER=clang++-19 -D RAILCAST_BUILD_FUZZERS=ON >/dev/null
   cmake --build build/fuzz --target fuzzers
   ctest --test-dir build/fuzz/tests/fuzz --output-on-failure --parallel "$(nproc)"
 }
