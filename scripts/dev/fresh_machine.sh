@@ -23,6 +23,7 @@ git clone --quiet --no-hardlinks . "$folder/railcast"
 # The mounts vanish with the namespace.
 # shellcheck disable=SC2016  # Expanded by the inner shells.
 unshare --mount --pid --fork bash -euc '
+  mount --bind "$0" "$0"  # As on a machine, / is mounted.
   mount -t proc proc "$0/proc"
   mount --rbind /sys "$0/sys"
   mount --rbind /dev "$0/dev"

