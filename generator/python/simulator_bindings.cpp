@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <list>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -52,10 +54,28 @@ ScenarioSpec ReadScenarioOf(const py::object& scenario, const std::filesystem::p
   return WithoutGil([&] { return ReadScenarioText(text, file); });
 }
 
+/// The simulations that are not deleted yet, also those that are being made, which are null.
+/// Guarded by the interpreter's lock; never destroyed itself.
+std::list<std::unique_ptr<HeldSimulation>>& Simulations() {
+  static auto& simulations = *new std::list<std::unique_ptr<HeldSimulation>>();
+  return simulations;
+}
+
+/// Ends the simulations that Python has not deleted when it ends, for example because a thread that
+/// it has abandoned still holds them. Their threads would go on building scenes while the process
+/// destroys the libraries that they build them with.
+void EndSimulations() {
+  for (std::unique_ptr<HeldSimulation>& simulation : Simulations()) {
+    if (simulation && !simulation->IsOfThisProcess()) static_cast<void>(simulation.release());
+  }
+  Simulations().clear();
+}
+
 /// In a process that was forked from the maker's, the simulation lasts until the process ends.
 struct EndWhereMade {
   void operator()(HeldSimulation* simulation) const {
-    if (simulation->IsOfThisProcess()) delete simulation;
+    if (!simulation->IsOfThisProcess()) return;
+    Simulations().remove_if([&](const auto& held) { return held.get() == simulation; });
   }
 };
 using SimulationPointer = std::unique_ptr<HeldSimulation, EndWhereMade>;
@@ -64,8 +84,15 @@ SimulationPointer MakeSimulation(const py::object& scenario,
                                  const std::filesystem::path& file,
                                  std::int64_t threads) {
   const ScenarioSpec spec = ReadScenarioOf(scenario, file);
-  return WithoutGil(
-      [&] { return SimulationPointer(new HeldSimulation(spec, threads, IsInterrupted)); });
+  // In the list from the start: Python may abandon this thread before it has the lock again.
+  const auto held = Simulations().emplace(Simulations().end());
+  try {
+    WithoutGil([&] { *held = std::make_unique<HeldSimulation>(spec, threads, IsInterrupted); });
+  } catch (...) {
+    Simulations().erase(held);
+    throw;
+  }
+  return SimulationPointer(held->get());
 }
 
 py::array_t<double> LineArray(const std::vector<Vector3>& line_m) {
@@ -229,6 +256,8 @@ void AddProperties(SimulatorClass& simulator) {
 }  // namespace
 
 void AddSimulatorClass(pybind11::module_& module) {
+  if (Py_AtExit(EndSimulations) != 0)
+    throw std::runtime_error("Py_AtExit has no room for another function");
   AddRails(module);
   SimulatorClass simulator(module, "Simulator",
                            R"(Makes the frames of a scenario in memory.

@@ -48,6 +48,22 @@ time.sleep({seconds})
 """
 
 
+# Ends with a simulator that is never deleted and builds a scene ahead. Python's last call, after
+# railcast's own, waits for standard input. Threads that build ahead give way to others.
+KEPT = """
+import ctypes, os
+ctypes.pythonapi.Py_AtExit(ctypes.cast(ctypes.CDLL(None).getchar, ctypes.c_void_p))
+import railcast
+sim = railcast.Simulator({scenario!r})
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(sim))
+sim.scan(0)
+usual = os.getpriority(os.PRIO_PROCESS, 0)
+threads = [thread for thread in os.listdir("/proc/self/task")
+           if os.getpriority(os.PRIO_PROCESS, int(thread)) > usual]
+print(*threads, flush=True)
+"""
+
+
 # A child that is forked while a simulator is alive, which is deleted there, too.
 FORKED = """
 import os, sys
@@ -279,6 +295,20 @@ class Misuse(unittest.TestCase):
             ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
             self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (0, "last\n", ""))
 
+    def test_nothing_is_built_ahead_any_more_when_python_has_ended(self):
+        with subprocess.Popen([sys.executable, "-c", KEPT.format(scenario=str(SCENARIO))], text=True,
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+            tasks = pathlib.Path("/proc") / str(process.pid) / "task"
+            builders = process.stdout.readline().split()
+            self.assertEqual(len(builders), 1)
+            deadline_s = time.monotonic() + 60
+            while (tasks / builders[0]).exists() and time.monotonic() < deadline_s:
+                time.sleep(0.01)
+            is_building = (tasks / builders[0]).exists()
+            self.assertIsNone(process.poll())  # The thread has not ended because the process has.
+            process.communicate("\n")
+            self.assertFalse(is_building)
+            self.assertEqual(process.returncode, 0)
 
     def test_a_forked_process_ends_and_makes_simulators_of_its_own(self):
         program = FORKED.format(scenario=str(ROOT / "scenarios" / "minimal.json"))
