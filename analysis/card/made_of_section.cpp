@@ -128,17 +128,16 @@ Table OriginTable(const RecipeFacts& recipe, const StrictJson& identity) {
 }  // namespace
 
 Section MadeOfSection(const std::filesystem::path& dataset) {
-  RecipeFacts facts;
-  const auto read_recipe = [&](const StrictOrderedJson& recipe) {
-    facts = FactsOfRecipe(recipe);
-    return RecipeTable(recipe);
+  const auto read_recipe = [](const StrictOrderedJson& recipe) {
+    return std::pair(FactsOfRecipe(recipe), RecipeTable(recipe));
   };
-  Table recipe = ReadRecordedJson<StrictOrderedJson>(ReadDatasetFile(dataset, kRecipeFile),
-                                                     ShownPath(dataset / kRecipeFile), read_recipe);
-  const auto read_identity = [&](const StrictJson& run) { return OriginTable(facts, run); };
+  auto recipe = ReadRecordedJson<StrictOrderedJson>(ReadDatasetFile(dataset, kRecipeFile),
+                                                    ShownPath(dataset / kRecipeFile), read_recipe);
+  const auto read_identity = [&](const StrictJson& run) { return OriginTable(recipe.first, run); };
   Table origin = ReadRecordedJson<StrictJson>(ReadDatasetFile(dataset, kDatasetFile),
                                               ShownPath(dataset / kDatasetFile), read_identity);
-  return {.key = "recipe", .title = "Recipe", .tables = {std::move(recipe), std::move(origin)}};
+  return {
+      .key = "recipe", .title = "Recipe", .tables = {std::move(recipe.second), std::move(origin)}};
 }
 
 }  // namespace railcast
