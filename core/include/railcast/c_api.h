@@ -88,6 +88,8 @@ typedef struct railcast_sim railcast_sim;
 railcast_status railcast_create(const railcast_config* config, railcast_sim** sim);
 
 /// Frees a simulation and everything that railcast_get_...() returned for it. Null is permitted.
+/// To be called before the process ends: a thread of the simulation builds scenes ahead, and may
+/// crash where exit() destroys what it works with.
 void railcast_destroy(railcast_sim* sim);
 
 // A scene of the host
