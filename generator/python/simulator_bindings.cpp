@@ -54,10 +54,17 @@ ScenarioSpec ReadScenarioOf(const py::object& scenario, const std::filesystem::p
   return WithoutGil([&] { return ReadScenarioText(text, file); });
 }
 
+/// In a process that was forked from the maker's, the simulation lasts until the process ends.
+struct EndWhereMade {
+  void operator()(HeldSimulation* simulation) const {
+    if (simulation->IsOfThisProcess()) delete simulation;
+  }
+};
+
 /// The simulations that are not deleted yet, also those that are being made, which are null.
 /// Guarded by the interpreter's lock; never destroyed itself.
-std::list<std::unique_ptr<HeldSimulation>>& Simulations() {
-  static auto& simulations = *new std::list<std::unique_ptr<HeldSimulation>>();
+std::list<std::unique_ptr<HeldSimulation, EndWhereMade>>& Simulations() {
+  static auto& simulations = *new std::list<std::unique_ptr<HeldSimulation, EndWhereMade>>();
   return simulations;
 }
 
@@ -65,20 +72,16 @@ std::list<std::unique_ptr<HeldSimulation>>& Simulations() {
 /// it has abandoned still holds them. Their threads would go on building scenes while the process
 /// destroys the libraries that they build them with.
 void EndSimulations() {
-  for (std::unique_ptr<HeldSimulation>& simulation : Simulations()) {
-    if (simulation && !simulation->IsOfThisProcess()) static_cast<void>(simulation.release());
-  }
   Simulations().clear();
 }
 
-/// In a process that was forked from the maker's, the simulation lasts until the process ends.
-struct EndWhereMade {
-  void operator()(HeldSimulation* simulation) const {
-    if (!simulation->IsOfThisProcess()) return;
+struct RemoveFromSimulations {
+  void operator()(const HeldSimulation* simulation) const {
     Simulations().remove_if([&](const auto& held) { return held.get() == simulation; });
   }
 };
-using SimulationPointer = std::unique_ptr<HeldSimulation, EndWhereMade>;
+/// What Python holds.
+using SimulationPointer = std::unique_ptr<HeldSimulation, RemoveFromSimulations>;
 
 SimulationPointer MakeSimulation(const py::object& scenario,
                                  const std::filesystem::path& file,
@@ -87,7 +90,7 @@ SimulationPointer MakeSimulation(const py::object& scenario,
   // In the list from the start: Python may abandon this thread before it has the lock again.
   const auto held = Simulations().emplace(Simulations().end());
   try {
-    WithoutGil([&] { *held = std::make_unique<HeldSimulation>(spec, threads, IsInterrupted); });
+    WithoutGil([&] { held->reset(new HeldSimulation(spec, threads, IsInterrupted)); });
   } catch (...) {
     Simulations().erase(held);
     throw;
