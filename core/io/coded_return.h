@@ -27,12 +27,15 @@ struct CodedPair {
 
 /// Orders the returns of ReturnMode::kDual. The second slot holds the last return if that differs
 /// from the strongest, and otherwise the second strongest, which is then nearer: in both cases the
-/// farther one is the last. A return that is missing repeats the other.
-/// @param least The least distance that is one; smaller ones say that there is no return.
+/// farther one is the last. A return that is missing repeats the other; where both are missing,
+/// both say what is nearest of the reasons.
+/// @param least The least distance that is one; smaller ones say why there is no return, those of
+///   nearer things by smaller numbers.
 [[nodiscard]] inline CodedPair LastAndOther(CodedReturn strongest,
                                             CodedReturn other,
                                             std::uint16_t least) {
   if (other.distance > strongest.distance) std::swap(strongest, other);
+  if (strongest.distance < least) return {other, other};
   return {strongest, other.distance < least ? strongest : other};
 }
 

@@ -210,8 +210,7 @@ class HesaiEncoder final : public FrameEncoder {
       packet_.SetReturn(block, firing.laser, strongest);
       return;
     }
-    const CodedReturn other =
-        frame.returns == 2 ? CodeReturn(frame, slot + 1, firing) : CodedReturn{};
+    const CodedReturn other = frame.returns == 2 ? CodeReturn(frame, slot + 1, firing) : strongest;
     const CodedPair pair = LastAndOther(strongest, other, model_.least_distance());
     packet_.SetReturn(block, firing.laser, pair.last);
     packet_.SetReturn(block + 1, firing.laser, pair.other);

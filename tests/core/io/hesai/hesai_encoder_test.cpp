@@ -261,6 +261,28 @@ TEST(Pandar128e4xPacket, SaysItOnceForBothReturns) {
   EXPECT_THAT(said(kNoPoint, kNoPoint), testing::ElementsAre(3, 3));
 }
 
+// A second slot without a further echo does not say that nothing came back from what the first one
+// says was too near.
+TEST(Pandar128e4xPacket, SaysInBothReturnsWhatWasTooNear) {
+  const HesaiModel& model = *FindHesaiModel("pandar128e4x-standard");
+  const MadeScan scan(ReadSensor("pandar128e4x_standard"));
+  for (const std::uint32_t returns : {1U, 2U}) {
+    Frame frame = scan.MakeFrame(0, returns);
+    const std::size_t slot = scan.RowOf(40) * std::size_t{frame.width()};
+    std::fill_n(frame.range_m.begin() + static_cast<std::ptrdiff_t>(slot), returns, kNoPoint);
+    frame.outcome[slot] = Outcome::kNearRange;
+    if (returns == 2) frame.outcome[slot + 1] = Outcome::kNoFurtherEcho;
+    const auto said = [&](float true_range_m) {
+      frame.true_range_m[slot] = true_range_m;
+      const Datagrams datagrams = Encoded(model, scan, {frame}, ReturnMode::kDual);
+      const auto packet = datagrams.BytesOf(datagrams.items[0]);
+      return std::array<int, 2>{DistanceIn(packet, 0, 40), DistanceIn(packet, 1, 40)};
+    };
+    EXPECT_THAT(said(0.2F), testing::ElementsAre(1, 1)) << returns;
+    EXPECT_THAT(said(0.8F), testing::ElementsAre(2, 2)) << returns;
+  }
+}
+
 // A frame of an XT32M, 2000 columns of 6 blocks, leaves a packet with 2 blocks.
 TEST(HesaiEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
   const HesaiModel& model = *FindHesaiModel("xt32m");
