@@ -11,7 +11,7 @@ IntensityScaleFinder::IntensityScaleFinder(const RecordingInfo& info)
     : are_reflectances_(info.scenario.has_value() || info.kind.starts_with("capture")) {}
 
 void IntensityScaleFinder::Add(const RecordedFrame& recorded) {
-  if (are_reflectances_ || !recorded.Has("intensity")) return;
+  if (!recorded.Has("intensity")) return;
   for (const float intensity : recorded.frame.intensity) {
     if (std::isnan(intensity)) continue;
     ++num_points_;
@@ -22,8 +22,8 @@ void IntensityScaleFinder::Add(const RecordedFrame& recorded) {
 }
 
 IntensityScale IntensityScaleFinder::Found() const {
-  if (are_reflectances_) return {1.0, "intensities: reflectances, 1 = white"};
   if (num_points_ == 0) return {1.0, "intensities: none are recorded"};
+  if (are_reflectances_) return {1.0, "intensities: reflectances, 1 = white"};
   constexpr std::uint64_t kHardlyAny = 100;
   const std::string seen =
       ", since the highest recorded is " + ShortText(static_cast<double>(highest_));

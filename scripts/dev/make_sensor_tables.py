@@ -283,10 +283,12 @@ def main():
     earliest_us = max(PANDAR40P_BEFORE_END_US)
     write_sensor(out / "pandar40p.json", "Pandar40P", hesai_lasers(hesai / "Pandar40P.csv"),
                  [earliest_us - before_us for before_us in PANDAR40P_BEFORE_END_US],
-                 55.5555555556, 1800, detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5]))
+                 55.5555555556, 1800,
+                 detection(0.3, 200.0, 200.0, 0.01, [3.0, 1.5], receiver={"dead_time_ns": 5.4}))
     write_sensor(out / "qt64.json", "QT64", hesai_lasers(hesai / "PandarQT64.csv"),
                  [time_us - QT64_SINCE_BEGIN_US[0] for time_us in QT64_SINCE_BEGIN_US],
-                 166.6666666667, 600, detection(0.1, 60.0, 20.0, 0.01, [3.0, 1.5]),
+                 166.6666666667, 600,
+                 detection(0.1, 60.0, 20.0, 0.01, [3.0, 1.5], receiver={"dead_time_ns": 4.4}),
                  turned_us=QT64_SINCE_BEGIN_US[0])
     write_sensor(out / "xt16.json", "XT16", hesai_lasers(hesai / "PandarXT16.csv"),
                  [3.024 * i for i in range(16)], 50.0, 2000,

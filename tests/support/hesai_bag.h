@@ -17,17 +17,26 @@ namespace railcast {
   return std::filesystem::path(RAILCAST_SHARED_DATA_DIR "/lidar_hesai") / name;
 }
 
-/// The recording captures/NAME.db3, of ROS 2.
-[[nodiscard]] inline std::filesystem::path HesaiBag(const std::string& name) {
-  return HesaiFile("captures/" + name + ".db3");
+/// The recording of a sensor, of ROS 2.
+[[nodiscard]] inline std::filesystem::path HesaiBag(const std::string& sensor) {
+  const std::filesystem::path more = RAILCAST_SHARED_DATA_DIR "/lidar_hesai_more";
+  if (sensor == "pandar40p") return more / "40p.db3";
+  if (sensor == "qt64") return more / "qt64.db3";
+  return HesaiFile("captures/" + sensor + ".db3");
 }
 
-/// Why captures/NAME.db3 cannot be read here; empty if it can.
+/// The cloud that another decoder made of a turn of that recording.
+[[nodiscard]] inline std::filesystem::path HesaiCloud(const std::string& sensor) {
+  const std::filesystem::path bag = HesaiBag(sensor);
+  return bag.parent_path() / (bag.stem().string() + "_decoded.pcd");
+}
+
+/// Why the recording of a sensor cannot be read here; empty if it can.
 [[nodiscard]] inline std::string WhyNoHesaiBag(const std::string& name) {
   return exists(HesaiBag(name)) ? "" : HesaiBag(name).string() + " is not there";
 }
 
-/// Makes a capture of the packets in captures/NAME.db3, for tests of single packets.
+/// Makes a capture of the packets in a sensor's recording, for tests of single packets.
 [[nodiscard]] inline std::filesystem::path CaptureOfHesaiBag(const std::string& name,
                                                              const TemporaryDirectory& folder) {
   std::filesystem::path capture = folder.path() / (name + ".pcap");

@@ -147,7 +147,7 @@ HesaiModel Xt(const XtSensor& sensor) {
 
 // Packets and times: tier4/nebula, pandar_qt64.hpp; HesaiLidar_SDK_2.0, udp_protocol_v3_1.h. A
 // packet is stamped 25.71 us before its first block, whose first laser fires after another 12.31
-// us.
+// us. Reflectivity: Hesai, PandarQT user manual, 3.1.2: the sensor "does not support" it yet.
 HesaiModel Qt64() {
   return WithPlainModes({.name = "QT64",
                          .protocol = "qt64",
@@ -172,7 +172,8 @@ HesaiModel Qt64() {
                          .loop_ns = 166'667,
                          .stated_loop_ns = 25'710 + 12'310,
                          .states_first = true,
-                         .turned_us = 12.31});
+                         .turned_us = 12.31,
+                         .has_reflectivity = false});
 }
 
 HesaiModel WithAllModes(HesaiModel model) {

@@ -107,6 +107,9 @@ struct HesaiModel {
   std::optional<double> turned_us{};
   /// Year of date byte 0; bytes from 100 on count from 1900 in any case.
   int year_zero = 1900;
+  /// Whether the byte behind a distance is a reflectivity in percent. If not, its scale is not
+  /// known.
+  bool has_reflectivity = true;
   /// Present if the least distances say why there is no point (HesaiNoPoint).
   std::optional<HesaiNearLimits> near_limits{};
 

@@ -22,7 +22,8 @@ constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
   if (bytes == IntensityBytes::kVelodyne) return IntensityOfByte(point.intensity);
-  return static_cast<float>(point.intensity) / 100.0F;
+  const auto byte = static_cast<float>(point.intensity);
+  return bytes == IntensityBytes::kPercent ? byte / 100.0F : byte;
 }
 
 void FillSlots(const SensorTurn& turn, const TurnShape& shape, Frame& frame) {
@@ -126,11 +127,13 @@ std::vector<CaptureSensor> ReadableSensors(
          .decoder = VelodyneDecoder(*model)});
   }
   for (const HesaiModel& model : HesaiModels()) {
-    sensors.push_back(
-        {.name = std::string(model.name),
-         .packet_size = model.layout.packet_size,
-         .shape = ShapeOfTurns(model.channels, IntensityBytes::kPercent, BeamsOfHesai(model)),
-         .decoder = HesaiDecoder(model)});
+    sensors.push_back({.name = std::string(model.name),
+                       .packet_size = model.layout.packet_size,
+                       .shape = ShapeOfTurns(model.channels,
+                                             model.has_reflectivity ? IntensityBytes::kPercent
+                                                                    : IntensityBytes::kUnknown,
+                                             BeamsOfHesai(model)),
+                       .decoder = HesaiDecoder(model)});
   }
   if (metadata) sensors.push_back(OusterSensor(*metadata));
   return sensors;
@@ -194,7 +197,8 @@ std::string NameOfStranger(std::span<const char> payload) {
 
 }  // namespace
 
-std::uint8_t ByteOfIntensity(float intensity, IntensityBytes bytes) {
+std::optional<std::uint8_t> ByteOfIntensity(float intensity, IntensityBytes bytes) {
+  if (bytes == IntensityBytes::kUnknown) return std::nullopt;
   return bytes == IntensityBytes::kVelodyne ? ReflectivityByte(intensity) : PercentByte(intensity);
 }
 
@@ -217,8 +221,7 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   RecordedFrame recorded;
   recorded.name = name;
   recorded.is_grid = true;
-  recorded.fields = {
-      "x", "y", "z", "intensity", "range_m", "ring", "column", "return_index", "return_count"};
+  recorded.fields = {"x", "y", "z", "range_m", "ring", "column", "return_index", "return_count"};
   Frame& frame = recorded.frame;
   frame.Resize(static_cast<std::uint32_t>(shape.row_time_ns.size()),
                static_cast<std::uint32_t>(turn.num_columns()), turn.is_dual ? 2 : 1);
@@ -230,6 +233,12 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   FillSlots(turn, shape, frame);
   FillPoints(turn, shape, frame);
   recorded.foreign = FieldsOf(turn, frame);
+  if (shape.intensity == IntensityBytes::kUnknown) {
+    recorded.foreign.push_back({"intensity_byte", frame.intensity});
+    std::ranges::fill(frame.intensity, kNoPoint);
+  } else {
+    recorded.fields.emplace("intensity");
+  }
   recorded.beam_of = BeamsOfTurn(turn, shape.beam_of);
   if (AreTimesKnown(turn, shape)) {
     recorded.fields.emplace("time_ns");

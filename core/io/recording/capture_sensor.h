@@ -25,7 +25,8 @@ namespace railcast {
 /// The meaning of a spinning sensor's intensity bytes.
 enum class IntensityBytes {
   kVelodyne,  ///< Reflectivity as defined in velodyne_packet.h.
-  kPercent
+  kPercent,
+  kUnknown  ///< No reflectivity: frames have the bytes as the foreign field "intensity_byte".
 };
 
 /// The rows of a sensor's frames.
@@ -47,8 +48,8 @@ struct TurnShape {
                                           const TurnShape& shape,
                                           const std::string& name);
 
-/// The byte of a frame's intensity.
-[[nodiscard]] std::uint8_t ByteOfIntensity(float intensity, IntensityBytes bytes);
+/// The byte of a frame's intensity; nothing if it is not known what bytes mean.
+[[nodiscard]] std::optional<std::uint8_t> ByteOfIntensity(float intensity, IntensityBytes bytes);
 
 using TurnDecoder = std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder>;
 

@@ -11,6 +11,7 @@
 
 #include "analysis/preset/preset_comparison.h"
 #include "analysis/stats/bins.h"
+#include "core/detect/base/beam_optics.h"
 #include "tests/analysis/preset/preset_scenario.h"
 #include "tests/support/hesai_bag.h"
 
@@ -116,6 +117,32 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) {
       return test.param.sensor + (test.param.sectors == Sectors::kEven ? "_even" : "_odd");
     });
+
+/// The nearest two returns of one firing in a recording.
+double NearestPair_m(const std::filesystem::path& bag) {
+  const auto recording = OpenRecording(bag);
+  float nearest_m = std::numeric_limits<float>::infinity();
+  while (const auto read = recording->Next()) {
+    const RecordedFrame turn = (*read)();
+    const std::vector<float>& range_m = turn.frame.range_m;
+    for (std::size_t i = 0; i + 1 < range_m.size(); i += 2) {
+      // NaN, of a firing with one return, is not nearer.
+      nearest_m = std::fmin(nearest_m, std::abs(range_m[i] - range_m[i + 1]));
+    }
+  }
+  return static_cast<double>(nearest_m);
+}
+
+// Dead times are rounded down to 0.1 ns, which is 15 mm.
+TEST(RealDeadTime, OfThePresetIsThatOfTheNearestReturnsOfOneFiring) {
+  for (const char* sensor : {"pandar40p", "qt64"}) {
+    if (const std::string why = WhyNoHesaiBag(sensor); !why.empty()) GTEST_SKIP() << why;
+    const double dead_m = DeadLength_m(PresetScenario(sensor).lidar.receiver);
+    const double nearest_m = NearestPair_m(HesaiBag(sensor));
+    EXPECT_LE(dead_m, nearest_m) << sensor;
+    EXPECT_GT(dead_m, nearest_m - 0.015) << sensor;
+  }
+}
 
 const Gate kOddVls128{"vls128", "vls128_single", Sectors::kOdd};
 

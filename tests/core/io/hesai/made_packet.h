@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "core/io/field_layout.h"
@@ -22,6 +23,13 @@ inline const HesaiModel& Xt32Model() {
 }
 inline const HesaiModel& Qt128Model() {
   return *FindHesaiModel("qt128");
+}
+
+/// The model of a protocol that has packets of this size: those of Pandar40P may lack their number.
+inline const HesaiModel& ModelOfSize(std::string_view protocol, std::size_t packet_size) {
+  return *std::ranges::find_if(HesaiModels(), [&](const HesaiModel& model) {
+    return model.protocol == protocol && model.layout.packet_size == packet_size;
+  });
 }
 
 // Return modes.

@@ -181,6 +181,28 @@ TEST(CaptureRecording, OfARealQt128HasTwoTurnsInDualMode) {
   EXPECT_EQ(recording->info().left_out, "") << "all 1,800 packets have their three checksums";
 }
 
+// Its maker's manual says that the bytes are no reflectivity: of this one, two thirds are above
+// 100.
+TEST(CaptureRecording, OfARealQt64HasBytesOfUnknownScaleForIntensities) {
+  if (const std::string why = WhyNoHesaiBag("qt64"); !why.empty()) GTEST_SKIP() << why;
+  const auto frames = ReadAll(HesaiBag("qt64"));
+  ASSERT_EQ(frames.size(), 5U);
+  const RecordedFrame& turn = frames[1];
+  EXPECT_EQ(turn.frame.columns, 600U);
+  EXPECT_FALSE(turn.Has("intensity"));
+  ASSERT_EQ(turn.foreign.size(), 1U);
+  EXPECT_EQ(turn.foreign[0].name, "intensity_byte");
+  std::size_t num_above_100 = 0;
+  for (std::size_t i = 0; i < turn.frame.num_slots(); ++i) {
+    const float byte = turn.foreign[0].values[i];
+    ASSERT_EQ(std::isnan(byte), std::isnan(turn.frame.x[i]));
+    ASSERT_TRUE(std::isnan(turn.frame.intensity[i]));
+    num_above_100 += byte > 100.0F;
+  }
+  const auto num = static_cast<double>(NumPoints(turn.frame));
+  EXPECT_NEAR(static_cast<double>(num_above_100) / num, 0.68, 0.005);
+}
+
 TEST(CaptureRecording, OfARealVls128HasThreeWholeTurns) {
   const auto file = CaptureFile("vls128_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
