@@ -48,11 +48,13 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
       "this machine hold single datagrams");
+  // Linux keeps datagrams of 0 hops on this machine only where a program on it has joined the group;
+  // where none has, they go out.
   stream
       .add_option("--multicast-hops", options.multicast_hops,
                   "Networks on which what is sent to multicast groups may be: 1 = no router passes "
-                  "it on")
-      ->transform(Whole({0, 255}))
+                  "it on. What shall not leave this machine is sent by its interface lo")
+      ->transform(Whole({1, 255}))
       ->capture_default_str();
   stream
       .add_option("--clock", options.clock,

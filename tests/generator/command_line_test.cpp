@@ -54,6 +54,11 @@ TEST(CommandLine, TakesDecimalDigitsAloneForNumbers) {
                    "--commands-port: must be a whole number from 1 to 65535 (got 0x6b08)");
 }
 
+TEST(CommandLine, RefusesGroupsWithoutHopsWhichLeaveTheMachine) {
+  ExpectUsageError("stream a.json --multicast-hops 0",
+                   "--multicast-hops: must be a whole number from 1 to 255 (got 0)");
+}
+
 TEST(CommandLine, TakesNoNumberThatIsNone) {
   ExpectUsageError("stream a.json --duration nan",
                    "--duration: must be a number from 0.001 to 1e+09 (got nan)");
