@@ -342,6 +342,22 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   }
 }
 
+// Of "000003.bin" and "./000003.bin" the folders above are not named.
+TEST(StatsCommand, FindsWhatBelongsToAKittiCloudThatIsNamedFromItsOwnFolder) {
+  const TemporaryFolder folder;
+  const auto clouds = MakeSequence(folder, "--format kitti") / "sequences/00/velodyne";
+  const auto rows_of = [&](const std::string& source) {
+    const Ended run = RunCommand("cd " + clouds.string() + " && " RAILCAST_ANALYZE " stats " +
+                                 source + " --format json");
+    EXPECT_EQ(run.status, 0) << run.said;
+    return JsonTableOf(Json::parse(run.said), "points_by_label")["rows"];
+  };
+  const Json expected = rows_of((clouds / "000003.bin").string());
+  EXPECT_EQ(rows_of("000003.bin"), expected);
+  EXPECT_EQ(rows_of("./000003.bin"), expected);
+  EXPECT_EQ(rows_of("."), rows_of(clouds.string()));
+}
+
 TEST(StatsCommand, RefusesToCountTwice) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");

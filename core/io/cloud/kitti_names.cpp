@@ -153,7 +153,8 @@ LabelTable ParseSemanticKittiNames(const std::string& yaml, const std::string& p
 }
 
 std::optional<fs::path> FindSemanticKittiYaml(const fs::path& clouds) {
-  fs::path folder = fs::absolute(clouds).lexically_normal();
+  // The folder of files that are named alone is "", of which nothing absolute is known.
+  fs::path folder = (fs::current_path() / clouds).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();
   constexpr int kMostAbove = 3;  // ROOT/sequences/00/velodyne.
   const int num_above = folder.filename() == "velodyne" ? kMostAbove : 0;

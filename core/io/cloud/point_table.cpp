@@ -118,8 +118,11 @@ std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& f
   const FrameFormat* const format = FindReader(file);
   if (format == nullptr || format->files.size() < 2) return std::nullopt;
   const std::filesystem::path folder(format->files[1].folder);
-  auto beside =
-      file.parent_path().parent_path() / folder.parent_path().filename() / file.filename();
+  // The folder of "a.bin", "./a.bin" or "../a.bin" is not named, nor is the one that it is in.
+  const std::filesystem::path own = file.parent_path().lexically_normal();
+  const bool is_named = !own.empty() && own.filename() != "." && own.filename() != "..";
+  const std::filesystem::path above = is_named ? own.parent_path() : own / "..";
+  auto beside = above / folder.parent_path().filename() / file.filename();
   beside.replace_extension(format->files[1].extension);
   return exists(beside) ? std::optional(beside) : std::nullopt;
 }

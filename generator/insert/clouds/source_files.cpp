@@ -26,7 +26,7 @@ void AddSourceFrame(const fs::path& cloud, SourceFiles& source) {
 }
 
 SourceFiles SingleCloud(const fs::path& cloud) {
-  const fs::path whole = cloud.has_parent_path() ? cloud : fs::path(".") / cloud;
+  const fs::path whole = fs::absolute(cloud).lexically_normal();
   // KITTI's labels are in a folder beside that of the cloud.
   const bool has_labels = SecondFileOf(whole).has_value();
   SourceFiles source;

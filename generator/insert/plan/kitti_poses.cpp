@@ -53,7 +53,9 @@ std::optional<Transform> ReadCalibration(const fs::path& file) {
 KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
   const std::vector<fs::path> sequences = KittiSequencesIn(source);
   if (sequences.size() > 1) return {};
-  const fs::path given = source.filename() == "velodyne" ? source.parent_path() : source;
+  // As the folder is named by "velodyne", "velodyne/" and, from within it, ".".
+  const fs::path name = fs::absolute(source / "").lexically_normal().parent_path().filename();
+  const fs::path given = name == "velodyne" ? (source / "..").lexically_normal() : source;
   const fs::path folder = sequences.empty() ? given : sequences.front();
   KittiPoses read;
   const auto camera_from_sensor = ReadCalibration(folder / "calib.txt");

@@ -112,6 +112,8 @@ TEST(RecordedWay, TakesPosesAndTimesOfKitti) {
   EXPECT_THAT(way.frame_times_ns, ElementsAre(0, 103'700'000));
   EXPECT_TRUE(way.at_frames[1].translation().isApprox(Vector3(2.0, 0.5, 0.0)));
   EXPECT_TRUE(way.is_held);  // KITTI's clouds are in the axes of one time each.
+  const RecordedWay of_clouds = ReadRecordedWay(sequence / "velodyne/", {}, lidar, remarks);
+  EXPECT_THAT(of_clouds.frame_times_ns, ElementsAre(0, 103'700'000));
   WriteFileWhole(sequence / "poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 -0.5 0 1 0 0 0 0 2\n");
   EXPECT_EQ(MessageOf([&] { (void)ReadRecordedWay(folder.path(), {}, lidar, remarks); }),
             (sequence / "poses.txt").string() + ":2: must be the 12 numbers of a pose");
