@@ -91,19 +91,8 @@ void ShowPicks(const ViewOptions& options, const Session& session, Stage& stage)
 
 class Viewer {
  public:
-  explicit Viewer(const ViewOptions& options) : options_(options), stage_(options.size_px) {
-    if (options.is_live()) OpenLive();
-    for (const auto& source : WithTopic({options.source, options.compare}, options.topic)) {
-      if (source.empty() || options.is_live()) continue;
-      recorded_.push_back(std::make_unique<RecordedFrames>(source));
-      UseScenario(*recorded_.back());
-    }
-    std::vector<Frames*> frames;
-    if (live_) frames.push_back(live_.get());
-    for (const auto& each : recorded_) frames.push_back(each.get());
-    Choices choices = options.choices;
-    choices.labels = SelectedLabels(options.select, frames.front()->info().labels);
-    session_ = std::make_unique<Session>(frames, std::move(choices));
+  explicit Viewer(const ViewOptions& options)
+      : options_(options), session_(OpenSession()), stage_(options.size_px) {
     if (options.place) {
       stage_.UseCamera(*options.place);
     } else if (!options.camera.empty()) {
@@ -117,7 +106,7 @@ class Viewer {
 
   void Run() {
     if (live_) SayWhereItListens();
-    if (!live_ || options_.is_headless()) SeekFirst();
+    if (live_ && options_.is_headless()) SeekFirst(*session_);
     if (!options_.screenshot.empty()) {
       DrawOffScreen();
       ShowPicks(options_, *session_, stage_);
@@ -130,6 +119,24 @@ class Viewer {
   }
 
  private:
+  /// Opens the sources, of which recordings have shown their first frame.
+  std::unique_ptr<Session> OpenSession() {
+    if (options_.is_live()) OpenLive();
+    for (const auto& source : WithTopic({options_.source, options_.compare}, options_.topic)) {
+      if (source.empty() || options_.is_live()) continue;
+      recorded_.push_back(std::make_unique<RecordedFrames>(source));
+      UseScenario(*recorded_.back());
+    }
+    std::vector<Frames*> frames;
+    if (live_) frames.push_back(live_.get());
+    for (const auto& each : recorded_) frames.push_back(each.get());
+    Choices choices = options_.choices;
+    choices.labels = SelectedLabels(options_.select, frames.front()->info().labels);
+    auto session = std::make_unique<Session>(frames, std::move(choices));
+    if (!live_) SeekFirst(*session);
+    return session;
+  }
+
   void OpenLive() {
     const std::string address = options_.source.string().substr(kLivePrefix.size());
     // Packets name a sensor by its index in the scenario.
@@ -168,17 +175,17 @@ class Viewer {
     return *scenario_;
   }
 
-  void SeekFirst() {
-    std::size_t place = session_->FirstPlace();
+  void SeekFirst(Session& session) {
+    std::size_t place = session.FirstPlace();
     if (live_) place = NextLivePlace(0);
     if (options_.frame) place = recorded_.front()->PlaceOf(*options_.frame);
-    if (!session_->Seek(place)) {
+    if (!session.Seek(place)) {
       throw InputError(ShownPath(options_.source) + ": has no frame to show");
     }
-    const std::string missing = session_->Missing();
+    const std::string missing = session.Missing();
     if (!missing.empty()) throw InputError(ShownPath(options_.source) + ": " + missing);
     if (options_.is_verbose) {
-      for (const Composition& composition : session_->Compose()) {
+      for (const Composition& composition : session.Compose()) {
         std::fprintf(stderr, "%s\n", ShownLines(composition.status).c_str());
       }
     }
@@ -237,12 +244,13 @@ class Viewer {
   }
 
   const ViewOptions& options_;
-  DisplayConnection display_;
-  Stage stage_;
   std::optional<ScenarioSpec> scenario_;
   std::unique_ptr<LiveFrames> live_;
   std::vector<std::unique_ptr<RecordedFrames>> recorded_;
   std::unique_ptr<Session> session_;
+  // Behind what is read, so that faults of that are found on machines without a display, too.
+  DisplayConnection display_;
+  Stage stage_;
 };
 
 void WritePlan(const ViewOptions& options) {

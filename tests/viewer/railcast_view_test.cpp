@@ -57,12 +57,20 @@ TEST_F(Screenshot, SaysWhereItCannotWrite) {
   EXPECT_EQ(ended.said, "error: /no/such/out.png: no such file or directory\n");
 }
 
-TEST_F(RailcastView, SaysHowToRunWithoutADisplay) {
-  const Ended ended = RunCommand("env -u DISPLAY " RAILCAST_VIEW " gone.pcd");
-  EXPECT_EQ(ended.status, 1);
-  EXPECT_EQ(ended.said,
+TEST_F(Screenshot, SaysHowToRunWithoutADisplayWhereNothingElseIsWrong) {
+  WriteSquares("cloud.pcd");
+  const std::string cloud = PathOf("cloud.pcd");
+  const auto said = [&](const std::string& arguments) {
+    const Ended ended = RunCommand("env -u DISPLAY " RAILCAST_VIEW " " + arguments);
+    EXPECT_EQ(ended.status, 1) << arguments;
+    return ended.said;
+  };
+  EXPECT_EQ(said(cloud),
             "error: no display: on a machine without one, run xvfb-run -a -s -noreset "
             "railcast-view ...\n");
+  EXPECT_EQ(said("gone.pcd"), "error: gone.pcd: no such file or directory\n");
+  EXPECT_EQ(said("--select rail " + cloud),
+            "error: --select: must be labels of the recording (got rail)\n");
 }
 
 }  // namespace
