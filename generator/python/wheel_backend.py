@@ -9,6 +9,7 @@ The wheel runs on other systems of the same machine and version of Python: its l
 """
 
 import base64
+import contextlib
 import hashlib
 import pathlib
 import platform
@@ -43,12 +44,28 @@ def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
 
+def run_with_progress(*command, terminal="/dev/tty"):
+    """Runs Ninja and shows on the user's terminal, if there is one, how far it is: pip hides what a backend prints."""
+    shown = -1
+    with subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True) as ninja:
+        for line in ninja.stdout:
+            print(line, end="", flush=True)
+            step = re.match(r"\[(\d+)/(\d+)\]", line)
+            percent = 100 * int(step[1]) // int(step[2]) if step else shown
+            if percent // 5 > shown // 5:
+                shown = percent
+                with contextlib.suppress(OSError), open(terminal, "a", encoding="utf-8") as screen:
+                    screen.write(f"\nrailcast: {percent} % compiled, of some 20 minutes on 2 cores")
+    if ninja.returncode != 0:
+        raise subprocess.CalledProcessError(ninja.returncode, command)
+
+
 def build():
     """Builds module and programs; returns the build's folder."""
     folder = ROOT / "build" / "python"
     settings = [f"-D{name}={value}" for name, value in CONFIGURATION.items()]
     run("cmake", "-S", ROOT, "-B", folder, "-G", "Ninja", *settings)
-    run("cmake", "--build", folder, "--target", *TARGETS)
+    run_with_progress("cmake", "--build", folder, "--target", *TARGETS)
     return folder
 
 

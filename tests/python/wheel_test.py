@@ -1,6 +1,7 @@
 """`pip wheel .` makes a wheel that brings its libraries; here it is made of what the build has."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import unittest
 from support import BUILD, ROOT, SKIPPED
 
 sys.path.insert(0, str(ROOT / "generator" / "python"))
+import wheel_backend  # noqa: E402  # pylint: disable=wrong-import-position
 import wheel_libraries  # noqa: E402  # pylint: disable=wrong-import-position
 
 THREE_LINES = """
@@ -69,6 +71,15 @@ class Wheel(unittest.TestCase):
                 name, _, place = line.strip().partition(" => ")
                 if place and not wheel_libraries.OF_THE_SYSTEM.match(name):
                     self.assertIn(str(self.environment), place, binary)
+
+    def test_making_it_shows_on_the_terminal_how_far_it_is(self):
+        terminal = self.folder / "terminal"
+        steps = "".join(f"[{step}/40] Building {step}.o\n" for step in range(1, 41))
+        wheel_backend.run_with_progress("printf", steps, terminal=terminal)
+        percents = re.findall(r"railcast: (\d+) % compiled", terminal.read_text("utf-8"))
+        self.assertEqual([int(percent) for percent in percents], [2, *range(5, 101, 5)])
+        with self.assertRaises(subprocess.CalledProcessError):
+            wheel_backend.run_with_progress("false", terminal=terminal)
 
     def test_it_is_small_and_says_on_what_it_runs(self):
         self.assertLess(self.wheel.stat().st_size, MOST_BYTES)
