@@ -9,6 +9,7 @@
 #include "analysis/commands.h"
 #include "analysis/detectors/collected_lines.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/io/net/udp.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"

@@ -184,7 +184,7 @@ void AddCompare(CLI::App& app, ProgramCommand& command) {
           },
           "How to pair frames: by stamp (the nearest within half a period) or by index; default: "
           "by stamp where both recordings have stamps")
-      ->check(CLI::IsMember({"stamp", "index"}));
+      ->check(Named({"stamp", "index"}));
   compare
       ->add_option("--distances", options->distances,
                    "Distances in m, separated by commas, within which a point counts as found, "

@@ -113,11 +113,11 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
 void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
   fit.add_option("--rung", options.rung,
                  "Rung whose parameters to fit; default: the scenario's, else surface")
-      ->check(CLI::IsMember({"plausibility", "surface"}));
+      ->check(Named({"plausibility", "surface"}));
   fit.add_option("--intensity", options.intensity,
                  "What the intensities are: reflectance, or nothing known (none); auto: "
                  "reflectance in sequences and captures, else none")
-      ->check(CLI::IsMember({"auto", "reflectance", "none"}))
+      ->check(Named({"auto", "reflectance", "none"}))
       ->capture_default_str();
   fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
                  "Range in m at 10 % reflectance, from the data sheet: with intensities that are "

@@ -59,7 +59,7 @@ void AddPreset(CLI::App& app, ProgramCommand& command) {
   preset
       ->add_option("--sectors", options->sectors,
                    "Which sectors of 30 deg take part: all, even, odd")
-      ->check(CLI::IsMember({"all", "even", "odd"}))
+      ->check(Named({"all", "even", "odd"}))
       ->capture_default_str();
   preset->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))

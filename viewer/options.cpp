@@ -123,7 +123,7 @@ void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "How --compare shows two sources. beside: side by side; distance: one over the "
                  "other, each point coloured by its distance to the nearest of the other source; "
                  "changes: likewise, coloured by whether both have the point, or only one")
-      ->check(CLI::IsMember(Strings(kLayoutNames)))
+      ->check(Named(Strings(kLayoutNames)))
       ->capture_default_str();
   app.add_option("--scenario", options.scenario,
                  "Scenario that a stream or a file was made of: it gives the labels' names, the "
@@ -146,7 +146,7 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "Field to colour the points by: a field of railcast or any other that the cloud "
                  "has. Default: label where there is one, else height");
   app.add_option("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
-      ->check(CLI::IsMember(Strings(kColorMapNames)));
+      ->check(Named(Strings(kColorMapNames)));
   app.add_option("--color-range", raw.color_range,
                  "The two ends of the colour scale; default: the 1st and 99th percentile of the "
                  "first frame")
@@ -157,14 +157,14 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
                  "Size of a point in pixels; default: by the height of the picture")
       ->transform(Whole({1, kMaxPointSize_px}));
   app.add_option("--background", raw.background)
-      ->check(CLI::IsMember(BackgroundNames()))
+      ->check(Named(BackgroundNames()))
       ->capture_default_str();
   app.add_option("--accumulate", options.choices.num_accumulated,
                  "How many frames to show at once, each where it was in the world")
       ->transform(Whole({1, kMaxAccumulated}))
       ->capture_default_str();
   app.add_option("--show", raw.show, "What to draw over the points, separated by commas")
-      ->check(CLI::IsMember(ShowableNames()))
+      ->check(Named(ShowableNames()))
       ->delimiter(',')
       ->expected(1)
       ->take_all()
@@ -172,7 +172,7 @@ void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
   app.add_option("--image", raw.image,
                  "The camera's image to show in the corner; default: color where there are images. "
                  "Of a live source: color or off")
-      ->check(CLI::IsMember(Strings(kPictureKindNames)));
+      ->check(Named(Strings(kPictureKindNames)));
   app.add_option("--select", options.select,
                  "Labels to show, separated by commas; all others are faint")
       ->delimiter(',')
@@ -187,7 +187,7 @@ void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
              "--camera", options.camera,
              "Where to look from; default: chase for live sources and where the scenario is "
              "known, else all")
-          ->check(CLI::IsMember(Strings(kCameraNames)));
+          ->check(Named(Strings(kCameraNames)));
   auto* const eye =
       app.add_option(
              "--eye", raw.eye_m,

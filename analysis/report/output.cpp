@@ -119,7 +119,7 @@ void AddReportOptions(CLI::App& command, ReportOutput& output) {
             output.is_json = format == "json";
           },
           "text: print the report on the terminal; json: print it as JSON")
-      ->check(CLI::IsMember({"text", "json"}));
+      ->check(Named({"text", "json"}));
   where->require_option(1, 0);
 }
 

@@ -1,14 +1,87 @@
 #include "core/program/command_line.h"
 
+#include <array>
 #include <charconv>
+#include <regex>
 #include <system_error>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scenario/json_rules.h"
 #include "core/trace/trace_program.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
+namespace {
+
+/// The program and those of its commands that the command line names.
+std::vector<const CLI::App*> AppsInUse(const CLI::App* app) {
+  std::vector<const CLI::App*> apps = {app};
+  for (const CLI::App* command : app->get_subcommands()) apps.push_back(command);
+  return apps;
+}
+
+/// The line for the first option or argument that neither the program nor its command has; empty if
+/// there is none.
+std::string UnknownArgument(const CLI::App* app) {
+  constexpr bool kOfCommandsToo = true;
+  std::vector<std::string> names;
+  for (const CLI::App* in_use : AppsInUse(app)) {
+    for (const CLI::Option* option : in_use->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  }
+  std::string surplus;
+  for (const std::string& word : app->remaining(kOfCommandsToo)) {
+    if (!word.starts_with("-") || word == "--") {
+      if (surplus.empty()) surplus = "too many arguments (got " + word + ")";
+      continue;
+    }
+    const std::string name = word.substr(0, word.find('='));
+    const std::optional<std::string> nearest = Nearest(name, names);
+    return "unknown option" + (nearest ? ", the nearest is " + *nearest : "") + " (got " + name +
+           ")";
+  }
+  return surplus;
+}
+
+/// The line for a command that is none, or is missing; empty if there is one, or need not be.
+std::string UnknownCommand(const CLI::App* app, const CLI::Error& error) {
+  if (app->get_subcommands({}).empty() || !app->get_subcommands().empty()) return "";
+  std::vector<std::string> names;
+  for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
+  const std::vector<std::string> words = app->remaining();
+  const bool is_missing = words.empty() && error.get_name() == "RequiredError";
+  if (is_missing) return "command: must be " + InWords(names) + " (got none)";
+  if (words.empty() || words.front().starts_with('-')) return "";
+  return Unknown("command", words.front(), names) + " (got " + words.front() + ")";
+}
+
+/// What CLI11 says of the options together and of numbers of values. What it says of single values
+/// are our own rules.
+std::string InOurForm(const std::string& said) {
+  static const std::array<std::pair<std::regex, const char*>, 9> kForms = {{
+      {std::regex("^At least 1 option from \\[(.*),(.*)\\] is required$"),
+       "$1 or $2: one is required (got none)"},
+      {std::regex("^(.*) is required$"), "$1: is required (got none)"},
+      {std::regex("^(.*) requires (.*)$"), "$1: must come with $2"},
+      {std::regex("^(.*) excludes (.*)$"), "$1: must not come with $2"},
+      {std::regex("^(.*): 1 required .*missing$"), "$1: must have a value (got none)"},
+      {std::regex("^(.*): (.*) required .*missing$"), "$1: must have $2 values (got fewer)"},
+      {std::regex("^(.*): At Most 1 required but received (.*)$"),
+       "$1: must be given once (got $2 times)"},
+      {std::regex("^(.*): (At Most|At least) (.*) required but received (.*)$"),
+       "$1: must have $3 values (got $4)"},
+      {std::regex("^(.*) was given a disallowed flag override$"), "$1: must have no value"},
+  }};
+  for (const auto& [theirs, ours] : kForms) {
+    if (std::regex_match(said, theirs)) return std::regex_replace(said, theirs, ours);
+  }
+  return said;
+}
+
+}  // namespace
 
 std::vector<std::filesystem::path> WithTopic(std::vector<std::filesystem::path> sources,
                                              const std::string& topic) {
@@ -67,12 +140,32 @@ std::string NonEmptyRule(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
 }
 
+CLI::Validator Named(std::vector<std::string> names) {
+  const std::string shown = CLI::IsMember(names).get_description();
+  return {[rule = OneOf(std::move(names))](const std::string& text) {
+            const std::optional<std::string> broken = Broken(rule, text);
+            return broken ? *broken + " (got " + text + ")" : "";
+          },
+          shown};
+}
+
 void AddIsa(CLI::App& command, std::string& isa) {
   command
       .add_option("--isa", isa,
                   "Instruction set for ray tracing, on which the last bits of ranges depend; "
                   "default: the machine's best")
-      ->check(CLI::IsMember(IsaNames()));
+      ->check(Named(IsaNames()));
+}
+
+std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
+  std::string fault = UnknownCommand(app, error);
+  if (fault.empty()) fault = UnknownArgument(app);
+  if (fault.empty()) {
+    const std::string kind = error.get_name();
+    const bool is_of_value = kind == "ValidationError" || kind == "ConversionError";
+    fault = is_of_value ? error.what() : InOurForm(error.what());
+  }
+  return ShownLines(fault) + "\nRun with --help for more information.\n";
 }
 
 }  // namespace railcast

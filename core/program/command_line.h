@@ -10,9 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/text.h"
-#include "core/scenario/json_rules.h"
-
 namespace railcast {
 
 /// Returns a word of a shell's command line, quoted where necessary.
@@ -80,6 +77,9 @@ struct NumberRule {
   return {[](std::string& text) { return NonEmptyRule(text); }, ""};
 }
 
+/// Validator for an option that is one of these names.
+[[nodiscard]] CLI::Validator Named(std::vector<std::string> names);
+
 /// Adds the option --summary.
 inline void AddSummaryFile(CLI::App& command, std::optional<std::filesystem::path>& file) {
   command
@@ -106,52 +106,8 @@ inline void AddTopic(CLI::App& command, std::string& topic) {
 [[nodiscard]] std::vector<std::filesystem::path> WithTopic(
     std::vector<std::filesystem::path> sources, const std::string& topic);
 
-/// Returns the program and those of its commands that the command line names.
-[[nodiscard]] inline std::vector<const CLI::App*> AppsInUse(const CLI::App* app) {
-  std::vector<const CLI::App*> apps = {app};
-  for (const CLI::App* command : app->get_subcommands()) apps.push_back(command);
-  return apps;
-}
-
-/// Returns the error line for the first option that neither the program nor its command has; empty
-/// if there is none.
-[[nodiscard]] inline std::string UnknownOption(const CLI::App* app) {
-  constexpr bool kOfCommandsToo = true;
-  std::vector<std::string> names;
-  for (const CLI::App* in_use : AppsInUse(app)) {
-    for (const CLI::Option* option : in_use->get_options()) {
-      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    }
-  }
-  for (const std::string& word : app->remaining(kOfCommandsToo)) {
-    if (!word.starts_with("--") || word == "--") continue;
-    const std::string name = word.substr(0, word.find('='));
-    const std::optional<std::string> nearest = Nearest(name, names);
-    return "unknown option" + (nearest ? ", the nearest is " + *nearest : "") + " (got " + name +
-           ")";
-  }
-  return "";
-}
-
-/// Returns the error line for a word in the place of a command that is not a command; empty if
-/// there is a command, or no word.
-[[nodiscard]] inline std::string UnknownCommand(const CLI::App* app) {
-  const std::vector<std::string> words = app->remaining();
-  const bool has_word = !words.empty() && !words.front().starts_with('-');
-  const bool lacks_command = !app->get_subcommands({}).empty() && app->get_subcommands().empty();
-  if (!lacks_command || !has_word) return "";
-  std::vector<std::string> names;
-  for (const CLI::App* known : app->get_subcommands({})) names.push_back(known->get_name());
-  return Unknown("command", words.front(), names) + " (got " + words.front() + ")";
-}
-
-/// For CLI::App::failure_message. CLI11 would report a misspelt command or a misspelt required
-/// option as missing. Arguments are shown as ShownLines() shows them.
-[[nodiscard]] inline std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
-  for (const std::string& fault : {UnknownOption(app), UnknownCommand(app)}) {
-    if (!fault.empty()) return ShownLines(fault) + "\nRun with --help for more information.\n";
-  }
-  return ShownLines(CLI::FailureMessage::simple(app, error));
-}
+/// For CLI::App::failure_message: what is wrong, in the form of all messages, with the nearest name
+/// where a command or an option is unknown. Arguments are shown as ShownLines() shows them.
+[[nodiscard]] std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error);
 
 }  // namespace railcast

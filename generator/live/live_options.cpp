@@ -53,7 +53,7 @@ void AddRosOptions(CLI::App& command, RosOptions& options) {
                   "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
                   "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
                   "default: the scenario's")
-      ->check(CLI::IsMember(NamesOf<ReceiveBuffers>()));
+      ->check(Named(NamesOf<ReceiveBuffers>()));
 }
 
 std::unique_ptr<CommandChannel> OpenChannel(const CommandOptions& options,

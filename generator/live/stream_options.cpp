@@ -22,7 +22,7 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
                   "default: the scenario's receivers or, if it has none, this machine")
       ->allow_extra_args(false);
   stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
-      ->check(CLI::IsMember(NamesOf<Protocol>()));
+      ->check(Named(NamesOf<Protocol>()));
   stream.add_option(
       "--fields", options.fields,
       "With protocols railcast and ros2: fields to send, separated by commas, or all; "
@@ -36,7 +36,7 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
           "--pacing", options.pacing,
           "spread: each datagram leaves one period after its last firing, as from a sensor; "
           "burst: all datagrams of a frame leave at once")
-      ->check(CLI::IsMember({"spread", "burst"}))
+      ->check(Named({"spread", "burst"}))
       ->capture_default_str();
   stream.add_flag(
       "--drop-late", options.drops_late,
@@ -48,8 +48,8 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       "--no-offload", options.sends_singly,
       "Send datagrams one by one, without UDP segmentation offload, so that captures on "
       "this machine hold single datagrams");
-  // Linux keeps datagrams of 0 hops on this machine only where a program on it has joined the group;
-  // where none has, they go out.
+  // Linux keeps datagrams of 0 hops on this machine only where a program on it has joined the
+  // group; where none has, they go out.
   stream
       .add_option("--multicast-hops", options.multicast_hops,
                   "Networks on which what is sent to multicast groups may be: 1 = no router passes "
@@ -62,7 +62,7 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
                   "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
                   "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
                   "which is 37 s ahead")
-      ->check(CLI::IsMember(NamesOf<StampClock>()))
+      ->check(Named(NamesOf<StampClock>()))
       ->capture_default_str();
   stream
       .add_option("--pcap", options.pcap,
@@ -106,7 +106,7 @@ void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
       ->transform(Whole({0, 1024}))
       ->capture_default_str();
   stream.add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
-      ->check(CLI::IsMember(NamesOf<Fidelity>()));
+      ->check(Named(NamesOf<Fidelity>()));
   AddSummaryFile(stream, options.summary);
   AddIsa(stream, options.isa);
 }

@@ -104,7 +104,7 @@ void AddReplayOptions(CLI::App& replay, ReplayOptions& options) {
                   "packets: a sensor's packets as recorded; ros2: a bag's messages as recorded, or "
                   "frames; railcast or a sensor's: frames; default: packets for captures, ros2 for "
                   "bags, otherwise railcast")
-      ->check(CLI::IsMember(ProtocolNames()));
+      ->check(Named(ProtocolNames()));
   replay.add_option("--fields", options.fields,
                     "Of frames with protocols railcast and ros2: fields to send, separated by "
                     "commas; default: those of `stream` that the recording has. With ros2 also "
@@ -113,7 +113,7 @@ void AddReplayOptions(CLI::App& replay, ReplayOptions& options) {
       .add_option("--pacing", options.pacing,
                   "spread: each datagram leaves when it was recorded or fired; burst: all "
                   "datagrams of a frame leave when it begins")
-      ->check(CLI::IsMember({"spread", "burst"}))
+      ->check(Named({"spread", "burst"}))
       ->capture_default_str();
   replay
       .add_option("--insert", options.insert,
@@ -133,7 +133,7 @@ void AddReplayOptions(CLI::App& replay, ReplayOptions& options) {
   replay
       .add_option("--clock", options.clock,
                   "What stamps of frames state: the recorded times, or the time of day (utc)")
-      ->check(CLI::IsMember({"recorded", "utc"}))
+      ->check(Named({"recorded", "utc"}))
       ->capture_default_str();
   AddCommandOptions(replay, options);
   AddRosOptions(replay, options);

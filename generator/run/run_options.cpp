@@ -14,7 +14,7 @@ void AddRunChoices(CLI::App& command, RunChoices& choices) {
   std::vector<std::string> formats;
   for (const FrameFormat& format : FrameFormats()) formats.emplace_back(format.name);
   command.add_option("--format", choices.format, "File format of the frames")
-      ->check(CLI::IsMember(formats))
+      ->check(Named(formats))
       ->capture_default_str();
   command
       .add_option(

@@ -184,7 +184,7 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
   sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
       ->transform(Whole({}));
   sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
-      ->check(CLI::IsMember(NamesOf<Fidelity>()));
+      ->check(Named(NamesOf<Fidelity>()));
   sequence->add_option(
       "--sensor", options->sensor,
       "Name of the only sensor to simulate; without it, each of several sensors gets a "

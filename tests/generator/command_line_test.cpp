@@ -94,7 +94,10 @@ TEST(CommandLine, NamesAMisspeltCommand) {
                    "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", "
                    "\"check\", \"world\", "
                    "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got dance)");
-  ExpectUsageError("", "A subcommand is required");
+  ExpectUsageError(
+      "",
+      "command: must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", "
+      "\"world\", \"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got none)");
 }
 
 TEST(CommandLine, PrintsNoArgumentRaw) {
@@ -108,6 +111,19 @@ TEST(CommandLine, PrintsNoArgumentRaw) {
   const Ended run = Generate("check a.json \"$(printf 'b\\033[2J')\"");
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.said.find('\033'), std::string::npos) << run.said;
+}
+
+TEST(CommandLine, SaysInOneFormWhatIsMissingOrTooMuch) {
+  ExpectUsageError("check", "SCENARIO: is required (got none)");
+  ExpectUsageError("check a.json b.json", "too many arguments (got b.json)");
+  ExpectUsageError("check a.json -x", "unknown option (got -x)");
+  ExpectUsageError("sequence a.json --out", "--out: must have a value (got none)");
+  ExpectUsageError("sequence a.json --out b --out c", "--out: must be given once (got 2 times)");
+  ExpectUsageError(
+      "sequence a.json --out b --fidelity publish",
+      "--fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\", "
+      "\"reference\" or \"auto\" (got publish)");
+  ExpectUsageError("insert a b.json --check --threads 1", "--threads: must not come with --check");
 }
 
 TEST(CommandLine, NamesTheOptionThatAMisspeltOneMayMean) {

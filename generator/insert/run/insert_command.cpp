@@ -105,7 +105,7 @@ void AddInsert(CLI::App& app, ProgramCommand& command) {
   CLI::Option* const format = insert
                                   ->add_option("--format", choices.format,
                                                "The recording's own format, or one of railcast's")
-                                  ->check(CLI::IsMember(formats))
+                                  ->check(Named(formats))
                                   ->capture_default_str();
   CLI::Option* const points_alone =
       insert->add_flag("--points-alone", choices.may_use_points_alone,

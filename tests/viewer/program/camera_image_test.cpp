@@ -103,7 +103,9 @@ TEST_F(CameraImageInset, IsNeededOnlyIfAskedFor) {
             "error: " + yard + ": images need a sequence whose scenario has a camera\n");
   const Ended unknown = View("--image instance --screenshot " + PathOf("out.png") + " " + yard);
   EXPECT_EQ(unknown.status, 2);
-  EXPECT_THAT(unknown.said, testing::HasSubstr("--image: instance not in {color,label,depth,off}"));
+  EXPECT_THAT(unknown.said,
+              testing::StartsWith("--image: must be \"color\", \"label\", \"depth\" or "
+                                  "\"off\" (got instance)\n"));
 }
 
 TEST_F(CameraImageInset, IsNamedWhereItCannotBeRead) {

@@ -65,8 +65,9 @@ TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
   for (const std::string option : {"--format ply", "--points-alone", "--threads 1"}) {
     const Ended refused = Insert("--check " + option);
     EXPECT_EQ(refused.status, 2) << option;
-    EXPECT_NE(refused.said.find(option.substr(0, option.find(' ')) + " excludes --check"),
-              std::string::npos)
+    EXPECT_NE(
+        refused.said.find(option.substr(0, option.find(' ')) + ": must not come with --check"),
+        std::string::npos)
         << refused.said;
   }
 }
