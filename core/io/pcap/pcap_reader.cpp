@@ -171,14 +171,20 @@ std::optional<IpFragment> FindFragment(std::span<const char> frame) {
 }
 
 // The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
-std::int64_t TimeOf(const pcap_pkthdr& header, const std::string& place) {
+std::int64_t TimeOf(pcap_t* pcap, const pcap_pkthdr& header, const std::string& place) {
+  // Classic captures, whose version is 2, have unsigned seconds of 32 bits (IETF,
+  // draft-ietf-opsawg-pcap, 5), which libpcap takes for signed ones.
+  const bool is_classic = pcap_major_version(pcap) == 2;
+  const std::int64_t time_s = is_classic
+                                  ? std::int64_t{static_cast<std::uint32_t>(header.ts.tv_sec)}
+                                  : std::int64_t{header.ts.tv_sec};
   // pcapng's clocks have more bits than int64_t has nanoseconds.
   constexpr std::int64_t kMaxTime_s = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
-  if (header.ts.tv_sec < 0 || header.ts.tv_sec > kMaxTime_s) {
-    throw InputError(place + "must be captured before the year 2262 (got " +
-                     NumberText(header.ts.tv_sec) + " s since 1970)");
+  if (time_s < 0 || time_s > kMaxTime_s) {
+    throw InputError(place + "must be captured before the year 2262 (got " + NumberText(time_s) +
+                     " s since 1970)");
   }
-  return header.ts.tv_sec * kNsPerS + header.ts.tv_usec;
+  return time_s * kNsPerS + header.ts.tv_usec;
 }
 
 std::FILE* Open(const std::filesystem::path& file) {
@@ -332,7 +338,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
                        " of " + NumberText(header->len) + " bytes)");
     }
     if (!is_datagram) continue;
-    const std::int64_t time_ns = TimeOf(*header, place);
+    const std::int64_t time_ns = TimeOf(capture_->pcap, *header, place);
     if (finds_places_) {
       const auto in_packet = static_cast<std::uint64_t>(fragment->bytes.data() - kept.data());
       fragment->place = PlaceOf(kept, place) + in_packet;

@@ -312,8 +312,12 @@ PointCloud2 MakeCloud(const Frame& frame,
 
 Time TimeOf(std::int64_t time_ns) {
   const std::int64_t rest_ns = (time_ns % kNsPerS + kNsPerS) % kNsPerS;
-  return {static_cast<std::int32_t>((time_ns - rest_ns) / kNsPerS),
-          static_cast<std::uint32_t>(rest_ns)};
+  const std::int64_t time_s = (time_ns - rest_ns) / kNsPerS;
+  if (!std::in_range<std::int32_t>(time_s)) {
+    throw InputError("stamps in messages of ROS 2 must be before 2038-01-19 03:14:08 (got " +
+                     NumberText(time_s) + " s since 1970)");
+  }
+  return {static_cast<std::int32_t>(time_s), static_cast<std::uint32_t>(rest_ns)};
 }
 
 }  // namespace railcast::ros

@@ -69,6 +69,21 @@ TEST(Pcap, ReadsBackWhatItWrote) {
   EXPECT_FALSE(reader.Next());
 }
 
+TEST(Pcap, KeepsTimesAfter2038UntilTheEndOf32Bits) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  constexpr std::int64_t kLast_s = 0xFFFF'FFFF;  // 2106-02-07 06:28:15.
+  for (const std::int64_t time_s : {std::int64_t{0x8000'0000}, kLast_s}) {
+    Datagrams datagrams = ExampleDatagrams();
+    datagrams.items = {{0, 1206, DatagramPort::kData, 250'000'000}};
+    PcapWriter writer(file, 2368, 8308);
+    writer.SetClockAhead(time_s * 1'000'000'000 - kEpoch_ns);
+    writer.Write(datagrams, datagrams.items);
+    writer.Finish();
+    EXPECT_EQ(PcapReader(file).Next()->time_ns, time_s * 1'000'000'000 + 250'000'000);
+  }
+}
+
 TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
   const TemporaryDirectory directory;
   WriteExample(directory.path() / "a.pcap");

@@ -236,5 +236,14 @@ TEST(TimeOf, CountsWholeSecondsDownwardsBeforeZero) {
   EXPECT_EQ(TimeOf(-1), (Time{-1, 999'999'999}));
 }
 
+TEST(TimeOf, RefusesTimesThatTheMessagesCannotState) {
+  constexpr std::int64_t kFirst_s = 0x8000'0000;
+  EXPECT_EQ(TimeOf((kFirst_s - 1) * 1'000'000'000).sec, kFirst_s - 1);
+  EXPECT_EQ(
+      MessageOf([&] { static_cast<void>(TimeOf(kFirst_s * 1'000'000'000)); }),
+      "stamps in messages of ROS 2 must be before 2038-01-19 03:14:08 (got 2147483648 s since "
+      "1970)");
+}
+
 }  // namespace
 }  // namespace railcast::ros
