@@ -63,14 +63,15 @@ struct RecordedReturns {
 // of the surface where this slants through the beam. The power itself, where it was recorded.
 float IntensityAt(const RecordedFirings& firings,
                   const DetectorSpec& detector,
-                  double per_reflectance,
+                  const IntensityScale& scale,
                   std::size_t firing,
                   std::size_t slot) {
   const RecordedFrame& recorded = firings.recorded;
   const Frame& frame = recorded.frame;
   const float by_power = frame.power_ratio[slot] * LeastIntensity(detector, frame.range_m[slot]);
   if (recorded.Has("power_ratio") && by_power > 0.0F) return by_power;
-  const double intensity = static_cast<double>(frame.intensity[slot]) / per_reflectance;
+  const auto stored = static_cast<double>(frame.intensity[slot]);
+  const double intensity = (stored == 0.0 ? scale.of_zero : stored) / scale.per_reflectance;
   const float reflectance = intensity >= 0.0 ? static_cast<float>(intensity) : kUsualReflectance;
   if (!StretchLowersPower(detector)) return reflectance;
   return reflectance * PeakKeptAt(firings, detector.beam, firing, slot);
@@ -78,7 +79,7 @@ float IntensityAt(const RecordedFirings& firings,
 
 RecordedReturns ReturnsIn(const RecordedFirings& firings,
                           const DetectorSpec& detector,
-                          double per_reflectance) {
+                          const IntensityScale& scale) {
   const Frame& frame = firings.recorded.frame;
   const ScanPattern& pattern = firings.pattern;
   RecordedReturns returns;
@@ -88,10 +89,9 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
       const std::size_t slot = firings.SlotOfCell(cell) + r;
       if (!HasReturn(frame, slot)) continue;
       const Vector3 from_origin_m = RecordedPoint_m(firings.recorded, slot) - OriginOf(pattern, i);
-      returns.screens.push_back(
-          {.range_m = static_cast<float>(from_origin_m.norm()),
-           .intensity = IntensityAt(firings, detector, per_reflectance, i, slot),
-           .share = BeamShareAt(firings, i, slot)});
+      returns.screens.push_back({.range_m = static_cast<float>(from_origin_m.norm()),
+                                 .intensity = IntensityAt(firings, detector, scale, i, slot),
+                                 .share = BeamShareAt(firings, i, slot)});
       returns.slots.push_back(static_cast<std::uint32_t>(slot));
     }
     returns.first.push_back(static_cast<std::uint32_t>(returns.screens.size()));
@@ -146,11 +146,13 @@ void FillPhotons(const RecordedFrame& before, InsertedFrame& inserted) {
   if (photons == foreign.end()) return;
   const std::vector<float>& known =
       before.foreign[static_cast<std::size_t>(photons - foreign.begin())].values;
-  std::vector<float> at_1_m;  // Of intensity 1.
+  constexpr float kOfByte0 = 0.0025F;  // How dark these are is not known.
+  std::vector<float> at_1_m;           // Of intensity 1.
   for (std::size_t slot = 0; slot < recorded.num_slots(); ++slot) {
     const float range_m = recorded.range_m[slot];
     const float each = known[slot] * range_m * range_m / recorded.intensity[slot];
-    if (HasReturn(recorded, slot) && std::isfinite(each)) at_1_m.push_back(each);
+    const bool is_known = HasReturn(recorded, slot) && recorded.intensity[slot] > kOfByte0;
+    if (is_known && std::isfinite(each)) at_1_m.push_back(each);
   }
   if (at_1_m.empty()) return;
   const auto middle = at_1_m.begin() + static_cast<std::ptrdiff_t>(at_1_m.size() / 2);
@@ -184,7 +186,7 @@ RecordedObject Recorded(const ObjectInFrame& object, const Transform& sensor_fro
 struct Inserter::Parts {
   SimulatorSpec spec;
   std::shared_ptr<const World> world;
-  double per_reflectance;
+  IntensityScale scale;
   std::vector<std::int64_t> frame_times_ns;
   ScreenedScan scan;
   ObjectSurvey survey;
@@ -210,7 +212,7 @@ Inserter::Inserter(const InsertPlan& plan, int num_threads) {
   parts_.reset(
       new Parts{.spec = spec,
                 .world = plan.world,
-                .per_reflectance = plan.intensity_per_reflectance,
+                .scale = plan.intensity_scale,
                 .frame_times_ns = plan.frame_times_ns,
                 .scan{plan.world, plan.scenario.materials, spec, num_threads},
                 .survey{*plan.world, LabelTable(plan.scenario.labels), kAnywhere_m, OutputSpec{}}});
@@ -233,8 +235,9 @@ void Inserter::Parts::PutAdded(const RecordedFirings& firings,
   frame.range_m[slot] = now.range_m;
   frame.true_range_m[slot] = now.true_range_m;
   frame.intensity[slot] =
-      is_of_recorded ? frame.intensity[slot] * now.intensity_ratio
-                     : static_cast<float>(static_cast<double>(now.intensity) * per_reflectance);
+      is_of_recorded
+          ? frame.intensity[slot] * now.intensity_ratio
+          : static_cast<float>(static_cast<double>(now.intensity) * scale.per_reflectance);
   frame.power_ratio[slot] = now.power_ratio;
   frame.incidence_rad[slot] = now.incidence_rad;
   frame.footprint_share[slot] = now.footprint_share;
@@ -322,7 +325,7 @@ InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t fra
   const std::int64_t time_ns = parts.frame_times_ns[frame_index];
   InsertedFrame inserted;
   inserted.recorded = firings.recorded;
-  const RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.per_reflectance);
+  const RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.scale);
   ScreenedFrame screened = parts.scan.Scan({.index = frame_index,
                                             .stamp_ns = time_ns,
                                             .pattern = firings.pattern,

@@ -10,6 +10,9 @@ namespace railcast {
 /// On which scale a recording has its intensities.
 struct IntensityScale {
   double per_reflectance = 1.0;  ///< Recorded intensity of a white Lambertian surface.
+  /// What a recorded intensity of 0 stands for, as an intensity: the middle of all that is rounded
+  /// to it, a quarter of the least other one.
+  double of_zero = 0.0;
   /// What was taken for known, or found, in a sentence for the user.
   std::string remark;
 };
@@ -34,6 +37,7 @@ class IntensityScaleFinder {
   std::uint64_t num_above_1_ = 0;
   std::uint64_t num_above_100_ = 0;
   float highest_ = 0.0F;
+  float least_ = 0.0F;  ///< Of those above 0; 0 = none.
 };
 
 }  // namespace railcast

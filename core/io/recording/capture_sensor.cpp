@@ -21,9 +21,13 @@ constexpr std::string_view kAt128Name = "AT128";
 constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
-  if (bytes == IntensityBytes::kVelodyne) return IntensityOfByte(point.intensity);
   const auto byte = static_cast<float>(point.intensity);
-  return bytes == IntensityBytes::kPercent ? byte / 100.0F : byte;
+  if (bytes == IntensityBytes::kUnknown) return byte;
+  // Bytes up to 100 are percent in either case.
+  if (bytes == IntensityBytes::kVelodyne || point.intensity <= 100) {
+    return IntensityOfByte(point.intensity);
+  }
+  return byte / 100.0F;
 }
 
 void FillSlots(const SensorTurn& turn, const TurnShape& shape, Frame& frame) {

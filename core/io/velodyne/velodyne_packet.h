@@ -59,8 +59,10 @@ inline constexpr float kIdealRetroreflector = 1000.0F;
   return static_cast<std::uint8_t>(101.0F + 154.0F * std::min(share, 1.0F));
 }
 
-/// Returns the intensity that a reflectivity byte stands for: the middle of its interval.
+/// Returns the intensity that a reflectivity byte stands for: the middle of its interval. That of
+/// byte 0, which a dark surface returned, too, is [0, 0.5 %).
 [[nodiscard]] inline float IntensityOfByte(std::uint8_t reflectivity) {
+  if (reflectivity == 0) return 0.0025F;
   if (reflectivity <= 100) return static_cast<float>(reflectivity) / 100.0F;
   if (reflectivity == 255) return kIdealRetroreflector;
   return std::pow(10.0F, 3.0F * (static_cast<float>(reflectivity) - 100.5F) / 154.0F);

@@ -91,9 +91,8 @@ void UseIntensities(const std::filesystem::path& recording, InsertPlan& plan) {
   for (std::size_t frame = 0; frame < kMostFrames; ++frame) {
     if (const auto read = opened->Next()) finder.Add((*read)());
   }
-  const IntensityScale found = finder.Found();
-  plan.intensity_per_reflectance = found.per_reflectance;
-  plan.remarks.push_back(found.remark);
+  plan.intensity_scale = finder.Found();
+  plan.remarks.push_back(plan.intensity_scale.remark);
 }
 
 /// Finds where the objects are on the line at first.

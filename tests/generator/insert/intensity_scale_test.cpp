@@ -44,6 +44,17 @@ TEST(IntensityScale, OfCapturesIsKnown) {
   EXPECT_EQ(ScaleOf("capture of VLP-16", Points(20.0F, 255.0F)).per_reflectance, 1.0);
 }
 
+// Bytes of 0 are what is below half a byte, and so are zeros on other scales.
+TEST(IntensityScale, TakesZeroForTheMiddleOfWhatIsRoundedToIt) {
+  std::vector<float> bytes = Points(20.0F, 255.0F);
+  bytes.insert(bytes.end(), {0.0F, 1.0F, 0.0F, 2.0F});
+  EXPECT_EQ(ScaleOf(kClouds, bytes).of_zero, 0.25);
+  std::vector<float> hundredths = Points(0.5F, 1.0F);
+  hundredths.insert(hundredths.end(), {0.0F, 0.03125F});
+  EXPECT_EQ(ScaleOf(kClouds, hundredths).of_zero, 0.25 * 0.03125);
+  EXPECT_EQ(ScaleOf(kClouds, {0.0F}).of_zero, 0.0);
+}
+
 TEST(IntensityScale, IsOneWithoutIntensities) {
   EXPECT_EQ(ScaleOf(kClouds, {}).per_reflectance, 1.0);
 }

@@ -4,6 +4,7 @@
 
 #include "core/io/hesai/hesai_encoder.h"
 #include "core/io/pcap/pcap_writer.h"
+#include "core/io/recording/capture_sensor.h"
 #include "core/io/velodyne/velodyne_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
@@ -87,6 +88,21 @@ INSTANTIATE_TEST_SUITE_P(CaptureRecording,
 TEST(Reflectivity, OfAnIntensityIsTheByteItCameFrom) {
   for (int byte = 0; byte < 256; ++byte) {
     EXPECT_EQ(ReflectivityByte(IntensityOfByte(static_cast<std::uint8_t>(byte))), byte);
+  }
+}
+
+// It is what rounds to it: less than half a percent.
+TEST(Reflectivity, OfByte0IsAQuarterPercentInCapturesOfAllKinds) {
+  for (const IntensityBytes bytes : {IntensityBytes::kVelodyne, IntensityBytes::kPercent}) {
+    const SensorTurn turn{.points = {{.x = 5.0F, .range_m = 5.0F},
+                                     {.x = 5.0F, .range_m = 5.0F, .column = 1, .intensity = 1}},
+                          .column_time_ns = {0, 100},
+                          .aims = {},
+                          .places = {}};
+    const TurnShape shape{.row_time_ns = {0}, .intensity = bytes, .beam_of = {}};
+    const Frame frame = MakeTurnFrame(turn, shape, "turn").frame;
+    EXPECT_EQ(frame.intensity, (std::vector<float>{0.0025F, 0.01F}));
+    EXPECT_EQ(ByteOfIntensity(frame.intensity[0], bytes), 0);
   }
 }
 
