@@ -9,6 +9,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
 #include "core/program/version.h"
 
 namespace railcast {
@@ -38,8 +39,11 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
   FinishedStudy study;
   study.directory = directory;
   study.result.identity = ReadStudyJson(directory);
-  CheckIsWhole(directory, study.result.identity);
-  const auto num_approaches = study.result.identity.at("num_scenarios").get<std::uint32_t>();
+  const std::string place = ShownPath(directory / kStudyFile);
+  const auto num_approaches = ReadJson(place, [&] {
+    CheckIsWhole(directory, study.result.identity);
+    return study.result.identity.at("num_scenarios").get<std::uint32_t>();
+  });
   study.result.num_approaches = num_approaches;
   study.result.approaches = ReadApproaches(directory);
   const std::size_t num_done = study.result.approaches.size();
@@ -50,12 +54,16 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
                      "it");
   }
   study.spec = ReadStudy(directory / kAskedFile);
-  study.recipe = Json::parse(ReadFileWhole(directory / kAskedRecipeFile));
-  const Json& frames = study.result.identity.at("frames");
-  for (std::uint32_t i = 0; i < frames.at("num").get<std::uint32_t>(); ++i) {
-    study.frames.push_back(frames.at("first").get<std::uint32_t>() +
-                           i * frames.at("stride").get<std::uint32_t>());
-  }
+  study.recipe = ReadRecordedJson<Json>(ReadFileWhole(directory / kAskedRecipeFile),
+                                        ShownPath(directory / kAskedRecipeFile),
+                                        [](const Json& json) { return json; });
+  ReadJson(place, [&] {
+    const Json& frames = study.result.identity.at("frames");
+    for (std::uint32_t i = 0; i < frames.at("num").get<std::uint32_t>(); ++i) {
+      study.frames.push_back(frames.at("first").get<std::uint32_t>() +
+                             i * frames.at("stride").get<std::uint32_t>());
+    }
+  });
   return study;
 }
 

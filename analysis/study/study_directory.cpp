@@ -77,7 +77,8 @@ std::vector<ApproachRecord> StudyDirectory::Read() const {
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
   std::vector<ApproachRecord> records;
   for (std::uint32_t i = 0; i < num_done_; ++i) {
-    records.push_back(ApproachFromJson(lines.Need().record));
+    const ScenarioLines::Line line = lines.Need();
+    records.push_back(ReadJson(line.placed.place, [&] { return ApproachFromJson(line.record); }));
   }
   return records;
 }
@@ -92,7 +93,9 @@ Json ReadStudyJson(const fs::path& directory) {
 std::vector<ApproachRecord> ReadApproaches(const fs::path& directory) {
   ScenarioLines lines(directory / kApproachesFile, {});
   std::vector<ApproachRecord> records;
-  while (const auto line = lines.Next()) records.push_back(ApproachFromJson(line->record));
+  while (const auto line = lines.Next()) {
+    records.push_back(ReadJson(line->placed.place, [&] { return ApproachFromJson(line->record); }));
+  }
   return records;
 }
 

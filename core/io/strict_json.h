@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 
@@ -34,8 +34,8 @@ requires(!std::same_as<T, bool>) struct StrictSerializer<T, void> : nlohmann::ad
       const std::string got = json.is_number() ? json.dump() : json.type_name();
       throw Json::type_error::create(
           kWrongType,
-          "must be a whole number from " + std::to_string(std::numeric_limits<T>::min()) + " to " +
-              std::to_string(std::numeric_limits<T>::max()) + ", not " + got,
+          "a value must be a whole number from " + std::to_string(std::numeric_limits<T>::min()) +
+              " to " + std::to_string(std::numeric_limits<T>::max()) + " (got " + got + ")",
           &json);
     }
     nlohmann::adl_serializer<T>::from_json(json, value);
@@ -74,11 +74,7 @@ auto ReadRecordedJson(const std::string& text, const std::string& place, const R
     -> decltype(read(Json{})) {
   // Checked first because the library's own syntax errors quote the text raw and without bound.
   CheckRecordedJson(text, place);
-  try {
-    return read(Json::parse(text));
-  } catch (const typename Json::exception& error) {
-    throw InputError(place + ": is damaged: " + error.what());
-  }
+  return ReadJson(place, [&] { return read(Json::parse(text)); });
 }
 
 }  // namespace railcast

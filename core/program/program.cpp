@@ -17,6 +17,7 @@
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/version.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
@@ -79,7 +80,7 @@ int RunMain(const std::string& program,
     if (IsOutOfThreads(error)) {
       complaints << kOutOfThreads;
     } else {
-      complaints << program << ": " << ShownLines(error.what()) << "\n";
+      complaints << program << ": " << ShownLines(JsonFault(error.what())) << "\n";
     }
   }
   return kExitFailure;

@@ -12,6 +12,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/recorded_bases.h"
 #include "generator/insert/run/insert_folder.h"
@@ -34,10 +35,13 @@ std::map<std::string, std::string> HashesIn(const fs::path& directory) {
 
 std::uint64_t PointsIn(const fs::path& directory) {
   std::uint64_t points = 0;
-  const std::string text = ReadFileWhole(directory / kInsertFile);
+  const fs::path file = directory / kInsertFile;
+  const std::string text = ReadFileWhole(file);
   std::string_view rest = text;
   while (const auto line = TakeLine(rest)) {
-    points += Json::parse(*line).at("points").get<std::uint64_t>();
+    points += ReadRecordedJson<StrictJson>(
+        std::string(*line), ShownPath(file),
+        [](const StrictJson& json) { return json.at("points").get<std::uint64_t>(); });
   }
   return points;
 }
@@ -77,13 +81,16 @@ Json RecordOfInserted(const DrawnScenario& drawn,
     speed_mps.push_back(Speed_mps(run, drawn.first_frame + i));
   }
   const Json hashes = HashesIn(directory);
-  const Json manifest = Json::parse(ReadFileWhole(directory / kManifestFile));
+  const fs::path manifest = directory / kManifestFile;
+  const auto plan_hash = ReadRecordedJson<StrictJson>(
+      ReadFileWhole(manifest), ShownPath(manifest),
+      [](const StrictJson& json) { return json.at("plan_xxh3").get<std::string>(); });
   const fs::path folder = (directory / kRecordingFolder).lexically_relative(dataset);
   return {{"sensor", drawn.scenario.lidar.name},
           {"folder", folder.generic_string()},
           {"num_frames", drawn.num_frames},
           {"points", PointsIn(directory)},
-          {"scenario_xxh3", manifest.at("plan_xxh3")},
+          {"scenario_xxh3", plan_hash},
           {"data_xxh3", ContentHash(hashes.dump())},
           {"manifest_xxh3", hashes.at(std::string(kManifestFile))},
           {"vehicle_s_m", std::move(s_m)},

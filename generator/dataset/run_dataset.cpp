@@ -12,6 +12,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
 #include "core/program/version.h"
 #include "core/recipe/recipe_files.h"
 #include "core/recipe/scenario_turns.h"
@@ -196,7 +197,9 @@ class DatasetRun {
                               const SensorPlan& sensor) const {
     const SequenceSpec& spec = sensor.spec;
     const std::string text = ReadFileWhole(spec.directory / kManifestFile);
-    const Json manifest = Json::parse(text);
+    const auto [points, data_hash] = ReadRecordedJson<Json>(
+        text, ShownPath(spec.directory / kManifestFile),
+        [](const Json& json) { return std::pair(json.at("points"), json.at("data_xxh3")); });
     Json s_m = Json::array();
     Json speed_mps = Json::array();
     for (std::uint32_t i = 0; i < spec.num_frames; ++i) {
@@ -209,9 +212,9 @@ class DatasetRun {
         {"sensor", sensor.name},
         {"folder", spec.directory.lexically_relative(choices_.directory).generic_string()},
         {"num_frames", spec.num_frames},
-        {"points", manifest.at("points")},
+        {"points", points},
         {"scenario_xxh3", spec.identity.scenario_hash},
-        {"data_xxh3", manifest.at("data_xxh3")},
+        {"data_xxh3", data_hash},
         {"manifest_xxh3", ContentHash(text)},
         {"vehicle_s_m", std::move(s_m)},
         {"vehicle_speed_mps", std::move(speed_mps)}};

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/io/strict_json.h"
 #include "core/io/write_file.h"
+#include "core/scenario/json_text.h"
 #include "generator/import/map/rail_map.h"
 
 namespace railcast {
@@ -20,8 +21,8 @@ namespace railcast {
   const std::string text = ReadFileWhole(file);
   try {
     return StrictJson::parse(text);
-  } catch (const StrictJson::exception& error) {
-    throw InputError(ShownPath(file) + ": must be JSON: " + ShownLines(error.what()));
+  } catch (const StrictJson::exception&) {
+    throw InputError(ShownPath(file) + ": must be JSON: " + ParseJson(text).syntax_error);
   }
 }
 

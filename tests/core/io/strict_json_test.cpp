@@ -10,13 +10,13 @@ std::string JsonFaultOf(const std::string& text) {
   try {
     static_cast<void>(StrictJson::parse(text).get<T>());
   } catch (const StrictJson::exception& error) {
-    return error.what();
+    return JsonFault(error.what());
   }
   return "";
 }
 
 std::string NotUnsigned(const std::string& got) {
-  return "[json.exception.type_error.302] must be a whole number from 0 to 4294967295, not " + got;
+  return "a value must be a whole number from 0 to 4294967295 (got " + got + ")";
 }
 
 TEST(StrictJson, GivesWholeNumbersToThoseThatHoldThem) {
@@ -38,8 +38,8 @@ TEST(StrictJson, RefusesNumbersThatWouldBecomeOthers) {
   EXPECT_EQ(JsonFaultOf<std::uint32_t>(std::string(100'000, '[') + std::string(100'000, ']')),
             NotUnsigned("array"));
   EXPECT_EQ(JsonFaultOf<std::int64_t>("9223372036854775808"),
-            "[json.exception.type_error.302] must be a whole number from -9223372036854775808 to "
-            "9223372036854775807, not 9223372036854775808");
+            "a value must be a whole number from -9223372036854775808 to 9223372036854775807 (got "
+            "9223372036854775808)");
   using Counts = std::map<std::string, std::uint64_t>;
   EXPECT_NE(JsonFaultOf<Counts>(R"({"rail": 1e30})"), "");
 }
