@@ -26,6 +26,7 @@ enum class RandomUse : std::uint32_t {
   kSensorKey = 16,
   kFogPatches = 17,
   kVelocity = 18,
+  kRecordedDetection = 19,
   kGroundRoughness = 100,
   kBallastRoughness = 101,
   kTreePlacement = 102,

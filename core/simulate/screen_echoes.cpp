@@ -14,6 +14,10 @@ namespace {
 
 // An echo of a screen that something beside it moves by more than this is no recorded return.
 constexpr float kMoved_m = 0.002F;
+// Parts of a recorded return that differ from all of it by less than this are all of it: where an
+// object takes nothing of its light, they are sums of rounded levels.
+constexpr float kSame = 1e-3F;
+
 double NormalCdfOf(double x) {
   return 0.5 * std::erfc(-x / std::sqrt(2.0));
 }
@@ -41,18 +45,31 @@ void ScreenEchoes::Place(EchoTiles& echoes) const {
   });
 }
 
+float ScreenEchoes::PowerKept(const EchoTiles::Place& echo) const {
+  if (!detector_.effects.detection) return 1.0F;
+  const auto& [tile, lane] = echo;
+  const Screen& screen = cast_.screens->screen(ScreenAt(echo));
+  // Only screens alone are not rounded to levels of materials.
+  const bool is_met = cast_.screens->met(tile.firing[lane]) != 0;
+  const float alone = is_met ? surfaces_.alone[ScreenAt(echo)] : screen.intensity;
+  const float kept = tile.power_ratio[lane] * LeastIntensity(detector_, screen.range_m) / alone;
+  return is_met && std::fabs(kept - 1.0F) < kSame ? 1.0F : kept;
+}
+
 bool ScreenEchoes::IsDetected(const EchoTiles::Place& echo) const {
   if (!detector_.effects.detection) return true;
   const auto& [tile, lane] = echo;
-  const double ratio = static_cast<double>(tile.power_ratio[lane]);
-  if (!detector_.effects.detection_probability) return ratio >= 1.0;
   const Screen& screen = cast_.screens->screen(ScreenAt(echo));
   const double before =
       static_cast<double>(screen.intensity / LeastIntensity(detector_, screen.range_m));
+  const double ratio = before * static_cast<double>(PowerKept(echo));
+  if (!detector_.effects.detection_probability) return ratio >= 1.0;
+  if (ratio >= before) return true;
   const auto probability = [&](double of_threshold) {
     return NormalCdfOf(detector_.receiver.snr_at_threshold * (of_threshold - 1.0));
   };
-  const auto words = RandomWords(detector_.seed, RandomUse::kDetection, tile.frame,
+  // A recording of the same seed has been decided by the draw of kDetection.
+  const auto words = RandomWords(detector_.seed, RandomUse::kRecordedDetection, tile.frame,
                                  tile.firing[lane], tile.echo[lane]);
   return static_cast<double>(UnitFloat(words[0])) * probability(before) < probability(ratio);
 }
@@ -81,15 +98,17 @@ void ScreenEchoes::Judge(EchoTiles& echoes) const {
   });
 }
 
+void ScreenEchoes::TellPower(const EchoTiles::Place& echo, std::vector<float>& kept) const {
+  if (ScreenAt(echo) != kNoScreen) kept[ScreenAt(echo)] = PowerKept(echo);
+}
+
 ReturnNow ScreenEchoes::Describe(const EchoTiles::Place& echo) const {
   const auto& [tile, lane] = echo;
   ReturnNow now{.screen = ScreenAt(echo)};
   if (now.screen != kNoScreen) {
     const float ratio = tile.intensity[lane] / surfaces_.alone[now.screen];
-    constexpr float kSame = 1e-3F;
     // Weather takes no part of what an intensity says, and screens alone are not rounded to levels
-    // of materials. Where an object takes nothing, the ratio is that of a rounded sum; without a
-    // power, NaN.
+    // of materials. Without a power, the ratio is NaN.
     const bool is_met = cast_.screens->met(tile.firing[lane]) != 0;
     if (is_met && std::fabs(ratio - 1.0F) > kSame) now.intensity_ratio = ratio;
     const Screen& screen = cast_.screens->screen(now.screen);

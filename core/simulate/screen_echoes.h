@@ -72,6 +72,9 @@ class ScreenEchoes {
   /// After it: decides anew which echoes of screens are detected, and undoes what noise and chance
   /// have done to them.
   void Judge(EchoTiles& echoes) const;
+  /// After it: notes of the echo of a screen which part it has of the recorded power.
+  /// @param kept By screen.
+  void TellPower(const EchoTiles::Place& echo, std::vector<float>& kept) const;
   /// Whether an echo is a lost return or an added one.
   [[nodiscard]] bool IsNews(const EchoTiles::Place& echo) const;
   /// @param lane Of the firing in `echoes.first`.
@@ -88,6 +91,8 @@ class ScreenEchoes {
     const bool is_screen = surface >= surfaces_.first && echo.tile.clutter[echo.lane] == kNoClutter;
     return is_screen ? surface - surfaces_.first : kNoScreen;
   }
+  /// The part that the echo of a screen has of its recorded power; 1 without effect `detection`.
+  [[nodiscard]] float PowerKept(const EchoTiles::Place& echo) const;
   [[nodiscard]] bool IsDetected(const EchoTiles::Place& echo) const;
   [[nodiscard]] ReturnNow Describe(const EchoTiles::Place& echo) const;
 

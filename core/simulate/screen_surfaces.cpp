@@ -78,8 +78,11 @@ Screens MakeScreens(const DetectorSpec& detector,
     const std::span<Screen> of(returns.data() + first[firing], first[firing + 1] - first[firing]);
     for (Screen& screen : of) {
       screen.range_m = std::clamp(screen.range_m, nearest_m, farthest_m);
+      // Noise may have helped it.
+      const float least_share =
+          detector.effects.detection_probability && screen.is_power_known ? 0.0F : kLift;
       screen.intensity = std::max({screen.intensity, static_cast<float>(kDarkest),
-                                   kLift * LeastIntensity(detector, screen.range_m)});
+                                   least_share * LeastIntensity(detector, screen.range_m)});
       screen.back_m = kBackBySigmas * RangeNoise_m(detector, screen);
     }
     const ScreenParts parts = PartsOf(of);

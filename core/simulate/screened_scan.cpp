@@ -92,6 +92,7 @@ struct ScreenedScan::Parts {
     std::optional<VelocityMeter> velocities;
     Transform world_from_window;
     std::vector<ChangedFiring>& changed;
+    std::vector<float>& power_kept;
   };
 
   void UseRows(std::uint32_t rows, double rate_hz);
@@ -203,16 +204,18 @@ void ScreenedScan::Parts::MakeTile(const Job& job,
   job.screen_echoes.Judge(echoes);
   firings.MoveToOrigins(tile, echoes);
   std::array<bool, kTileSize> is_told{};
+  // Beams that were traced in vain are as all others.
+  const auto is_of_kind = [&](std::uint32_t firing) {
+    return kind != Kind::kTraced || job.cast.screens->met(firing) != 0;
+  };
   const auto tell = [&](std::size_t lane, const EchoTiles::Place& echo) {
-    is_told[lane] = is_told[lane] || job.screen_echoes.IsNews(echo);
+    is_told[lane] = is_told[lane] || kind == Kind::kTraced || job.screen_echoes.IsNews(echo);
+    if (is_of_kind(echo.tile.firing[echo.lane])) job.screen_echoes.TellPower(echo, job.power_kept);
   };
   for (std::size_t i = 0; i < echoes.first.num_rays; ++i) tell(i, {echoes.first, i});
   for (std::size_t i = 0; i < echoes.num_more(); ++i) tell(echoes.beam_of(i), echoes.more(i));
   for (std::size_t lane = 0; lane < firings.num_firings(tile); ++lane) {
-    const std::uint32_t firing = echoes.first.firing[lane];
-    const bool is_met = kind == Kind::kTraced && job.cast.screens->met(firing) != 0;
-    // Beams that were traced in vain are as all others.
-    if (kind == Kind::kTraced ? !is_met : !is_told[lane]) continue;
+    if (!is_told[lane] || !is_of_kind(echoes.first.firing[lane])) continue;
     VelocityOfEcho velocity_of;
     if (job.velocities) {
       velocity_of = [&](const EchoTiles::Place& echo) {
@@ -288,7 +291,9 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
           .screen_echoes = screen_echoes,
           .velocities = {},
           .world_from_window = scene.window->window_from_world.inverse(),
-          .changed = frame.firings};
+          .changed = frame.firings,
+          .power_kept = frame.power_kept};
+  frame.power_kept.assign(recorded.returns.size(), 1.0F);
   if (cast.motion != nullptr) job.velocities.emplace(spec.detector, cast);
   std::vector<std::size_t> objects(scenes.world().objects().size());
   std::iota(objects.begin(), objects.end(), std::size_t{0});

@@ -26,7 +26,9 @@ struct RecordedScan {
 /// What has changed in a recorded frame.
 struct ScreenedFrame {
   std::vector<ChangedFiring> firings;  ///< By firing.
-  std::vector<ObjectView> views;       ///< One for each of the world's objects.
+  /// By recorded return, its power over the recorded one, the air's part included.
+  std::vector<float> power_kept;
+  std::vector<ObjectView> views;  ///< One for each of the world's objects.
 };
 
 /// Simulates recorded firings in a world that holds what was not there when they were recorded. All

@@ -16,8 +16,8 @@ struct SlotEdit {
   /// The recorded slot whose return is here now: this one if its return is merely weaker, another
   /// one of the same firing if it moved. Absent if the slot has no return, or one that was added.
   std::optional<std::uint32_t> from_slot;
-  /// Whether its intensity is not the recorded one. The position of a recorded return never
-  /// changes.
+  /// Whether its intensity is not the recorded one; of weather, only its power changes. The
+  /// position of a recorded return never changes.
   bool is_weaker = false;
   /// Whether the slot had a return when it was recorded, ...
   bool had_point = false;

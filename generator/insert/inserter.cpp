@@ -57,7 +57,12 @@ struct RecordedReturns {
   std::vector<std::uint32_t> first{0};
   std::vector<Screen> screens;
   std::vector<std::uint32_t> slots;
+  std::vector<float> power_kept{};  ///< Of the recorded power, by return; 1 where none is recorded.
 };
+
+bool IsPowerKnown(const RecordedFrame& recorded, std::size_t slot) {
+  return recorded.Has("power_ratio") && recorded.frame.power_ratio[slot] > 0.0F;
+}
 
 // The intensity with which a return stands for the power that the receiver has met: less than that
 // of the surface where this slants through the beam. The power itself, where it was recorded.
@@ -69,7 +74,7 @@ float IntensityAt(const RecordedFirings& firings,
   const RecordedFrame& recorded = firings.recorded;
   const Frame& frame = recorded.frame;
   const float by_power = frame.power_ratio[slot] * LeastIntensity(detector, frame.range_m[slot]);
-  if (recorded.Has("power_ratio") && by_power > 0.0F) return by_power;
+  if (IsPowerKnown(recorded, slot) && by_power > 0.0F) return by_power;
   const auto stored = static_cast<double>(frame.intensity[slot]);
   const double intensity = (stored == 0.0 ? scale.of_zero : stored) / scale.per_reflectance;
   const float reflectance = intensity >= 0.0 ? static_cast<float>(intensity) : kUsualReflectance;
@@ -91,6 +96,7 @@ RecordedReturns ReturnsIn(const RecordedFirings& firings,
       const Vector3 from_origin_m = RecordedPoint_m(firings.recorded, slot) - OriginOf(pattern, i);
       returns.screens.push_back({.range_m = static_cast<float>(from_origin_m.norm()),
                                  .intensity = IntensityAt(firings, detector, scale, i, slot),
+                                 .is_power_known = IsPowerKnown(firings.recorded, slot),
                                  .share = BeamShareAt(firings, i, slot)});
       returns.slots.push_back(static_cast<std::uint32_t>(slot));
     }
@@ -118,6 +124,10 @@ void SortFarthestFirst(const std::vector<Screen>& screens, std::vector<ReturnNow
   std::ranges::stable_sort(returns, std::ranges::greater{}, [&](const ReturnNow& now) {
     return now.is_added ? now.range_m : screens[now.screen].range_m;
   });
+}
+
+bool HasSamePower(const Frame& before, const Frame& now, std::size_t slot) {
+  return std::isnan(now.power_ratio[slot]) || now.power_ratio[slot] == before.power_ratio[slot];
 }
 
 void CopySlot(const RecordedFrame& from,
@@ -200,6 +210,10 @@ struct Inserter::Parts {
                 const ReturnNow& now,
                 std::size_t slot,
                 RecordedFrame& recorded) const;
+  void PutFirings(const RecordedFirings& firings,
+                  const RecordedReturns& returns,
+                  std::vector<ChangedFiring>& changed,
+                  InsertedFrame& inserted) const;
   [[nodiscard]] std::vector<RecordedObject> ObjectsIn(const Frame& inserted,
                                                       std::int64_t time_ns,
                                                       const std::vector<ObjectView>& views);
@@ -285,6 +299,7 @@ void Inserter::Parts::PutReturns(const RecordedFirings& firings,
         edit.is_weaker = now.intensity_ratio != 1.0F;
         CopySlot(before, *edit.from_slot, slot, recorded);
         frame.intensity[slot] *= now.intensity_ratio;
+        frame.power_ratio[slot] *= returns.power_kept[now.screen];
       }
     } else if (r == 0) {
       frame.outcome[slot] = changed.outcome;
@@ -298,8 +313,33 @@ void Inserter::Parts::PutReturns(const RecordedFirings& firings,
       edit.hidden_by = lost->instance;
     }
     const bool is_as_before = edit.has_point == edit.had_point &&
-                              (!edit.has_point || (edit.from_slot == slot && !edit.is_weaker));
+                              (!edit.has_point || (edit.from_slot == slot && !edit.is_weaker &&
+                                                   HasSamePower(before.frame, frame, slot)));
     if (!is_as_before) inserted.edits.push_back(edit);
+  }
+}
+
+void Inserter::Parts::PutFirings(const RecordedFirings& firings,
+                                 const RecordedReturns& returns,
+                                 std::vector<ChangedFiring>& changed,
+                                 InsertedFrame& inserted) const {
+  const Frame& before = firings.recorded.frame;
+  Frame& frame = inserted.recorded.frame;
+  const bool are_farthest_first = AreFarthestFirst(before);
+  auto next = changed.begin();
+  for (std::uint32_t i = 0; i + 1 < returns.first.size(); ++i) {
+    if (next != changed.end() && next->firing == i) {
+      if (are_farthest_first) SortFarthestFirst(returns.screens, next->returns);
+      PutReturns(firings, returns, *next++, inserted);
+      continue;
+    }
+    for (std::uint32_t k = returns.first[i]; k < returns.first[i + 1]; ++k) {
+      const std::uint32_t slot = returns.slots[k];
+      frame.power_ratio[slot] *= returns.power_kept[k];
+      if (HasSamePower(before, frame, slot)) continue;
+      inserted.edits.push_back(
+          {.slot = slot, .from_slot = slot, .had_point = true, .has_point = true});
+    }
   }
 }
 
@@ -325,18 +365,16 @@ InsertedFrame Inserter::Insert(const RecordedFirings& firings, std::uint32_t fra
   const std::int64_t time_ns = parts.frame_times_ns[frame_index];
   InsertedFrame inserted;
   inserted.recorded = firings.recorded;
-  const RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.scale);
+  RecordedReturns returns = ReturnsIn(firings, parts.spec.detector, parts.scale);
   ScreenedFrame screened = parts.scan.Scan({.index = frame_index,
                                             .stamp_ns = time_ns,
                                             .pattern = firings.pattern,
                                             .first = returns.first,
                                             .returns = returns.screens},
                                            firings.recorded.frame.returns);
-  const bool are_farthest_first = AreFarthestFirst(firings.recorded.frame);
-  for (ChangedFiring& changed : screened.firings) {
-    if (are_farthest_first) SortFarthestFirst(returns.screens, changed.returns);
-    parts.PutReturns(firings, returns, changed, inserted);
-  }
+  returns.power_kept = std::move(screened.power_kept);
+  if (!firings.recorded.Has("power_ratio")) std::ranges::fill(returns.power_kept, 1.0F);
+  parts.PutFirings(firings, returns, screened.firings, inserted);
   std::ranges::sort(inserted.edits, {}, &SlotEdit::slot);
   FillPhotons(firings.recorded, inserted);
   inserted.objects = parts.ObjectsIn(inserted.recorded.frame, time_ns, screened.views);

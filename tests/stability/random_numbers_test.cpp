@@ -39,6 +39,7 @@ constexpr std::array kUses = {
     RandomUse::kSpray,
     RandomUse::kSensorKey,
     RandomUse::kFogPatches,
+    RandomUse::kRecordedDetection,
     RandomUse::kGroundRoughness,
     RandomUse::kBallastRoughness,
     RandomUse::kTreePlacement,
