@@ -12,6 +12,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
@@ -42,7 +43,7 @@ bool IsPhysicalRung(const FitOptions& options, const RecordingInfo& info) {
 // unknown.
 bool HasReflectances(const FitOptions& options, const RecordingInfo& info) {
   if (options.intensity != "auto") return options.intensity == "reflectance";
-  return info.scenario.has_value() || info.kind.starts_with("capture");
+  return IsSimulated(info) || info.kind.starts_with("capture");
 }
 
 FitSettings SettingsOf(const FitOptions& options, const RecordingInfo& info) {

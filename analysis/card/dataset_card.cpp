@@ -13,6 +13,7 @@
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/verify/dataset_verification.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
@@ -42,10 +43,8 @@ SeenScenarios LookAtScenarios(const std::vector<fs::path>& sequences) {
   for (const fs::path& path : sequences) {
     const RecordingInfo info = OpenRecording(path)->info();
     if (seen.labels.labels().empty()) seen.labels = info.labels;
-    if (!info.scenario) {
-      seen.has_recordings = true;
-      continue;
-    }
+    seen.has_recordings = seen.has_recordings || !IsSimulated(info);
+    if (!info.scenario) continue;
     const std::string& attribution = info.scenario->world.alignment.attribution;
     if (!attribution.empty()) seen.attributions.insert(attribution);
     if (std::ranges::none_of(seen.sample, [&](const ScenarioSpec& scenario) {

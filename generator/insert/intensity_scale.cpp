@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "core/base/text.h"
+#include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
 
 IntensityScaleFinder::IntensityScaleFinder(const RecordingInfo& info)
-    : are_reflectances_(info.scenario.has_value() || info.kind.starts_with("capture")) {}
+    : are_reflectances_(IsSimulated(info) || info.kind.starts_with("capture")) {}
 
 void IntensityScaleFinder::Add(const RecordedFrame& recorded) {
   if (!recorded.Has("intensity")) return;

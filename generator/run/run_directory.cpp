@@ -89,7 +89,8 @@ std::vector<LineFileName> LineFileNames(const SequenceSpec& spec) {
   return names;
 }
 
-// labels.json in the form that the scenario reader reads.
+}  // namespace
+
 std::string LabelsJson(const LabelTable& labels) {
   OrderedJson list = OrderedJson::array();
   for (const Label& label : labels.labels()) {
@@ -103,6 +104,8 @@ std::string LabelsJson(const LabelTable& labels) {
   }
   return OrderedJson{{"version", 1}, {"labels", list}}.dump(2) + "\n";
 }
+
+namespace {
 
 // materials.json: the materials by the ids that frames carry; 0 means none.
 std::string MaterialsJson(const MaterialLibrary& materials) {

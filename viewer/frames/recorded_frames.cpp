@@ -28,7 +28,7 @@ LabelTable FindLabels(const std::filesystem::path& source, int num_above) {
   return {};
 }
 
-constexpr std::size_t kMaxTurns = 24;      // For captures; a turn of a Pandar64 takes 5 MB.
+constexpr std::size_t kMaxTurns = 24;  // For captures and bags; a turn of a Pandar64 takes 5 MB.
 constexpr std::size_t kMaxReaders = 4096;  // For files; a reader holds a few lines of text.
 
 }  // namespace
@@ -79,7 +79,8 @@ bool RecordedFrames::Advance() {
     return false;
   }
   readers_.push_back(std::move(*reader));
-  if (readers_.size() > (info_.num_frames ? kMaxReaders : kMaxTurns)) {
+  const bool holds_data = info_.kind.starts_with("capture") || info_.kind.starts_with("bag");
+  if (readers_.size() > (holds_data ? kMaxTurns : kMaxReaders)) {
     readers_.pop_front();
     ++first_reader_;
   }

@@ -44,8 +44,12 @@ Session::Session(const std::vector<Frames*>& frames, Choices choices)
 }
 
 void Session::PairSources() {
-  const auto is_numbered = [](const Source& source) {
-    return source.frames->info().kind == "sequence" && source.frames->Get(0);
+  // Frames into which something was put have the numbers of the recording's.
+  const auto is_numbered = [this](const Source& source) {
+    const std::string& kind = source.frames->info().kind;
+    const bool is_counted = kind == "sequence" || kind == "directory of point clouds" ||
+                            kind.starts_with("capture") || kind.starts_with("bag");
+    return is_counted && kind == sources_.front().frames->info().kind && source.frames->Get(0);
   };
   if (sources_.size() < 2 || !std::ranges::all_of(sources_, is_numbered)) return;
   const auto first_number = [](const Source& source) {

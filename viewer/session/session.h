@@ -19,7 +19,8 @@ class Session {
   Session(const std::vector<Frames*>& frames, Choices choices);
 
   /// Shows the frame at that place of the first source. The second source shows the frame with the
-  /// same index if both are railcast sequences, else the one at the same place.
+  /// same index if both are sequences, captures of one sensor, bags or directories of clouds, else
+  /// the one at the same place.
   /// @returns False if there is none; the session is then unchanged.
   /// @throws InputError if the frame cannot be read or, the first time, cannot be coloured as
   ///   chosen.

@@ -224,8 +224,13 @@ std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
   return std::make_unique<CloudRecording>(source, kind, std::move(files));
 }
 
-std::unique_ptr<Recording> OpenReceived(const std::filesystem::path& directory) {
-  return std::make_unique<ReceivedRecording>(directory);
+std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& directory) {
+  if (exists(directory / kReceivedFile)) return std::make_unique<ReceivedRecording>(directory);
+  auto files = CloudsOfDirectory(directory);
+  if (files.empty()) return nullptr;
+  const bool is_kitti = files.front().extension() == ".bin";
+  return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
+                    std::move(files));
 }
 
 }  // namespace railcast

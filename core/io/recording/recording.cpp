@@ -26,22 +26,17 @@ void CheckIsOfOneSensor(const std::filesystem::path& directory) {
                    (merged ? all + ShownPath(merged->folder) : all.substr(0, all.size() - 2)));
 }
 
-/// Opens a directory of clouds: side by side, or in the layout of a sequence, of merged clouds, of
-/// a received stream or of KITTI.
+/// Opens a directory of clouds: side by side, or in the layout of a sequence, of an insertion, of
+/// merged clouds, of a received stream or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
   // A run without frames.jsonl is opened as a sequence, too, so that its loss is reported: the
   // clouds alone cannot be checked.
   const bool is_of_run = exists(directory / kRunFile) && exists(directory / kScenarioFile);
   if (is_of_run || exists(directory / kFramesFile)) return OpenSequence(directory);
+  if (auto inserted = OpenInserted(directory)) return inserted;
   if (exists(directory / kMergedFile)) return OpenMerged(directory);
-  if (exists(directory / kReceivedFile)) return OpenReceived(directory);
   CheckIsOfOneSensor(directory);
-  auto files = CloudsOfDirectory(directory);
-  if (!files.empty()) {
-    const bool is_kitti = files.front().extension() == ".bin";
-    return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
-                      std::move(files));
-  }
+  if (auto clouds = OpenCloudsIn(directory)) return clouds;
   if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true) + " files (got neither)");

@@ -150,10 +150,11 @@ struct BagSource {
 /// The file of a received stream that names its clouds with their poses.
 inline constexpr std::string_view kReceivedFile = "frames.csv";
 
-/// Opens a directory that `railcast-analyze receive --out` wrote: clouds with the poses of
-/// frames.csv. Their points are assumed to be in the sensor's axes, the default of a stream.
+/// Opens the clouds of a directory: those that `railcast-analyze receive --out` wrote with the
+/// poses of frames.csv, whose points are assumed to be in the sensor's axes, the default of a
+/// stream; else CloudsOfDirectory(). Null if there are none.
 /// @throws InputError if frames.csv cannot be read.
-[[nodiscard]] std::unique_ptr<Recording> OpenReceived(const std::filesystem::path& directory);
+[[nodiscard]] std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& directory);
 
 // The kinds of recordings that OpenRecording opens.
 
@@ -162,6 +163,15 @@ inline constexpr std::string_view kReceivedFile = "frames.csv";
 /// it was written; those of a frame are checked when the frame is read.
 /// @throws InputError with one line if a file cannot be read or has changed since it was written.
 [[nodiscard]] std::unique_ptr<Recording> OpenSequence(const std::filesystem::path& directory);
+
+/// Opens what `railcast-generate insert` wrote: the frames that insert.jsonl names, checked against
+/// its hashes, with the boxes of what was put in, the poses, and the labels and instances of
+/// points/NNNNNN.npy where the clouds have none. The scenario is the plan on the recording's line.
+/// A sequence into which something was put is opened as a sequence.
+/// @param directory The one that was written, or its folder `recording`.
+/// @return Null if it is neither, or was written by a program before 1.0.0.
+/// @throws InputError as OpenSequence() does.
+[[nodiscard]] std::unique_ptr<Recording> OpenInserted(const std::filesystem::path& directory);
 
 /// What OpenMerged() calls its recordings.
 inline constexpr std::string_view kMergedKind = "merged clouds";
@@ -173,5 +183,10 @@ inline constexpr std::string_view kMergedKind = "merged clouds";
 /// cloud; how many firings met them is known of single sensors only, and 0 here.
 /// @throws InputError as OpenSequence() does.
 [[nodiscard]] std::unique_ptr<Recording> OpenMerged(const std::filesystem::path& directory);
+
+/// Whether a scenario made all of its frames, as it did not those into which only some was put.
+[[nodiscard]] inline bool IsSimulated(const RecordingInfo& info) {
+  return info.scenario && (info.origin || info.kind == kMergedKind);
+}
 
 }  // namespace railcast

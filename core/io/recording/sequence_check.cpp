@@ -174,6 +174,21 @@ FrameLine ReadNextFrameLine(const FrameLines& lines) {
                    ", one after another (got " + NumberText(line.frame) + ")");
 }
 
+void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded) {
+  const PlacedLine& pose = lines.records.at(0);
+  const PlacedLine& objects = lines.records.at(1);
+  Frame& frame = recorded.frame;
+  frame.stamp_ns = line.stamp_ns;
+  frame.duration_ns = line.scan_poses.back().time_ns;
+  frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
+  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
+  line.scan_poses.pop_back();
+  frame.poses_between = std::move(line.scan_poses);
+  recorded.has_pose = true;
+  recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
+  CheckRecords(line, lines);
+}
+
 void CheckRecords(const FrameLine& line, const FrameLines& lines) {
   // Those of older programs have no hash of themselves.
   const std::string fault = HasLineHash(lines.frame.text) ? LineHashFault(lines.frame.text) : "";

@@ -113,6 +113,10 @@ class FrameLineReader {
 ///   expected one.
 [[nodiscard]] FrameLine ReadNextFrameLine(const FrameLines& lines);
 
+/// Takes what the frame's lines say: stamp, poses and objects.
+/// @throws InputError as CheckRecords() does.
+void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded);
+
 /// Checks the frame's line against its own hash, and its lines in the other files against
 /// records_hash.
 /// @throws InputError with one line if they have changed since the frame was written.

@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/kitti.h"
 #include "core/io/strict_json.h"
 
 namespace railcast {
@@ -145,6 +146,17 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
     numbers.push_back(*number);
   }
   return MakePose(numbers, place);
+}
+
+std::string KittiClassOf(const RecordedObject& object,
+                         const LabelTable& labels,
+                         const LabelTable& kitti) {
+  const Label* const label = labels.Find(object.label);
+  if (label == nullptr) return object.label;
+  const std::uint16_t standing = label->semantic_kitti;
+  const Label* const kitti_class =
+      kitti.Find(IsMoving(object.velocity_world_mps) ? MovingSemanticKitti(standing) : standing);
+  return kitti_class == nullptr ? object.label : kitti_class->name;
 }
 
 std::vector<RecordedObject> ReadObjectsLine(const std::string& line,

@@ -45,6 +45,14 @@ struct FrameLine {
                                                           std::uint32_t frame,
                                                           const std::string& place);
 
+/// The name of the class of SemanticKITTI that the object's points have: of the moving one if it
+/// moves. Its own label if there is none.
+/// @param labels railcast's own, which objects.jsonl names. @param kitti Those that the clouds
+/// have.
+[[nodiscard]] std::string KittiClassOf(const RecordedObject& object,
+                                       const LabelTable& labels,
+                                       const LabelTable& kitti);
+
 /// Reads the occlusion of an object of such a line: 0 to 1, absent if no firing would meet it even
 /// alone.
 /// @param place Names the object, too: "out/objects.jsonl:3: /objects/0".

@@ -67,22 +67,6 @@ void RecomputeRanges(Frame& frame) {
   }
 }
 
-/// Takes what the frame's lines say: stamp, poses and objects.
-void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded) {
-  const PlacedLine& pose = lines.records.at(0);
-  const PlacedLine& objects = lines.records.at(1);
-  Frame& frame = recorded.frame;
-  frame.stamp_ns = line.stamp_ns;
-  frame.duration_ns = line.scan_poses.back().time_ns;
-  frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
-  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
-  line.scan_poses.pop_back();
-  frame.poses_between = std::move(line.scan_poses);
-  recorded.has_pose = true;
-  recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
-  CheckRecords(line, lines);
-}
-
 /// A message of a run's bag.
 struct CloudInBag {
   std::string bag;
@@ -184,16 +168,6 @@ struct KittiContext {
   std::filesystem::path directory;
   LabelTable labels;  ///< railcast's own, which objects.jsonl names.
   LabelTable kitti;   ///< SemanticKITTI's, which the clouds have.
-
-  /// The name of the class that the object's points have: of the moving one if it moves.
-  [[nodiscard]] std::string ClassOf(const RecordedObject& object) const {
-    const Label* const label = labels.Find(object.label);
-    if (label == nullptr) return object.label;
-    const std::uint16_t standing = label->semantic_kitti;
-    const Label* const kitti_class =
-        kitti.Find(IsMoving(object.velocity_world_mps) ? MovingSemanticKitti(standing) : standing);
-    return kitti_class == nullptr ? object.label : kitti_class->name;
-  }
 };
 
 /// @param place Index among the directory's frames, which numbers KITTI's files.
@@ -213,7 +187,9 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
   recorded.frame.index = place;
   TakeRecords(std::move(line), lines, recorded);
-  for (RecordedObject& object : recorded.objects) object.label = context.ClassOf(object);
+  for (RecordedObject& object : recorded.objects) {
+    object.label = KittiClassOf(object, context.labels, context.kitti);
+  }
   recorded.axes = PointAxes::kSensorAtStamp;
   return recorded;
 }

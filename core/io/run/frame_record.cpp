@@ -162,16 +162,20 @@ std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame) {
   return poses;
 }
 
+nlohmann::ordered_json ScanPosesJson(const std::vector<RecordedScanPose>& poses) {
+  Json json = Json::array();
+  for (const RecordedScanPose& pose : poses) json.push_back(ScanPoseJson(pose));
+  return json;
+}
+
 std::string FrameRecordLine(const FrameRecord& record) {
   Json files = Json::array();
   for (const WrittenFile& file : record.files) {
     files.push_back({{"name", file.name}, {"bytes", file.size}, {"xxh3", file.hash}});
   }
-  Json poses = Json::array();
-  for (const RecordedScanPose& pose : record.scan_poses) poses.push_back(ScanPoseJson(pose));
   Json line = {{"frame", record.frame},
                {"stamp_ns", record.stamp_ns},
-               {"scan_poses", std::move(poses)},
+               {"scan_poses", ScanPosesJson(record.scan_poses)},
                {"files", files},
                {"records_xxh3", record.records_hash}};
   if (!record.motion_lines.empty()) line["motion_lines"] = record.motion_lines;

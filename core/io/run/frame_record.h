@@ -82,6 +82,9 @@ struct RecordedScanPose {
 /// The poses after the stamp, of which the last is that of the last firing.
 [[nodiscard]] std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame);
 
+/// The member `scan_poses` of lines of frames.jsonl and insert.jsonl.
+[[nodiscard]] nlohmann::ordered_json ScanPosesJson(const std::vector<RecordedScanPose>& poses);
+
 /// A line of frames.jsonl, which states that a frame is complete.
 struct FrameRecord {
   std::uint32_t frame{};

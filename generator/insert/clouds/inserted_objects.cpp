@@ -34,12 +34,10 @@ std::map<std::uint32_t, TimedPoints> LostPoints(const RecordedFirings& firings,
   return lost;
 }
 
-}  // namespace
-
-std::string InsertedObjectsLine(const InsertedFrame& inserted) {
-  const Frame& frame = inserted.recorded.frame;
+/// A line of objects.jsonl.
+Json ObjectsJson(const Frame& frame, const std::vector<RecordedObject>& recorded) {
   std::vector<ObjectInFrame> objects;
-  for (const RecordedObject& object : inserted.objects) {
+  for (const RecordedObject& object : recorded) {
     ObjectInFrame entry{object.name, object.type, object.label, object.instance};
     entry.size_m = object.size_m;
     entry.world_from_box = frame.world_from_sensor * object.sensor_from_box;
@@ -54,10 +52,21 @@ std::string InsertedObjectsLine(const InsertedFrame& inserted) {
   // What is hidden was counted in rays, of which only the share is known here.
   Json line = Json::parse(ObjectsLine(frame, objects));
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const auto hidden = inserted.objects[i].occlusion;
-    if (hidden) line["objects"][i]["occlusion"] = *hidden;
+    if (recorded[i].occlusion) line["objects"][i]["occlusion"] = *recorded[i].occlusion;
   }
-  return line.dump() + "\n";
+  return line;
+}
+
+}  // namespace
+
+std::string InsertedObjectsLine(const RecordedFirings& firings,
+                                const InsertedFrame& inserted,
+                                std::uint32_t number,
+                                std::int64_t stamp_ns) {
+  Json line = ObjectsJson(inserted.recorded.frame, inserted.recorded.objects);
+  line["frame"] = number;
+  line["stamp_ns"] = stamp_ns;
+  return ObjectsWith(line.dump(), firings, inserted);
 }
 
 std::string ObjectsWith(const std::string& line,
@@ -80,7 +89,7 @@ std::string ObjectsWith(const std::string& line,
       mean_ns = std::max<std::int64_t>(0, sum_ns / left);
     }
   }
-  const Json added = Json::parse(InsertedObjectsLine(inserted));
+  const Json added = ObjectsJson(inserted.recorded.frame, inserted.objects);
   for (const Json& object : added.at("objects")) json["objects"].push_back(object);
   return json.dump() + "\n";
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,16 @@
 
 namespace railcast {
 
-/// Returns a line of objects.jsonl with the objects that were inserted alone.
-[[nodiscard]] std::string InsertedObjectsLine(const InsertedFrame& inserted);
+/// Returns a line of objects.jsonl with the objects of the recording, if it knows them, and, behind
+/// them, those that were inserted. Recorded objects have the points that they have left; how many
+/// firings met them stays as it was recorded.
+/// @param number,stamp_ns Of the frame, as insert.jsonl has them.
+[[nodiscard]] std::string InsertedObjectsLine(const RecordedFirings& firings,
+                                              const InsertedFrame& inserted,
+                                              std::uint32_t number,
+                                              std::int64_t stamp_ns);
 
-/// Returns a line of objects.jsonl with the recorded objects and, behind them, those that were
-/// inserted. Recorded objects have the points that they have left; how many firings met them stays
-/// as it was recorded.
+/// As above, for a recorded line.
 /// @param line The recorded one, without its end.
 [[nodiscard]] std::string ObjectsWith(const std::string& line,
                                       const RecordedFirings& firings,

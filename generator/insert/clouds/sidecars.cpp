@@ -11,6 +11,7 @@
 
 #include "core/base/text.h"
 #include "core/io/run/camera_files.h"
+#include "core/io/run/dataset_files.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 
@@ -40,9 +41,6 @@ struct PointRow {
   std::uint8_t outcome{};
   PointChange change = PointChange::kNone;
 };
-constexpr std::size_t kRowBytes = 10;
-constexpr const char* kRowType =
-    "[('label', '<u4'), ('instance', '<u4'), ('outcome', 'u1'), ('change', 'u1')]";
 
 std::string PointsNpy(const RecordedFirings& firings,
                       const InsertedFrame& inserted,
@@ -63,9 +61,9 @@ std::string PointsNpy(const RecordedFirings& firings,
       changes[edit.slot] = PointChange::kRemoved;
     }
   }
-  std::string bytes = NpyHeader(kRowType, "(" + NumberText(slots.size()) + ",)");
+  std::string bytes = NpyHeader(kInsertPointType, "(" + NumberText(slots.size()) + ",)");
   std::size_t place = bytes.size();
-  bytes.resize(place + kRowBytes * slots.size());
+  bytes.resize(place + kInsertPointBytes * slots.size());
   for (const std::uint32_t slot : slots) {
     PointRow row;
     if (slot != kNoSlot) {
@@ -80,7 +78,7 @@ std::string PointsNpy(const RecordedFirings& firings,
     std::memcpy(&bytes[place + 4], &row.instance, sizeof row.instance);
     bytes[place + 8] = static_cast<char>(row.outcome);
     bytes[place + 9] = static_cast<char>(row.change);
-    place += kRowBytes;
+    place += kInsertPointBytes;
   }
   return bytes;
 }
@@ -148,7 +146,8 @@ std::vector<FrameFile> SidecarFiles(const RecordedFirings& firings,
   const std::string digits = FrameDigits(frame);
   std::vector<FrameFile> files;
   const std::vector<std::uint32_t> written = WrittenLabels(inserted, labels);
-  files.push_back({"points/" + digits + ".npy", PointsNpy(firings, inserted, slots, written)});
+  files.push_back({std::string(kInsertPointsFolder) + "/" + digits + ".npy",
+                   PointsNpy(firings, inserted, slots, written)});
   std::vector<std::uint32_t> added;
   for (const SlotEdit& edit : inserted.edits) {
     if (edit.is_added) added.push_back(edit.slot);
@@ -184,18 +183,20 @@ Json InsertEntry(const RecordedFirings& firings,
     num_added += edit.is_added;
     num_weaker += edit.has_point && !edit.is_added && edit.is_weaker;
   }
-  const PoseRecord pose(recorded.frame.stamp_ns, after.world_from_sensor);
+  const std::int64_t stamp_ns = plan.first_stamp_ns + plan.frame_times_ns.at(frame);
+  const PoseRecord pose(stamp_ns, after.world_from_sensor);
   Json entry = {{"frame", frame},
                 {"source", std::filesystem::path(recorded.name).filename().string()},
                 {"plan_xxh3", plan.identity.scenario_hash},
                 {"seed", plan.scenario.seed},
-                {"stamp_ns", recorded.frame.stamp_ns},
-                {"time_ns", plan.frame_times_ns.at(frame)},
+                {"stamp_ns", stamp_ns},
+                {"time_ns", plan.frame_times_ns[frame]},
                 {"pose",
                  {{"position_m", ListOf(pose.position_m)},
                   {"quaternion_xyzw",
                    {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}},
                   {"is_recorded", recorded.has_pose}}},
+                {"scan_poses", ScanPosesJson(ScanPosesOf(after))},
                 {"points", std::ranges::count_if(after.x, [](float x) { return !std::isnan(x); })},
                 {"added", num_added},
                 {"removed", LostSlots(inserted).size()},

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/scan/given_firings.h"
 #include "core/scan/spinning_pattern.h"
 #include "generator/insert/firings/frame_slots.h"
@@ -230,7 +231,7 @@ FiringFinder::FiringFinder(const RecordingInfo& info,
               .firing_of_cell = {},
               .may_use_points_alone = may_use_points_alone,
               .is_followed = info.origin.has_value() && info.has_kitti_labels,
-              .is_own_scan = info.scenario && info.scenario->lidar.scan == scan};
+              .is_own_scan = IsSimulated(info) && info.scenario->lidar.scan == scan};
   parts.firing_of_cell = FiringsOfCells(parts.pattern);
   parts_ = std::make_unique<const Parts>(std::move(parts));
 }

@@ -94,10 +94,10 @@ std::vector<PosedFrame> ReadFrames(const fs::path& source) {
   const auto recording = OpenRecording(source);
   const RecordingInfo& info = recording->info();
   if (info.origin && info.kind != "merged clouds") return ReadLinesOfSequence(info.source);
-  if (info.kind == "point cloud file" || info.kind == "directory of point clouds" ||
-      info.kind == "KITTI sequence") {
-    return FramesOfFiles(info);
-  }
+  // Those into which something was put already have their poses beside them.
+  const bool are_files = info.kind == "point cloud file" ||
+                         info.kind == "directory of point clouds" || info.kind == "KITTI sequence";
+  if (are_files && !info.scenario) return FramesOfFiles(info);
   std::vector<PosedFrame> frames;
   while (const auto read = recording->Next()) frames.push_back(PosedFrameOf((*read)()));
   return frames;

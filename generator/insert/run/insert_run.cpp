@@ -3,6 +3,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -19,6 +20,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
+#include "core/simulate/frame_poses.h"
 #include "core/trace/trace_program.h"
 #include "generator/insert/clouds/inserted_objects.h"
 #include "generator/insert/clouds/recording_output.h"
@@ -63,6 +65,7 @@ std::string RunJsonOf(const InsertChoices& choices,
                {"recording", choices.recording.lexically_normal().generic_string()},
                {"recording_xxh3", ContentHash(RecordingTraits(info.source))},
                {"kind", info.kind},
+               {"kitti_labels", info.has_kitti_labels},
                {"plan_xxh3", plan.identity.scenario_hash},
                {"seed", plan.scenario.seed},
                {"format", choices.format},
@@ -75,6 +78,37 @@ std::string RunJsonOf(const InsertChoices& choices,
                       {"data_xxh3", info.origin->data_hash}};
   }
   return json.dump(2) + "\n";
+}
+
+/// The plan as a scenario, for what looks at the frames: with the line of the recording and the
+/// rung that plans mean by `auto`.
+ScenarioSpec WorldOf(const InsertPlan& plan) {
+  ScenarioSpec world = plan.scenario;
+  if (world.fidelity == Fidelity::kAuto) world.fidelity = Fidelity::kFootprint;
+  return world;
+}
+
+/// The labels by the numbers that the output has, but for SemanticKITTI's.
+LabelTable LabelsOf(const RecordingInfo& info, const InsertPlan& plan) {
+  const bool are_theirs = !info.has_kitti_labels && !info.labels.labels().empty();
+  return are_theirs ? info.labels : LabelTable(plan.scenario.labels);
+}
+
+/// Gives a frame the motion of the plan's way where the recording does not say how the sensor moved
+/// during the scan.
+void UsePlannedMotion(const InsertPlan& plan, std::uint32_t number, RecordedFrame& recorded) {
+  Frame& frame = recorded.frame;
+  if (recorded.has_pose && frame.duration_ns > 0) return;
+  const std::int64_t begin_ns = plan.frame_times_ns.at(number);
+  const Transform begin = PlannedPose(plan, begin_ns);
+  if (!recorded.has_pose) frame.world_from_sensor = begin;
+  if (recorded.Has("time_ns")) frame.duration_ns = *std::ranges::max_element(frame.time_ns);
+  const Transform recorded_from_planned = frame.world_from_sensor * begin.inverse();
+  const auto pose_at = [&](std::uint32_t time_ns) {
+    return recorded_from_planned * PlannedPose(plan, begin_ns + time_ns);
+  };
+  frame.poses_between = PosesBetween(frame.duration_ns, pose_at);
+  frame.world_from_sensor_end = pose_at(frame.duration_ns);
 }
 
 /// A frame on its way from the recording to the folder.
@@ -152,6 +186,10 @@ class InsertRun {
     for (const InputFile& input : plan_.identity.inputs) {
       folder_.WriteFixed({input.CopyName(), input.bytes, {}});
     }
+    const ScenarioIdentity world = IdentityOf(WorldOf(plan_));
+    folder_.WriteFixed({std::string(kInsertWorldFile), world.scenario_json, {}});
+    folder_.WriteFixed(
+        {std::string(kLabelsFile), LabelsJson(LabelsOf(recording_.info(), plan_)), {}});
     for (FixedFile& file : output_->FixedFiles()) {
       file.name = InRecording(file.name);
       folder_.WriteFixed(file);
@@ -224,9 +262,7 @@ class InsertRun {
   std::shared_ptr<FrameOnWay> Insert(const std::shared_ptr<FrameOnWay>& way) {
     return Try(way, [&](FrameOnWay& it) {
       it.inserted = inserter_.Insert(it.firings, it.frame);
-      if (it.firings.recorded.has_pose) return;
-      it.inserted.recorded.frame.world_from_sensor =
-          PlannedPose(plan_, plan_.frame_times_ns.at(it.frame));
+      UsePlannedMotion(plan_, it.frame, it.inserted.recorded);
     });
   }
   std::shared_ptr<FrameOnWay> Encode(const std::shared_ptr<FrameOnWay>& way) const {
@@ -251,9 +287,10 @@ class InsertRun {
     for (FrameFile& file : way.output.files) {
       files.push_back({InRecording(file.name), std::move(file.bytes)});
     }
-    const PoseRecord pose(plan_.first_stamp_ns + plan_.frame_times_ns.at(way.frame),
-                          way.inserted.recorded.frame.world_from_sensor);
-    std::vector<std::string> lines = {PoseLine(pose), InsertedObjectsLine(way.inserted)};
+    const std::int64_t stamp_ns = plan_.first_stamp_ns + plan_.frame_times_ns.at(way.frame);
+    const PoseRecord pose(stamp_ns, way.inserted.recorded.frame.world_from_sensor);
+    std::vector<std::string> lines = {
+        PoseLine(pose), InsertedObjectsLine(way.firings, way.inserted, way.frame, stamp_ns)};
     lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
     folder_.Write(files, lines, way.entry);
     hooks_.on_progress(folder_.num_done(), range_.num);

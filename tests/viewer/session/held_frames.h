@@ -27,6 +27,7 @@ class HeldFrames final : public Frames {
   }
   [[nodiscard]] std::size_t num_known() const override { return frames_.size(); }
 
+  void UseKind(const std::string& kind) { info_.kind = kind; }
   void UseLabels(const LabelTable& labels) { info_.labels = labels; }
 
  private:

@@ -258,6 +258,19 @@ TEST(Session, OfTwoSourcesShowsTheSamePlaceOfBothSideBySide) {
   EXPECT_EQ(compositions[1].coloring.ends, compositions[0].coloring.ends) << "one scale for both";
 }
 
+// Something was put into frames 1 and 2 of a capture.
+TEST(Session, OfACaptureAndSomeOfItsFramesShowsThoseOfTheSameNumber) {
+  HeldFrames a({Share(NumberedCloud(0)), Share(NumberedCloud(1)), Share(NumberedCloud(2))}, "a");
+  HeldFrames b({Share(NumberedCloud(1)), Share(NumberedCloud(2))}, "b");
+  for (HeldFrames* const frames : {&a, &b}) frames->UseKind("capture of VLP-16");
+  Session session({&a, &b}, {});
+  EXPECT_EQ(session.FirstPlace(), 1U);
+  EXPECT_EQ(session.LastPlace(), 2U);
+  ASSERT_TRUE(session.Seek(2));
+  EXPECT_EQ(session.Compose()[1].status, "b   frame 2   0.400 s   2 points");
+  EXPECT_FALSE(session.Seek(0));
+}
+
 TEST(Session, ColoursTwoSourcesByWhatBothHave) {
   HeldFrames a({Share(LabelledCloud(0))}, "a");
   HeldFrames b({Share(NumberedCloud(5))}, "b");
