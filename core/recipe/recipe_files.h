@@ -18,7 +18,7 @@ class RecipeBases {
   /// A base with all its defaults and files written out.
   [[nodiscard]] const Json& json(std::size_t base) const { return jsons_.at(base); }
   /// IdentityOf() of the base: changes with any value and with any file that it names. Of a plan it
-  /// changes with its recording, too, if its files get other names or sizes.
+  /// changes with its recording, too.
   [[nodiscard]] const std::string& hash(std::size_t base) const { return hashes_.at(base); }
   [[nodiscard]] const ScenarioSpec& spec(std::size_t base) const { return specs_.at(base); }
 

@@ -28,8 +28,8 @@ class RecordedBase {
   [[nodiscard]] virtual const ScenarioSpec& plan() const = 0;
   [[nodiscard]] virtual const std::filesystem::path& recording() const = 0;
   [[nodiscard]] virtual const std::vector<FramePlace>& frames() const = 0;
-  /// What tells recordings apart without reading all of their points.
-  [[nodiscard]] virtual std::string Traits() const = 0;
+  /// What tells recordings apart: names and hashes of their files.
+  [[nodiscard]] virtual const std::string& Traits() const = 0;
   /// A plan for the recording as a scenario: with the recording's line in place of that, so that a
   /// world can be made of it.
   /// @param plan With the poses, the line and the sensor's mount and scan of plan().

@@ -61,6 +61,7 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                           const fs::path& directory,
                           const InsertHooks& hooks) {
   return RunInsert({.recording = drawn.run->recording(),
+                    .recording_hash = ContentHash(drawn.run->Traits()),
                     .plan = {},
                     .directory = directory,
                     .format = choices.format,

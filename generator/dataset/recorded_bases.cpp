@@ -1,6 +1,8 @@
 #include "generator/dataset/recorded_bases.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 
@@ -9,7 +11,8 @@ namespace {
 
 class ReadBase final : public RecordedBase {
  public:
-  explicit ReadBase(RecordedRun run) : run_(std::move(run)) {
+  explicit ReadBase(RecordedRun run)
+      : run_(std::move(run)), traits_(RecordingTraits(run_.recording)) {
     for (std::uint32_t i = 0; i < run_.num_frames(); ++i) {
       frames_.push_back({run_.way.frame_times_ns[i], run_.Chainage_m(i), run_.line.faces_up.at(i)});
     }
@@ -19,13 +22,14 @@ class ReadBase final : public RecordedBase {
   [[nodiscard]] const ScenarioSpec& plan() const override { return run_.plan; }
   [[nodiscard]] const std::filesystem::path& recording() const override { return run_.recording; }
   [[nodiscard]] const std::vector<FramePlace>& frames() const override { return frames_; }
-  [[nodiscard]] std::string Traits() const override { return RecordingTraits(run_.recording); }
+  [[nodiscard]] const std::string& Traits() const override { return traits_; }
   [[nodiscard]] ScenarioSpec OnLine(ScenarioSpec plan) const override {
     return OnRecordedLine(run_, std::move(plan));
   }
 
  private:
   RecordedRun run_;
+  std::string traits_;
   std::vector<FramePlace> frames_;
 };
 

@@ -35,9 +35,11 @@ struct RecordedRun {
 [[nodiscard]] RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
                                           const std::filesystem::path& recording);
 
-/// What tells recordings apart without reading all of their points: names and sizes of the files,
-/// and the manifests of railcast's own, which hold hashes.
+/// What tells recordings apart: the names and hashes of all their files, and of what stands beside
+/// a capture about its sensor. Of a finished sequence of railcast it is the manifest, which holds
+/// the hashes that are compared where frames are read.
 /// @param source As OpenRecording() takes it.
+/// @throws InputError if a file cannot be read.
 [[nodiscard]] std::string RecordingTraits(const std::filesystem::path& source);
 
 /// A plan for the recording as a scenario: with the recording's line in place of that, so that a

@@ -63,7 +63,9 @@ std::string RunJsonOf(const InsertChoices& choices,
   Json json = {{"version", ProgramVersion()},
                {"embree", EmbreeVersion()},
                {"recording", choices.recording.lexically_normal().generic_string()},
-               {"recording_xxh3", ContentHash(RecordingTraits(info.source))},
+               {"recording_xxh3", choices.recording_hash.empty()
+                                      ? ContentHash(RecordingTraits(choices.recording))
+                                      : choices.recording_hash},
                {"kind", info.kind},
                {"kitti_labels", info.has_kitti_labels},
                {"plan_xxh3", plan.identity.scenario_hash},

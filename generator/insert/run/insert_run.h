@@ -13,6 +13,7 @@ namespace railcast {
 /// What `insert` is asked for.
 struct InsertChoices {
   std::filesystem::path recording;
+  std::string recording_hash{};  ///< ContentHash() of RecordingTraits(); empty: not known yet.
   std::filesystem::path plan;
   std::filesystem::path directory;
   std::string format = "same";
