@@ -8,6 +8,8 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/verify/dataset_verification.h"
+#include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 
@@ -95,6 +97,47 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
     num_done_ = lines.Skip();
     lines_.emplace(directory / kScenariosFile, lines.size());
   }
+  num_found_ = num_done_;
+}
+
+bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
+  const fs::path& directory = spec_.directory;
+  ErrorList errors;
+  if (is_complete_) {
+    const auto show = [&](double share) { static_cast<void>(goes_on(share)); };
+    for (const std::string& fault : VerifyDataset(directory, show).faults) errors.AddLine(fault);
+    if (errors.size() == 0) return true;
+    errors.AddLine(ShownPath(directory) +
+                   ": is complete, but was changed; delete its manifest.json, and the same command "
+                   "makes anew what is not as it was");
+    errors.ThrowIfAny();
+  }
+  ScenarioLines lines(directory / kScenariosFile, spec_.shard);
+  std::optional<std::uint32_t> first_hole;
+  std::uint64_t size = 0;
+  for (std::uint32_t i = 0; i < num_found_; ++i) {
+    if (!goes_on(static_cast<double>(i) / num_found_)) {
+      kept_.clear();
+      return false;
+    }
+    const std::uint64_t before = lines.size();
+    ScenarioLines::Line line = lines.Need();
+    const std::uint32_t scenario = spec_.shard.ScenarioAt(i);
+    const bool is_whole = VerifyScenario(directory, scenario, line.placed).faults.empty();
+    if (is_whole && first_hole) kept_.emplace(i, std::move(line.record));
+    if (is_whole || first_hole) continue;
+    first_hole = i;
+    size = before;
+  }
+  if (!first_hole) return true;
+  num_done_ = *first_hole;
+  lines_.emplace(directory / kScenariosFile, size);
+  return true;
+}
+
+const Json* DatasetDirectory::Kept(std::uint32_t i) const {
+  const auto found = kept_.find(i);
+  return found == kept_.end() ? nullptr : &found->second;
 }
 
 void DatasetDirectory::CheckSameDataset() const {

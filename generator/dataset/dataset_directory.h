@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +49,19 @@ class DatasetDirectory {
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
   [[nodiscard]] const DatasetSpec& spec() const { return spec_; }
 
+  /// Reads all that is there against its hashes: a data set that is complete must be so as it was
+  /// written. Else the scenarios from the first one on that is not count as not done, and those of
+  /// them that are whole as kept.
+  /// @param goes_on Called with the share that is read, in [0, 1]; returns false to stop.
+  /// @return False if it was stopped; then nothing has changed.
+  /// @throws InputError with a line for each fault of a complete data set.
+  [[nodiscard]] bool Check(const std::function<bool(double share)>& goes_on);
+  /// Whether the shard's i-th scenario was done when the folder was opened.
+  [[nodiscard]] bool WasDone(std::uint32_t i) const { return i < num_found_; }
+  /// The line of a scenario that is kept; null if it is none.
+  [[nodiscard]] const Json* Kept(std::uint32_t i) const;
+  [[nodiscard]] std::uint32_t num_kept() const { return static_cast<std::uint32_t>(kept_.size()); }
+
   /// Adds the line of the next scenario, whose sequence is complete.
   void Append(const Json& line);
   /// Waits until all lines are on the disk.
@@ -58,7 +73,9 @@ class DatasetDirectory {
   DatasetSpec spec_;
   std::optional<FolderLock> lock_;
   std::optional<LineFile> lines_;
+  std::uint32_t num_found_ = 0;  ///< Lines when the folder was opened.
   std::uint32_t num_done_ = 0;
+  std::map<std::uint32_t, Json> kept_;
   bool is_complete_ = false;
 };
 

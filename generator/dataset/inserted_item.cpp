@@ -13,6 +13,7 @@
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "core/io/verify/insertion_verification.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/recorded_bases.h"
 #include "generator/insert/run/insert_folder.h"
@@ -59,6 +60,7 @@ double Speed_mps(const RecordedRun& run, std::uint32_t frame) {
 InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,
                           const fs::path& directory,
+                          bool was_done,
                           const InsertHooks& hooks) {
   return RunInsert({.recording = drawn.run->recording(),
                     .recording_hash = ContentHash(drawn.run->Traits()),
@@ -67,13 +69,19 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                     .format = choices.format,
                     .first_frame = drawn.first_frame,
                     .last_frame = drawn.first_frame + drawn.num_frames - 1,
-                    .num_threads = choices.num_threads},
+                    .num_threads = choices.num_threads,
+                    .is_mended = was_done},
                    MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
 }
 
 Json RecordOfInserted(const DrawnScenario& drawn,
                       const fs::path& dataset,
                       const fs::path& directory) {
+  ErrorList errors;
+  for (const std::string& fault : VerifyInsertion(directory, [](double) {}).faults) {
+    errors.AddLine(fault);
+  }
+  errors.ThrowIfAny();
   const RecordedRun& run = RunOf(*drawn.run);
   Json s_m = Json::array();
   Json speed_mps = Json::array();

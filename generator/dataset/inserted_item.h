@@ -10,15 +10,18 @@
 namespace railcast {
 
 /// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it.
-/// @param directory Of this scenario.
+/// @param directory Of this scenario. @param was_done Whether it was complete once: what is not any
+///   more as it was written is then made anew.
 /// @throws InputError as MakeInsertPlan() and RunInsert() do.
 [[nodiscard]] InsertResult MakeInserted(const DrawnScenario& drawn,
                                         const DatasetChoices& choices,
                                         const std::filesystem::path& directory,
+                                        bool was_done,
                                         const InsertHooks& hooks);
 
 /// What scenarios.jsonl says of it when it is complete: as of a sequence, which is its folder
 /// `recording`, and the hashes of all files of the scenario.
+/// @throws InputError with a line for each file that is not as it was written, or not its own.
 [[nodiscard]] Json RecordOfInserted(const DrawnScenario& drawn,
                                     const std::filesystem::path& dataset,
                                     const std::filesystem::path& directory);

@@ -170,6 +170,7 @@ std::uint32_t MergeShards(
   spec.shard = {};
   const auto num_shards = static_cast<std::uint32_t>(shards.size());
   DatasetDirectory merged(spec);
+  static_cast<void>(merged.Check([](double) { return true; }));
   if (merged.is_complete()) return spec.num_scenarios;
   for (auto& [shard, lines] : shards) {
     static_cast<void>(lines->Skip(shard.shard.NumOf(merged.num_done())));

@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -11,8 +13,10 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
+#include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/recipe/recipe_files.h"
 #include "core/recipe/scenario_turns.h"
@@ -23,11 +27,14 @@
 #include "generator/run/all_sensors.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/make_frames.h"
+#include "generator/run/run_directory.h"
 #include "generator/run/run_plan.h"
 #include "railcast/rail_world.h"
 
 namespace railcast {
 namespace {
+
+namespace fs = std::filesystem;
 
 DatasetSpec SpecOfDataset(const Recipe& recipe,
                           const DatasetChoices& choices,
@@ -75,6 +82,29 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   }
 }
 
+/// Lets a scenario be gone on with whose sequences say that they are complete: what is as it was
+/// written stays, the rest is made anew.
+/// @param was_done Whether the data set had its line, so that the folder is known to be the run's.
+void Reopen(const RunPlan& plan, bool was_done) {
+  std::error_code none;
+  for (const SensorPlan& sensor : plan.sensors) {
+    const SequenceSpec& spec = sensor.spec;
+    const fs::path run = spec.directory / kRunFile;
+    if (was_done) {
+      MakeFolders(spec.directory);
+      WriteFileWhole(run, RunJson(spec));
+      // Of these, no part is known to be whole.
+      if (!spec.trace.empty()) fs::remove(spec.directory / spec.trace, none);
+      if (!spec.bag.empty()) fs::remove_all(spec.directory / spec.bag, none);
+    }
+    // Bags and traces that are complete are not gone on with.
+    const bool are_files = spec.bag.empty() && spec.trace.empty();
+    const bool is_ours = are_files && fs::exists(run) && ReadFileWhole(run) == RunJson(spec);
+    if (was_done || is_ours) fs::remove(spec.directory / kManifestFile, none);
+  }
+  if (was_done) fs::remove(plan.directory / kMergedFolder / kMergedFile, none);
+}
+
 /// Makes the sequences of a shard, of several scenarios at once.
 class DatasetRun {
  public:
@@ -88,12 +118,18 @@ class DatasetRun {
   DatasetResult Run() {
     const auto begin = std::chrono::steady_clock::now();
     result_.num_scenarios = choices_.shard.NumOf(recipe_.num_scenarios);
-    result_.num_resumed = directory_.num_done();
     result_.was_complete = directory_.is_complete();
-    if (!result_.was_complete) MakeMissing();
+    const bool is_checked = directory_.Check([this](double share) {
+      if (result_.was_complete) {
+        hooks_.on_progress({0, result_.num_scenarios, share * result_.num_scenarios});
+      }
+      return !hooks_.is_stopped();
+    });
+    result_.num_resumed = directory_.num_done() + directory_.num_kept();
+    if (!result_.was_complete && is_checked) MakeMissing();
     result_.num_frames = num_frames_;
     result_.num_done = directory_.num_done();
-    const bool has_all = result_.num_done == result_.num_scenarios;
+    const bool has_all = is_checked && result_.num_done == result_.num_scenarios;
     if (has_all && !result_.was_complete) {
       directory_.Sync();
       if (choices_.shard.is_whole()) {
@@ -127,12 +163,15 @@ class DatasetRun {
 
   // Returns the line of one of the shard's scenarios; nothing if it was stopped.
   std::optional<Json> Make(std::uint32_t of_shard, const ScenarioTurn& turn) {
+    if (const Json* const kept = directory_.Kept(of_shard)) return *kept;
     const std::uint32_t number = choices_.shard.ScenarioAt(of_shard);
+    const bool was_done = directory_.WasDone(of_shard);
     DrawnScenario drawn = drawer_.Draw(number);
-    if (drawn.run) return MakeOfPlan(number, drawn, turn);
+    if (drawn.run) return MakeOfPlan(number, was_done, drawn, turn);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
+    Reopen(plan, was_done);
     FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
     if (plan.is_merged) CheckCanMerge(maker, plan);
@@ -149,16 +188,17 @@ class DatasetRun {
 
   // As Make().
   std::optional<Json> MakeOfPlan(std::uint32_t number,
+                                 bool was_done,
                                  DrawnScenario& drawn,
                                  const ScenarioTurn& turn) {
-    const auto directory = choices_.directory / SequenceFolderOf(number);
+    const fs::path directory = choices_.directory / SequenceFolderOf(number);
     const InsertHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
                                  turn.on_progress(static_cast<double>(num_done) / num_frames);
                                },
                                turn.is_stopped};
     const InsertResult made =
         AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
-                [&] { return MakeInserted(drawn, choices_, directory, hooks); });
+                [&] { return MakeInserted(drawn, choices_, directory, was_done, hooks); });
     num_frames_ += made.num_done - made.num_resumed;
     if (!made.is_complete) return std::nullopt;
     drawn.record["sequences"] =

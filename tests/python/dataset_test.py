@@ -5,10 +5,11 @@ import json
 import multiprocessing
 import pathlib
 import sqlite3
+import subprocess
 import tempfile
 import unittest
 
-from support import ROOT, SCENARIO, generate, np
+from support import BUILD, ROOT, SCENARIO, generate, np
 
 import railcast
 
@@ -213,6 +214,79 @@ class AtSpeed(unittest.TestCase):
                 railcast.Dataset(run, fields=("x",), compensate=compensate)[0]
             self.assertEqual(str(raised.exception), line)
         self.assertEqual(len(railcast.Dataset(run, fields=("x",), compensate="none")[0]["boxes"]), 5)
+
+
+def analyze(*arguments):
+    command = [str(word) for word in (BUILD / "analysis" / "railcast-analyze", *arguments)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+class Insertions(unittest.TestCase):
+    """What was put into recordings that are no sequences has its boxes, labels, poses and times, too."""
+
+    FRAMES = 3
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        scenario = at_30_mps("vlp16")
+        scenario["world"]["objects"] = []
+        (cls.folder / "vlp16.json").write_text(json.dumps(scenario), "utf-8")
+        generate("stream", cls.folder / "vlp16.json", "--protocol", "vlp16", "--pcap", cls.folder / "drive.pcap",
+                 "--duration", 1)
+        generate("sequence", cls.folder / "vlp16.json", "--out", cls.folder / "drive", "--frames", 8, "--format", "mcap")
+        for recording, poses in (("drive.pcap", {"poses": "standing"}), ("drive/drive.mcap", {})):
+            name = pathlib.Path(recording).suffix[1:]
+            plan = {key: scenario[key] for key in ("version", "lidar", "materials", "labels")}
+            plan["world"] = {"recording": poses}
+            recipe = {"version": 1, "num_scenarios": 2, "num_frames": cls.FRAMES,
+                      "bases": [{"file": f"plan_{name}.json", "recordings": [recording]}],
+                      "objects": [{"name": "person", "count": {"type": "choice", "values": [1]},
+                                   "object": {"type": "person", "h_m": 0, **motion(1.5)},
+                                   "draws": {"/d_m": {"type": "uniform", "min": -1, "max": 1}},
+                                   "ahead_m": {"type": "uniform", "min": 10, "max": 12}}]}
+            (cls.folder / f"plan_{name}.json").write_text(json.dumps(plan), "utf-8")
+            (cls.folder / f"recipe_{name}.json").write_text(json.dumps(recipe), "utf-8")
+            for kind in ("same", "pcd"):
+                generate("dataset", cls.folder / f"recipe_{name}.json", "--out", cls.folder / f"{name}_{kind}",
+                         "--format", kind)
+        cls.sets = [cls.folder / f"{name}_{kind}" for name in ("pcap", "mcap") for kind in ("same", "pcd")]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_points_of_what_was_put_in_lie_in_its_boxes(self):
+        # Half a step of the person and five standard deviations of the range noise, 3 cm.
+        margin_m = 0.25
+        for source in self.sets:
+            dataset = railcast.Dataset(source)
+            self.assertEqual(len(dataset), 2 * self.FRAMES, source)
+            for sample in dataset:
+                self.assertEqual(sample["box_labels"].tolist(), [dataset.labels["person"]], source)
+                points = sample["points"][sample["labels"] == dataset.labels["person"], :3]
+                self.assertGreater(len(points), 20, source)
+                box = sample["boxes"][0]
+                self.assertLess(np.abs(points - box[:3]).max(axis=0)[2], box[5] / 2 + margin_m, source)
+                self.assertLess(np.hypot(*(points - box[:3]).T[:2]).max(), np.hypot(*box[3:5]) / 2 + margin_m, source)
+
+    def test_frames_have_the_numbers_of_the_recordings_frames(self):
+        for source in self.sets:
+            lines = [json.loads(line) for line in (source / "index.jsonl").read_text("utf-8").splitlines()]
+            self.assertEqual([sample["frame"] for sample in railcast.Dataset(source)],
+                             [line["frame"] for line in lines])
+
+    def test_reports_take_them(self):
+        for source in self.sets:
+            out = self.folder / "reports" / source.name
+            analyze("stats", source, "--out", out / "stats")
+            card = analyze("card", source, "--out", out / "card")
+            self.assertIn("person", (out / "card" / "README.md").read_text("utf-8"), card)
+            run = source / "sequences" / "000" / "000000"
+            for folder in (run, run / "recording"):
+                self.assertIn("person/1", analyze("detect", folder, "--frames", "1/1"))
+                self.assertIn("person/1", analyze("evaluate", folder, "--frames", "1/1"))
 
 
 if __name__ == "__main__":

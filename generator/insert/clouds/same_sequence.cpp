@@ -95,6 +95,11 @@ class SameSequence : public RecordingOutput {
   }
 
   [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done) override {
+    // The folder is this run's, and its manifest of no use before that of the run.
+    MakeFolders(spec_.directory);
+    WriteFileWhole(spec_.directory / kRunFile, RunJson(spec_));
+    std::error_code none;
+    std::filesystem::remove(spec_.directory / kManifestFile, none);
     directory_.emplace(spec_, num_done);
     return directory_->num_done();
   }

@@ -1,5 +1,6 @@
 #include "generator/insert/run/insert_folder.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
 #include "core/io/unfinished_file.h"
+#include "core/io/verify/insertion_verification.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
 
@@ -48,7 +50,11 @@ bool IsWhole(const fs::path& directory,
 
 InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock_(spec_.directory) {
   const fs::path run_file = spec_.directory / kRunFile;
-  if (fs::exists(run_file)) {
+  std::error_code none;
+  if (spec_.is_mended) {
+    WriteFileWhole(run_file, spec_.run_json);
+    fs::remove(spec_.directory / kManifestFile, none);
+  } else if (fs::exists(run_file)) {
     CheckSameRun(ReadFileWhole(run_file));
   } else {
     MakeEmptyFolder(spec_.directory);
@@ -56,12 +62,20 @@ InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock
     WriteFileWhole(run_file, spec_.run_json);
   }
   is_complete_ = fs::exists(spec_.directory / kManifestFile);
+  if (is_complete_) CheckUnchanged();
   CountFrames();
-  if (is_complete_ && num_done_ < spec_.num_frames) {
-    throw InputError(ShownPath(spec_.directory) + ": is complete, but frame " +
-                     NumberText(spec_.first_frame + num_done_) +
-                     " was changed or removed; delete manifest.json to make it anew");
+}
+
+void InsertFolder::CheckUnchanged() const {
+  ErrorList errors;
+  for (const std::string& fault : VerifyInsertion(spec_.directory, [](double) {}).faults) {
+    errors.AddLine(fault);
   }
+  if (errors.size() == 0) return;
+  errors.AddLine(ShownPath(spec_.directory) +
+                 ": is complete, but was changed; delete its manifest.json, and the same command "
+                 "makes anew what is not as it was");
+  errors.ThrowIfAny();
 }
 
 void InsertFolder::CheckSameRun(const std::string& found) const {
@@ -167,6 +181,20 @@ void InsertFolder::Abandon() noexcept {
   fs::remove_all(spec_.directory, error);
 }
 
+// What a run that was killed has left beside the file that it wrote, unless the recording has a
+// file of this name.
+void InsertFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(spec_.directory)) {
+    const fs::path& file = entry.path();
+    if (file.extension() != kUnfinishedSuffix || !entry.is_regular_file()) continue;
+    const std::string name = file.lexically_relative(spec_.directory).generic_string();
+    const bool is_own = std::ranges::find(own, name) != own.end();
+    if (!is_own && fs::exists(file.parent_path() / file.stem())) files.push_back(file);
+  }
+  for (const fs::path& file : files) fs::remove(file);
+}
+
 void InsertFolder::Finish(const Json& summary, const std::vector<std::string>& others) {
   for (LineFile& file : lines_) file.Sync();
   Json manifest = Json::parse(spec_.run_json);
@@ -176,6 +204,7 @@ void InsertFolder::Finish(const Json& summary, const std::vector<std::string>& o
   names.insert(names.end(), fixed_.begin(), fixed_.end());
   names.insert(names.end(), others.begin(), others.end());
   for (const LineFileName& file : LineFiles()) names.push_back(file.name);
+  RemoveUnfinished(names);
   for (const std::string& name : names) hashes[name] = HashFile(spec_.directory / name).hash;
   manifest["files_xxh3"] = std::move(hashes);
   WriteFileWhole(spec_.directory / kManifestFile, WithManifestHash(manifest.dump(2) + "\n"));

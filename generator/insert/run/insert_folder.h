@@ -24,6 +24,8 @@ struct InsertFolderSpec {
   std::uint32_t num_frames{};
   /// Those that get a line of each frame, without insert.jsonl.
   std::vector<LineFileName> line_files;
+  /// Whether the folder is known to be of this run: what is not as it was written is made anew.
+  bool is_mended = false;
 };
 
 /// The folder that `insert --out` names, complete or unfinished. A frame counts as done when its
@@ -32,8 +34,8 @@ struct InsertFolderSpec {
 class InsertFolder {
  public:
   /// Makes the folder, or opens it and finds out how far its run has got.
-  /// @throws InputError if it holds another run or other files, is being written by another
-  ///   process, or the system refuses.
+  /// @throws InputError if it holds another run or other files, is complete but not as it was
+  ///   written, is being written by another process, or the system refuses.
   explicit InsertFolder(InsertFolderSpec spec);
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
@@ -59,6 +61,8 @@ class InsertFolder {
 
  private:
   void CheckSameRun(const std::string& found) const;
+  void CheckUnchanged() const;
+  void RemoveUnfinished(const std::vector<std::string>& own) const;
   void CountFrames();
   [[nodiscard]] std::vector<LineFileName> LineFiles() const;
 

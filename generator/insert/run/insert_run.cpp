@@ -145,7 +145,8 @@ class InsertRun {
                  .run_json = RunJsonOf(choices, recording.info(), plan, range_),
                  .first_frame = range_.first,
                  .num_frames = range_.num,
-                 .line_files = LineFiles()}) {}
+                 .line_files = LineFiles(),
+                 .is_mended = choices.is_mended}) {}
 
   InsertResult Run() {
     InsertResult result;

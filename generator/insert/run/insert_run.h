@@ -21,6 +21,8 @@ struct InsertChoices {
   std::optional<std::uint32_t> last_frame{};  ///< Absent: the recording's last.
   bool may_use_points_alone = false;
   int num_threads = 0;  ///< 0 = all cores.
+  /// Whether the folder is known to be of this run: what is not as it was written is made anew.
+  bool is_mended = false;
 };
 
 /// How far a run has got.

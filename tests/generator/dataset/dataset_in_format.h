@@ -10,6 +10,7 @@
 
 #include "core/io/verify/dataset_verification.h"
 #include "generator/dataset/merge_shards.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/dataset_project.h"
 
@@ -52,6 +53,17 @@ class DatasetInFormat : public testing::TestWithParam<const char*> {
       Make(name);
       EXPECT_EQ(FilesOfDataset(Path(name)), FilesOfDataset(Path("whole"))) << after;
     }
+  }
+
+  /// @param file Of a scenario, in its folder: its bag or trace.
+  void ExpectMendedWithout(const std::string& file) const {
+    Make("whole");
+    const auto whole = FilesOfDataset(Path("whole"));
+    std::filesystem::remove_all(Path("whole/sequences/000/000001") / file);
+    EXPECT_THAT(MessageOf([&] { Make("whole"); }), testing::HasSubstr(file + ": "));
+    std::filesystem::remove(Path("whole/manifest.json"));
+    Make("whole");
+    EXPECT_TRUE(FilesOfDataset(Path("whole")) == whole);
   }
 
   const TemporaryDirectory directory_;

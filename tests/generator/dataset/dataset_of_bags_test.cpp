@@ -50,6 +50,10 @@ TEST_P(DatasetOfBags, HasTheSameBytesAfterAnInterruption) {
   ExpectTheSameAfterAnInterruption();
 }
 
+TEST_P(DatasetOfBags, IsMendedWhereABagIsMissing) {
+  ExpectMendedWithout(BagName());
+}
+
 TEST_P(DatasetOfBags, HasThePointsOfOneOfFiles) {
   recipe_ = ReadProjectRecipe(directory_.path() / "other", ProjectRecipe());
   Make("bags");

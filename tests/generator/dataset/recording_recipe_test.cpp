@@ -72,6 +72,14 @@ class RecordingRecipe : public testing::Test {
                    "ahead_m": {"type": "uniform", "min": 15, "max": 30}}]
     })");
   }
+  /// A plan with the sensor of the recordings, for their clouds alone.
+  [[nodiscard]] static std::string StandingPlan() {
+    nlohmann::json plan = nlohmann::json::parse(ReadFileWhole(Path("plan.json")));
+    plan["world"]["recording"] = {{"poses", "standing"}};
+    const auto scenario = ReadFileWhole(Path("one/scenario.resolved.json"));
+    plan["lidar"] = nlohmann::json::parse(scenario).at("lidar");
+    return plan.dump();
+  }
   [[nodiscard]] static Recipe Read(const nlohmann::json& recipe) {
     WriteFileWhole(Path("recipe.json"), recipe.dump());
     return ReadRecipe(Path("recipe.json"), ReadRecordedBase);
@@ -232,6 +240,47 @@ TEST_F(RecordingRecipe, HasTheSameBytesInShardsAfterStopsAndOnSeveralThreads) {
   }
   EXPECT_TRUE(RunDataset(recipe, Choices("stopped"), NoDatasetHooks()).is_complete);
   EXPECT_EQ(FilesOfDataset(Path("stopped")), whole);
+}
+
+TEST_F(RecordingRecipe, MendsWhatIsDamagedWithoutItsManifest) {
+  const Recipe recipe = Read(Boxes());
+  (void)Make(recipe, "set");
+  const auto whole = FilesOfDataset(Path("set"));
+  const fs::path scenario = Path("set/sequences/000/000003");
+  const auto run = [&] { (void)RunDataset(recipe, Choices("set"), NoDatasetHooks()); };
+  for (const char* const file : {"insert.jsonl", "manifest.json", "run.json", "plan.resolved.json",
+                                 "recording/manifest.json", "recording/run.json", "recording"}) {
+    SCOPED_TRACE(file);
+    fs::remove_all(scenario / file);
+    EXPECT_THAT(MessageOf(run), HasSubstr(std::string("000003/") + file));
+    fs::remove(Path("set/manifest.json"));
+    run();
+    EXPECT_TRUE(FilesOfDataset(Path("set")) == whole);
+  }
+}
+
+TEST_F(RecordingRecipe, KnowsItsRecordingsByTheirContents) {
+  fs::remove_all(Path("clouds"));
+  fs::copy(Path("one/frames"), Path("clouds"));
+  nlohmann::json json = Boxes();
+  json["bases"] = nlohmann::json::parse(R"([{"file": "standing.json", "recordings": ["clouds"]}])");
+  WriteFileWhole(Path("standing.json"), StandingPlan());
+  (void)Make(Read(json), "set", {1, 2});
+  fs::rename(Path("clouds/000000.pcd"), Path("exchanged"));
+  fs::rename(Path("clouds/000001.pcd"), Path("clouds/000000.pcd"));
+  fs::rename(Path("exchanged"), Path("clouds/000001.pcd"));
+  const Recipe changed = Read(json);
+  EXPECT_EQ(MessageOf([&] {
+              (void)RunDataset(changed, Choices("set", {1, 2}), NoDatasetHooks());
+            }),
+            ShownPath(Path("set")) +
+                ": holds a data set of the same recipe with other bases; choose another --out");
+  (void)Make(changed, "other", {2, 2});
+  EXPECT_EQ(
+      MessageOf([&] {
+        MergeShards({Path("set"), Path("other")}, Path("merged"), [](auto, auto) {});
+      }),
+      ShownPath(Path("other")) + ": is a shard of another data set than " + ShownPath(Path("set")));
 }
 
 TEST_F(RecordingRecipe, VerifiesEveryFile) {

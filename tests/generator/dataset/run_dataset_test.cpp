@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/recipe/recipe_files.h"
 #include "generator/dataset/merge_shards.h"
@@ -279,6 +281,83 @@ TEST_F(RunDatasetTest, MakesAnUnfinishedScenarioWhoseLineWasChangedAnew) {
   WriteFileWhole(Path("set/scenarios.jsonl"), lines);
   EXPECT_TRUE(MakeDataset(recipe_, Path("set"), {1, 2}).is_complete);
   EXPECT_EQ(FilesOfDataset(Path("set")), FilesOfDataset(Path("whole")));
+}
+
+/// What may happen to the files of a data set.
+struct Damage {
+  const char* name;
+  std::function<void(const fs::path& scenario)> cause;
+  const char* fault;  ///< Part of what is said of it.
+};
+
+const std::vector<Damage>& Damages() {
+  static const std::vector<Damage> damages = {
+      {"frame changed",
+       [](const fs::path& it) {
+         WriteFileWhole(it / "frames/000001.pcd", ReadFileWhole(it / "frames/000001.pcd") + "x");
+       },
+       "/frames/000001.pcd: must have "},
+      {"frame removed", [](const fs::path& it) { fs::remove(it / "frames/000000.pcd"); },
+       "/frames/000000.pcd: no such file"},
+      {"objects cut", [](const fs::path& it) { WriteFileWhole(it / "objects.jsonl", ""); },
+       "/objects.jsonl: "},
+      {"manifest removed", [](const fs::path& it) { fs::remove(it / "manifest.json"); },
+       "/manifest.json: missing"},
+      {"run removed", [](const fs::path& it) { fs::remove(it / "run.json"); }, "/run.json: "},
+      {"scenario removed", [](const fs::path& it) { fs::remove_all(it); }, "/000003"},
+      {"unfinished file",
+       [](const fs::path& it) {
+         fs::copy_file(it / "frames/000001.pcd", it / "frames/000001.pcd.part");
+       },
+       "/frames/000001.pcd.part: "}};
+  return damages;
+}
+
+// docs/files.md: what was changed is named; without manifest.json it is made anew.
+TEST_F(RunDatasetTest, NamesWhatIsDamagedAndMendsItWithoutItsManifest) {
+  (void)MakeDataset(recipe_, Path("set"));
+  const auto whole = FilesOfDataset(Path("set"));
+  for (const Damage& damage : Damages()) {
+    SCOPED_TRACE(damage.name);
+    damage.cause(Path("set/sequences/000/000003"));
+    const std::string message = MessageOf([&] { (void)MakeDataset(recipe_, Path("set")); });
+    EXPECT_THAT(message, HasSubstr(damage.fault));
+    EXPECT_THAT(message, testing::EndsWith(
+                             Path("set").string() +
+                             ": is complete, but was changed; delete its manifest.json, and the "
+                             "same command makes anew what is not as it was"));
+    fs::remove(Path("set/manifest.json"));
+    const DatasetResult mended = MakeDataset(recipe_, Path("set"));
+    EXPECT_TRUE(mended.is_complete);
+    EXPECT_EQ(mended.num_resumed, 5U);
+    EXPECT_LE(mended.num_frames, 3U);
+    EXPECT_TRUE(FilesOfDataset(Path("set")) == whole);
+  }
+}
+
+TEST_F(RunDatasetTest, LeavesAStrangersFileInAScenarioAloneWhenItMends) {
+  (void)MakeDataset(recipe_, Path("set"));
+  const fs::path letter = Path("set/sequences/000/000003/letter.txt");
+  WriteFileWhole(letter, "dear");
+  fs::remove(Path("set/manifest.json"));
+  EXPECT_THAT(MessageOf([&] { (void)MakeDataset(recipe_, Path("set")); }),
+              HasSubstr("holds a file that does not belong to this run (letter.txt)"));
+  EXPECT_EQ(ReadFileWhole(letter), "dear");
+}
+
+TEST_F(RunDatasetTest, MergingMendsWhatIsDamaged) {
+  (void)MakeDataset(recipe_, Path("a"), {1, 2});
+  (void)MakeDataset(recipe_, Path("b"), {2, 2});
+  const auto merge = [&] { (void)MergeShards({Path("a"), Path("b")}, Path("set"), NoProgress); };
+  merge();
+  const auto whole = FilesOfDataset(Path("set"));
+  const fs::path frame = Path("set/sequences/000/000002/frames/000001.pcd");
+  fs::remove(frame);  // It is linked to that of the shard.
+  WriteFileWhole(frame, "x");
+  EXPECT_THAT(MessageOf(merge), HasSubstr("000002/frames/000001.pcd: must have "));
+  fs::remove(Path("set/manifest.json"));
+  merge();
+  EXPECT_TRUE(FilesOfDataset(Path("set")) == whole);
 }
 
 TEST_F(RunDatasetTest, NoticesAChangedBase) {

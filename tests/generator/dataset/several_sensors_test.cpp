@@ -91,6 +91,19 @@ TEST_F(DatasetOfSeveralSensors, IsMergedOfWhatItsScenariosSay) {
       HasSubstr("b/sequences/000/000001/sensors.json: must have the hash "));
 }
 
+TEST_F(DatasetOfSeveralSensors, IsMendedWhereAMergedCloudOrTheirListIsMissing) {
+  static_cast<void>(Make("set"));
+  const auto whole = FilesOfDataset(Path("set"));
+  for (const char* const file : {"merged/frames/000001.pcd", "sensors.json"}) {
+    fs::remove(Path("set/sequences/000/000001") / file);
+    EXPECT_THAT(MessageOf([&] { static_cast<void>(Make("set")); }),
+                HasSubstr(std::string("000001/") + file + ": "));
+    fs::remove(Path("set/manifest.json"));
+    EXPECT_TRUE(Make("set").is_complete);
+    EXPECT_TRUE(FilesOfDataset(Path("set")) == whole) << file;
+  }
+}
+
 TEST_F(DatasetOfSeveralSensors, NeedsAFrameOfEach) {
   nlohmann::json json = RecipeOfTwoSensors();
   json["num_frames"] = 1;

@@ -224,6 +224,61 @@ TEST(InsertRun, IsAnotherRunWhereTheRecordingHasChanged) {
       << message;
 }
 
+TEST(InsertRun, IsNotContinuedWhereACloudWasExchangedMeanwhile) {
+  const TemporaryDirectory folder;
+  (void)MakeSequence(folder.path() / "run", RunWith("pcd", ""));
+  const fs::path clouds = folder.path() / "clouds";
+  fs::copy(folder.path() / "run/frames", clouds);
+  const InsertChoices choices = {
+      .recording = clouds,
+      .plan = WriteRunPlan(folder.path(), "", R"({"poses": "standing"})"),
+      .directory = folder.path() / "out",
+      .num_threads = 1};
+  EXPECT_FALSE(InsertInto(choices, 1).is_complete);
+  const std::string first = ReadFileWhole(clouds / "000000.pcd");
+  const std::string second = ReadFileWhole(clouds / "000001.pcd");
+  ASSERT_EQ(first.size(), second.size());
+  WriteFileWhole(clouds / "000001.pcd", first);
+  EXPECT_THAT(MessageOf([&] { (void)InsertInto(choices); }),
+              testing::StartsWith(choices.directory.string() +
+                                  ": holds another run: its recording_xxh3 is "));
+  WriteFileWhole(clouds / "000001.pcd", second);
+  EXPECT_TRUE(InsertInto(choices).is_complete);
+}
+
+class InsertionOfKind : public testing::TestWithParam<const char*> {};
+
+// docs/files.md: what was changed is named; without manifest.json it is made anew.
+TEST_P(InsertionOfKind, NamesWhatIsDamagedAndMendsItWithoutItsManifest) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, RunWith("pcd", ""));
+  const fs::path out = folder.path() / "out";
+  const InsertChoices choices = {.recording = run,
+                                 .plan = WriteRunPlan(folder.path(), kBox),
+                                 .directory = out,
+                                 .format = GetParam()};
+  (void)InsertInto(choices);
+  const auto whole = FilesOf(out);
+  for (const char* const name :
+       {"insert.jsonl", "points/000001.npy", "plan.resolved.json", "recording/frames/000001.pcd"}) {
+    SCOPED_TRACE(name);
+    WriteFileWhole(out / name, "{}");
+    fs::copy_file(out / name, out / (std::string(name) + ".part"));
+    const std::string message = MessageOf([&] { (void)InsertInto(choices); });
+    EXPECT_THAT(message, testing::HasSubstr((out / name).string()));
+    EXPECT_THAT(message,
+                testing::EndsWith(out.string() +
+                                  ": is complete, but was changed; delete its manifest.json, and "
+                                  "the same command makes anew what is not as it was"));
+    fs::remove(out / "manifest.json");
+    EXPECT_TRUE(InsertInto(choices).is_complete);
+    EXPECT_TRUE(FilesOf(out) == whole);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, InsertionOfKind, testing::Values("same", "pcd"));
+
 TEST(InsertRun, MakesTheSameOfThePlanThatItWrites) {
   const TemporaryDirectory folder;
   const fs::path run = folder.path() / "run";
