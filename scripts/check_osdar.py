@@ -9,7 +9,8 @@ URIs, sensors, dimensions, horizon, and which annotations a sensor may have. Bey
 looks at the lidar's rails, too, and whether files are there and point indices within them. Prints
 a line for each fault, "file: /pointer: rule (got value)"; exit status 0 none, 1 faults, 2 usage.
 
-Needs Debian's python3-jsonschema, python3-numpy and python3-yaml.
+Needs Debian's python3-jsonschema, python3-numpy and python3-yaml, and the schema and ontologies of
+https://github.com/dbinfrago/raillabel-providerkit (--definitions).
 """
 
 import argparse
@@ -19,12 +20,17 @@ import sys
 from collections import defaultdict
 from dataclasses import dataclass
 
-import jsonschema
-import numpy as np
-import yaml
 from osdar_limits import ANNOTATIONS, CAMERAS_WITH_OPTICAL_AXES, DIMENSIONS, SENSORS
 
-DEFINITIONS = pathlib.Path(__file__).resolve().parents[2] / "shared" / "data" / "raillabel"
+try:
+    import jsonschema
+    import numpy as np
+    import osdar_definitions
+except ImportError as missing:
+    if __name__ != "__main__":
+        raise
+    sys.exit(f"{missing}: install Debian's python3-jsonschema, python3-numpy and python3-yaml")
+
 KINDS = ("bbox", "cuboid", "poly2d", "poly3d", "vec")
 HORIZON_TOLERANCE = 0.1  # Of the horizon's distance from the top of the image.
 TRACKS = ("track", "transition")
@@ -76,7 +82,7 @@ class Scene:
                         groups = data.get("attributes", {})
                         sensor = data.get("coordinate_system", "")
                         yield Annotation(
-                            number, uid, self.label["objects"].get(uid, {}).get("type", ""), kind, sensor,
+                            number, uid, self.label.get("objects", {}).get(uid, {}).get("type", ""), kind, sensor,
                             self.streams.get(sensor, {}).get("type", ""), data["val"],
                             {entry["name"]: entry["val"] for group in groups.values() for entry in group},
                             f"/openlabel/frames/{number}/objects/{uid}/object_data/{kind}/{index}")
@@ -295,7 +301,11 @@ def check_files(scene, folder):
                 yield f"{place}: must be a file{shown(uri)}"
             elif uri.endswith(".pcd"):
                 with open(folder / uri[1:], "rb") as file:
-                    num_points[number, sensor] = next(int(line.split()[1]) for line in file if line.startswith(b"POINTS"))
+                    points = next((line[7:].strip() for line in file if line.startswith(b"POINTS ")), b"")
+                if points.isdigit():
+                    num_points[number, sensor] = int(points)
+                else:
+                    yield f"{place}: must be a PCD file that says its POINTS{shown(uri)}"
     for one in scene.annotations:
         if one.kind == "vec" and (one.frame, one.sensor) in num_points and one.values:
             most = num_points[one.frame, one.sensor] - 1
@@ -323,7 +333,9 @@ def faults_of(path, schema, ontologies, ontology=None):
     """Every fault of a file."""
     try:
         whole = json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        return [error.strerror]
+    except ValueError as error:
         return [str(error)]
     errors = jsonschema.Draft7Validator(schema).iter_errors(whole)
     faults = ["/" + "/".join(map(str, error.absolute_path)) + f": {error.message[:200]}" for error in errors]
@@ -337,18 +349,21 @@ def faults_of(path, schema, ontologies, ontology=None):
 
 def read_definitions(folder):
     """The schema, and the ontologies by name."""
-    schema = json.loads((folder / "osdar26_schema.json").read_text("utf-8"))
-    return schema, {name: yaml.safe_load((folder / f"{name}.yaml").read_text("utf-8")) for name in ("osdar23", "osdar26")}
+    schema = osdar_definitions.read_definition(folder, "osdar26_schema.json")
+    return schema, {name: osdar_definitions.read_definition(folder, f"{name}.yaml") for name in ("osdar23", "osdar26")}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("labels", nargs="+", type=pathlib.Path, metavar="LABELS.json")
     parser.add_argument("--ontology", choices=("osdar23", "osdar26"))
-    parser.add_argument("--definitions", type=pathlib.Path, default=DEFINITIONS,
-                        help="folder of osdar23.yaml, osdar26.yaml and osdar26_schema.json")
+    parser.add_argument("--definitions", type=pathlib.Path, default=osdar_definitions.FOLDER,
+                        help="folder above osdar23.yaml, osdar26.yaml and osdar26_schema.json")
     arguments = parser.parse_args()
-    definitions = read_definitions(arguments.definitions)
+    try:
+        definitions = read_definitions(arguments.definitions)
+    except (OSError, ValueError) as error:
+        sys.exit(str(error))
     num_faults = 0
     for path in arguments.labels:
         faults = faults_of(path, *definitions, arguments.ontology)

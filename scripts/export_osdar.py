@@ -13,8 +13,8 @@ with the number of the run as `sensor_index`; --merged asks for that layout with
     DIR/gps_imu/ins.csv             pose and motion of the vehicle at each stamp
     DIR/gps_imu/NAME.csv            the samples of each motion sensor of the first run
 
-Needs the Python module railcast (docs/python.md), numpy and yaml. The ontologies are those of
-raillabel-providerkit (--definitions).
+Needs the Python module railcast (docs/python.md), Debian's python3-numpy and python3-yaml, and the ontologies of
+https://github.com/dbinfrago/raillabel-providerkit (--definitions).
 """
 
 import argparse
@@ -22,18 +22,16 @@ import pathlib
 import shutil
 import sys
 
-import numpy as np
-import yaml
-
 try:
+    import numpy as np
+    import osdar_definitions
     import osdar_scene
     import railcast
 except ImportError as error:
-    sys.exit(f"{error}: the Python module is needed, docs/python.md says how to build it")
+    sys.exit(f"{error}: install Debian's python3-numpy and python3-yaml, and build the Python module (docs/python.md)")
 from model_tables import models_of
 from osdar_truth import Ontology
 
-DEFINITIONS = pathlib.Path(__file__).resolve().parents[2] / "shared" / "data" / "raillabel"
 LIDARS = {"osdar23": "lidar", "osdar26": "lidar_merged"}
 
 
@@ -55,7 +53,11 @@ def matrix_of_mount(mount):
 
 def stamps_of(path):
     """The stamps of a sequence's frames, in ns."""
-    return [int(line.split(",", 1)[0]) for line in (path / "poses.csv").read_text("ascii").splitlines()[1:]]
+    file = path / "poses.csv"
+    try:
+        return [int(line.split(",", 1)[0]) for line in file.read_text("ascii").splitlines()[1:]]
+    except ValueError as error:
+        raise BadInput(f"{file}: {error}") from error
 
 
 def places_together(stamps, period_ns):
@@ -134,7 +136,7 @@ def export(arguments):
     out = arguments.out
     if out.exists():
         raise BadInput(f"{out}: must not exist")
-    definitions = yaml.safe_load((arguments.definitions / f"{arguments.ontology}.yaml").read_text("utf-8"))
+    definitions = osdar_definitions.read_definition(arguments.definitions, f"{arguments.ontology}.yaml")
     lidar = LIDARS[arguments.ontology]
     is_merged = arguments.merged or len(runs) > 1
     mounts = [matrix_of_mount(run.scenario["lidar"]["mount"]) for run in runs]
@@ -151,7 +153,10 @@ def export(arguments):
         frames = [run[place] for run, place in zip(runs, of_runs)]
         view = osdar_scene.View(frames, mounts, is_merged)
         view.add_rails(simulator.rails(frames[0].index, ahead_m=arguments.ahead_m))
-        name = scene.add_frame(view, runs[0])
+        try:
+            name = scene.add_frame(view, runs[0])
+        except ValueError as error:
+            raise BadInput(f"{paths[0]}: frame {frames[0].index}: {error}") from error
         write_pcd(begun / lidar / name, view.points(), arguments.ascii)
         samples.append((frames[0].stamp_ns, osdar_scene.ins_sample(frames[0], mounts[0])))
     write_ins(begun / "gps_imu" / "ins.csv", samples)
@@ -170,8 +175,8 @@ def main():
     parser.add_argument("--merged", action="store_true")
     parser.add_argument("--ascii", action="store_true")
     parser.add_argument("--ahead-m", type=float, default=200.0, help="how far ahead rails are annotated")
-    parser.add_argument("--definitions", type=pathlib.Path, default=DEFINITIONS,
-                        help="folder of osdar23.yaml and osdar26.yaml")
+    parser.add_argument("--definitions", type=pathlib.Path, default=osdar_definitions.FOLDER,
+                        help="folder above osdar23.yaml and osdar26.yaml")
     try:
         export(parser.parse_args())
     except (BadInput, ValueError, OSError) as error:  # InputError is a ValueError.

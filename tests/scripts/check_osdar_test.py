@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -122,6 +123,49 @@ class Cameras(unittest.TestCase):
         # Its attributes differ from today's ontology, and its sensor files are not there.
         others = [fault for fault in faults if "attributes: " not in fault and "must be a file" not in fault]
         self.assertEqual({fault.split(": ", 1)[1] for fault in others}, {"must be of bbox, cuboid for a radar"})
+
+    def test_a_cloud_without_its_number_of_points_is_named(self):
+        whole = scene(rail("leftRail", LEFT), rail("rightRail", RIGHT))
+        uri = "/rgb_center/0.pcd"
+        whole["openlabel"]["frames"]["0"]["frame_properties"] = {"streams": {"rgb_center": {"uri": uri}}}
+        for head in (b"VERSION 0.7\n", b"POINTS\n", b"POINTS many\n"):
+            with tempfile.TemporaryDirectory() as name:
+                (pathlib.Path(name) / "rgb_center").mkdir()
+                (pathlib.Path(name) / uri[1:]).write_bytes(head)
+                faults = list(check_osdar.check_files(check_osdar.Scene(whole["openlabel"]), pathlib.Path(name)))
+            self.assertEqual(faults, ["/openlabel/frames/0/frame_properties/streams/rgb_center/uri: must be a PCD file "
+                                      f'that says its POINTS (got "{uri}")'])
+
+
+class WhatAStrangerLacks(unittest.TestCase):
+
+    def said(self, *arguments, python=(sys.executable,), script="check_osdar.py"):
+        command = [*python, ROOT / "scripts" / script, *arguments]
+        ended = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False)
+        self.assertEqual((ended.returncode, ended.stdout), (1, ""))
+        return ended.stderr
+
+    def test_modules_are_said_in_one_line(self):
+        bare = (sys.executable, "-S")  # Without the modules that are not Python's own.
+        self.assertRegex(self.said("a.json", python=bare), r"^No module named '\w+': install Debian's python3-jsonschema, "
+                                                           r"python3-numpy and python3-yaml\n$")
+        self.assertRegex(self.said("run", "--out", "scene", python=bare, script="export_osdar.py"),
+                         r"^No module named '\w+': install Debian's python3-numpy and python3-yaml, and build the Python "
+                         r"module \(docs/python\.md\)\n$")
+
+    def test_definitions_are_said_in_one_line(self):
+        with tempfile.TemporaryDirectory() as name:
+            self.assertEqual(self.said("a.json", "--definitions", name),
+                             f"{name}: must hold osdar26_schema.json; clone "
+                             "https://github.com/dbinfrago/raillabel-providerkit and give its folder config by "
+                             "--definitions\n")
+            broken = pathlib.Path(name) / "schemas" / "osdar26_schema.json"  # As it stands in that repository.
+            broken.parent.mkdir()
+            broken.write_text("{", "utf-8")
+            self.assertRegex(self.said("a.json", "--definitions", name), f"^{broken}: Expecting property name [^\n]*\n$")
+
+    def test_a_file_of_labels_that_is_not_there_is_named_once(self):
+        self.assertEqual(self.said("a.json", "--definitions", DATA / "raillabel"), "a.json: No such file or directory\n")
 
 
 if __name__ == "__main__":
