@@ -23,6 +23,8 @@ constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kVertexData = 34962;
 constexpr int kIndexData = 34963;
+constexpr std::size_t kPositionBytes = 3 * sizeof(float);
+constexpr std::size_t kColorBytes = 4 * sizeof(std::uint16_t);
 
 template <typename T>
 void AppendValue(T value, std::string& bytes) {
@@ -52,8 +54,13 @@ class GlbData {
   [[nodiscard]] Json Views() const {
     const std::size_t colors = positions_.size();
     const std::size_t indices = colors + colors_.size();
-    return {View(0, positions_.size(), kVertexData), View(colors, colors_.size(), kVertexData),
-            View(indices, indices_.size(), kIndexData)};
+    Json views = {View(0, positions_.size(), kVertexData),
+                  View(colors, colors_.size(), kVertexData),
+                  View(indices, indices_.size(), kIndexData)};
+    // All parts share the views of vertices, and a view that several accessors share has a stride.
+    views[0]["byteStride"] = kPositionBytes;
+    views[1]["byteStride"] = kColorBytes;
+    return views;
   }
   /// Positions, colours and indices of the parts in turn.
   [[nodiscard]] const Json& accessors() const { return accessors_; }

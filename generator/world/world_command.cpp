@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <numeric>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -25,6 +28,7 @@ struct WorldOptions {
   std::filesystem::path out;       ///< Path ending in .ply, .glb or .obj.
   std::optional<double> from_s_m;  ///< Chainage; both are given or neither.
   std::optional<double> to_s_m;
+  std::uint64_t max_size_mb = 250;  ///< Of the file, in 1e6 bytes.
   bool is_verbose = false;
 };
 
@@ -44,10 +48,31 @@ std::vector<int> ChunksBetween(double from_s_m, double to_s_m, double length_m) 
   return chunks;
 }
 
-std::size_t CountTriangles(const ExportedWorld& exported) {
-  std::size_t count = 0;
-  for (const Part& part : exported.parts) count += part.mesh.triangles.size();
-  return count;
+/// A format of the file, and how many bytes triangles take in it.
+struct MeshFormat {
+  std::string_view extension;
+  std::size_t vertex_bytes;
+  std::size_t triangle_bytes;
+  std::string (*encode)(const ExportedWorld&, const LabelTable&, const MaterialLibrary&);
+};
+
+// OBJ is text: its numbers are those of minimal.json, where they give the size within 2 %.
+constexpr std::array<MeshFormat, 3> kFormats = {{
+    {".ply", 12, 24,
+     [](const ExportedWorld& exported, const LabelTable& labels, const MaterialLibrary&) {
+       return EncodePlyMesh(exported, labels);
+     }},
+    {".glb", 20, 12, EncodeGlbMesh},
+    {".obj", 30, 27, EncodeObjMesh},
+}};
+
+const MeshFormat& FormatOf(const std::filesystem::path& out) {
+  const auto* const found =
+      std::ranges::find(kFormats, out.extension().string(), &MeshFormat::extension);
+  if (found == kFormats.end()) {
+    throw InputError("--out: must end in .ply, .glb or .obj (got " + ShownPath(out) + ")");
+  }
+  return *found;
 }
 
 void SayTriangles(const ExportedWorld& exported, const LabelTable& labels) {
@@ -64,11 +89,32 @@ std::string SizeText(std::size_t num_bytes) {
   return text.str();
 }
 
-int RunWorld(const WorldOptions& options) {
-  const std::string extension = options.out.extension().string();
-  if (extension != ".ply" && extension != ".glb" && extension != ".obj") {
-    throw InputError("--out: must end in .ply, .glb or .obj (got " + ShownPath(options.out) + ")");
+/// Shows how far the gathering is, and ends it when the file would be too large.
+struct GatheredSize {
+  const WorldOptions& options;
+  std::size_t num_chunks;  ///< Of the whole export.
+  MeshSize gathered{};
+  TerminalLine line{};
+
+  void operator()(std::size_t num_gathered, const MeshSize& size) {
+    gathered = size;
+    const std::string chunks =
+        "chunk " + std::to_string(num_gathered) + " of " + std::to_string(num_chunks);
+    line.Show(chunks);
+    const MeshFormat& format = FormatOf(options.out);
+    const std::size_t num_bytes =
+        size.num_vertices * format.vertex_bytes + size.num_triangles * format.triangle_bytes;
+    if (num_bytes <= options.max_size_mb * 1'000'000) return;
+    line.Clear();
+    throw InputError("--max-mb: the file must have at most " + std::to_string(options.max_size_mb) +
+                     " MB (got " + std::to_string(size.num_triangles) + " triangles, " +
+                     SizeText(num_bytes) + ", by " + chunks +
+                     "); choose a shorter stretch by --from-s and --to-s, or more by --max-mb");
   }
+};
+
+int RunWorld(const WorldOptions& options) {
+  const MeshFormat& format = FormatOf(options.out);
   if (options.from_s_m.has_value() != options.to_s_m.has_value()) {
     const bool has_from = options.from_s_m.has_value();
     throw InputError("--from-s, --to-s: must be given both or not at all (got only " +
@@ -88,20 +134,16 @@ int RunWorld(const WorldOptions& options) {
       options.from_s_m
           ? ChunksBetween(*options.from_s_m, *options.to_s_m, world->alignment().length_m())
           : world->ChunksInReach(world->HomeChunk(kBegin_ns), range_max_m);
-  const TerminalLine line;
-  const ExportedWorld exported = ExportWorld(
-      *world, chunks, ChunksOfObjects(*world, kBegin_ns), kBegin_ns, [&](std::size_t num_gathered) {
-        line.Show("chunk " + std::to_string(num_gathered) + " of " + std::to_string(chunks.size()));
-      });
-  line.End();
+  GatheredSize size{options, chunks.size()};
+  const ExportedWorld exported =
+      ExportWorld(*world, chunks, ChunksOfObjects(*world, kBegin_ns), kBegin_ns, std::ref(size));
+  size.line.End();
 
   const LabelTable labels(scenario.labels);
   const MaterialLibrary materials(scenario.materials);
-  const std::string bytes = extension == ".ply"   ? EncodePlyMesh(exported, labels)
-                            : extension == ".glb" ? EncodeGlbMesh(exported, labels, materials)
-                                                  : EncodeObjMesh(exported, labels, materials);
+  const std::string bytes = format.encode(exported, labels, materials);
   if (options.is_verbose) SayTriangles(exported, labels);
-  const std::size_t num_triangles = CountTriangles(exported);
+  const std::size_t num_triangles = size.gathered.num_triangles;
   std::cerr << "writing " << num_triangles << " triangles, " << SizeText(bytes.size()) << "\n";
   WriteFileWhole(options.out, bytes);
   std::cout << num_triangles << " triangles of " << chunks.size() << " chunks in "
@@ -127,6 +169,11 @@ void AddWorld(CLI::App& app, ProgramCommand& command) {
       ->add_option("--to-s", options->to_s_m,
                    "Chainage in m at which to end, together with --from-s")
       ->check(Number(kChainage));
+  world
+      ->add_option("--max-mb", options->max_size_mb,
+                   "Most MB that the file may have; a larger one is refused before it is written")
+      ->capture_default_str()
+      ->transform(Whole({1, 1'000'000}));
   world->callback([&app, &command, options] {
     options->is_verbose = app.count("--verbose") > 0;
     command = [options](const std::string&) { return RunWorld(*options); };

@@ -9,7 +9,6 @@
 #include "core/base/text.h"
 #include "core/io/field_layout.h"
 #include "core/scene/object_pieces.h"
-#include "core/scene/part_gatherer.h"
 
 namespace railcast {
 namespace {
@@ -72,7 +71,7 @@ ExportedWorld ExportWorld(const World& world,
                           const std::vector<int>& chunks,
                           const std::vector<int>& object_chunks,
                           std::int64_t time_ns,
-                          const std::function<void(std::size_t)>& on_progress) {
+                          const std::function<void(std::size_t, const MeshSize&)>& on_progress) {
   Check(object_chunks.size() == world.objects().size(), "every object belongs to a chunk");
   ExportedWorld exported;
   exported.world_from_export = world.WorldFromChunk(chunks.front());
@@ -94,7 +93,7 @@ ExportedWorld ExportWorld(const World& world,
                      Eigen::Affine3d(export_from_world * world_from_pieces[piece]));
       }
     }
-    on_progress(++num_gathered);
+    on_progress(++num_gathered, gatherer.size());
   }
   exported.parts = gatherer.TakeParts();
   return exported;

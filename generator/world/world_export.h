@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/part_gatherer.h"
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/rail_world.h"
@@ -27,13 +28,14 @@ struct ExportedWorld {
 /// time, in the frame of the first chunk.
 /// @pre `chunks` is not empty.
 /// @param object_chunks One for each of the world's objects.
-/// @param on_progress Called with the number of chunks gathered so far.
+/// @param on_progress Called with the number of chunks gathered so far, and with their triangles.
 [[nodiscard]] ExportedWorld ExportWorld(
     const World& world,
     const std::vector<int>& chunks,
     const std::vector<int>& object_chunks,
     std::int64_t time_ns,
-    const std::function<void(std::size_t)>& on_progress = [](std::size_t) {});
+    const std::function<void(std::size_t, const MeshSize&)>& on_progress = [](std::size_t,
+                                                                              const MeshSize&) {});
 
 /// Encodes binary little-endian PLY: float vertices, and faces with label, material and the label's
 /// colour. A comment holds world_from_export by rows.

@@ -39,7 +39,7 @@ def commands_of(program, scenario):
     yield "footprint", [program, "sequence", scenario, "--out", "@", "--frames", "1", "--start-frame", "5",
                         "--fidelity", "footprint", "--format", "ply"]
     yield "check", [program, "check", scenario]
-    yield "world", [program, "world", scenario, "--out", "@/world.ply"]
+    yield "world", [program, "world", scenario, "--max-mb", "100000", "--out", "@/world.ply"]
 
 
 def hashes_of(name, arguments):

@@ -97,7 +97,8 @@ TEST(RailcastGenerate, NamesTheFileThatIsLargerThanAllowed) {
   const Ended resumed = Generate(sequence);
   EXPECT_EQ(resumed.status, 0) << resumed.said;
   const std::string world = (directory.path() / "world.ply").string();
-  EXPECT_NE(limited("world " + scenario + " --out " + world).find(world + ": file too large\n"),
+  EXPECT_NE(limited("world " + scenario + " --from-s 400 --to-s 450 --out " + world)
+                .find(world + ": file too large\n"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(world));
   const std::string capture = (directory.path() / "a.pcap").string();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 #include <string>
 
@@ -412,6 +413,31 @@ TEST(RailcastGenerate, WritesTheSceneAsAMesh) {
   EXPECT_EQ(writing + " " + triangles, "writing triangles,");
   EXPECT_NEAR(said_megabytes, megabytes, 0.05);
   EXPECT_GT(ReadPly(file).width, 1000U);
+}
+
+TEST(RailcastGenerate, RefusesAMeshThatIsLargerThanAskedFor) {
+  const TemporaryDirectory directory;
+  const std::string scenario = MakeProject(directory.path()).string();
+  const std::regex rule(
+      "--max-mb: the file must have at most 1 MB \\(got (\\d+) triangles, (.+) MB, by chunk 1 of "
+      "1\\); "
+      "choose a shorter stretch by --from-s and --to-s, or more by --max-mb\n");
+  for (const std::string name : {"a.ply", "a.glb", "a.obj"}) {
+    const std::filesystem::path file = directory.path() / name;
+    const std::string command =
+        "world " + scenario + " --from-s 400 --to-s 450 --out " + file.string();
+    const Ended refused = Generate(command + " --max-mb 1");
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_FALSE(std::filesystem::exists(file));
+    std::smatch said;
+    ASSERT_TRUE(std::regex_match(refused.said, said, rule)) << refused.said;
+    const Ended written = Generate(command);
+    EXPECT_EQ(written.said.find("writing " + said[1].str() + " triangles, "), 0U) << written.said;
+    const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(file));
+    // Only the lengths of numbers in text are estimated; headers have less than 0.05 MB.
+    const double tolerance = name == "a.obj" ? 0.1 * megabytes : 0.1;
+    EXPECT_NEAR(std::stod(said[2]), megabytes, tolerance) << name;
+  }
 }
 
 // Of PCL, what reads and writes files depends on VTK, which is most of what a user would install.

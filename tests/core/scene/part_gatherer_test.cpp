@@ -60,5 +60,17 @@ TEST(PartGatherer, GivesWhatItTookOnlyOnce) {
   EXPECT_TRUE(gatherer.TakeParts().empty());
 }
 
+TEST(PartGatherer, LeavesOutPartsWithoutTriangles) {
+  PartGatherer gatherer;
+  gatherer.Add({"a", {{Mesh{}, kSteel, kRail}, Triangle(kWagon, kWood)}},
+               Eigen::Affine3d::Identity());
+  EXPECT_EQ(gatherer.size().num_vertices, 3U);
+  EXPECT_EQ(gatherer.size().num_triangles, 1U);
+  const std::vector<Part> parts = gatherer.TakeParts();
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_EQ(parts[0].label, kWagon);
+  EXPECT_EQ(gatherer.size().num_triangles, 0U);
+}
+
 }  // namespace
 }  // namespace railcast

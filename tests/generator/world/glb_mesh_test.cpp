@@ -7,11 +7,17 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
 #include "generator/world/world_export.h"
+#include "railcast/scenario.h"
 #include "tests/core/io/example_frame.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/project_folder.h"
 #include "tests/generator/world/example_world.h"
+#include "tests/support/run_command.h"
 
 namespace railcast {
 namespace {
@@ -63,6 +69,28 @@ TEST(EncodeGlbMesh, IsReadAsAMesh) {
   EXPECT_EQ(mesh.parts[1].material, "soil");
   EXPECT_EQ(mesh.parts[1].group, ExampleLabels().Find(1)->name);
   EXPECT_TRUE(mesh.origin_m.isApprox(Vector3(10.5, 1.0, 1.5), 1e-6)) << mesh.origin_m.transpose();
+}
+
+// The judge of the format itself. It is looked for where NODE_PATH says.
+TEST(EncodeGlbMesh, PassesTheValidatorOfKhronos) {
+  if (RunCommand("node -e 'require.resolve(\"gltf-validator\")'").status != 0) {
+    GTEST_SKIP() << "node or npm's gltf-validator is missing";
+  }
+  ScenarioSpec scenario = ReadScenario(scenarios_folder + "station.json");
+  scenario.world.vegetation.trees_per_hectare = 0.0;
+  scenario.world.vegetation.grass = false;
+  const auto world = MakeWorld(scenario);
+  const std::vector<int> chunks = {2, 3};  // Both have parts without triangles.
+  const ExportedWorld exported = ExportWorld(*world, chunks, ChunksOfObjects(*world, 0), 0);
+  std::size_t num_triangles = 0;
+  for (const Part& part : exported.parts) num_triangles += part.mesh.triangles.size();
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "world.glb";
+  WriteFileWhole(file, EncodeGlbMesh(exported, LabelTable(scenario.labels),
+                                     MaterialLibrary(scenario.materials)));
+  const Ended judged = RunCommand(
+      "node " RAILCAST_SOURCE_DIR "/tests/generator/world/validate_glb.cjs " + file.string());
+  EXPECT_EQ(judged.said, std::to_string(num_triangles) + " triangles\n");
 }
 
 }  // namespace
