@@ -58,6 +58,19 @@ void AddReturn(const Frame& without, const Frame& with, std::size_t slot, BeamCh
   }
 }
 
+void AddFrame(const Frame& without, const Frame& with, EffectStudy& study) {
+  BeamChanges& beams = study.beams;
+  const auto num_points = [&] { return beams.num_removed + beams.num_added; };
+  const auto num_beams_before = beams.num_beams;
+  const auto num_outcomes_before = beams.num_outcome_changed;
+  const auto num_points_before = num_points();
+  beams.Add(without, with);
+  const auto num_beams = static_cast<double>(beams.num_beams - num_beams_before);
+  study.frames.push_back(
+      {static_cast<double>(beams.num_outcome_changed - num_outcomes_before) / num_beams,
+       static_cast<double>(num_points() - num_points_before) / num_beams});
+}
+
 EffectSet Switched(EffectSet effects, const Effect& effect) {
   effects.*effect.is_on = !(effects.*effect.is_on);
   return effects;
@@ -123,7 +136,7 @@ std::vector<EffectStudy> Ablate(Simulator& simulator,
     const bool is_compatible = !ConflictIn(Switched(effects, effect));
     if (!is_compatible && scope == StudyScope::kCompatible) continue;
     studies.push_back(
-        {effect.name, effects.*effect.is_on, std::nullopt, {}, Comparison(distances_m)});
+        {effect.name, effects.*effect.is_on, std::nullopt, {}, {}, Comparison(distances_m)});
     if (!is_compatible) studies.back().rung = effect.rungs.front();
   }
   const double num_steps = static_cast<double>(frames.size() * studies.size());
@@ -148,7 +161,7 @@ std::vector<EffectStudy> Ablate(Simulator& simulator,
       const bool is_with = base.*effect.is_on;
       const RecordedFrame& without = is_with ? other : unswitched;
       const RecordedFrame& with = is_with ? unswitched : other;
-      study.beams.Add(without.frame, with.frame);
+      AddFrame(without.frame, with.frame, study);
       study.clouds.Add(study.clouds.Compare(without, with));
     }
   }

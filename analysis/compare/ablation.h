@@ -50,6 +50,12 @@ struct BeamChanges {
   std::vector<RangeBin> range_bins;
 };
 
+/// What an effect changes in one frame, as shares of its beams.
+struct FrameChanges {
+  double outcome{};  ///< Beams with another outcome.
+  double points{};   ///< Points that only one of the frames has, of any slot.
+};
+
 /// What one effect changes in a scenario while all other effects stay as they are.
 struct EffectStudy {
   std::string effect;
@@ -57,7 +63,8 @@ struct EffectStudy {
   /// The rung on which it was studied, if it does not go together with the scenario's effects.
   std::optional<Fidelity> rung{};
   BeamChanges beams;
-  Comparison clouds;  ///< A: without the effect, B: with it.
+  std::vector<FrameChanges> frames;  ///< One for each frame.
+  Comparison clouds;                 ///< A: without the effect, B: with it.
 };
 
 /// The effects that can be studied: each one that is compatible with the others once it is

@@ -124,6 +124,34 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
   return table;
 }
 
+// What a mean over frames does not show: one frame may change and all others stay.
+Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
+  Table table = {"frames",
+                 "What each effect changes, from frame to frame",
+                 "Shares of a frame's beams: those whose outcome changed, and points taken away or "
+                 "added.",
+                 {{"effect", "Effect", ""},
+                  {"frames", "Frames", ""},
+                  {"outcome_least_percent", "Outcome changed, least", "%"},
+                  {"outcome_median_percent", "Outcome changed, median", "%"},
+                  {"outcome_most_percent", "Outcome changed, most", "%"},
+                  {"points_least_percent", "Points taken or added, least", "%"},
+                  {"points_median_percent", "Points taken or added, median", "%"},
+                  {"points_most_percent", "Points taken or added, most", "%"}},
+                 {}};
+  for (const EffectStudy& study : studies) {
+    std::vector<Cell> row = {study.effect, study.frames.size()};
+    for (const auto share : {&FrameChanges::outcome, &FrameChanges::points}) {
+      std::vector<double> percents;
+      for (const FrameChanges& frame : study.frames) percents.push_back(kPercent * frame.*share);
+      const auto [least, most] = std::ranges::minmax(percents);
+      row.insert(row.end(), {least, Median(percents), most});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
 Section EffectsSection(const std::vector<EffectStudy>& studies) {
   Section section;
   section.key = "effects";
@@ -144,7 +172,7 @@ Section EffectsSection(const std::vector<EffectStudy>& studies) {
   }
   const std::vector<const EffectStudy*> sorted = Sorted(studies, NumChanged);
   section.charts = {ChangedChart(sorted), ReturnsChart(sorted)};
-  section.tables = {EffectsTable(studies)};
+  section.tables = {EffectsTable(studies), FrameToFrameTable(studies)};
   return section;
 }
 

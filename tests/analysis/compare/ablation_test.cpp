@@ -163,5 +163,30 @@ TEST(AblationReport, HasARowForEveryEffect) {
   EXPECT_EQ(report.sections[0].tables[0].rows.size(), studies.size());
 }
 
+TEST(AblationReport, SaysHowFarFramesDiffer) {
+  const EffectSet effects = EffectsOfRung(Fidelity::kPlausibility);
+  std::vector<double> outcomes, points;  // In percent, of each frame by itself.
+  for (const std::uint32_t frame : {0U, 1U}) {
+    const BeamChanges alone = Of(Study(effects, {frame}), "rain").beams;
+    const auto num_beams = static_cast<double>(alone.num_beams);
+    outcomes.push_back(100.0 * static_cast<double>(alone.num_outcome_changed) / num_beams);
+    points.push_back(100.0 * static_cast<double>(alone.num_removed + alone.num_added) / num_beams);
+  }
+  ASSERT_NE(outcomes[0], outcomes[1]);
+  const std::vector<EffectStudy> studies = Study(effects);
+  const Report report = MakeAblationReport(studies, "Effects", {}, "");
+  const Table& table = report.sections[0].tables[1];
+  ASSERT_EQ(table.key, "frames");
+  ASSERT_EQ(table.rows.size(), studies.size());
+  for (const auto& row : table.rows) {
+    if (std::get<std::string>(row[0]) != "rain") continue;
+    EXPECT_EQ(std::get<std::uint64_t>(row[1]), 2U);
+    EXPECT_DOUBLE_EQ(std::get<double>(row[2]), std::ranges::min(outcomes));
+    EXPECT_DOUBLE_EQ(std::get<double>(row[4]), std::ranges::max(outcomes));
+    EXPECT_DOUBLE_EQ(std::get<double>(row[5]), std::ranges::min(points));
+    EXPECT_DOUBLE_EQ(std::get<double>(row[7]), std::ranges::max(points));
+  }
+}
+
 }  // namespace
 }  // namespace railcast
