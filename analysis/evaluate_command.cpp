@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -118,6 +119,9 @@ int RunEvaluate(EvaluateOptions options, const std::string& command_line) {
   progress.End();
   Report report = MakeEvaluateReport(runs, infos, options.spec, command_line);
   AddProvenance(infos, ProgramVersion(), report);
+  if (options.spec.has_files) {
+    for (const std::string& warning : BoxWarnings(runs)) std::cerr << ShownLines(warning) + "\n";
+  }
   EmitReport(report, options.output, "evaluate");
   return kExitSuccess;
 }

@@ -47,7 +47,7 @@ def main():
         begin_s = time.monotonic()
         detections = detect(frame.points())
         latency_s = frame.duration_s + time.monotonic() - begin_s  # From the stamp: the scan, then the computing.
-        line = {"frame": frame.number, "latency_ms": 1e3 * latency_s, "detections": detections}
+        line = {"frame": frame.number, "axes": "vehicle", "latency_ms": 1e3 * latency_s, "detections": detections}
         sender.sendto(json.dumps(line).encode(), options.to)
 
 

@@ -42,6 +42,8 @@ void Describe(Archive& a, ReportedFrame& s) {
   a.Required("frame", s.frame, "Number of the frame, as its file has it.");
   a.Optional("latency_ms", s.latency_ms, "From the stamp until this is known.", Within(0, 1e5));
   a.Optional("compensate", s.compensation, "Which motion had been undone.");
+  a.Optional("axes", s.axes, "Whose axes the boxes are in.");
+  a.Optional("handedness", s.handedness, "Of these axes.");
   a.Required("detections", s.detections, "Of this frame; may be empty.");
 }
 

@@ -71,6 +71,25 @@ Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
   return table;
 }
 
+Section BoxSection(const std::vector<EvaluatedRun>& runs, bool has_files) {
+  Section section{.key = "boxes", .title = "Boxes"};
+  if (has_files) section.paragraphs = BoxWarnings(runs);
+  Table table;
+  table.key = "boxes";
+  table.title = "What was reported of each run";
+  table.is_open = true;
+  table.columns = {{"run", "Run", ""},
+                   {"read", "Boxes", ""},
+                   {"in_gauge", "In the gauge", ""},
+                   {"matched", "Of an object", ""}};
+  for (const EvaluatedRun& run : runs) {
+    table.rows.push_back(
+        {ShownPath(run.run.source), run.boxes.read, run.boxes.in_gauge, run.boxes.matched});
+  }
+  section.tables = {std::move(table)};
+  return section;
+}
+
 Section LatencySection(const std::vector<EvaluatedRun>& runs) {
   Section section{.key = "latency", .title = "Latency"};
   Moments latency_ms;
@@ -135,6 +154,27 @@ void AddEvaluateHeadlines(const std::vector<Verdict>& verdicts,
 
 }  // namespace
 
+std::vector<std::string> BoxWarnings(const std::vector<EvaluatedRun>& runs) {
+  std::vector<std::string> warnings;
+  for (const EvaluatedRun& run : runs) {
+    const BoxCounts& boxes = run.boxes;
+    const bool has_any_in_way = std::ranges::any_of(
+        run.run.detections, [](const auto& named) { return named.second.is_in_way; });
+    const bool is_all_elsewhere = boxes.read > 0 && boxes.in_gauge == 0;
+    if (!is_all_elsewhere && (!has_any_in_way || boxes.matched > 0)) continue;
+    const std::string what =
+        boxes.read == 0
+            ? "no box was read"
+            : (is_all_elsewhere
+                   ? "of " + NumberText(boxes.read) + " boxes none reaches into the gauge"
+                   : "of " + NumberText(boxes.in_gauge) +
+                         " boxes in the gauge none is of an object") +
+                  ": are they in the axes that their lines say?";
+    warnings.push_back("WARNING: " + ShownPath(run.run.source) + ": " + what);
+  }
+  return warnings;
+}
+
 std::string ClusterDetectorText(const ClusterDetectorSpec& spec) {
   return "reference: points in the gauge from " + NumberText(spec.min_height_m) +
          " m over top of rail and " + NumberText(spec.min_distance_m) +
@@ -160,7 +200,8 @@ Report MakeEvaluateReport(const std::vector<EvaluatedRun>& runs,
                   {"Rule", NumberText(spec.detect.rule.min_frames) + " of " +
                                NumberText(spec.detect.rule.of_frames) + " frames"}};
   AddEvaluateHeadlines(verdicts, runs, report);
-  report.sections = {InWaySection(verdicts), AlarmSection(runs, spec.detect.rule)};
+  report.sections = {InWaySection(verdicts), BoxSection(runs, spec.has_files),
+                     AlarmSection(runs, spec.detect.rule)};
   const bool has_enough = std::ranges::any_of(verdicts, [](const Verdict& verdict) {
     return verdict.is_in_way && verdict.num_approached >= DetectionFit::kMinTargets;
   });

@@ -30,6 +30,11 @@ struct EvaluationSpec {
                                         const EvaluationSpec& spec,
                                         const std::string& command);
 
+/// What is suspect of boxes from files: a line for each run of which none reaches into the gauge,
+/// or where something is in the way and none is of an object.
+[[nodiscard]] std::vector<std::string> BoxWarnings(const std::vector<EvaluatedRun>& runs);
+
 /// What the reference detector is, in a sentence with its parameters.
 [[nodiscard]] std::string ClusterDetectorText(const ClusterDetectorSpec& spec);
+
 }  // namespace railcast

@@ -129,7 +129,8 @@ ReportedRun ReadOpenLabelRun(const std::string& text,
                    .compensation = Compensation::kSensor,
                    .detections = cuboids.InFrame(frame, frames_place / key),
                    .place = shown + ": " + (frames_place / key).pointer,
-                   .axes = BoxAxes::kSensorAtStamp});
+                   .axes = OutputFrame::kSensor,
+                   .handedness = Handedness::kRight});
   }
   // Their numbers are texts, and those stand in any order.
   std::ranges::sort(run, {}, &ReportedFrame::frame);

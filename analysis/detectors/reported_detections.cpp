@@ -24,18 +24,47 @@ OrientedBox BoxAsReported(const ReportedDetection& detection) {
       {length_m, width_m, height_m}};
 }
 
+// Whose axes the boxes of a line are in. They are not guessed: a detector may have the points of
+// the run's files, or those of Python, which are always in the sensor's axes.
+OutputSpec AxesOfBoxes(const ReportedFrame& reported, const OutputSpec& of_points) {
+  OutputSpec axes = of_points;
+  axes.frame = reported.axes.value_or(OutputFrame::kSensor);
+  axes.handedness = reported.handedness.value_or(Handedness::kRight);
+  if (std::ranges::none_of(reported.detections,
+                           [](const auto& detection) { return detection.center_m.has_value(); })) {
+    return axes;
+  }
+  const auto fail = [&](const std::string& key, const std::string& choices, std::string_view of) {
+    throw InputError(
+        {{reported.place + ": /" + key,
+          "missing, must be " + choices +
+              ", as the boxes are: the points of the run's files are \"" + std::string(of) + "\"",
+          ""}});
+  };
+  if (!reported.axes && of_points.frame != OutputFrame::kSensor) {
+    fail("axes", R"("sensor", "vehicle" or "world")", NameOf(of_points.frame));
+  }
+  if (!reported.handedness && of_points.handedness != Handedness::kRight) {
+    fail("handedness", R"("right" or "left")", NameOf(of_points.handedness));
+  }
+  return axes;
+}
+
 // The box in the sensor's axes, of which the points are. The frame's pose is that at the stamp.
-OrientedBox InSensorAxes(OrientedBox box, const PointsOfRun& run, const Frame& frame) {
+OrientedBox InSensorAxes(OrientedBox box,
+                         const OutputSpec& axes,
+                         const Transform& vehicle_from_sensor,
+                         const Frame& frame) {
   Transform& from_box = box.world_from_box;
-  if (run.output.handedness == Handedness::kLeft) {
+  if (axes.handedness == Handedness::kLeft) {
     // As ObjectInFrame::output_from_box: the pose of the mirrored box.
     const Eigen::DiagonalMatrix<double, 3> mirror(1.0, -1.0, 1.0);
     from_box = MakeTransform(mirror * from_box.linear() * mirror, mirror * from_box.translation());
   }
-  if (run.output.frame == OutputFrame::kVehicle) {
-    from_box = run.vehicle_from_sensor.inverse() * from_box;
-  } else if (run.output.frame == OutputFrame::kWorld) {
-    const auto& [x, y, z] = run.output.origin_m;
+  if (axes.frame == OutputFrame::kVehicle) {
+    from_box = vehicle_from_sensor.inverse() * from_box;
+  } else if (axes.frame == OutputFrame::kWorld) {
+    const auto& [x, y, z] = axes.origin_m;
     from_box = frame.world_from_sensor.inverse() * (Eigen::Translation3d(x, y, z) * from_box);
   }
   return box;
@@ -75,17 +104,18 @@ class Placing {
           const OwnTrack& track)
       : reported_(reported),
         recorded_(recorded),
-        run_(run),
+        vehicle_from_sensor_(run.vehicle_from_sensor),
+        axes_(AxesOfBoxes(reported, run.output)),
         track_(track),
         // Points of the world's axes have no motion left.
-        compensation_(run.output.frame == OutputFrame::kWorld ? Compensation::kSensor
-                                                              : reported.compensation),
+        compensation_(axes_.frame == OutputFrame::kWorld ? Compensation::kSensor
+                                                         : reported.compensation),
         motion_(recorded, compensation_),
         undone_(recorded, Compensation::kSensor) {}
 
   [[nodiscard]] DetectedBox BoxOf(const ReportedDetection& detection) const {
-    OrientedBox box = BoxAsReported(detection);
-    if (reported_.axes == BoxAxes::kPoints) box = InSensorAxes(box, run_, recorded_.frame);
+    OrientedBox box =
+        InSensorAxes(BoxAsReported(detection), axes_, vehicle_from_sensor_, recorded_.frame);
     const PointsInBox points = PointsOfBox(box, recorded_, motion_);
     if (compensation_ == Compensation::kNone && KnowsMotion(recorded_)) {
       box.world_from_box.translation() =
@@ -128,7 +158,8 @@ class Placing {
 
   const ReportedFrame& reported_;
   const RecordedFrame& recorded_;
-  const PointsOfRun& run_;
+  const Transform& vehicle_from_sensor_;
+  OutputSpec axes_;  ///< Of the boxes.
   const OwnTrack& track_;
   Compensation compensation_;
   RecordedMotion motion_;  ///< As the detector has it.

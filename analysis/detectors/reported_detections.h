@@ -27,12 +27,6 @@ struct ReportedDetection {
   std::string class_name;
 };
 
-/// Whose axes the boxes of a file are in.
-enum class BoxAxes : std::uint8_t {
-  kPoints,         ///< Those of the points of the frame's file.
-  kSensorAtStamp,  ///< The sensor's at the stamp, right-handed.
-};
-
 /// World coordinates may be those of a national grid.
 inline constexpr double kFarthestBox_m = 1e7;
 inline constexpr double kLargestBox_m = 1e3;
@@ -45,7 +39,10 @@ struct ReportedFrame {
   Compensation compensation = Compensation::kNone;
   std::vector<ReportedDetection> detections;
   std::string place;  ///< For messages: "FILE:3".
-  BoxAxes axes = BoxAxes::kPoints;
+  /// Whose axes the boxes are in; absent = the sensor's, right-handed. Must be there where the
+  /// points of the run's files are in others.
+  std::optional<OutputFrame> axes;
+  std::optional<Handedness> handedness;
 };
 
 /// The detections of a run, by rising number of the frame.
@@ -102,7 +99,8 @@ struct PointsOfRun {
 /// points as measured was seen at the mean time of the points in it.
 /// @param min_score Detections below are left out.
 /// @throws InputError "FILE:3: /detections/0/points/2: rule (got value)" for a point that the frame
-///   does not have.
+///   does not have, and "FILE:3: /axes: rule" for a box that does not say whose axes it is in where
+///   it must.
 [[nodiscard]] std::vector<DetectedBox> DetectionsOf(const ReportedFrame& reported,
                                                     const RecordedFrame& recorded,
                                                     const PointsOfRun& run,

@@ -50,6 +50,7 @@ void RunEvaluator::Add(const RecordedFrame& recorded, const FrameDetections& det
     courses_.objects.at(object.name).sightings.back().points = 0;
   }
   std::vector<GaugeBox>& boxes = boxes_.emplace_back();
+  counts_.read += detections.boxes.size();
   for (const DetectedBox& detected : detections.boxes) {
     const OrientedBox& box = detected.box;
     if (!track_.ClearanceAhead(world_from_vehicle, box.world_from_box, box.size_m).is_inside) {
@@ -67,6 +68,8 @@ void RunEvaluator::Add(const RecordedFrame& recorded, const FrameDetections& det
       found.objects.push_back(recorded.objects[i].name);
       courses_.objects.at(recorded.objects[i].name).sightings.back().points = 1;
     }
+    ++counts_.in_gauge;
+    counts_.matched += found.objects.empty() ? 0U : 1U;
     boxes.push_back(std::move(found));
   }
   frames_.push_back(frame.index);
@@ -130,6 +133,7 @@ EvaluatedRun RunEvaluator::Finish(std::filesystem::path source,
     if (!detection.frame) continue;
     AddLatency(result.run.courses.objects.at(name), latencies_s_[*detection.frame], detection);
   }
+  result.boxes = counts_;
   result.frames = std::move(frames_);
   result.latencies_s = std::move(latencies_s_);
   return result;

@@ -28,12 +28,20 @@ struct FalseAlarm {
   std::string cause;
 };
 
+/// How many of the boxes that a detector reports count.
+struct BoxCounts {
+  std::uint64_t read{};
+  std::uint64_t in_gauge{};
+  std::uint64_t matched{};  ///< In the gauge, and of an object.
+};
+
 /// A run as a detector sees it.
 struct EvaluatedRun {
   /// In the sightings, `points` is 1 where the object was detected in the frame.
   DetectRun run;
   double driven_m{};  ///< From the first frame's stamp to the last one's.
   std::vector<FalseAlarm> alarms;
+  BoxCounts boxes;
   /// Number and latency of each frame that has been evaluated.
   std::vector<std::uint32_t> frames;
   std::vector<double> latencies_s;
@@ -75,6 +83,7 @@ class RunEvaluator {
   Transform vehicle_from_sensor_;
   RunCourses courses_;
   std::vector<std::vector<GaugeBox>> boxes_;  ///< By frame.
+  BoxCounts counts_;
   std::vector<std::uint32_t> frames_;
   std::vector<double> latencies_s_;
   std::vector<Vector3> sensor_m_;  ///< In the world, by frame.

@@ -61,17 +61,19 @@ class EvaluateCommand : public testing::Test {
   }
 
   /// Writes detections, one line for each frame of the run, and returns the file.
+  /// @param axes That the lines say; none if empty.
   static std::string Detections(const std::string& name,
-                                const std::function<Json(const Json& objects)>& of_frame) {
+                                const std::function<Json(const Json& objects)>& of_frame,
+                                const std::string& axes = "") {
     std::istringstream lines(ReadFileWhole(run_ / "objects.jsonl"));
     std::string text;
     for (std::string line; std::getline(lines, line);) {
       const Json frame = Json::parse(line);
-      text += Json{{"frame", frame.at("frame")},
-                   {"compensate", "sensor"},
-                   {"detections", of_frame(frame.at("objects"))}}
-                  .dump() +
-              "\n";
+      Json reported = {{"frame", frame.at("frame")},
+                       {"compensate", "sensor"},
+                       {"detections", of_frame(frame.at("objects"))}};
+      if (!axes.empty()) reported["axes"] = axes;
+      text += reported.dump() + "\n";
     }
     return folder_->Write(name, text).string();
   }
@@ -176,6 +178,51 @@ TEST_F(EvaluateCommand, TakesWhatTheExampleDetectsInAStream) {
   // client computes.
   EXPECT_LT(row.at("detected_at_m").get<double>(), 77.0);
   EXPECT_GT(row.at("detected_at_m").get<double>(), 60.0);
+}
+
+// Python gives a run's points and boxes in the sensor's axes, whatever those of its files are.
+TEST_F(EvaluateCommand, WantsToKnowTheAxesWherePointsAreInThoseOfTheVehicle) {
+  const std::filesystem::path scenario =
+      folder_->Write("axes.json", Scenario(R"("output": {"frame": "vehicle"},)"));
+  const std::filesystem::path run = run_.parent_path() / "axes_run";
+  MakeRun(scenario, run);
+  const std::string unsaid = Detections("unsaid.jsonl", TrueBoxes);
+  const Ended ended = Analyze("evaluate " + run.string() + " --format text --detections " + unsaid);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.said, HasSubstr("unsaid.jsonl:1: /axes: missing, must be \"sensor\""));
+  const Json said =
+      EvaluateRun(run, "--detections " + Detections("said.jsonl", TrueBoxes, "sensor"));
+  EXPECT_NEAR(Rows(said, "runs").at(0).at("detected_at_m").get<double>(), 77.0, 0.1);
+}
+
+TEST_F(EvaluateCommand, CountsBoxesAndWarnsWhereNoneReachesIntoTheGauge) {
+  const std::string truth = Detections("counted.jsonl", TrueBoxes);
+  const Json report = Evaluate("--detections " + truth);
+  const Json counts = Rows(report, "boxes").at(0);
+  // Both objects in each of 30 frames, of which one is beside the track.
+  EXPECT_EQ(counts.at("read"), 60U);
+  EXPECT_EQ(counts.at("in_gauge"), 30U);
+  EXPECT_EQ(counts.at("matched"), 30U);
+  const auto warning = [](const std::string& file) {
+    const Ended ended = Analyze("evaluate " + run_.string() + " --out " +
+                                (run_.parent_path() / "warned").string() + " --detections " + file);
+    EXPECT_EQ(ended.status, 0);
+    const std::size_t begin = ended.said.find("WARNING: ");
+    if (begin == std::string::npos) return std::string();
+    return ended.said.substr(begin, ended.said.find('\n', begin) + 1 - begin);
+  };
+  const std::string run = "WARNING: " + run_.string();
+  const std::string question = ": are they in the axes that their lines say?\n";
+  EXPECT_EQ(warning(truth), "");
+  // In the vehicle's axes the boxes are lower by the sensor's height of 2.5 m, of their own 3 m.
+  EXPECT_EQ(warning(Detections("lower.jsonl", TrueBoxes, "vehicle")),
+            run + ": of 30 boxes in the gauge none is of an object" + question);
+  const std::string below = Detections("below.jsonl", [](const Json&) {
+    return Json::array({{{"center_m", {40, 0, -6}}, {"size_m", {1, 1, 1}}}});
+  });
+  EXPECT_EQ(warning(below), run + ": of 30 boxes none reaches into the gauge" + question);
+  const std::string none = Detections("empty.jsonl", [](const Json&) { return Json::array(); });
+  EXPECT_EQ(warning(none), run + ": no box was read\n");
 }
 
 TEST_F(EvaluateCommand, CountsAlarmsAtWhatIsBesideAndAtNothing) {

@@ -55,7 +55,8 @@ TEST(OpenLabelDetections, AreCuboidsInTheSensorsAxes) {
   EXPECT_EQ(*person.size_m, (std::array{0.6, 0.5, 1.8}));
   EXPECT_NEAR(std::abs(person.quaternion_xyzw[2]), 1.0, 1e-9);
   EXPECT_EQ(person.class_name, "person");
-  EXPECT_EQ(run[0].axes, BoxAxes::kSensorAtStamp);
+  EXPECT_EQ(run[0].axes, OutputFrame::kSensor);
+  EXPECT_EQ(run[0].handedness, Handedness::kRight);
   EXPECT_EQ(run[0].compensation, Compensation::kSensor);
 }
 

@@ -127,27 +127,51 @@ TEST(Detections, OfCompensatedPointsStayWhereTheyAre) {
   EXPECT_EQ(box.label, 5U);
 }
 
-TEST(Detections, AreInTheAxesOfTheFilesPoints) {
+/// A run whose files have their points in these axes, of a sensor 2 m ahead of the vehicle's origin
+/// and 2.5 m above it.
+PointsOfRun RunOf(OutputFrame frame, Handedness handedness = Handedness::kRight) {
+  return {.output = {.frame = frame, .handedness = handedness, .origin_m = {500.0, 0.0, 0.0}},
+          .vehicle_from_sensor = MakeTransform(Eigen::Matrix3d::Identity(), {2.0, 0.0, 2.5})};
+}
+
+std::string LineWith(const std::string& keys, const std::string& center_m) {
+  return R"({"frame": 0, )" + keys + R"("detections": [{"center_m": )" + center_m +
+         R"(, "size_m": [0.5, 0.4, 0.3]}]})" + "\n";
+}
+
+TEST(Detections, AreInTheAxesThatTheirLineSays) {
   const RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 0);
-  const Vector3 expected(549.0, 0.5, 1.0);
-  const auto center = [&](const std::string& center_m, const PointsOfRun& run) -> Vector3 {
-    return PlacedBox(LineOf("{\"center_m\": " + center_m + R"(, "size_m": [0.5, 0.4, 0.3]})"),
-                     recorded, run)
-        .box.world_from_box.translation();
+  const auto is_there = [&](const std::string& line, const PointsOfRun& run) {
+    return PlacedBox(line, recorded, run)
+        .box.world_from_box.translation()
+        .isApprox(Vector3(549.0, 0.5, 1.0), 1e-9);
   };
-  EXPECT_TRUE(center("[49, 0.5, -1]", {}).isApprox(expected, 1e-9));
-  OutputSpec left;
-  left.handedness = Handedness::kLeft;
-  EXPECT_TRUE(center("[49, -0.5, -1]", {.output = left}).isApprox(expected, 1e-9));
-  OutputSpec vehicle;
-  vehicle.frame = OutputFrame::kVehicle;
-  const Transform mount = MakeTransform(Eigen::Matrix3d::Identity(), Vector3(2.0, 0.0, 2.5));
-  EXPECT_TRUE(center("[51, 0.5, 1.5]", {.output = vehicle, .vehicle_from_sensor = mount})
-                  .isApprox(expected, 1e-9));
-  OutputSpec world;
-  world.frame = OutputFrame::kWorld;
-  world.origin_m = {500.0, 0.0, 0.0};
-  EXPECT_TRUE(center("[49, 0.5, 1]", {.output = world}).isApprox(expected, 1e-9));
+  EXPECT_TRUE(is_there(LineWith("", "[49, 0.5, -1]"), RunOf(OutputFrame::kSensor)));
+  for (const OutputFrame files : {OutputFrame::kSensor, OutputFrame::kVehicle}) {
+    const PointsOfRun run = RunOf(files);
+    EXPECT_TRUE(is_there(LineWith(R"("axes": "sensor", )", "[49, 0.5, -1]"), run));
+    EXPECT_TRUE(is_there(LineWith(R"("axes": "vehicle", )", "[51, 0.5, 1.5]"), run));
+    EXPECT_TRUE(is_there(LineWith(R"("axes": "world", )", "[49, 0.5, 1]"), run));
+  }
+  const PointsOfRun left = RunOf(OutputFrame::kSensor, Handedness::kLeft);
+  EXPECT_TRUE(is_there(LineWith(R"("handedness": "left", )", "[49, -0.5, -1]"), left));
+  EXPECT_TRUE(is_there(LineWith(R"("handedness": "right", )", "[49, 0.5, -1]"), left));
+}
+
+TEST(Detections, MustSayTheirAxesWhereThePointsAreInOthers) {
+  const RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 0);
+  const auto fault = [&](const std::string& line, const PointsOfRun& run) {
+    return MessageOf([&] { (void)PlacedBox(line, recorded, run); });
+  };
+  EXPECT_EQ(fault(LineWith("", "[49, 0.5, -1]"), RunOf(OutputFrame::kVehicle)),
+            "d.jsonl:1: /axes: missing, must be \"sensor\", \"vehicle\" or \"world\", as the boxes "
+            "are: the points of the run's files are \"vehicle\"");
+  EXPECT_EQ(fault(LineWith("", "[49, 0.5, -1]"), RunOf(OutputFrame::kSensor, Handedness::kLeft)),
+            "d.jsonl:1: /handedness: missing, must be \"right\" or \"left\", as the boxes are: the "
+            "points of the run's files are \"left\"");
+  // Points say where they are by themselves.
+  EXPECT_EQ(
+      PlacedBox(LineOf(R"({"points": [0, 1]})"), recorded, RunOf(OutputFrame::kVehicle)).label, 5U);
 }
 
 TEST(Detections, OfPointsAreTheirBox) {
