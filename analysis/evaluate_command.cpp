@@ -182,7 +182,7 @@ void AddEvaluate(CLI::App& app, ProgramCommand& command) {
   CLI::Option* const width =
       evaluate
           ->add_option("--gauge-width-m", options->gauge_width_m,
-                       "Width of the train's own gauge, instead of the structure gauge")
+                       "Width of the train's own gauge, instead of the vehicle's outline")
           ->check(Number({0.1, 10.0}));
   evaluate->add_option("--gauge-height-m", options->gauge_height_m, "Its height over top of rail")
       ->check(Number({0.1, 10.0}))

@@ -245,7 +245,7 @@ void AddStats(CLI::App& app, ProgramCommand& command) {
   AddTopic(*stats, options->topic);
   stats->add_option("--track", options->track,
                     "Scenario whose vehicle is on the recording's track, in the world of the "
-                    "recording's poses: counts the points in its structure gauge");
+                    "recording's poses: counts the points in the vehicle's outline along it");
   stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
       ->transform(Whole({0, 1024}))
       ->capture_default_str();

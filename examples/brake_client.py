@@ -3,7 +3,7 @@
 
 Speaks to `railcast-generate stream SCENARIO --commands-port PORT`, whose points must be in vehicle
 axes (`output.frame` is "vehicle") on track that is straight as far as the sensor sees. An
-obstacle is where enough points lie close together inside the structure gauge, frame after frame.
+obstacle is where enough points lie close together in the train's way, frame after frame.
 Prints where it was detected, how far the train still ran and what gap is left; exits with
 status 1 if there is no gap.
 """
@@ -21,7 +21,7 @@ import time
 
 from receive_stream import listener_at, read_datagram
 
-# Half the width of the structure gauge of lines with 15 kV (EBO, Anlage 1). Ballast, rails and
+# Half the width that pantographs need under 15 kV (EBO, Anlage 1). Ballast, rails and
 # sleepers are below the box, and the contact wire is above it.
 GAUGE_HALF_WIDTH_M = 1.43
 GAUGE_BOTTOM_M = 0.35

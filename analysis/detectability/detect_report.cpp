@@ -27,9 +27,10 @@ std::string RuleText(const DetectSpec& spec) {
 }
 
 std::string WayText() {
-  return "In the way is what reaches, at any time of the approach, into the structure gauge of the "
-         "own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above it. "
-         "What does not is no reason to brake and is not judged. What is detected too late, but by "
+  return "In the way is what reaches, at any time of the approach, into the vehicle's outline on "
+         "the own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above "
+         "it. What does not is no reason to brake and is not judged. What is detected too late, "
+         "but by "
          "the run's first frames, is not judged either: had the run begun farther off, it might "
          "have been in time.";
 }

@@ -115,7 +115,7 @@ Section LatencySection(const std::vector<EvaluatedRun>& runs) {
 }
 
 std::string GaugeText(const std::optional<TrainGauge>& gauge) {
-  if (!gauge) return "structure gauge of the own track";
+  if (!gauge) return "vehicle's outline on the own track";
   return NumberText(gauge->width_m) + " m wide, " + NumberText(gauge->height_m) +
          " m high over top of rail";
 }

@@ -15,7 +15,7 @@ namespace railcast {
 /// How a detector is evaluated.
 struct EvaluationSpec {
   DetectSpec detect;  ///< Points of the rule do not count: what a detector reports is seen.
-  std::optional<TrainGauge> gauge;  ///< In place of the structure gauge.
+  std::optional<TrainGauge> gauge;  ///< In place of the vehicle's outline.
   bool has_files{};                 ///< Whether detections come from files.
   ClusterDetectorSpec clusters;     ///< Of the reference detector, where they do not.
   double min_score{};               ///< Of detections from files.

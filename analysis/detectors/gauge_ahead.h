@@ -9,7 +9,7 @@
 
 namespace railcast {
 
-/// A rectangular gauge of a train's own, in place of the structure gauge.
+/// A rectangular gauge of a train's own, in place of the vehicle's outline.
 struct TrainGauge {
   double width_m{};
   double height_m{};  ///< Over top of rail, from which on it is.

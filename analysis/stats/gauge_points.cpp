@@ -66,12 +66,13 @@ Section GaugePoints::MakeSection(const Names& names) const {
   table.rows.push_back(std::move(shares));
   table.is_open = true;
   const std::uint64_t num = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
-  return {.key = "gauge",
-          .title = "In the gauge",
-          .paragraphs = {Joined({CountText(num), " points in the structure gauge of the track, in ",
-                                 CountText(num_frames_with_any_), " of ", CountText(num_frames_),
-                                 " frames. Noise puts some points of the rails' heads into it."})},
-          .tables = {std::move(table)}};
+  return {
+      .key = "gauge",
+      .title = "In the gauge",
+      .paragraphs = {Joined({CountText(num), " points in the vehicle's outline on the track, in ",
+                             CountText(num_frames_with_any_), " of ", CountText(num_frames_),
+                             " frames. Noise puts some points of the rails' heads into it."})},
+      .tables = {std::move(table)}};
 }
 
 }  // namespace railcast

@@ -12,7 +12,7 @@
 
 namespace railcast {
 
-/// The points in the structure gauge of a given track, by label and range.
+/// The points in the vehicle's outline on a given track, by label and range.
 class GaugePoints {
  public:
   /// @param track Of the vehicle, in the world of the frame's pose.

@@ -29,7 +29,7 @@ namespace railcast {
 class ApproachScanner {
  public:
   /// @param num_threads,isa As MakeSimulator() takes them.
-  /// @param gauge Of the train; absent = the structure gauge.
+  /// @param gauge Of the train; absent = the vehicle's outline.
   /// @param objects Those that are followed: StudySpec::objects.
   explicit ApproachScanner(int num_threads,
                            std::string isa = {},

@@ -57,7 +57,7 @@ void Describe(Archive& a, StudySpec& s) {
   if (objects) s.objects = std::move(*objects);
   a.Optional("detection", s.detect.rule, "When an object counts as detected.");
   a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
-  a.Optional("gauge", s.gauge, "Of the train, instead of the structure gauge.");
+  a.Optional("gauge", s.gauge, "Of the train, instead of the vehicle's outline.");
   a.Optional("braking", s.detect.braking, "How the train stops.");
   std::optional<double> speed_kmph;
   a.Optional("speed_kmph", speed_kmph, "To brake from; absent = the vehicle's own.",

@@ -22,7 +22,7 @@ struct StudySpec {
   DetectSpec detect;
   /// Whose detections are studied; absent = an object is seen by the number of points on it.
   std::optional<ClusterDetectorSpec> detector;
-  std::optional<TrainGauge> gauge;  ///< Of the train, in place of the structure gauge.
+  std::optional<TrainGauge> gauge;  ///< Of the train, in place of the vehicle's outline.
 
   /// What is asked about, for pages: "wagons/3, person", or "all objects in the way".
   [[nodiscard]] std::string ObjectsText() const;

@@ -119,7 +119,7 @@ void Describe(Archive& a, PlacedObjects& s) {
   a.Required("object", s.object, "As in world.objects, without name and s_m.");
   a.Optional("draws", s.draws, "Distributions by JSON pointer into the object.");
   a.Required("ahead_m", s.ahead_m, "From the vehicle's origin at time 0, along the track.");
-  a.Optional("gauge", s.gauge, "Whether it stands in the structure gauge of a track.");
+  a.Optional("gauge", s.gauge, "Whether it stands in the way on a track.");
 }
 
 template <class Archive>

@@ -113,8 +113,8 @@ class PlaceCheck {
     if (rule == GaugeRule::kAny) return std::nullopt;
     const bool is_on_its_track = IsOnItsTrack(scenario.world.objects.back());
     for (std::size_t i = 0; i < NumPlaces(); ++i) {
-      const std::vector<GaugeEntry> entries =
-          FindObjectInGauge(scenario.world, world_, object_, is_on_its_track, stamps_.stamps_ns[i]);
+      const std::vector<GaugeEntry> entries = FindObjectInTheWay(
+          scenario.world, world_, object_, is_on_its_track, stamps_.stamps_ns[i]);
       if (entries.empty()) continue;
       if (rule == GaugeRule::kFoul) return std::nullopt;
       return "it is in the gauge of track \"" + entries.front().track + "\"" +

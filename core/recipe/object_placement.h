@@ -54,7 +54,7 @@ inline constexpr std::uint32_t kMostAttempts = 100;
 
 /// Places the recipe's objects in a scenario, one after the other. Each is drawn anew while it
 /// touches or overlaps another object or the sensor's vehicle in any frame, is in a structure,
-/// breaks the rule about the structure gauge, or cannot stand there at all.
+/// breaks the rule about what is in the way, or cannot stand there at all.
 /// @param world The world of the draft without them.
 /// @return A list of what was placed: name, s_m, ahead_m, attempt and what was drawn.
 /// @throws InputError if an object finds no place.

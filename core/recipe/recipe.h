@@ -32,7 +32,7 @@ template <>
 inline constexpr auto kEnumNames<SplitBy> = std::to_array<EnumName<SplitBy>>(
     {{SplitBy::kScenario, "scenario"}, {SplitBy::kPlace, "place"}, {SplitBy::kLine, "line"}});
 
-/// Whether placed objects stand in the structure gauge of any track.
+/// Whether placed objects stand in the way on any track (VehicleOutline).
 enum class GaugeRule {
   kAny,
   kClear,  ///< Nowhere, in no frame.

@@ -161,13 +161,14 @@ std::string VehicleText(const std::string& track, const VehicleWay& way, const S
 std::string GaugeText(const std::vector<GaugeEntry>& entries) {
   std::string text;
   for (const GaugeEntry& entry : entries) {
-    text += ReportLine(text.empty() ? "gauge" : "",
-                       Quoted(entry.name) + " is in the structure gauge of track " +
-                           Quoted(entry.track) + " at s " + Rounded(entry.begin_s_m, 1) + " to " +
-                           Rounded(entry.end_s_m, 1) + " m, deepest at " +
-                           Rounded(entry.deepest_s_m, 1) + " m by " + Rounded(entry.depth_m, 2) +
-                           " m, from " + Rounded(entry.bottom_m, 2) + " to " +
-                           Rounded(entry.top_m, 2) + " m above top of rail");
+    text += ReportLine(
+        text.empty() ? "clearance" : "",
+        Quoted(entry.name) +
+            (entry.is_in_way ? " is in the way on track " : " is in the clear space of track ") +
+            Quoted(entry.track) + " at s " + Rounded(entry.begin_s_m, 1) + " to " +
+            Rounded(entry.end_s_m, 1) + " m, deepest at " + Rounded(entry.deepest_s_m, 1) +
+            " m by " + Rounded(entry.depth_m, 2) + " m, from " + Rounded(entry.bottom_m, 2) +
+            " to " + Rounded(entry.top_m, 2) + " m above top of rail");
   }
   return text;
 }

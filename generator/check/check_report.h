@@ -59,7 +59,7 @@ namespace railcast {
 
 [[nodiscard]] std::string ObjectsText(const World& world, const LabelTable& labels);
 
-/// Lists what stands in the structure gauge of a track; empty if nothing does.
+/// Lists what stands in the way on a track, or in its clear space; empty if nothing does.
 [[nodiscard]] std::string GaugeText(const std::vector<GaugeEntry>& entries);
 
 /// Lists what touches or overlaps in frames 0 to `last_frame`, as found by FindContactRuns.

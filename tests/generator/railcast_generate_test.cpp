@@ -41,7 +41,7 @@ TEST(RailcastGenerate, SaysWhichPointsAreInTheGauge) {
     const float lateral_m = frames[0].foreign[0].values[slot];
     const bool is_in_gauge = frames[0].foreign[2].values[slot] == 1.0F;
     num_in_gauge += is_in_gauge ? 1U : 0U;
-    // The structure gauge is 2 m to either side and 5 m high, within some decimetres.
+    // The vehicle's outline is 2 m to either side and 5 m high, within some decimetres.
     EXPECT_FALSE(is_in_gauge && std::abs(lateral_m) > 2.6F) << lateral_m;
     EXPECT_FALSE(is_in_gauge && frames[0].foreign[1].values[slot] > 6.5F);
   }

@@ -194,8 +194,7 @@ void Composer::AddOverlays(const ShownFrame& shown,
   if (!world_ || !recorded.has_pose) return;
   if (choices.track) AddTo(DrawTrackAxis(world_->surroundings, recorded), composition.overlays);
   if (choices.mesh) world_->AddSurfaces(recorded, composition);
-  if (choices.gauge)
-    AddTo(DrawStructureGauge(world_->surroundings, recorded), composition.overlays);
+  if (choices.gauge) AddTo(DrawClearSpace(world_->surroundings, recorded), composition.overlays);
 }
 
 Composition Composer::Compose(const ShownFrames& frames, const Choices& choices) {

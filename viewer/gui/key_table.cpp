@@ -64,7 +64,7 @@ std::span<const KeyBinding> KeyTable::Bindings() {
        [](Gui& w) { w.Toggle(w.session_.choices().overlays.boxes); }},
       {"t", "t", "track axis with chainage",
        [](Gui& w) { w.Toggle(w.session_.choices().overlays.track); }},
-      {"g", "g", "structure gauge",
+      {"g", "g", "clear space of the track",
        [](Gui& w) { w.Toggle(w.session_.choices().overlays.gauge); }},
       {"u", "u", "sensor frustum",
        [](Gui& w) { w.Toggle(w.session_.choices().overlays.frustum); }},

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/clearance/clear_space.h"
+#include "core/rail/clearance/vehicle_outline.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/io/recording.h"
 #include "railcast/rail_world.h"
@@ -78,16 +79,23 @@ constexpr int kTicksPerWord = 5;
 constexpr double kTick_m = 0.5;
 constexpr double kLongTick_m = 1.3;
 
-constexpr Rgb kGaugeRgb = kReddishPurple;
+constexpr Rgb kClearSpaceRgb = kReddishPurple;
 constexpr double kRingStep_m = 10.0;
 
-std::vector<Vector3> OutlineAt(const TrackStretch& stretch,
-                               const std::vector<Eigen::Vector2d>& outline,
-                               double s_m) {
+/// The corners of the clear space at a chainage: up the left side and down the right one.
+std::vector<Vector3> ClearSpaceRing(const TrackStretch& stretch,
+                                    std::optional<double> contact_height_m,
+                                    double s_m) {
   const Transform sensor_from_track = stretch.SensorFromTrack(s_m);
+  const TrackBend bend = BendAt(stretch.track, stretch.alignment, s_m);
   std::vector<Vector3> corners;
-  for (const Eigen::Vector2d& corner : outline) {
-    corners.emplace_back(sensor_from_track * Vector3(0.0, corner.x(), corner.y()));
+  for (const HalfWidth& row : ClearSpace(contact_height_m, bend, 1.0)) {
+    corners.emplace_back(sensor_from_track * Vector3(0.0, row.half_width_m, row.height_m));
+  }
+  const std::vector<HalfWidth> right = ClearSpace(contact_height_m, bend, -1.0);
+  for (std::size_t i = right.size(); i-- > 0;) {
+    corners.emplace_back(sensor_from_track *
+                         Vector3(0.0, -right[i].half_width_m, right[i].height_m));
   }
   return corners;
 }
@@ -129,24 +137,24 @@ Overlay DrawTrackAxis(const Surroundings& surroundings, const RecordedFrame& rec
   return drawing;
 }
 
-Overlay DrawStructureGauge(const Surroundings& surroundings, const RecordedFrame& recorded) {
+Overlay DrawClearSpace(const Surroundings& surroundings, const RecordedFrame& recorded) {
   Overlay drawing;
   const RailWorld& world = *surroundings.world;
   const std::optional<TrackStretch> stretch =
-      StretchAbout(world, recorded, kGaugeBehind_m, kGaugeAhead_m);
+      StretchAbout(world, recorded, kClearSpaceBehind_m, kClearSpaceAhead_m);
   if (!stretch) return drawing;
-  const std::vector<Eigen::Vector2d> outline = GaugeOutline(
-      ContactHeightOver_m(world.vehicle_track(), surroundings.scenario.world.catenary));
+  const std::optional<double> contact_height_m =
+      ContactHeightOver_m(world.vehicle_track(), surroundings.scenario.world.catenary);
   for (const double s_m : WholeChainages_m(stretch->from_s_m, stretch->to_s_m, kRingStep_m)) {
-    std::vector<Vector3> ring = OutlineAt(*stretch, outline, s_m);
+    std::vector<Vector3> ring = ClearSpaceRing(*stretch, contact_height_m, s_m);
     ring.push_back(ring.front());
-    AddPolyline(ring, kGaugeRgb, drawing);
+    AddPolyline(ring, kClearSpaceRgb, drawing);
   }
   std::vector<Vector3> last;
   for (const double s_m : stretch->LineChainages_m()) {
-    const std::vector<Vector3> corners = OutlineAt(*stretch, outline, s_m);
+    const std::vector<Vector3> corners = ClearSpaceRing(*stretch, contact_height_m, s_m);
     for (std::size_t i = 0; i < last.size(); ++i) {
-      AddSegment(last[i], corners[i], kGaugeRgb, drawing);
+      AddSegment(last[i], corners[i], kClearSpaceRgb, drawing);
     }
     last = corners;
   }

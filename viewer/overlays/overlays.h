@@ -75,14 +75,14 @@ inline constexpr double kMostFrustumRange_m = 100.0;
 /// @param table MakeScanTable() of the scenario's pattern, or of a frame where there is none.
 [[nodiscard]] Overlay DrawSensorFrustum(const ScanTable& table, double range_m);
 
-inline constexpr double kGaugeBehind_m = 10.0;
-inline constexpr double kGaugeAhead_m = 150.0;
+inline constexpr double kClearSpaceBehind_m = 10.0;
+inline constexpr double kClearSpaceAhead_m = 150.0;
 
-/// Draws GaugeOutline() along the vehicle's track, as far as the track extends, from 10 m behind
-/// the vehicle to 150 m ahead: rings at every 10 m of chainage and the edges of the corners between
+/// Draws ClearSpace() along the vehicle's track, as far as the track extends, from 10 m behind the
+/// vehicle to 150 m ahead: rings at every 10 m of chainage and the edges of the corners between
 /// them, within 5 mm of curves and leaning with the cant. Empty if the frame has no pose.
-[[nodiscard]] Overlay DrawStructureGauge(const Surroundings& surroundings,
-                                         const RecordedFrame& recorded);
+[[nodiscard]] Overlay DrawClearSpace(const Surroundings& surroundings,
+                                     const RecordedFrame& recorded);
 
 inline constexpr double kAxisBehind_m = 50.0;
 inline constexpr double kAxisAhead_m = 400.0;

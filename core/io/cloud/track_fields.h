@@ -25,7 +25,7 @@ struct TrackFields {
   std::vector<float> chainage_m;
   std::vector<float> track_lateral_m;  ///< From the track's axis, left positive.
   std::vector<float> track_height_m;   ///< Above top of rail, square to the plane of the rails.
-  std::vector<std::uint8_t> in_gauge;  ///< 1 = inside the structure gauge.
+  std::vector<std::uint8_t> in_gauge;  ///< 1 = inside the vehicle's outline.
 };
 
 /// As ForEachField() of a frame, whose fields these follow.

@@ -4,7 +4,7 @@
 
 #include "core/base/text.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/clearance/clear_space.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/structures/structure_track.h"
 #include "core/rail/structures/structures.h"

@@ -29,7 +29,7 @@ OwnTrack::OwnTrack(const RailWorld& world,
                    std::vector<GaugePart> gauge)
     : alignment_(world.alignment()), track_(world.vehicle_course()), gauge_(std::move(gauge)) {
   if (gauge_.empty()) {
-    gauge_ = StructureGauge(ContactHeightOver_m(world.vehicle_track(), catenary));
+    gauge_ = VehicleOutline(ContactHeightOver_m(world.vehicle_track(), catenary));
   }
   const double length_m = end_s_m() - begin_s_m();
   const auto num_steps = static_cast<std::size_t>(std::max(std::ceil(length_m / kAxisStep_m), 1.0));

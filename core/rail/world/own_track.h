@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/clearance/vehicle_outline.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"
@@ -22,11 +22,11 @@ struct PlaceByTrack {
 };
 
 /// The track that the vehicle is on, along its route: where things are in its axes, and whether
-/// they reach into its structure gauge. Immutable, thread-safe.
+/// they reach into the outline of vehicles on it. Immutable, thread-safe.
 class OwnTrack {
  public:
-  /// @param catenary Of the world; its wires make the gauge higher.
-  /// @param gauge What must stay clear; empty = the structure gauge.
+  /// @param catenary Of the world; its wires make the outline higher.
+  /// @param gauge In which things are in the way; empty = VehicleOutline().
   OwnTrack(const RailWorld& world, const CatenarySpec& catenary, std::vector<GaugePart> gauge = {});
 
   [[nodiscard]] const std::vector<GaugePart>& gauge() const { return gauge_; }

@@ -10,7 +10,7 @@
 namespace railcast {
 
 /// The distance between axes to which tracks are moved that the map has nearer to each other: half
-/// the structure gauge of either one, 3.15 m, twice 15 mm by which a curve of 250 m radius widens
+/// the vehicle's outline on either one, 3.15 m, twice 15 mm by which a curve of 250 m radius widens
 /// it (CurveWidening_m), and 0.07 m for the difference between a fit and its points.
 inline constexpr double kMovedApart_m = 3.25;
 

@@ -14,8 +14,8 @@
 
 namespace railcast {
 
-/// So far apart are the axes of tracks that no turnout joins. Half the gauge's width of either one
-/// (StructureGauge) are 3.15 m, so that trains on them pass each other.
+/// So far apart are the axes of tracks that no turnout joins: half the width of the vehicles on
+/// either one (VehicleOutline), so that trains on them pass each other.
 inline constexpr double kApart_m = 3.15;
 
 /// A track as it would be in a world.

@@ -33,8 +33,8 @@ constexpr double kShortestPart_m = 5.0;
 template <>
 constexpr double kShortestPart_m<TunnelSpec> = 20.0;
 
-/// So far from what stands in a gauge it is cut.
-constexpr double kGaugeMargin_m = 1.0;
+/// So far from what stands in a clear space it is cut.
+constexpr double kClearMargin_m = 1.0;
 
 /// What is left of a structure without some stretches of chainage.
 template <class Structure>
@@ -45,10 +45,10 @@ std::vector<StructureSpec> PartsOutside(const Structure& structure,
     std::vector<Structure> rest;
     for (const Structure& part : parts) {
       Structure before = part;
-      before.end_s_m = std::min(part.end_s_m, RoundedTo(stretch.begin_s_m - kGaugeMargin_m, 100.0));
+      before.end_s_m = std::min(part.end_s_m, RoundedTo(stretch.begin_s_m - kClearMargin_m, 100.0));
       Structure behind = part;
       behind.begin_s_m =
-          std::max(part.begin_s_m, RoundedTo(stretch.end_s_m + kGaugeMargin_m, 100.0));
+          std::max(part.begin_s_m, RoundedTo(stretch.end_s_m + kClearMargin_m, 100.0));
       for (const Structure& piece : {before, behind}) {
         if (piece.end_s_m - piece.begin_s_m >= kShortestPart_m<Structure>) rest.push_back(piece);
       }
@@ -84,7 +84,7 @@ class StructureClearing {
   }
 
   /// Cuts tunnels without their portals, so that portals shorten no tunnel.
-  void CutOutOfGauges() {
+  void CutOutOfClearSpaces() {
     constexpr int kMaxRounds = 6;
     std::vector<StructureSpec> open = std::exchange(world_.structures, {});
     for (int round = 0; round < kMaxRounds && !open.empty(); ++round) {
@@ -99,7 +99,7 @@ class StructureClearing {
         std::vector<ChainageRange> stretches;
         for (const GaugeEntry& entry : found->second) {
           for (const ChainageRange& stretch : entry.stretches) {
-            LeaveOut(open[i], "it would stand in the structure gauge of track " + entry.track);
+            LeaveOut(open[i], "it would stand in the clear space of track " + entry.track);
             world_.left_out.back().begin_s_m = stretch.begin_s_m;
             world_.left_out.back().end_s_m = stretch.end_s_m;
             stretches.push_back(stretch);
@@ -116,7 +116,7 @@ class StructureClearing {
       open = std::move(parts);
     }
     for (const StructureSpec& structure : open) {
-      LeaveOut(structure, "what is left of it would still stand in the gauge of a track");
+      LeaveOut(structure, "what is left of it would still stand in the clear space of a track");
     }
   }
 
@@ -135,7 +135,7 @@ class StructureClearing {
   }
 
  private:
-  /// What of some structures is in the gauge of tracks, by their number.
+  /// What of some structures is in the clear space of tracks, by their number.
   [[nodiscard]] std::map<std::size_t, std::vector<GaugeEntry>> EntriesOf(
       const std::vector<StructureSpec>& structures, bool has_portals) {
     spec_.structures = structures;
@@ -201,7 +201,7 @@ void ClearStructures(const AlignmentSpec& alignment, LineWorld& world) {
   if (world.structures.empty()) return;
   StructureClearing clearing(alignment, world);
   clearing.LeaveOutFaults();
-  clearing.CutOutOfGauges();
+  clearing.CutOutOfClearSpaces();
   clearing.LeaveOutPortals();
   NameStructures(world.structures);
 }

@@ -57,9 +57,9 @@ TEST(GaugePoints, AreCountedByLabelAndRange) {
   RecordingInfo info;
   info.labels = LabelTable(labels);
   const Section section = one.MakeSection(Names(info));
-  EXPECT_EQ(
-      section.paragraphs.at(0).rfind("3 points in the structure gauge of the track, in 2 of 3", 0),
-      0U);
+  EXPECT_EQ(section.paragraphs.at(0).rfind(
+                "3 points in the vehicle's outline on the track, in 2 of 3", 0),
+            0U);
   const auto& rows = section.tables.at(0).rows;
   ASSERT_EQ(rows.size(), 3U);
   // Up to 10, to 25 and to 50 m.

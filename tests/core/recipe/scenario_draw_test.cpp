@@ -109,7 +109,7 @@ TEST(ScenarioDraw, PlacedObjectsKeepToTheRuleAboutTheGauge) {
     for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {
       const auto world = MakeWorld(drawn.scenario);
       for (std::size_t i = 1; i < drawn.scenario.world.objects.size(); ++i) {
-        const bool is_in = !FindObjectInGauge(drawn.scenario.world, *world, i, false, 0).empty();
+        const bool is_in = !FindObjectInTheWay(drawn.scenario.world, *world, i, false, 0).empty();
         EXPECT_EQ(is_in, rule == "foul") << drawn.scenario.world.objects[i].d_m;
       }
     }

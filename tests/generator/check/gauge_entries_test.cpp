@@ -114,12 +114,63 @@ TEST(GaugeEntries, HoldAStraightBoxThatLiesAcrossTheRailsInACurve) {
   const std::vector<GaugeEntry> entries = EntriesOf(world);
   ASSERT_EQ(entries.size(), 1U);
   EXPECT_EQ(entries[0].track, "main");
-  EXPECT_NEAR(entries[0].depth_m, 1.575 - 0.8, 0.01);
+  // The clear space is 1.672 m wide at 1 m: 1.6627 m (of 1.656 and 1.665), and 3.75 m^2 / 400 m.
+  EXPECT_TRUE(entries[0].is_in_way);
+  EXPECT_NEAR(entries[0].depth_m, 1.672 - 0.8, 0.01);
   EXPECT_NEAR(entries[0].top_m, 1.0, 1e-6);
-  // It leaves the gauge where its nearer face is 1.575 m from the axis: a sagitta of 0.775 m.
-  const double half_m = std::sqrt(0.775 * 2.0 * 400.0);
+  // It leaves that where its nearer face is so far from the axis: a sagitta of 0.872 m.
+  const double half_m = std::sqrt(0.872 * 2.0 * 400.0);
   EXPECT_NEAR(entries[0].begin_s_m, 150.0 - half_m, 2.0);
   EXPECT_NEAR(entries[0].end_s_m, 150.0 + half_m, 2.0);
+}
+
+/// Posts of noise walls, of 0.16 m, stand out so far from the panels of 0.12 m.
+constexpr double kPost_m = 0.02;
+
+// A wagon's side is 1.575 m from the axis.
+TEST(GaugeEntries, NameWhatIsNearAWagonThoughNotInItsWay) {
+  WorldSpec world;
+  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
+  NoiseWallSpec wall;
+  wall.name = "wall";
+  wall.begin_s_m = 20.0;
+  wall.end_s_m = 290.0;
+  wall.height_m = 3.0;
+  wall.distance_m = 1.58 + kPost_m;
+  world.structures = {wall};
+  std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_FALSE(entries[0].is_in_way);
+  // Of 1.754 m at 3.58 m, 0.064 m more than at 1.16 m.
+  EXPECT_NEAR(entries[0].depth_m, 1.69 + 0.064 * (3.0 - 1.16) / 2.42 - 1.58, 1e-3);
+  wall.distance_m = 1.57 + kPost_m;
+  world.structures = {wall};
+  EXPECT_TRUE(EntriesOf(world).at(0).is_in_way);
+  wall.distance_m = 1.76 + kPost_m;
+  world.structures = {wall};
+  EXPECT_TRUE(EntriesOf(world).empty());
+}
+
+TEST(GaugeEntries, WantMoreRoomBesideCantedTrack) {
+  WorldSpec world = CurveOfTwoTracks();
+  world.tracks.pop_back();
+  NoiseWallSpec wall;
+  wall.name = "wall";
+  wall.side = TrackSide::kLeft;
+  wall.begin_s_m = 20.0;
+  wall.end_s_m = 290.0;
+  wall.height_m = 3.0;
+  wall.distance_m = 2.1 + kPost_m;
+  world.structures = {wall};
+  EXPECT_TRUE(EntriesOf(world).empty());
+  world.alignment.cants_mm = {{0.0, 150.0}};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_FALSE(entries[0].is_in_way);
+  // Seen from a track that leans by asin(0.1) towards it, the wall's top is 1.790 m aside and 3.195
+  // m up. There the clear space is 1.744 m wide, 9 mm more in the curve, and 72 mm more since
+  // vehicles lean out: 0.4 x 0.1 m x 2.695 m / 1.5 m.
+  EXPECT_NEAR(entries[0].depth_m, 1.744 + 0.009 + 0.072 - 1.790, 3e-3);
 }
 
 TEST(GaugeEntries, HoldABoxAcrossBothTracks) {
@@ -128,7 +179,8 @@ TEST(GaugeEntries, HoldABoxAcrossBothTracks) {
   const std::vector<GaugeEntry> entries = EntriesOf(world);
   ASSERT_EQ(entries.size(), 2U);
   EXPECT_EQ(entries[1].track, "second");
-  EXPECT_NEAR(entries[1].depth_m, 1.575, 1e-6);
+  // Of 1.656 m at 0.39 m and 1.665 m at 1.16 m, at the box's top, and in a curve of 396 m.
+  EXPECT_NEAR(entries[1].depth_m, 1.656 + 0.009 * 0.11 / 0.77 + 3.75 / 396.0, 1e-4);
 }
 
 TEST(GaugeEntries, HoldADeckThatIsTooLow) {
@@ -193,14 +245,18 @@ TEST(GaugeEntries, AreReportedInALineEach) {
                          .depth_m = 0.0754,
                          .bottom_m = 0.0,
                          .top_m = 0.76};
-  EXPECT_EQ(GaugeText({entry}),
-            "gauge     \"west\" is in the structure gauge of track \"main\" at s 81.2 to 218.8 m, "
-            "deepest at 150.0 m by 0.08 m, from 0.00 to 0.76 m above top of rail\n");
+  GaugeEntry in_way = entry;
+  in_way.is_in_way = true;
+  const std::string where =
+      " track \"main\" at s 81.2 to 218.8 m, deepest at 150.0 m by 0.08 m, from 0.00 to 0.76 m "
+      "above top of rail\n";
+  EXPECT_EQ(GaugeText({entry, in_way}), "clearance \"west\" is in the clear space of" + where +
+                                            "          \"west\" is in the way on" + where);
 }
 
 TEST(GaugeEntries, SayBetweenWhichChainagesAThingReachesIn) {
-  // Of 1.575 m half width, the gauge of a track 4.5 m away reaches a wall at 3.8 m, and that of one
-  // 8 m away does not.
+  // Of some 1.7 m half width, the clear space of a track 4.5 m away has a wall at 3.8 m, and that
+  // of one 8 m away does not.
   WorldSpec world = CurveOfTwoTracks();
   world.tracks[1].offset_m.reset();
   world.tracks[1].offsets_m = {{60.0, 8.0},  {90.0, 4.5},  {120.0, 4.5}, {150.0, 8.0},

@@ -46,7 +46,7 @@ TEST(ClearStructures, CutsAPlatformWhereATrackRunsThroughIt) {
   EXPECT_GT(ends_m[1], 988.0);
   EXPECT_LT(ends_m[1], 1000.0);
   EXPECT_THAT(map.ReasonsFor("platform"),
-              ElementsAre(StartsWith("it would stand in the structure gauge of track siding_1")));
+              ElementsAre(StartsWith("it would stand in the clear space of track siding_1")));
 }
 
 TEST(ClearStructures, LeavesOutAThingThatStandsInAGauge) {
@@ -67,7 +67,7 @@ TEST(ClearStructures, LeavesOutAThingThatStandsInAGauge) {
   ASSERT_THAT(map.All<BoardSpec>(), SizeIs(1));
   EXPECT_EQ(map.All<BoardSpec>()[0].name, "board_1");
   EXPECT_THAT(map.ReasonsFor("signal"),
-              ElementsAre("it would stand in the structure gauge of track running_1"));
+              ElementsAre("it would stand in the clear space of track running_1"));
 }
 
 TEST(ClearStructures, LeavesOutWhatAWorldRefuses) {

@@ -150,7 +150,7 @@ std::string FirmBrakes(const std::filesystem::path& folder) {
   return file.string();
 }
 
-/// The distance ahead of the vehicle's front of the nearest point within the structure gauge.
+/// The distance ahead of the vehicle's front of the nearest point within the vehicle's outline.
 double NearestAhead_m(const ros::PointCloud2& cloud) {
   double nearest_m = std::numeric_limits<double>::infinity();
   const auto offset_of = [&](const std::string& name) {

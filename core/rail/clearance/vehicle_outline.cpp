@@ -1,4 +1,4 @@
-#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/clearance/vehicle_outline.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kWagonHalfWidth_m = 1.575;
 constexpr double kWagonHeight_m = 4.28;
-constexpr double kPantographTop_m = 5.2;
 // Pairs of maximum height of the contact wire and half width.
 constexpr std::array<std::pair<double, double>, 4> kPantographHalfWidths_m = {
     {{5.3, 1.43}, {5.5, 1.44}, {5.9, 1.47}, {6.5, 1.51}}};
@@ -52,15 +51,7 @@ std::optional<double> PantographHalfWidth_m(double contact_height_m) {
   return std::nullopt;
 }
 
-double CurveWidening_m(double curvature_per_m, double side) {
-  constexpr double kTight_per_m = 1.0 / 250.0;
-  const double bend_per_m = std::abs(curvature_per_m);
-  if (bend_per_m <= kTight_per_m) return 3.75 * bend_per_m;
-  const bool is_inside = curvature_per_m * side > 0.0;
-  return is_inside ? 50.0 * bend_per_m - 0.185 : 60.0 * bend_per_m - 0.225;
-}
-
-std::vector<GaugePart> StructureGauge(std::optional<double> contact_height_m) {
+std::vector<GaugePart> VehicleOutline(std::optional<double> contact_height_m) {
   std::vector<GaugePart> parts = {{kWagonHalfWidth_m, 0.0, kWagonHeight_m}};
   const std::optional<double> half_width_m =
       contact_height_m ? PantographHalfWidth_m(*contact_height_m) : std::nullopt;
@@ -71,19 +62,6 @@ std::vector<GaugePart> StructureGauge(std::optional<double> contact_height_m) {
 std::optional<double> ContactHeightOver_m(const TrackSpec& track, const CatenarySpec& catenary) {
   if (!catenary.enabled || !track.electrified) return std::nullopt;
   return catenary.contact_height_m;
-}
-
-std::vector<Eigen::Vector2d> GaugeOutline(std::optional<double> contact_height_m) {
-  std::vector<Eigen::Vector2d> outline;
-  for (const GaugePart& part : StructureGauge(contact_height_m)) {
-    outline.emplace_back(part.half_width_m, part.bottom_m);
-    outline.emplace_back(part.half_width_m, part.top_m);
-  }
-  for (std::size_t i = outline.size(); i-- > 0;) {
-    const Eigen::Vector2d left_m = outline[i];
-    outline.emplace_back(-left_m.x(), left_m.y());
-  }
-  return outline;
 }
 
 GaugeClearance ClearanceOf(const std::vector<GaugePart>& gauge,

@@ -1,16 +1,19 @@
-#include "core/rail/clearance/structure_gauge.h"
+#include "core/rail/clearance/vehicle_outline.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/base/units.h"
 
 namespace railcast {
 namespace {
 
-TEST(StructureGauge, TakesThePantographsWidthFromTabelle1) {
+TEST(VehicleOutline, TakesThePantographsWidthFromTabelle1) {
   EXPECT_EQ(PantographHalfWidth_m(5.3), 1.43);
   EXPECT_EQ(PantographHalfWidth_m(5.5), 1.44);
   EXPECT_EQ(PantographHalfWidth_m(5.51), 1.47);
@@ -19,29 +22,17 @@ TEST(StructureGauge, TakesThePantographsWidthFromTabelle1) {
   EXPECT_EQ(PantographHalfWidth_m(6.51), std::nullopt);
 }
 
-TEST(StructureGauge, HasTheEnvelopeOfWagonsWithThePantographsAboveIt) {
-  using Corner = Eigen::Vector2d;
-  EXPECT_THAT(GaugeOutline(5.3),
-              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(1.43, 4.28),
-                                   Corner(1.43, 5.2), Corner(-1.43, 5.2), Corner(-1.43, 4.28),
-                                   Corner(-1.575, 4.28), Corner(-1.575, 0.0)));
-  EXPECT_THAT(GaugeOutline(std::nullopt),
-              testing::ElementsAre(Corner(1.575, 0.0), Corner(1.575, 4.28), Corner(-1.575, 4.28),
-                                   Corner(-1.575, 0.0)));
-}
-
-TEST(StructureGauge, IsWiderInCurvesByTheStandardsFormulas) {
-  EXPECT_EQ(CurveWidening_m(0.0, 1.0), 0.0);
-  EXPECT_NEAR(CurveWidening_m(1.0 / 300.0, 1.0), 0.0125, 1e-12);
-  EXPECT_NEAR(CurveWidening_m(-1.0 / 300.0, 1.0), 0.0125, 1e-12);
-  // Inside and outside agree at 250 m.
-  for (const double side : {-1.0, 1.0}) {
-    EXPECT_NEAR(CurveWidening_m(1.0 / 250.0, side), 0.015, 1e-12);
-    EXPECT_NEAR(CurveWidening_m(1.0 / 249.999, side), 0.015, 1e-6);
-  }
-  EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, 1.0), 0.065, 1e-12);
-  EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, -1.0), 0.075, 1e-12);
-  EXPECT_NEAR(CurveWidening_m(-1.0 / 200.0, -1.0), 0.065, 1e-12);
+TEST(VehicleOutline, IsThatOfWagonsWithThePantographsAboveIt) {
+  const auto sizes = [](std::optional<double> contact_height_m) {
+    std::vector<std::array<double, 3>> parts;
+    for (const GaugePart& part : VehicleOutline(contact_height_m)) {
+      parts.push_back({part.half_width_m, part.bottom_m, part.top_m});
+    }
+    return parts;
+  };
+  using Size = std::array<double, 3>;
+  EXPECT_THAT(sizes(5.3), testing::ElementsAre(Size{1.575, 0.0, 4.28}, Size{1.43, 4.28, 5.2}));
+  EXPECT_THAT(sizes(std::nullopt), testing::ElementsAre(Size{1.575, 0.0, 4.28}));
 }
 
 /// A box of 2 m x 1 m x 1.8 m standing at top of rail + `h_m`, with its centre `d_m` from the axis.
@@ -50,10 +41,10 @@ GaugeClearance StandingClearance(double d_m, double heading_deg = 0.0, double h_
   Transform track_from_box = Transform::Identity();
   track_from_box.translate(Vector3(40.0, d_m, h_m + 0.9));
   track_from_box.rotate(Eigen::AngleAxisd(RadFromDeg(heading_deg), Vector3::UnitZ()));
-  return ClearanceOf(StructureGauge(5.5), track_from_box, size_m);
+  return ClearanceOf(VehicleOutline(5.5), track_from_box, size_m);
 }
 
-TEST(StructureGauge, HoldsWhatReachesOverItsEdge) {
+TEST(VehicleOutline, HoldsWhatReachesOverItsEdge) {
   EXPECT_TRUE(StandingClearance(0.0).is_inside);
   EXPECT_EQ(StandingClearance(0.0).from_axis_m, 0.0);
   for (const double side : {-1.0, 1.0}) {
@@ -71,7 +62,7 @@ TEST(StructureGauge, HoldsWhatReachesOverItsEdge) {
   EXPECT_FALSE(StandingClearance(1.576 + reach_m, heading_deg).is_inside);
 }
 
-TEST(StructureGauge, LeavesOutWhatIsBelowTheRailsAndAboveTrains) {
+TEST(VehicleOutline, LeavesOutWhatIsBelowTheRailsAndAboveTrains) {
   EXPECT_TRUE(StandingClearance(0.0, 0.0, -1.799).is_inside);
   EXPECT_FALSE(StandingClearance(0.0, 0.0, -1.801).is_inside);
   EXPECT_TRUE(StandingClearance(0.0, 0.0, 5.199).is_inside);
@@ -84,7 +75,7 @@ TEST(StructureGauge, LeavesOutWhatIsBelowTheRailsAndAboveTrains) {
 
 // A beam leaning over the track: both its bounding intervals overlap the gauge, but the beam does
 // not.
-TEST(StructureGauge, LetsPassWhatLeansPastItsCorner) {
+TEST(VehicleOutline, LetsPassWhatLeansPastItsCorner) {
   Transform track_from_box = Transform::Identity();
   track_from_box.translate(Vector3(0.0, 2.6, 4.0));
   track_from_box.rotate(Eigen::AngleAxisd(RadFromDeg(45.0), Vector3::UnitX()));
@@ -92,9 +83,9 @@ TEST(StructureGauge, LetsPassWhatLeansPastItsCorner) {
   const Vector3 thin(0.2, 0.2, 8.0);
   const double from_corner_m = std::abs((2.6 - 1.575) + (4.0 - 4.28)) / std::sqrt(2.0);
   ASSERT_GT(from_corner_m, 0.11);
-  EXPECT_FALSE(ClearanceOf(StructureGauge(std::nullopt), track_from_box, thin).is_inside);
+  EXPECT_FALSE(ClearanceOf(VehicleOutline(std::nullopt), track_from_box, thin).is_inside);
   const Vector3 thick(0.2, 2.0 * from_corner_m + 0.01, 8.0);
-  EXPECT_TRUE(ClearanceOf(StructureGauge(std::nullopt), track_from_box, thick).is_inside);
+  EXPECT_TRUE(ClearanceOf(VehicleOutline(std::nullopt), track_from_box, thick).is_inside);
 }
 
 }  // namespace

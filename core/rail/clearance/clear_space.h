@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/rail/line/track_course.h"
+#include "railcast/alignment.h"
+
+namespace railcast {
+
+/// Half the width of a space at a height above top of rail.
+struct HalfWidth {
+  double height_m{};
+  double half_width_m{};
+
+  bool operator==(const HalfWidth&) const = default;
+};
+
+/// What must be clear of structures about a straight track without cant: linear between two rows,
+/// with a step where two have the same height.
+///
+/// It is the outline (Grenzlinie) about the space that § 9 (3) of the German EBO (BGBl. I 1991)
+/// wants clear of everything but the contact line. Its half widths are those of the reference line
+/// G2 (Anlage 8), 5 mm for a track gauge up to 1445 mm (Anlage 2, 2.1.1) and 31, 40, 104, 114 and
+/// 140 mm at heights of up to 0.4, 1.17, 3.53, 3.835 and 4.68 m for random displacements of track
+/// and vehicle (2.3: the greater ones, of the outside of curves and of tracks that are not fixed).
+/// Heights are 50 mm more above, by which a track may be lifted, and 10 mm less below, for the wear
+/// of rails (Anlage 1). The two lowest rows are the space of the wheels, 0.8735 m (Anlage 1, Bild
+/// 2). What Anlage 1 adds for doors, signals, staff and platforms, which may stand there, is left
+/// out.
+inline constexpr std::array<HalfWidth, 11> kClearHalfWidths = {{{0.0, 0.8735},
+                                                                {0.08, 0.8735},
+                                                                {0.08, 1.248},
+                                                                {0.12, 1.286},
+                                                                {0.39, 1.556},
+                                                                {0.39, 1.656},
+                                                                {1.16, 1.665},
+                                                                {1.16, 1.69},
+                                                                {3.58, 1.754},
+                                                                {3.885, 1.589},
+                                                                {4.73, 0.93}}};
+
+/// How much farther from a track's axis things stand in a curve than on the straight (EN 15273-3):
+/// 3.75 m^2 / R; in curves of less than 250 m radius 50 m^2 / R - 0.185 m inside and 60 m^2 / R -
+/// 0.225 m outside, which is the same at 250 m. The standard has these down to 150 m; they are
+/// continued below.
+/// @param curvature_per_m Left positive.
+/// @param side > 0 for what stands on the left.
+[[nodiscard]] double CurveWidening_m(double curvature_per_m, double side);
+
+/// What of a track makes its clear space wider.
+struct TrackBend {
+  double curvature_per_m{};  ///< Left positive.
+  double cant_m{};           ///< Not negative.
+};
+
+[[nodiscard]] TrackBend BendAt(const TrackCourse& track, const Alignment& alignment, double s_m);
+
+/// How much a vehicle's part at a height leans out on a canted track, standing or with as much cant
+/// deficiency: 0.4 (u - 0.05 m) (h - 0.5 m) / 1.5 m, since the reference line has the first 50 mm
+/// (EBO Anlage 2, 1.3, with the flexibility coefficient of Anlage 1).
+/// @param cant_m u, not negative.
+[[nodiscard]] double CantWidening_m(double height_m, double cant_m);
+
+/// The clear space on one side of a track: kClearHalfWidths wider by CurveWidening_m() and, on both
+/// sides, by CantWidening_m(). Under a contact line it reaches up to kPantographTop_m, with half
+/// the width of pantographs where it else would be narrower.
+/// @param contact_height_m Absent = no contact line.
+/// @param side As for CurveWidening_m().
+[[nodiscard]] std::vector<HalfWidth> ClearSpace(std::optional<double> contact_height_m,
+                                                const TrackBend& bend,
+                                                double side);
+
+/// Least distance of a platform's edge from the axis of a straight track: EBO § 13.
+inline constexpr double kLeastPlatformEdge_m = 1.65;
+
+}  // namespace railcast
