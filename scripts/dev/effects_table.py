@@ -5,7 +5,7 @@
 
 Each situation is simulated by `railcast-analyze compare --ablate` with four sensors in place of its own, whose window
 and receiver they keep, on rung `footprint`; effects of other rungs on the first rung that has them. Of the sensors
-every third to 32nd column fires, which changes no share. What has been measured is kept in FILE
+every sixth to 96th column fires, which changes no share. What has been measured is kept in FILE
 (out/effects_table.json) and not measured again; NAME measures these situations anew. The costs need valgrind.
 """
 
@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SITUATIONS = ROOT / "scenarios" / "situations"
 PAGE = ROOT / "docs" / "effects_table.md"
 FIGURES = ROOT / "docs" / "effects_table.csv"
-SENSORS = {"vir2rail": 3, "vlp16": 8, "pandar64": 32, "rosette": 3}
+SENSORS = {"vir2rail": 6, "vlp16": 36, "pandar64": 96, "rosette": 9}
 # The first rung that has an effect which `footprint` lacks.
 RUNGS = {"threshold": "plausibility", "rain": "plausibility", "snow": "plausibility", "noise": "plausibility",
          "dense_footprint": "reference", "sampled_waveform": "reference"}
@@ -91,29 +91,32 @@ def ablated(build, scenario, *options):
     return reports
 
 
-def effects_in(report):
-    """The rows of a report's table of effects."""
-    return next(table["rows"] for section in report["sections"] for table in section["tables"]
-                if table["key"] == "effects")
+def rows_of(report, key):
+    """{effect: its row in a table} of a report."""
+    return {row["effect"]: row for section in report["sections"] for table in section["tables"]
+            if table["key"] == key for row in table["rows"]}
 
 
 def number(cell):
     return (cell.get("value") if isinstance(cell, dict) else cell) or 0.0
 
 
-def figures(row):
-    """Of a row of the report: shares of the firings in percent, and sizes of changes."""
+def figures(row, of_frames):
+    """Of an effect's rows in the report: shares of the firings in percent, and sizes of changes."""
     beams = row["beams"]
     echoes = 100.0 * (row["points_taken"] + row["points_added"]) / beams
     return {"any": 100.0 - number(row["identical_percent"]), "outcome": number(row["outcome_percent"]),
-            "echoes": echoes, "moved": number(row["moved_percent"]), "moved_m": number(row["moved_median_m"]),
+            "outcome_of_frames": [of_frames["outcome_least_percent"], of_frames["outcome_most_percent"]],
+            "echoes": echoes, "echoes_of_frames": [of_frames["points_least_percent"], of_frames["points_most_percent"]],
+            "moved": number(row["moved_percent"]), "moved_m": number(row["moved_median_m"]),
             "intensity": number(row["intensity_percent"]), "intensity_by": number(row["intensity_median"])}
 
 
 def measure(build, path, frames):
     with tempfile.TemporaryDirectory() as folder:
         reports = ablated(build, scenario_of(path, pathlib.Path(folder)), "--all-effects", "--frames", str(frames))
-    return {sensor: {row["effect"]: figures(row) for row in effects_in(report)} for sensor, report in reports.items()}
+    return {sensor: {effect: figures(row, rows_of(report, "frames")[effect])
+                     for effect, row in rows_of(report, "effects").items()} for sensor, report in reports.items()}
 
 
 def matters(cell):
@@ -209,19 +212,29 @@ def share(value):
     return "" if value == 0 else "< 0.01" if value < 0.01 else f"{value:.2g}" if value < 10 else f"{value:.0f}"
 
 
+def with_spread(mean, of_frames):
+    """A mean share, and the least and the most of a frame."""
+    return f"{share(mean)} ({share(of_frames[0]) or 0} to {share(of_frames[1]) or 0})" if of_frames[1] > 0 else ""
+
+
 def mean_over_sensors(results, situation, effect, figure):
     return statistics.fmean(rows[effect][figure] for rows in results["situations"][situation].values())
 
 
 def csv_of(results):
-    """Of each situation the effects that change anything, in percent of the firings; means over the sensors."""
-    lines = ["situation,effect,any_percent,outcome_percent,echoes_percent,moved_percent,intensity_percent"]
+    """Of each situation the effects that change anything, in percent of the firings: means over sensors and frames, and
+    the least and the most of a sensor's frame."""
+    lines = ["situation,effect,any_percent,outcome_percent,echoes_percent,moved_percent,intensity_percent,"
+             "outcome_least_percent,outcome_most_percent,echoes_least_percent,echoes_most_percent"]
     for name in sorted(results["situations"]):
         for effect in next(iter(results["situations"][name].values())):
             means = [mean_over_sensors(results, name, effect, figure)
                      for figure in ("any", "outcome", "echoes", "moved", "intensity")]
+            cells = [rows[effect] for rows in results["situations"][name].values()]
+            spreads = [of([cell[key][place] for cell in cells]) for key in ("outcome_of_frames", "echoes_of_frames")
+                       for place, of in enumerate((min, max))]
             if means[0] > 0:
-                lines.append(",".join([name, effect, *(f"{value:.3g}" for value in means)]))
+                lines.append(",".join([name, effect, *(f"{value:.3g}" for value in means + spreads)]))
     return "\n".join(lines) + "\n"
 
 
@@ -240,15 +253,17 @@ def page_of(results):
         dimmed = share(cell["intensity"]) + (f", {cell['intensity_by']:.2g}" if cell["intensity_by"] else "")
         median = statistics.median(mean_over_sensors(results, other, effect, "any") for other in names)
         cost = f"{costs[effect]['instructions']:,.0f}" if effect in costs else ""
+        if cost and costs[effect]["at"] != [name, sensor]:
+            cost += f" in {', '.join(costs[effect]['at'])}"
         where = "nowhere" if is_idle else f"[{name}](../scenarios/situations/{name}.json), {sensor}"
         heading = next((heading for heading in headings if effect in heading.split()), "")
         anchor = "#" + heading.replace(" ", "-") if heading else ""
-        lines.append(f"| [`{effect}`](effects.md{anchor}) | {where} | {share(cell['outcome'])} | {share(cell['echoes'])} | "
-                     f"{moved} | {dimmed} | {share(median)} | {cost} |")
+        lines.append(f"| [`{effect}`](effects.md{anchor}) | {where} | {with_spread(cell['outcome'], cell['outcome_of_frames'])} | "
+                     f"{with_spread(cell['echoes'], cell['echoes_of_frames'])} | {moved} | {dimmed} | {share(median)} | {cost} |")
     num_shipped = len(list(SITUATIONS.glob("*.json"))) - 1
     if len(names) < num_shipped:
         lines += ["", f"{len(names)} of {num_shipped} situations are measured so far."]
-    lines += ["", "## Keys that are no effects", "",
+    lines += ["", "## Keys that are no effects", "", "Of frame 100 alone.", "",
               "| key | situation | firings that change without it % |", "|---|---|---|"]
     for key, value in results.get("keys", {}).items():
         situation = KEYS[key][0]
@@ -280,7 +295,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "out" / "effects_table.json")
-    parser.add_argument("--frames", type=int, default=1, help="sample frames of each situation")
+    parser.add_argument("--frames", type=int, default=10, help="sample frames of each situation")
     parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
     build = arguments.build.resolve()
