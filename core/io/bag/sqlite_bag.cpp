@@ -27,6 +27,17 @@ void NeedTable(SqliteDatabase& database, const std::string& name) {
   throw InputError(database.name() + ": must have the table " + name + ", as rosbag2 makes it");
 }
 
+/// Throws if two rows have one id: what belongs to which would not be known.
+void NeedOwnIds(SqliteDatabase& database, const std::string& table) {
+  SqliteStatement key(database, "SELECT pk FROM pragma_table_info(?) WHERE name = 'id'");
+  if (key.With(std::string_view(table)).Step() && key.Integer(0) == 1) return;
+  SqliteStatement find(database,
+                       "SELECT id FROM " + table + " GROUP BY id HAVING count(*) > 1 LIMIT 1");
+  if (!find.Step()) return;
+  throw InputError(database.name() + ": " + table + ": id: must be that of one row" +
+                   Got(find.Integer(0)));
+}
+
 std::set<std::string> ColumnsOf(SqliteDatabase& database, const std::string& table) {
   std::set<std::string> columns;
   SqliteStatement list(database, "SELECT name FROM pragma_table_info(?)");
@@ -53,8 +64,10 @@ class SqliteBagReader : public BagReader {
       : database_(std::move(database)) {
     NeedTable(*database_, "topics");
     NeedTable(*database_, "messages");
+    NeedOwnIds(*database_, "topics");
+    NeedOwnIds(*database_, "messages");
     ReadTopics();
-    Query("");
+    Query();
   }
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
@@ -65,40 +78,42 @@ class SqliteBagReader : public BagReader {
   }
 
   void Select(const std::vector<std::size_t>& wanted) override {
-    std::string ids;
-    for (const auto& [id, topic] : topic_by_id_) {
-      const bool is_wanted = std::ranges::find(wanted, topic) != wanted.end();
-      if (!is_wanted) continue;
-      if (!ids.empty()) ids += ',';
-      ids += NumberText(id);
-    }
-    Query(" WHERE topic_id IN (" + ids + ")");
+    wanted_.emplace(wanted.begin(), wanted.end());
+    Query();
   }
 
   [[nodiscard]] std::optional<BagMessage> Next() override {
-    if (is_at_end_ || !list_->Step()) {
-      is_at_end_ = true;
-      return std::nullopt;
+    while (!is_at_end_ && list_->Step()) {
+      const auto topic = topic_by_id_.find(list_->Integer(1));
+      // Also where other topics are wanted: it may be a message of one of these.
+      if (topic == topic_by_id_.end()) {
+        Refuse("topic_id: must be that of a topic" + Got(list_->Integer(1)));
+      }
+      if (!wanted_ || wanted_->contains(topic->second)) return ReadMessage(topic->second);
     }
-    const std::int64_t id = list_->Integer(0);
-    const std::string place = database_->name() + ": message " + NumberText(id) + ": ";
-    const auto topic = topic_by_id_.find(list_->Integer(1));
-    if (topic == topic_by_id_.end()) {
-      throw InputError(place + "topic_id: must be that of a topic" + Got(list_->Integer(1)));
-    }
-    // Looked up one by one, so that sorting by time need not hold the data.
-    if (!data_->With(id).Step() || !data_->IsBlob(0)) {
-      throw InputError(place + "data: must be a blob");
-    }
-    return BagMessage{topic->second,
-                      list_->Integer(2),
-                      data_->Blob(0),
-                      {.in_part = {.record = static_cast<std::uint64_t>(id)}}};
+    is_at_end_ = true;
+    return std::nullopt;
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override { return {}; }
 
  private:
+  [[noreturn]] void Refuse(const std::string& rule) const {
+    throw InputError(database_->name() + ": message " + NumberText(list_->Integer(0)) + ": " +
+                     rule);
+  }
+
+  // That of the list's row.
+  [[nodiscard]] BagMessage ReadMessage(std::size_t topic) {
+    const std::int64_t id = list_->Integer(0);
+    // Looked up one by one, so that sorting by time need not hold the data.
+    if (!data_->With(id).Step() || !data_->IsBlob(0)) Refuse("data: must be a blob");
+    return {topic,
+            list_->Integer(2),
+            data_->Blob(0),
+            {.in_part = {.record = static_cast<std::uint64_t>(id)}}};
+  }
+
   void ReadTopics() {
     const auto definitions = ReadDefinitions(*database_);
     const auto columns = ColumnsOf(*database_, "topics");
@@ -123,9 +138,9 @@ class SqliteBagReader : public BagReader {
     }
   }
 
-  void Query(const std::string& condition) {
-    list_.emplace(*database_, "SELECT id, topic_id, timestamp FROM messages" + condition +
-                                  " ORDER BY timestamp, id");
+  void Query() {
+    list_.emplace(*database_,
+                  "SELECT id, topic_id, timestamp FROM messages ORDER BY timestamp, id");
     data_.emplace(*database_, "SELECT data FROM messages WHERE id = ?");
     is_at_end_ = false;
   }
@@ -133,6 +148,7 @@ class SqliteBagReader : public BagReader {
   std::unique_ptr<SqliteDatabase> database_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_by_id_;
+  std::optional<std::set<std::size_t>> wanted_;  ///< Topics; absent = all.
   std::optional<SqliteStatement> list_;
   std::optional<SqliteStatement> data_;
   bool is_at_end_ = false;

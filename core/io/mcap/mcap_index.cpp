@@ -101,6 +101,24 @@ bool IsComplete(const McapIndex& index) {
          std::ranges::all_of(index.chunks, knows_channels);
 }
 
+/// Records stand behind each other in the file: each has one entry of the index.
+void CheckAreApart(const McapIndex& index, std::uint64_t data_end) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> places;
+  for (const auto& chunk : index.chunks) {
+    places.emplace_back(chunk.chunk_start_offset, chunk.chunk_length);
+  }
+  for (const auto& each : index.attachments) places.emplace_back(each.offset, each.length);
+  for (const auto& each : index.metadata) places.emplace_back(each.offset, each.length);
+  std::ranges::sort(places);
+  std::uint64_t end = kMagic.size();
+  for (const auto& [offset, length] : places) {
+    if (offset < end || offset > data_end || length > data_end - offset) {
+      throw InputError("offset: must be that of a record of its own in the data" + Got(offset));
+    }
+    end = offset + std::max<std::uint64_t>(length, kRecordHead_bytes);
+  }
+}
+
 /// Returns the summary's content; nothing if the file has none.
 std::optional<McapIndex> ReadSummary(const ByteFile& file) {
   const auto place = FooterOf(file);
@@ -123,6 +141,7 @@ std::optional<McapIndex> ReadSummary(const ByteFile& file) {
       std::optional<McapIndex> index(std::in_place);
       RecordCursor cursor(ByteSpan(bytes).first(size));
       while (const auto record = cursor.Next()) NoteSummaryRecord(*record, *index);
+      CheckAreApart(*index, footer.summary_start);
       return index;
     });
   });

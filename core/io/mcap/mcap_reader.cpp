@@ -13,12 +13,23 @@
 namespace railcast::mcap {
 namespace {
 
-/// Returns the record at a place where an index says that there is one of this opcode.
-RecordPlace NeedRecord(const ByteFile& file, std::uint64_t offset, McapOpcode opcode) {
+/// Returns the content of the record at a place where an index says that there is one of this
+/// opcode.
+/// @param length Of the whole record, if the index says it.
+Bytes ContentAt(const ByteFile& file,
+                std::uint64_t offset,
+                McapOpcode opcode,
+                std::optional<std::uint64_t> length) {
   const auto place = RecordAt(file, offset);
-  if (place && place->opcode == opcode) return *place;
-  throw InputError(PlaceOf(file, offset) + "must be there whole and of opcode " +
-                   NumberText(static_cast<int>(opcode)) + ", as the index says");
+  if (!place || place->opcode != opcode) {
+    throw InputError(PlaceOf(file, offset) + "must be there whole and of opcode " +
+                     NumberText(static_cast<int>(opcode)) + ", as the index says");
+  }
+  if (length && place->end() - offset != *length) {
+    throw InputError(PlaceOf(file, offset) + "must have " + NumberText(*length) +
+                     " bytes, as the index says" + Got(place->end() - offset));
+  }
+  return ContentOf(file, *place);
 }
 
 }  // namespace
@@ -46,6 +57,7 @@ McapReader::McapReader(const std::filesystem::path& file, std::string name, std:
 void McapReader::Select(std::set<std::uint16_t> channels) {
   wanted_ = std::move(channels);
   num_entered_ = 0;
+  num_read_.clear();
   waiting_ = {};
   num_waiting_.clear();
   finished_.reset();
@@ -94,7 +106,7 @@ const McapReader::HeldChunk& McapReader::Hold(std::size_t number) {
   }
   const std::uint64_t offset = index_.chunks[number].chunk_start_offset;
   HeldChunk chunk{.number = number, .content = {}, .storage = {}, .records = {}};
-  chunk.content = ContentOf(file_, NeedRecord(file_, offset, McapOpcode::kChunk));
+  chunk.content = ContentAt(file_, offset, McapOpcode::kChunk, index_.chunks[number].chunk_length);
   AtPlace(PlaceOf(file_, offset),
           [&] { chunk.records = RecordsOfChunk(chunk.content, chunk.storage); });
   // What was compressed is not needed any more.
@@ -112,6 +124,24 @@ void McapReader::LetGo(std::size_t number) {
   held_.erase(known);
 }
 
+void McapReader::CheckCounts() const {
+  const McapStatistics& statistics = index_.statistics;
+  const auto count_in = [](const auto& counts, std::uint16_t channel) {
+    const auto known = counts.find(channel);
+    return known == counts.end() ? 0 : known->second;
+  };
+  // They are optional.
+  if (statistics.channel_message_counts.empty() && statistics.message_count > 0) return;
+  for (const auto& [id, channel] : index_.channels) {
+    if (wanted_ && !wanted_->contains(id)) continue;
+    const std::uint64_t stated = count_in(statistics.channel_message_counts, id);
+    const std::uint64_t got = count_in(num_read_, id);
+    if (got == stated) continue;
+    throw InputError(file_.name() + ": must have as many messages of channel " + NumberText(id) +
+                     " as its statistics say, " + NumberText(stated) + Got(got));
+  }
+}
+
 std::optional<McapMessage> McapReader::Next() {
   if (finished_) LetGo(*std::exchange(finished_, std::nullopt));
   const auto is_due = [&] {
@@ -120,24 +150,31 @@ std::optional<McapMessage> McapReader::Next() {
     return waiting_.empty() || chunk.message_start_time <= waiting_.top().log_time;
   };
   while (is_due()) Enter(by_time_[num_entered_++]);
-  if (waiting_.empty()) return std::nullopt;
+  if (waiting_.empty()) {
+    CheckCounts();
+    return std::nullopt;
+  }
   const Waiting next = waiting_.top();
   waiting_.pop();
   place_ = {next.file_offset, next.chunk_offset};
   if (next.chunk == kNoChunk) {
-    loose_ = ContentOf(file_, NeedRecord(file_, next.file_offset, McapOpcode::kMessage));
-    return ReadRecord<McapMessage>(loose_);
+    loose_ = ContentAt(file_, next.file_offset, McapOpcode::kMessage, std::nullopt);
+    const auto message = ReadRecord<McapMessage>(loose_);
+    ++num_read_[message.channel_id];
+    return message;
   }
   if (--num_waiting_[next.chunk] == 0) {
     num_waiting_.erase(next.chunk);
     finished_ = next.chunk;
   }
   RecordCursor cursor(Hold(next.chunk).records.subspan(next.chunk_offset));
-  return ReadRecord<McapMessage>(cursor.Next()->content);
+  const auto message = ReadRecord<McapMessage>(cursor.Next()->content);
+  ++num_read_[message.channel_id];
+  return message;
 }
 
 Bytes McapReader::ReadAttachment(const McapAttachmentIndex& attachment) const {
-  Bytes content = ContentOf(file_, NeedRecord(file_, attachment.offset, McapOpcode::kAttachment));
+  Bytes content = ContentAt(file_, attachment.offset, McapOpcode::kAttachment, attachment.length);
   AtPlace(PlaceOf(file_, attachment.offset), [&] {
     const auto record = ReadRecord<McapAttachment>(content);
     // The CRC is of what stands before it.

@@ -34,7 +34,9 @@ class McapReader {
   void Select(std::set<std::uint16_t> channels);
 
   /// Returns the next message, whose data are valid until the next call; nothing at the end.
-  /// @throws InputError "file: record at N: rule (got value)" where the file is damaged.
+  /// @throws InputError "file: record at N: rule (got value)" where the file is damaged, and at the
+  ///   end "file: rule (got value)" if there were other numbers of messages than its statistics
+  ///   say.
   [[nodiscard]] std::optional<McapMessage> Next();
   /// Where the message stands that Next() returned last.
   [[nodiscard]] const MessagePlace& place() const { return place_; }
@@ -69,6 +71,7 @@ class McapReader {
   void Enter(std::size_t number);
   const HeldChunk& Hold(std::size_t number);
   void LetGo(std::size_t number);
+  void CheckCounts() const;
 
   ByteFile file_;
   McapIndex index_;
@@ -76,7 +79,8 @@ class McapReader {
   std::optional<std::set<std::uint16_t>> wanted_;
 
   MessagePlace place_;
-  std::size_t num_entered_{};  ///< How many of by_time_.
+  std::map<std::uint16_t, std::uint64_t> num_read_;  ///< Messages by channel.
+  std::size_t num_entered_{};                        ///< How many of by_time_.
   std::priority_queue<Waiting> waiting_;
   std::unordered_map<std::size_t, std::size_t> num_waiting_;  ///< Messages by chunk.
   std::list<HeldChunk> held_;                                 ///< The last used is first.

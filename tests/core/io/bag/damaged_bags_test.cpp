@@ -52,6 +52,27 @@ TEST_F(DamagedBag, IsRefusedIfMessagesAreNone) {
             file.string() + ": message 3: topic_id: must be that of a topic (got 7)");
 }
 
+// Also where other topics are asked for: a message of one of these may be among them.
+TEST_F(DamagedBag, IsRefusedIfAMessageThatNobodyAskedForIsOfNoTopic) {
+  const auto file = Database("UPDATE messages SET topic_id = 7 WHERE id = 3");
+  const auto reader = OpenBag(file);
+  reader->Select({});
+  EXPECT_EQ(MessageOf([&] { (void)reader->Next(); }),
+            file.string() + ": message 3: topic_id: must be that of a topic (got 7)");
+}
+
+TEST_F(DamagedBag, IsRefusedIfTwoRowsHaveOneId) {
+  for (const std::string table : {"topics", "messages"}) {
+    const auto file = Database("CREATE TABLE copy AS SELECT * FROM " + table + "; DROP TABLE " +
+                               table + "; ALTER TABLE copy RENAME TO " + table);
+    EXPECT_EQ(MessageAbout(file), "no error");
+    SqliteDatabase(file, SqliteAccess::kChange, "bag")
+        .Run("INSERT INTO " + table + " SELECT * FROM " + table + " WHERE id = 1");
+    EXPECT_EQ(MessageAbout(file),
+              file.string() + ": " + table + ": id: must be that of one row (got 1)");
+  }
+}
+
 TEST_F(DamagedBag, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
   const auto file = Database("SELECT 1");
   const std::string whole = ReadFileWhole(file);

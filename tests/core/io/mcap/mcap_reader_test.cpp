@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "core/base/input_file.h"
+#include "core/io/mcap/byte_file.h"
+#include "core/io/mcap/mcap_index.h"
 #include "core/io/mcap/mcap_writer.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/damage.h"
@@ -60,6 +64,26 @@ class McapFile : public testing::Test {
            {reinterpret_cast<const char*>(message->data.data()), message->data.size()}});
     }
     return messages;
+  }
+
+  /// Returns a file with another summary.
+  std::string WithIndex(const std::string& bytes, const std::function<void(McapIndex&)>& change) {
+    std::ofstream(file_, std::ios::binary) << bytes;
+    McapIndex index = ReadIndex(ByteFile(file_, "file"));
+    change(index);
+    // The footer's first field, at which the summary begins.
+    std::uint64_t begin = 0;
+    std::memcpy(&begin, bytes.data() + bytes.size() - kMagic.size() - 20, sizeof begin);
+    Bytes summary;
+    for (const auto& [id, schema] : index.schemas) AppendRecord(schema, summary);
+    for (const auto& [id, channel] : index.channels) AppendRecord(channel, summary);
+    for (const McapChunkIndex& chunk : index.chunks) AppendRecord(chunk, summary);
+    AppendRecord(index.statistics, summary);
+    AppendRecord(McapFooter{.summary_start = begin, .summary_offset_start = 0, .summary_crc = 0},
+                 summary);
+    summary.insert(summary.end(), kMagic.begin(), kMagic.end());
+    return bytes.substr(0, begin) +
+           std::string(reinterpret_cast<const char*>(summary.data()), summary.size());
   }
 
   TemporaryDirectory folder_;
@@ -135,6 +159,36 @@ TEST_F(McapFile, SaysWhichChunkIsDamaged) {
   const std::size_t text = whole.find("abcdef");
   EXPECT_EQ(MessageOf([&] { (void)Read(Flipped(whole, text)); }).substr(0, 60),
             "file: record at 29: uncompressed_crc: must be that of the re");
+}
+
+TEST_F(McapFile, RefusesAnIndexThatLacksChunksOfItsStatistics) {
+  const std::string whole = MadeFile(kOverlapping, McapCompression::kZstd);
+  EXPECT_EQ(Read(WithIndex(whole, [](McapIndex&) {})), kInOrder);
+  const std::string lacking = WithIndex(whole, [](McapIndex& index) {
+    index.chunks.resize(2);
+    index.statistics.chunk_count = 2;
+  });
+  EXPECT_EQ(MessageOf([&] { (void)Read(lacking); }),
+            "file: must have as many messages of channel 1 as its statistics say, 8 (got 5)");
+}
+
+// However many entries name one chunk, it is not read at all.
+TEST_F(McapFile, RefusesAnIndexThatNamesAChunkTwice) {
+  const std::string whole = MadeFile(kOverlapping, McapCompression::kZstd);
+  std::string offset;
+  const std::string twice = WithIndex(whole, [&](McapIndex& index) {
+    index.chunks.push_back(index.chunks[1]);
+    index.statistics.chunk_count = 5;
+    offset = std::to_string(index.chunks[1].chunk_start_offset);
+  });
+  EXPECT_TRUE(
+      MessageOf([&] { (void)Read(twice); })
+          .ends_with(": summary: offset: must be that of a record of its own in the data (got " +
+                     offset + ")"));
+  // Of two that overlap, one states a length that is not its record's.
+  const std::string shorter =
+      WithIndex(whole, [](McapIndex& index) { index.chunks[1].chunk_length = 9; });
+  EXPECT_EQ(MessageOf([&] { (void)Read(shorter); }).substr(0, 16), "file: record at ");
 }
 
 TEST_F(McapFile, RefusesWhatIsNone) {
