@@ -203,7 +203,7 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
     }
     chart.series.push_back(std::move(series));
   }
-  chart.caption +=
+  chart.caption.text +=
       chart.series.size() == kMaxLines ? ", of the seven effects that change most beams." : ".";
   return chart;
 }

@@ -62,13 +62,13 @@ Chart ProbabilityChart(const std::string& object,
                        const std::vector<double>& detected_m,
                        const std::vector<Inspection>& inspected,
                        const DetectionFit& fit) {
-  Chart chart;
-  chart.key = KeyOfObject("probability_", object);
-  chart.title = "Probability that " + object + " is detected";
-  chart.caption = "By the time it is as near as this; the steps are what the approaches did.";
-  chart.x = {.title = "Distance", .unit = "m"};
-  chart.y = {.title = "Probability of detection", .unit = ""};
-  chart.series = {SharesDetected(detected_m)};
+  Chart chart{
+      .key = KeyOfObject("probability_", object),
+      .title = "Probability that " + object + " is detected",
+      .caption = "By the time it is as near as this; the steps are what the approaches did.",
+      .x = {.title = "Distance", .unit = "m"},
+      .y = {.title = "Probability of detection", .unit = ""},
+      .series = {SharesDetected(detected_m)}};
   const double d90_95_m = DistanceOf90With95(detected_m);
   if (!std::isnan(d90_95_m)) {
     chart.series.push_back({"0.9 with 95 % confidence",
@@ -76,7 +76,7 @@ Chart ProbabilityChart(const std::string& object,
                             {{.x = d90_95_m, .y = 0.9, .label = RoundedText(d90_95_m) + " m"}}});
   }
   if (std::isnan(fit.curve.middle_m)) return chart;
-  chart.caption +=
+  chart.caption.text +=
       " An inspection, a point at 1 or 0, keeps little of that; the curve is the most likely one "
       "for all inspections.";
   ChartSeries inspections{"inspections", SeriesStyle::kPoints, {}};

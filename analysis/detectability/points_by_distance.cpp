@@ -88,17 +88,17 @@ Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule)
 Chart PointsChart(const std::vector<DetectRun>& runs,
                   const Verdict& verdict,
                   const DetectionRule& rule) {
-  Chart chart;
-  chart.key = KeyOfObject("points_", verdict.name);
-  chart.title = "Points on " + verdict.name + " against distance";
-  chart.caption =
-      std::string(
-          "Means of 10 m, with intervals where there are ten frames or more; a cross is a bin "
-          "without points. ") +
-      (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
-                         : "Beside the track: nothing to brake for.");
-  chart.x = {.title = "Distance", .unit = "m"};
-  chart.y = {.title = "Points a frame", .unit = "", .is_log = true};
+  Chart chart{
+      .key = KeyOfObject("points_", verdict.name),
+      .title = "Points on " + verdict.name + " against distance",
+      .caption =
+          std::string(
+              "Means of 10 m, with intervals where there are ten frames or more; a cross is a bin "
+              "without points. ") +
+          (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
+                             : "Beside the track: nothing to brake for."),
+      .x = {.title = "Distance", .unit = "m"},
+      .y = {.title = "Points a frame", .unit = "", .is_log = true}};
   ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
   double highest = rule.min_points;
   double farthest_m = verdict.is_in_way ? verdict.most_needed_m : 0.0;

@@ -82,12 +82,12 @@ Chart AlarmChart(const std::vector<EvaluatedRun>& runs) {
       series.points.push_back({.x = alarm.s_m, .y = alarm.distance_m});
     }
   }
-  Chart chart;
-  chart.key = "false_alarms";
-  chart.title = "Where false alarms are seen";
-  chart.caption = "Chainage of the box that completes the rule, and how far ahead it is then.";
-  chart.x = {.title = "Chainage", .unit = "m"};
-  chart.y = {.title = "Distance", .unit = "m"};
+  Chart chart{
+      .key = "false_alarms",
+      .title = "Where false alarms are seen",
+      .caption = "Chainage of the box that completes the rule, and how far ahead it is then.",
+      .x = {.title = "Chainage", .unit = "m"},
+      .y = {.title = "Distance", .unit = "m"}};
   for (auto& [cause, series] : by_cause) chart.series.push_back(std::move(series));
   return chart;
 }

@@ -132,12 +132,11 @@ Table DistancesTable(const ModelError& error) {
 }
 
 Chart RatioChart(const std::map<std::string, ComparedBins>& by_target) {
-  Chart chart;
-  chart.key = "model_ratio";
-  chart.title = "Points on objects, of those of the reference";
-  chart.caption = "1 is the reference; bars are intervals over the sampled approaches.";
-  chart.x = {.title = "Distance", .unit = "m"};
-  chart.y = {.title = "Ratio of points", .unit = ""};
+  Chart chart{.key = "model_ratio",
+              .title = "Points on objects, of those of the reference",
+              .caption = "1 is the reference; bars are intervals over the sampled approaches.",
+              .x = {.title = "Distance", .unit = "m"},
+              .y = {.title = "Ratio of points", .unit = ""}};
   for (const auto& [target, bins] : by_target) {
     ChartSeries series{target, SeriesStyle::kLinePoints, {}};
     for (std::size_t i = 0; i + 1 < bins.size(); ++i) {

@@ -45,9 +45,9 @@ std::string MarkdownTable(const Table& table) {
 
 // Of a chart or a picture.
 template <typename Drawing>
-std::string DrawingText(const Drawing& drawing) {
+std::string DrawingText(const Drawing& drawing, const std::string& caption) {
   return Joined({"\n![", EscapedText(drawing.title), "](charts/", drawing.key, ".png)\n\n",
-                 EscapedText(drawing.caption), drawing.caption.empty() ? "" : "\n"});
+                 EscapedText(caption), caption.empty() ? "" : "\n"});
 }
 
 }  // namespace
@@ -63,8 +63,10 @@ std::string ReportMarkdown(const Report& report) {
     for (const std::string& paragraph : section.paragraphs) {
       text += Joined({"\n", EscapedText(paragraph), "\n"});
     }
-    for (const Picture& picture : section.pictures) text += DrawingText(picture);
-    for (const Chart& chart : section.charts) text += DrawingText(chart);
+    for (const Picture& picture : section.pictures) {
+      text += DrawingText(picture, picture.caption);
+    }
+    for (const Chart& chart : section.charts) text += DrawingText(chart, chart.caption.text);
     for (const Table& table : section.tables) text += MarkdownTable(table);
   }
   return text;

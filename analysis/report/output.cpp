@@ -26,7 +26,7 @@ void CheckSound(const Report& report) {
   for (const Section& section : report.sections) {
     for (const Chart& chart : section.charts) {
       Check(drawings.insert(chart.key).second, "keys of charts are unique");
-      Check(chart.caption.ends_with('.'),
+      Check(chart.caption.text.ends_with('.'),
             ("the caption of chart " + chart.key + " is a sentence that says what to see").c_str());
     }
     for (const Picture& picture : section.pictures) {

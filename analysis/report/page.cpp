@@ -160,7 +160,7 @@ data SectionData(const Section& section,
                  const std::set<std::string>& on_paper) {
   const auto chart_data = [&](const Chart& chart) {
     return object{{"title", chart.title},
-                  {"caption", IfAny(chart.caption)},
+                  {"caption", IfAny(chart.caption.text)},
                   {"drawing", DrawingData(chart, drawn)}};
   };
   const auto table_data = [&](const Table& table) {

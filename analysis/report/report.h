@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -71,10 +72,19 @@ struct ChartAxis {
   std::vector<std::string> categories{};
 };
 
+/// A sentence that says what to see, with its full stop. It has no default: a chart without one
+/// does not compile.
+struct Caption {
+  Caption(const char* sentence) : text(sentence) {}
+  Caption(std::string sentence) : text(std::move(sentence)) {}
+
+  std::string text;
+};
+
 struct Chart {
-  std::string key{};      ///< Name of its SVG and PNG files, unique in a report.
-  std::string title{};    ///< What the chart shows, in a few words.
-  std::string caption{};  ///< A sentence below it that says what to see; ends with a full stop.
+  std::string key{};    ///< Name of its SVG and PNG files, unique in a report.
+  std::string title{};  ///< What the chart shows, in a few words.
+  Caption caption;      ///< Below it.
   ChartAxis x{}, y{};
   std::vector<ChartSeries> series{};
 };

@@ -199,7 +199,11 @@ Report MakeSightReport(const std::vector<SightPlace>& places,
   sight.charts = {SightChart(places, spec)};
   sight.tables = {ShortTable(parts)};
   const std::vector<Chart> courses = {
-      CourseChart(places, {.key = "speed", .title = "Speed", .y = {"Speed", "km/h"}},
+      CourseChart(places,
+                  {.key = "speed",
+                   .title = "Speed",
+                   .caption = "The braking distance grows with the square of the speed.",
+                   .y = {"Speed", "km/h"}},
                   [](const SightPlace& place) { return Kmph(place.speed_mps); }),
       CourseChart(places,
                   {.key = "gradient",

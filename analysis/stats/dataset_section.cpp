@@ -155,7 +155,7 @@ Chart BinsChart(const Table& table, ChartAxis x) {
                  {"Objects, in each frame", "", true},
                  {}};
   chart.series = SeriesByRow(table, kMostTypes);
-  chart.caption +=
+  chart.caption.text +=
       table.rows.size() > kMostTypes ? "; only the types that are in the most frames." : ".";
   return chart;
 }

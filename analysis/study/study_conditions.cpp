@@ -163,13 +163,13 @@ Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num
                    {"ratio", "Likelihood ratio", ""},
                    {"p_value", "By chance", ""},
                    {"share_percent", "Share", "%"}};
-  Chart chart;
-  chart.key = "factors";
-  chart.title = "Which factor matters";
-  chart.caption =
-      "Shares of the sum of the factors' likelihood ratios; the distance itself is left out.";
-  chart.x = {.title = "Factor", .unit = "", .categories = {}};
-  chart.y = {.title = "Share", .unit = "%"};
+  Chart chart{.key = "factors",
+              .title = "Which factor matters",
+              .caption =
+                  "Shares of the sum of the factors' likelihood ratios; the distance itself "
+                  "is left out.",
+              .x = {.title = "Factor"},
+              .y = {.title = "Share", .unit = "%"}};
   ChartSeries bars{"share", SeriesStyle::kBars, {}};
   for (const FactorWeight& weight : weights) {
     table.rows.push_back({weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value,

@@ -79,13 +79,13 @@ std::vector<PlacedView> ViewsOf(const std::vector<Observation>& observations,
 
 Chart PlacementChart(const std::vector<PlacedView>& views) {
   constexpr std::size_t kMostPlacements = 12;
-  Chart chart;
-  chart.key = "placement";
-  chart.title = "Which placement detects first";
-  chart.caption =
-      "Mean distance of detection with its interval; placements in the order of the first target.";
-  chart.x = {.title = "Placement", .unit = "", .categories = {}};
-  chart.y = {.title = "Distance of detection", .unit = "m"};
+  Chart chart{.key = "placement",
+              .title = "Which placement detects first",
+              .caption =
+                  "Mean distance of detection with its interval; placements in the order of "
+                  "the first target.",
+              .x = {.title = "Placement"},
+              .y = {.title = "Distance of detection", .unit = "m"}};
   std::map<std::string, std::size_t> place_of;
   for (const PlacedView& view : views) {
     if (chart.series.empty() || chart.series.back().title != view.target) {
