@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -19,11 +19,10 @@
 namespace railcast {
 namespace {
 
-// The face of a target is sampled by a packet of rays in rows and columns.
-constexpr std::size_t kRaysAcross = 4;
-constexpr std::size_t kRaysUp = kPacketSize / kRaysAcross;
-static_assert(kRaysAcross * kRaysUp == kPacketSize);
-constexpr std::size_t kTargetsPerTile = kTileSize / kPacketSize;
+// The face of a target is sampled by rays in as many rows as columns. Their number is odd, so that
+// an edge straight across or up hides half of the rays exactly where it hides half of the face.
+constexpr std::size_t kFewestRows = 5;
+constexpr std::size_t kMostRows = 95;
 
 /// Where the sensor is, and the track ahead of it.
 struct Lookout {
@@ -40,79 +39,93 @@ struct Lookout {
 
 /// How the rays at a target fared.
 struct TargetView {
-  std::uint32_t num_free = 0;
-  std::array<std::uint32_t, kPacketSize> labels{};  ///< Of what each of the others met.
+  std::size_t num_rays = 0;
+  std::size_t num_free = 0;
+  std::map<std::uint32_t, std::size_t> hidden_by{};  ///< Rays by the label of what they meet.
 
-  [[nodiscard]] bool is_seen() const { return 2 * num_free >= kPacketSize; }
+  [[nodiscard]] bool is_seen() const { return 2 * num_free >= num_rays; }
+  /// More rays may tell another tale only of a target that is neither free nor hidden as a whole.
+  [[nodiscard]] bool is_settled() const {
+    return num_rays > 0 && (num_free == 0 || num_free == num_rays);
+  }
 };
 
 double DistanceOfTarget_m(std::size_t target) {
   return kNearestTarget_m + kTargetStep_m * static_cast<double>(target);
 }
 
-void AimAtTarget(const Lookout& lookout,
-                 const Transform& window_from_world,
-                 std::size_t target,
-                 double height_m,
-                 RayTile& rays) {
-  const Transform window_from_target =
-      window_from_world * lookout.WorldFromTarget(DistanceOfTarget_m(target));
-  const Vector3 eye_m = window_from_world * lookout.eye_world_m;
-  for (std::size_t i = 0; i < kPacketSize; ++i) {
-    const double across = (static_cast<double>(i % kRaysAcross) + 0.5) / kRaysAcross - 0.5;
-    const double up = (static_cast<double>(i / kRaysAcross) + 0.5) / kRaysUp;
-    const Vector3 way_m =
-        window_from_target * Vector3(0.0, across * kTargetWidth_m, up * height_m) - eye_m;
-    const Eigen::Vector3f direction = way_m.normalized().cast<float>();
-    const std::size_t ray = rays.num_rays++;
-    rays.origin_x[ray] = static_cast<float>(eye_m.x());
-    rays.origin_y[ray] = static_cast<float>(eye_m.y());
-    rays.origin_z[ray] = static_cast<float>(eye_m.z());
-    rays.direction_x[ray] = direction.x();
-    rays.direction_y[ray] = direction.y();
-    rays.direction_z[ray] = direction.z();
-    rays.shutter[ray] = 0.0F;
-    rays.range_m[ray] = static_cast<float>(way_m.norm());
-    rays.surface[ray] = 0;
-    rays.normal_x[ray] = rays.normal_y[ray] = rays.normal_z[ray] = 0.0F;
-  }
+void AddRay(const Vector3& eye_m, const Vector3& way_m, RayTile& rays) {
+  const Eigen::Vector3f direction = way_m.normalized().cast<float>();
+  const std::size_t ray = rays.num_rays++;
+  rays.origin_x[ray] = static_cast<float>(eye_m.x());
+  rays.origin_y[ray] = static_cast<float>(eye_m.y());
+  rays.origin_z[ray] = static_cast<float>(eye_m.z());
+  rays.direction_x[ray] = direction.x();
+  rays.direction_y[ray] = direction.y();
+  rays.direction_z[ray] = direction.z();
+  rays.shutter[ray] = 0.0F;
+  rays.range_m[ray] = static_cast<float>(way_m.norm());
+  rays.surface[ray] = 0;
+  rays.normal_x[ray] = rays.normal_y[ray] = rays.normal_z[ray] = 0.0F;
 }
 
-/// Looks at all targets of one height.
-std::vector<TargetView> LookAtTargets(const Lookout& lookout,
-                                      const SceneOfFrame& scene,
-                                      double height_m) {
-  const double beyond_m = lookout.reach_m - kNearestTarget_m;
-  if (beyond_m < 0.0) return {};
-  std::vector<TargetView> views(static_cast<std::size_t>(beyond_m / kTargetStep_m) + 1);
-  const std::size_t num_tiles = (views.size() + kTargetsPerTile - 1) / kTargetsPerTile;
-  tbb::parallel_for(std::size_t{0}, num_tiles, [&](std::size_t tile) {
-    const std::size_t first = tile * kTargetsPerTile;
-    const std::size_t end = std::min(first + kTargetsPerTile, views.size());
-    RayTile rays;
-    rays.mask = kAllButWires;
-    for (std::size_t target = first; target < end; ++target) {
-      AimAtTarget(lookout, scene.window_from_world, target, height_m, rays);
+/// Counts the rays that a tile holds and empties it.
+void CastRays(const SceneOfFrame& scene, RayTile& rays, TargetView& view) {
+  const std::size_t num = rays.num_rays;
+  if (num == 0) return;
+  // Tiles hold whole packets; what fills the last one is not counted.
+  while (rays.num_rays % kPacketSize != 0) AddRay(Vector3::Zero(), Vector3::UnitZ(), rays);
+  scene.caster.Cast(rays);
+  for (std::size_t ray = 0; ray < num; ++ray) {
+    if (rays.surface[ray] == 0) {
+      ++view.num_free;
+    } else {
+      ++view.hidden_by[scene.surfaces[rays.surface[ray]].label];
     }
-    scene.caster.Cast(rays);
-    for (std::size_t ray = 0; ray < rays.num_rays; ++ray) {
-      TargetView& view = views[first + ray / kPacketSize];
-      if (rays.surface[ray] == 0) ++view.num_free;
-      view.labels[ray % kPacketSize] = scene.surfaces[rays.surface[ray]].label;
-    }
+  }
+  rays.num_rays = 0;
+}
+
+TargetView LookAtTarget(const Lookout& lookout,
+                        const SceneOfFrame& scene,
+                        std::size_t target,
+                        double height_m,
+                        std::size_t num_rows) {
+  const Transform window_from_target =
+      scene.window_from_world * lookout.WorldFromTarget(DistanceOfTarget_m(target));
+  const Vector3 eye_m = scene.window_from_world * lookout.eye_world_m;
+  const auto num = static_cast<double>(num_rows);
+  TargetView view{.num_rays = num_rows * num_rows};
+  RayTile rays;
+  rays.mask = kAllButWires;
+  for (std::size_t i = 0; i < view.num_rays; ++i) {
+    const double across = (static_cast<double>(i % num_rows) + 0.5) / num - 0.5;
+    const double up = (static_cast<double>(i / num_rows) + 0.5) / num;
+    const Vector3 point(0.0, across * kTargetWidth_m, up * height_m);
+    AddRay(eye_m, window_from_target * point - eye_m, rays);
+    if (rays.num_rays == kTileSize) CastRays(scene, rays, view);
+  }
+  CastRays(scene, rays, view);
+  return view;
+}
+
+/// Looks more closely at all targets of one height that are not settled yet.
+void LookAtTargets(const Lookout& lookout,
+                   const SceneOfFrame& scene,
+                   double height_m,
+                   std::size_t num_rows,
+                   std::vector<TargetView>& views) {
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t target) {
+    if (views[target].is_settled()) return;
+    views[target] = LookAtTarget(lookout, scene, target, height_m, num_rows);
   });
-  return views;
 }
 
 std::string MostFrequentLabel(const TargetView& view, const LabelTable& labels) {
-  std::map<std::uint32_t, std::uint32_t> counts;
-  for (const std::uint32_t label : view.labels) {
-    if (label != 0) ++counts[label];
-  }
   // The label with the lower number if two are as frequent.
   const auto most =
-      std::ranges::max_element(counts, {}, [](const auto& each) { return each.second; });
-  const Label* const label = most == counts.end() ? nullptr : labels.Find(most->first);
+      std::ranges::max_element(view.hidden_by, {}, [](const auto& each) { return each.second; });
+  const Label* const label = most == view.hidden_by.end() ? nullptr : labels.Find(most->first);
   return label == nullptr ? "unlabeled" : label->name;
 }
 
@@ -132,6 +145,26 @@ Sight SightOver(const std::vector<TargetView>& views,
   sight.end = SightEnd::kBlocked;
   sight.blocker = MostFrequentLabel(views[num_to_last_seen], labels);
   return sight;
+}
+
+/// Looks at the targets of one height with more and more rays until the answer changes by less than
+/// the targets' step.
+Sight FindSight(const Lookout& lookout,
+                const SceneOfFrame& scene,
+                double height_m,
+                SightEnd end_of_views,
+                const LabelTable& labels) {
+  const double beyond_m = lookout.reach_m - kNearestTarget_m;
+  std::vector<TargetView> views(
+      beyond_m < 0.0 ? 0 : static_cast<std::size_t>(beyond_m / kTargetStep_m) + 1);
+  std::optional<double> before_m;
+  for (std::size_t num_rows = kFewestRows;; num_rows = 2 * num_rows + 1) {
+    LookAtTargets(lookout, scene, height_m, num_rows, views);
+    Sight sight = SightOver(views, end_of_views, labels);
+    const bool is_same = before_m && std::abs(sight.distance_m - *before_m) < kTargetStep_m;
+    if (is_same || num_rows == kMostRows) return sight;
+    before_m = sight.distance_m;
+  }
 }
 
 /// Braking distance on the mean gradient of the way that it takes.
@@ -189,7 +222,8 @@ std::vector<SightPlace> FollowSight(const ScenarioSpec& given,
       world, simulator->pattern(), LastFrameOfRun(scenario, *simulator, 1), spec.step_m);
 
   std::vector<SightPlace> places;
-  for (const std::uint32_t frame : frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::uint32_t frame = frames[i];
     simulator->VisitScene(frame, [&](const SceneOfFrame& scene) {
       const Transform world_from_vehicle =
           scene.window_from_world.inverse() * scene.window_from_vehicle;
@@ -208,13 +242,12 @@ std::vector<SightPlace> FollowSight(const ScenarioSpec& given,
               [&] { AddBraking(lookout, spec, place); });
       for (const double height_m : spec.heights_m) {
         place.sights.push_back(
-            SightOver(LookAtTargets(lookout, scene, height_m),
+            FindSight(lookout, scene, height_m,
                       to_end_m < range_m ? SightEnd::kEndOfTrack : SightEnd::kRange, labels));
       }
       places.push_back(std::move(place));
     });
-    on_progress(static_cast<double>(&frame - frames.data() + 1) /
-                static_cast<double>(frames.size()));
+    on_progress(static_cast<double>(i + 1) / static_cast<double>(frames.size()));
   }
   return places;
 }

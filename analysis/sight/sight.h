@@ -65,8 +65,9 @@ struct SightPlace {
 };
 
 /// Looks for targets from places on the vehicle's way, at the times when it is there. A target is
-/// seen if at least half of its face is in line of sight of the sensor's nominal place: 16 rays,
-/// blocked by any surface but wires.
+/// seen if at least half of its face is in line of sight of the sensor's nominal place. Rays sample
+/// it, blocked by any surface but wires: 5 rows of 5, then 11 of 11 and so on to 95 of 95, until
+/// that changes the sight by less than kTargetStep_m.
 /// @param scenario Of one sensor.
 /// @param on_progress Called with the share of the places that are done.
 /// @throws InputError as MakeSimulator() does, and "at 120 m: cannot stop: ..." (StopOf()).

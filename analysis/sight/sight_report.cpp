@@ -120,9 +120,11 @@ Section RulesSection(const SightSpec& spec, double range_m) {
           "Targets " + NumberText(kTargetWidth_m) + " m wide stand on the track's axis, from " +
               NumberText(kNearestTarget_m) + " m to " + NumberText(range_m) +
               " m ahead of the sensor, one every " + NumberText(kTargetStep_m) +
-              " m of the route. One is seen if at least half of its face, which 16 rays sample, is "
-              "in line of sight of the sensor's place in its vehicle. The sight is the distance of "
-              "the last one before targets are hidden for " +
+              " m of the route. One is seen if at least half of its face is in line of sight of "
+              "the sensor's place in its vehicle; more and more rays sample it until that changes "
+              "the sight by less than " +
+              NumberText(kTargetStep_m) +
+              " m. The sight is the distance of the last one before targets are hidden for " +
               NumberText(kMostHidden_m) +
               " m or to the end; what hides them for a shorter way, as a mast does, is passed "
               "over.",

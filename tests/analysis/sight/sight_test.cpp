@@ -61,11 +61,10 @@ TEST(Sight, IsNotKnownBeyondTheEndOfTheTrack) {
 
 // The line of sight along the chord touches the wall where it comes nearest to the centre of the
 // circle: R cos(s / (2 R)) = R - d, so s = 2 R acos((R - d) / R). Half of the target is seen where
-// the chord to a point between its inner columns, an eighth of its width from the axis, passes;
-// ds / dd = s / (2 d).
-TEST(Sight, EndsWhereTheChordTouchesAWallInsideACurve) {
-  constexpr double kRadius_m = 400.0;
-  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kArc, 1'000.0, kRadius_m));
+// the chord to its middle passes, d beside the posts, which stand 2 cm out of the wall, or a little
+// more between two of them. The last target that is seen stands less than a step before.
+void ExpectSightAlongTheChord(double radius_m) {
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kArc, 1'000.0, radius_m));
   NoiseWallSpec wall;
   wall.name = "wall";
   wall.side = TrackSide::kLeft;
@@ -74,15 +73,22 @@ TEST(Sight, EndsWhereTheChordTouchesAWallInsideACurve) {
   scenario.world.structures = {wall};
   const auto places = Follow(scenario, {.heights_m = {1.0, 2.0}});
   ASSERT_EQ(places.size(), 1U);
-  const double chord_m = 2.0 * kRadius_m * std::acos((kRadius_m - wall.distance_m) / kRadius_m);
-  const double tolerance_m =
-      kTargetStep_m + chord_m / (2.0 * wall.distance_m) * kTargetWidth_m / 8.0;
+  const auto chord_m = [&](double d_m) {
+    return 2.0 * radius_m * std::acos((radius_m - d_m) / radius_m);
+  };
   for (const Sight& sight : places[0].sights) {
     EXPECT_EQ(sight.end, SightEnd::kBlocked);
-    EXPECT_NEAR(sight.distance_m, chord_m, tolerance_m);
+    EXPECT_LE(sight.distance_m, chord_m(wall.distance_m));
+    EXPECT_GT(sight.distance_m, chord_m(wall.distance_m - 0.02) - kTargetStep_m);
     EXPECT_EQ(sight.blocker, "noise_wall");
   }
   EXPECT_TRUE(places[0].IsShort(0) == (places[0].sights[0].distance_m < places[0].needed_m));
+}
+
+TEST(Sight, EndsWhereTheChordTouchesAWallInsideACurve) {
+  ExpectSightAlongTheChord(400.0);
+  // An eighth of the target's width is 2 m of sight here.
+  ExpectSightAlongTheChord(2'000.0);
 }
 
 // As before a wall, at the half width that the vault has where the line of sight touches it:
@@ -108,13 +114,11 @@ TEST(Sight, EndsAtTheVaultOfACurvedTunnel) {
     const double half_m = std::sqrt(kVault_m * kVault_m - std::pow(touched_m - kCentre_m, 2));
     return 2.0 * kRadius_m * std::acos((kRadius_m - half_m) / kRadius_m);
   };
-  const double tolerance_m =
-      kTargetStep_m + chord_m(kCentre_m) / (2.0 * kVault_m) * kTargetWidth_m / 8.0;
   const Sight& sight = places[0].sights[0];
   EXPECT_EQ(sight.end, SightEnd::kBlocked);
   EXPECT_EQ(sight.blocker, "tunnel");
-  EXPECT_GT(sight.distance_m, chord_m(0.5 * (kEye_m + kTarget_m)) - tolerance_m);
-  EXPECT_LT(sight.distance_m, chord_m(kCentre_m) + tolerance_m);
+  EXPECT_GT(sight.distance_m, chord_m(0.5 * (kEye_m + kTarget_m)) - kTargetStep_m);
+  EXPECT_LT(sight.distance_m, chord_m(kCentre_m));
 }
 
 // As in a tunnel, but the slope of 1:1.5 beside the formation is farther out the higher the line of
@@ -146,26 +150,29 @@ TEST(Sight, EndsAtTheSlopeOfACuttingInACurve) {
 
 // On a crest of the vertical radius R, the line of sight from the height h_1 touches the track at
 // sqrt(2 R h_1) and sees the height h_2 as far beyond it: s = sqrt(2 R) (sqrt(h_1) + sqrt(h_2)).
-// Half of a target is seen where its third row of four is: h_2 = 5/8 of its height. What is touched
-// lies between top of rail and the ballast, 0.25 m below it.
+// Half of a target is seen where its middle is: h_2 is half of its height. Between the rails the
+// line touches the middles of sleepers, or grains of the ballast that rise above them by less than
+// 2 cm. The last target that is seen stands less than a step before.
 TEST(Sight, EndsBehindACrest) {
-  constexpr double kCrest_m = 600.0;
-  constexpr double kBreak = 0.04;
+  constexpr double kCrest_m = 300.0;
+  constexpr double kBreak = 0.08;
   constexpr double kRadius_m = kCrest_m / kBreak;
-  constexpr double kTarget_m = 0.3;
-  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 1'500.0));
-  scenario.world.alignment.gradients_permil = {{0.0, 20.0}, {400.0, -20.0}};
+  constexpr double kTarget_m = 2.0;
+  ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 1'000.0));
+  scenario.world.alignment.gradients_permil = {{0.0, 40.0}, {400.0, -40.0}};
   scenario.world.alignment.gradient_smoothing_m = kCrest_m;
-  scenario.lidar.range_max_m = 600.0;
+  scenario.vehicle.start_s_m = 400.0 - 0.5 * kCrest_m;
   const auto places = Follow(scenario, {.heights_m = {kTarget_m}});
   ASSERT_EQ(places.size(), 1U);
-  const auto sight_over_m = [&](double below_m) {
+  const SleeperSeat seat = SeatOf(SleeperType::kConcrete);
+  const double below_m = seat.middle_drop_m - seat.top_m;
+  const auto sight_over_m = [&](double touched_m) {
     return std::sqrt(2.0 * kRadius_m) *
-           (std::sqrt(kEye_m + below_m) + std::sqrt(5.0 / 8.0 * kTarget_m + below_m));
+           (std::sqrt(kEye_m + touched_m) + std::sqrt(0.5 * kTarget_m + touched_m));
   };
   EXPECT_EQ(places[0].sights[0].end, SightEnd::kBlocked);
-  EXPECT_GT(places[0].sights[0].distance_m, sight_over_m(0.0) - kTargetStep_m);
-  EXPECT_LT(places[0].sights[0].distance_m, sight_over_m(0.25));
+  EXPECT_LE(places[0].sights[0].distance_m, sight_over_m(below_m));
+  EXPECT_GT(places[0].sights[0].distance_m, sight_over_m(below_m - 0.02) - kTargetStep_m);
 }
 
 TEST(Sight, NeedsTheBrakingDistanceOnTheGradientInTheDirectionOfTravel) {
@@ -210,6 +217,18 @@ TEST(Sight, IsSoughtOnTheWholeRouteAtAGivenSpeed) {
   ASSERT_EQ(places.size(), 3U);
   EXPECT_NEAR(places[2].chainage_m, 300.0, 3.0 * 2.0) << "a frame is 3 m";
   EXPECT_DOUBLE_EQ(places[2].speed_mps, 30.0);
+}
+
+TEST(Sight, TellsWhichShareOfThePlacesIsDone) {
+  const ScenarioSpec scenario = BareLine(ScenarioOn(ElementType::kStraight, 400.0));
+  std::vector<double> done;
+  (void)FollowSight(scenario,
+                    {.heights_m = {1.0}, .step_m = 50.0, .range_m = 50.0, .speed_mps = 30.0},
+                    [&](double share) { done.push_back(share); });
+  ASSERT_EQ(done.size(), 6U);
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    EXPECT_DOUBLE_EQ(done[i], static_cast<double>(i + 1) / 6.0);
+  }
 }
 
 /// A place 50 m behind the one before, with one target.
