@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "analysis/compare/cloud_figures.h"
 #include "analysis/report/cell_text.h"
@@ -204,7 +205,7 @@ void Comparison::Add(const Part& part) {
   if (pairs_.size() < kMaxPairsKept) return;
   // Drop every other pair, so that memory does not grow with the length of the recordings.
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < pairs_.size(); i += 2) pairs_[kept++] = std::move(pairs_[i]);
+  for (std::size_t i = 0; i < pairs_.size(); i += 2) std::swap(pairs_[kept++], pairs_[i]);
   pairs_.resize(kept);
   stride_ *= 2;
 }

@@ -186,6 +186,7 @@ TEST(Comparison, KeepsABoundedNumberOfPairs) {
   EXPECT_GE(comparison.pairs().size(), 1000U);
   for (std::size_t i = 0; i < comparison.pairs().size(); ++i) {
     EXPECT_EQ(comparison.pairs()[i].index_a, i * comparison.pair_stride());
+    EXPECT_EQ(comparison.pairs()[i].values.size(), comparison.metrics().size()) << i;
   }
 }
 
