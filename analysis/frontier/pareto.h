@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "analysis/estimate/estimate.h"
 #include "analysis/frontier/measure.h"
 
 namespace railcast {
@@ -19,9 +21,14 @@ struct FrontierError {
   double (*of)(const RowErrors& difference);
 };
 
-/// Share of what is missed; NaN if there is nothing to miss.
+/// Share of what is missed; NaN where there is too little to miss, as of other estimates.
 [[nodiscard]] inline double MissedShare(const Matched& matched) {
-  return matched.num == 0 ? std::numeric_limits<double>::quiet_NaN() : 1.0 - matched.share();
+  return 1.0 - Proportion(matched.num_matched, matched.num).value;
+}
+
+/// A quantile of the errors of so many echoes; NaN of too few.
+[[nodiscard]] inline double OfEnough(std::uint64_t num, double quantile) {
+  return num < kMinSamples ? std::numeric_limits<double>::quiet_NaN() : quantile;
 }
 
 /// The first four have charts.
@@ -29,7 +36,7 @@ inline constexpr std::array<FrontierError, 17> kFrontierErrors{{
     {"missed_share", "missed_percent", "Echoes missed", "%", 100.0,
      [](const RowErrors& d) { return MissedShare(d.reference_echoes); }},
     {"range_median_m", "range_median_mm", "Range error, median", "mm", 1e3,
-     [](const RowErrors& d) { return d.range_m.median; }},
+     [](const RowErrors& d) { return OfEnough(d.reference_echoes.num_matched, d.range_m.median); }},
     {"thin_missed_share", "thin_missed_percent", "Wires missed", "%", 100.0,
      [](const RowErrors& d) { return MissedShare(d.thin); }},
     {"second_missed_share", "second_missed_percent", "Second surfaces missed", "%", 100.0,
@@ -39,17 +46,17 @@ inline constexpr std::array<FrontierError, 17> kFrontierErrors{{
     {"false_share", "false_percent", "False echoes", "%", 100.0,
      [](const RowErrors& d) { return MissedShare(d.echoes); }},
     {"range_p95_m", "range_p95_mm", "Range error, 95 %", "mm", 1e3,
-     [](const RowErrors& d) { return d.range_m.p95; }},
+     [](const RowErrors& d) { return OfEnough(d.reference_echoes.num_matched, d.range_m.p95); }},
     {"intensity_median", "intensity_median_percent", "Intensity error, median", "%", 100.0,
      [](const RowErrors& d) { return d.intensity.median; }},
     {"intensity_p95", "intensity_p95_percent", "Intensity error, 95 %", "%", 100.0,
      [](const RowErrors& d) { return d.intensity.p95; }},
     {"range_p99_m", "range_p99_mm", "Range error, 99 %", "mm", 1e3,
-     [](const RowErrors& d) { return d.range_m.p99; }},
+     [](const RowErrors& d) { return OfEnough(d.reference_echoes.num_matched, d.range_m.p99); }},
     {"step_missed_share", "step_missed_percent", "Steps missed", "%", 100.0,
      [](const RowErrors& d) { return MissedShare(d.steps); }},
     {"step_range_median_m", "step_range_median_mm", "Range error at steps, median", "mm", 1e3,
-     [](const RowErrors& d) { return d.step_range_m.median; }},
+     [](const RowErrors& d) { return OfEnough(d.steps.num, d.step_range_m.median); }},
     {"bright_edge_intensity_median", "bright_edge_intensity_median_percent",
      "Intensity error of retroreflectors at edges, median", "%", 100.0,
      [](const RowErrors& d) { return d.bright_edges.median; }},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analysis/frontier/pareto.h"
@@ -87,15 +88,33 @@ TEST(FrontierReport, SaysWhatWasFoundAndWhatTheSceneNeeds) {
   EXPECT_EQ(std::get<Estimate>(found.rows[0][2]).num, 100U);
 }
 
-// A row with 30 of 40 points on persons at 50 to 100 m, 3 of 4 steps, and an error there.
+// A row with 30 of 40 points on persons at 50 to 100 m, 30 of 40 steps, and an error there.
 RowResult RowAtEdges() {
   RowResult row = MadeResult("footprint", RowGroup::kLadder, 4.0, 5);
   row.difference->persons.bins[1] = {40, 30};
-  row.difference->steps = {4, 3};
+  row.difference->steps = {40, 30};
   row.difference->step_range_m = {0.01, 0.1, 0.2};
   row.difference->bright_edges = {0.3, 0.9, 1.0};
   row.difference->range_m = {0.001, 0.01, 0.02};
   return row;
+}
+
+// As of all other figures, fewer than ten are not enough (kMinSamples).
+TEST(FrontierReport, DrawsNoErrorsOfLessThanTenEchoes) {
+  RowResult row = RowAtEdges();
+  row.difference->thin = {9, 6};
+  row.difference->second = {10, 4};
+  row.difference->reference_echoes = {12, 9};
+  const Report report =
+      MakeFrontierReport({}, Circumstances(), Labels(), {row}, "railcast-analyze frontier a.json");
+  std::map<std::string, double> drawn;
+  for (const Chart& chart : report.sections[0].charts) {
+    for (const ChartSeries& series : chart.series) drawn[chart.key] = series.points.at(0).y;
+  }
+  // Neither wires nor the range errors of the nine echoes that are matched.
+  ASSERT_EQ(drawn.size(), 2U);
+  EXPECT_NEAR(drawn.at("missed_percent"), 25.0, 1e-9);
+  EXPECT_NEAR(drawn.at("second_missed_percent"), 60.0, 1e-9);
 }
 
 TEST(FrontierReport, TellsPointsOnPersonsByRange) {
