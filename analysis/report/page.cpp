@@ -3,7 +3,6 @@
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cstdlib>
 #include <kainjow/mustache.hpp>
-#include <numeric>
 #include <set>
 
 #include "analysis/report/cell_text.h"
@@ -62,6 +61,7 @@ data CellData(const Cell& cell, const PageColumn& column, bool is_first) {
   object cell_data = {{"is_wide", column.has_estimates},
                       {"interval", NumberHtml(text.interval)},
                       {"samples", text.samples}};
+  if (HasLongWord(text.value)) cell_data["breaks"] = true;
   if (is_first && !text.is_number) {
     cell_data["row_name"] = text.value;
   } else if (text.is_absent) {
@@ -92,29 +92,18 @@ data GridData(const Table& table,
                  })}};
 }
 
-// A table that is too wide for paper, where it cannot be scrolled, is split into several that begin
-// with the same column; one that is too long is left to its file.
+// A table that is too wide is split into several that begin with the same column; one that is too
+// long for paper is left to its file.
 data TableData(const Table& table, bool is_on_paper) {
   const std::vector<PageColumn> columns = PageColumns(table);
-  std::vector<std::size_t> all(columns.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  const std::vector<std::vector<std::size_t>> blocks = PaperBlocks(table);
-  const bool is_split = is_on_paper && blocks.size() > 1;
-  list views = {object{{"class", is_split ? "scroll screen" : "scroll"},
-                       {"is_scrolled", true},
-                       {"grids", list{GridData(table, columns, all)}}}};
-  if (is_split) {
-    const auto grid_of = [&](const auto& block) { return GridData(table, columns, block); };
-    views.push_back(
-        object{{"class", "paper"}, {"is_scrolled", false}, {"grids", ListOf(blocks, grid_of)}});
-  }
+  const auto grid_of = [&](const auto& block) { return GridData(table, columns, block); };
   return object{
       {"title", table.title},
       {"note", IfAny(table.note)},
       {"is_open", table.is_open},
       {"left_to", IfAny(is_on_paper ? "" : Joined({"csv/", table.key, ".csv"}))},
       {"num_rows", CountText(table.rows.size()) + (table.rows.size() == 1 ? " row" : " rows")},
-      {"views", views}};
+      {"grids", ListOf(TableBlocks(table), grid_of)}};
 }
 
 data HeadlineData(const Headline& headline) {

@@ -18,9 +18,12 @@ struct PageColumn {
 
 [[nodiscard]] std::vector<PageColumn> PageColumns(const Table& table);
 
-/// The columns of a table that fit beside each other on paper: one block if all do, else several
-/// that begin with the first column.
-[[nodiscard]] std::vector<std::vector<std::size_t>> PaperBlocks(const Table& table);
+/// Whether a text has a word, such as a path, that is broken where its column is narrow.
+[[nodiscard]] bool HasLongWord(const std::string& text);
+
+/// The columns of a table that fit beside each other: one block if all do, else several that begin
+/// with the first column. A table longer than a page of paper is one block, which is scrolled.
+[[nodiscard]] std::vector<std::vector<std::size_t>> TableBlocks(const Table& table);
 
 /// Keys of the tables that are printed, so that the report has about ten pages of A4 at most: open
 /// ones before folded ones, in their order, as long as there is room. A table that would take more

@@ -1,5 +1,6 @@
 #include "analysis/dossier/dossier_report.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "analysis/report/processor.h"
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"
+#include "tests/analysis/report/browser.h"
 #include "tests/analysis/study/study_project.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/run_command.h"
@@ -151,20 +153,24 @@ TEST_F(DossierOfAStudy, BeginsWithTheQuestionAndAnswersOrOpensEachOfTheRules) {
   }
 }
 
-TEST_F(DossierOfAStudy, IsPrintedOnAtMostTwentyPages) {
+TEST_F(DossierOfAStudy, IsWrittenWholeAndOnAtMostTwentyPages) {
   if (RunCommand("command -v weasyprint").status != 0) GTEST_SKIP() << "weasyprint is missing";
   const std::filesystem::path out = directory_->path() / "dossier";
   const Ended ended = RunCommand("SOURCE_DATE_EPOCH=1700000000 " RAILCAST_ANALYZE " dossier " +
                                  study_->directory.string() + " --out " + out.string());
   ASSERT_EQ(ended.status, 0) << ended.said;
-  EXPECT_TRUE(ReadFileWhole(out / "dossier.pdf").starts_with("%PDF-"));
-  const Ended info = RunCommand("pdfinfo " + (out / "dossier.pdf").string());
-  ASSERT_EQ(info.status, 0) << info.said;
-  const int num_pages = std::stoi(info.said.substr(info.said.find("Pages:") + 6));
-  EXPECT_GE(num_pages, 3);
-  EXPECT_LE(num_pages, 20);
+  ExpectFitsOnPaper(out / "dossier.pdf", 20, 14.0);
   const auto json = nlohmann::json::parse(ReadFileWhole(out / "dossier.json"));
-  EXPECT_TRUE(json.is_object());
+  EXPECT_EQ(json.at("title"), "Seen?");
+  std::vector<std::string> keys;
+  for (const auto& section : json.at("sections")) keys.push_back(section.at("key"));
+  EXPECT_THAT(keys, testing::ElementsAre("verdict", "scope", "model", "sensor", "limits", "factors",
+                                         "conditions", "yardsticks", "credibility", "traceability",
+                                         "signatures"));
+  if (!IsInstalled("chromium")) return;
+  const auto none = nlohmann::json::array();
+  EXPECT_EQ(OverflowOf(out / "report.html"),
+            (nlohmann::json{{"390", none}, {"1300", none}, {"703", none}}));
 }
 
 }  // namespace

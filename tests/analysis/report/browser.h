@@ -86,25 +86,66 @@ document.getElementById("probe").textContent = "PROBE" + JSON.stringify({
 /// Options of a dark scheme; light is the default.
 inline constexpr const char* kDarkScheme = " --blink-settings=preferredColorScheme=0 ";
 
-/// A copy of the page with the probe in it, beside it.
-inline std::filesystem::path WithProbe(const std::filesystem::path& page) {
+/// A page with a script in it, without the policy that forbids it.
+inline std::string WithScript(const std::filesystem::path& page, const std::string& script) {
   std::string text = ReadFileWhole(page);
   const std::size_t policy = text.find("<meta http-equiv");
   text.erase(policy, text.find('>', policy) + 1 - policy);
-  text.replace(text.find("</body>"), 7, kProbe);
-  const auto copy = page.parent_path() / "probe.html";
-  WriteFileWhole(copy, text);
-  return copy;
+  return text.replace(text.find("</body>"), 7, script);
 }
 
-/// Result of the probe in a window whose size the options give.
-inline nlohmann::json Probe(const std::string& options, const std::filesystem::path& page) {
-  const Ended dumped = Browse("--dump-dom " + options, WithProbe(page));
+/// What a script of a page writes between two words PROBE.
+inline nlohmann::json ProbeOf(const std::string& options, const std::filesystem::path& page) {
+  const Ended dumped = Browse("--dump-dom " + options, page);
   const std::size_t begin = dumped.said.find("PROBE{");
   const std::size_t end = dumped.said.find("}PROBE", begin);
   EXPECT_NE(end, std::string::npos) << dumped.said;
   if (end == std::string::npos) return {};
   return nlohmann::json::parse(dumped.said.substr(begin + 5, end - begin - 4));
+}
+
+/// Result of the probe in a window whose size the options give.
+inline nlohmann::json Probe(const std::string& options, const std::filesystem::path& page) {
+  const auto copy = page.parent_path() / "probe.html";
+  WriteFileWhole(copy, WithScript(page, kProbe));
+  return ProbeOf(options, copy);
+}
+
+/// A script that tells the window around its own what lies beyond its place with all tables
+/// unfolded: beyond the window and, unless the window is that of a phone or the table is too long
+/// for paper, beyond the card that scrolls it.
+inline constexpr const char* kOverflowProbe = R"(<script>
+document.querySelectorAll("details").forEach(d => d.open = true);
+const isPhone = innerWidth < 500, isPaper = innerWidth === 703;
+const all = [...document.body.querySelectorAll("*")];
+const told = e => e.tagName + " " + e.className + ": " + e.textContent.trim().slice(0, 60);
+const wide = all.filter(e => (isPaper || !e.closest(".scroll, .drawing")) && e.getBoundingClientRect().right > innerWidth + 1);
+const scrolled = isPhone || isPaper ? [] : all.filter(e =>
+  e.matches(".scroll, .drawing") && !e.closest("details.screen") && e.scrollWidth > e.clientWidth + 1);
+parent.postMessage({[innerWidth]: wide.concat(scrolled).map(told)}, "*");
+</script></body>)";
+
+/// What lies beyond its place on a phone, on a screen of 1300 pixels, and on paper of A4 between
+/// the page's margins, by the width of the window in pixels. A window of Chromium itself has at
+/// least 500.
+inline nlohmann::json OverflowOf(const std::filesystem::path& page) {
+  const auto folder = page.parent_path();
+  const std::string on_screen = WithScript(page, kOverflowProbe);
+  WriteFileWhole(folder / "on_screen.html", on_screen);
+  std::string on_paper = on_screen;
+  on_paper.replace(on_paper.find("@media print"), 12, "@media all");
+  WriteFileWhole(folder / "on_paper.html", on_paper);
+  WriteFileWhole(folder / "windows.html", R"(<pre id="probe"></pre><script>
+const found = {};
+onmessage = m => {
+  Object.assign(found, m.data);
+  if (Object.keys(found).length === 3) document.getElementById("probe").textContent = "PROBE" + JSON.stringify(found) + "PROBE";
+};
+</script>
+<iframe width="390" height="844" frameborder="0" src="on_screen.html"></iframe>
+<iframe width="1300" height="900" frameborder="0" src="on_screen.html"></iframe>
+<iframe width="703" height="1000" frameborder="0" src="on_paper.html"></iframe>)");
+  return ProbeOf("--virtual-time-budget=10000", folder / "windows.html");
 }
 
 /// Contrast of the brightest with the darkest pixel in a box of left, top, right and bottom (Web
@@ -154,19 +195,22 @@ inline std::filesystem::path Printed(const std::filesystem::path& page) {
   return pdf;
 }
 
-/// Expects at most ten printed pages and no word beyond their edges.
-inline void ExpectFitsOnPaper(const std::filesystem::path& page) {
-  const auto pdf = Printed(page);
+/// Expects at most so many printed pages and no word in their margins.
+inline void ExpectFitsOnPaper(const std::filesystem::path& pdf,
+                              std::ptrdiff_t max_pages,
+                              double margin_mm) {
   const std::string words = RunCommand("pdftotext -bbox '" + pdf.string() + "' -").said;
   const std::regex page_form("<page width=\"([0-9.]+)\"");
   const std::regex word_form("<word xMin=\"(-?[0-9.]+)\" yMin=\"[^\"]*\" xMax=\"([0-9.]+)\"");
   std::smatch first;
   ASSERT_TRUE(std::regex_search(words, first, page_form)) << words;
+  const double margin = margin_mm / 25.4 * 72.0 - 1.0;  // Points, rounded down.
   const double width = std::stod(first[1]);
-  EXPECT_LE(std::distance(std::sregex_iterator(words.begin(), words.end(), page_form), {}), 10);
+  EXPECT_LE(std::distance(std::sregex_iterator(words.begin(), words.end(), page_form), {}),
+            max_pages);
   for (std::sregex_iterator word(words.begin(), words.end(), word_form), end; word != end; ++word) {
-    EXPECT_GE(std::stod((*word)[1]), 0.0) << word->str();
-    EXPECT_LE(std::stod((*word)[2]), width) << word->str();
+    EXPECT_GE(std::stod((*word)[1]), margin) << word->str();
+    EXPECT_LE(std::stod((*word)[2]), width - margin) << word->str();
   }
 }
 

@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/io/write_file.h"
+#include "tests/analysis/analyze_program.h"
+
+namespace railcast {
+namespace {
+
+using Json = nlohmann::json;
+
+/// 2,001 frames of a few beams, on the way to a box: more than reports keep of what they list, and
+/// more than any other test has.
+class LongRecording : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder();
+    Json sensor = Json::parse(ReadFileWhole(ScenariosDir() / "sensors" / "vlp16.json"));
+    sensor.erase("version");
+    sensor["scan"]["pattern"]["azimuth_window_deg"] = {359, 1};
+    sensor["mount"] = {{"position_m", {2.2, 0, 2.5}}};
+    const std::string scenarios = ScenariosDir().string();
+    const Json scenario = {
+        {"version", 1},
+        {"fidelity", "geometry"},
+        {"lidar", sensor},
+        {"world",
+         {{"alignment",
+           {{"course",
+             {{"type", "elements"}, {"elements", {{{"type", "straight"}, {"length_m", 500}}}}}}}},
+          {"vegetation", {{"trees_per_hectare", 0}, {"grass", false}}},
+          {"objects",
+           {{{"name", "box"}, {"type", "box"}, {"s_m", 350}, {"h_m", 0}, {"size_m", {2, 2, 3}}}}}}},
+        {"vehicle",
+         {{"start_s_m", 100}, {"motion", {{"profile", {{{"time_s", 0}, {"speed_mps", 1}}}}}}}},
+        {"materials", scenarios + "/materials/railway.json"},
+        {"labels", scenarios + "/labels.json"}};
+    scenario_ = folder_->Write("scenario.json", scenario.dump());
+    here_ = scenario_.parent_path();
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static std::string Made(const std::string& format) {
+    const std::filesystem::path run = here_ / format;
+    const Ended made = RunCommand(RAILCAST_GENERATE " sequence " + scenario_.string() + " --out " +
+                                  run.string() + " --frames 2001 --format " + format);
+    EXPECT_EQ(made.status, 0) << made.said;
+    return run.string();
+  }
+
+  static void ExpectDone(const std::string& command) {
+    const Ended run = Analyze(command);
+    EXPECT_EQ(run.status, 0) << command << ": " << run.said;
+    EXPECT_THAT(run.said, testing::HasSubstr("2001")) << command;
+  }
+
+  inline static TemporaryFolder* folder_ = nullptr;
+  inline static std::filesystem::path scenario_, here_;
+};
+
+TEST_F(LongRecording, IsReadByEveryCommand) {
+  const std::string run = Made("pcd"), bag = Made("mcap");
+  for (const char* const command : {"stats", "detect", "evaluate", "fit"}) {
+    ExpectDone(std::string(command) + " " + run + " --format text");
+  }
+  ExpectDone("compare " + run + " " + bag + " --format text");
+  ExpectDone("verify " + run);
+  ExpectDone("verify " + bag);
+}
+
+TEST_F(LongRecording, IsReadInEveryForm) {
+  const std::string pcd = Made("pcd"), kitti = Made("kitti");
+  const std::filesystem::path capture = here_ / "capture.pcap";
+  const Ended sent = RunCommand(RAILCAST_GENERATE " stream " + scenario_.string() +
+                                " --protocol vlp16 --duration 200.1 --pcap " + capture.string());
+  ASSERT_EQ(sent.status, 0) << sent.said;
+  for (const std::string& source :
+       {pcd + "/frames", Made("ply") + "/frames", kitti, kitti + "/sequences/00/velodyne",
+        Made("mcap") + "/frames.mcap", Made("rosbag2") + "/rosbag2", capture.string()}) {
+    ExpectDone("stats " + source + " --format text");
+  }
+}
+
+}  // namespace
+}  // namespace railcast
