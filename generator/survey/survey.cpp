@@ -36,9 +36,9 @@ void CheckByBeams(const FramesOfSurvey& frames,
   surfels = std::move(kept);
 }
 
-/// The median height of the body's places above the ground below them; nothing where none of them
-/// is above surveyed ground.
-std::optional<double> HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
+/// The median height of the body's places above the ground below them.
+/// @throws InputError if none of them is above surveyed ground.
+double HeightAboveGround_m(const DrivenWay& way, const TilesByCell& tiles) {
   std::vector<double> heights_m;
   for (const Transform& world_from_body : way.world_from_body) {
     const Vector3 place_m = world_from_body.translation();
@@ -47,7 +47,11 @@ std::optional<double> HeightAboveGround_m(const DrivenWay& way, const TilesByCel
     const auto ground_m = GroundHeight_m(found->second, place_m.head<2>());
     if (ground_m) heights_m.push_back(place_m.z() - *ground_m);
   }
-  if (heights_m.empty()) return std::nullopt;
+  if (heights_m.empty()) {
+    throw InputError(
+        "--sensor-height: must be given, since no ground was seen below the sensor's way by which "
+        "to tell the top of rail (got none)");
+  }
   const auto middle = heights_m.begin() + std::ssize(heights_m) / 2;
   std::nth_element(heights_m.begin(), middle, heights_m.end());
   return *middle;
@@ -91,9 +95,9 @@ Survey MakeSurvey(const FramesOfSurvey& frames,
   }
   survey.labels = labels.names();
   TilesByCell tiles = TilesOf(surfels);
-  if (!survey.is_way_of_vehicle) {
+  if (!survey.is_way_of_vehicle && !survey.way.world_from_body.empty()) {
     survey.way.above_rail_m =
-        options.sensor_height_m.value_or(HeightAboveGround_m(survey.way, tiles).value_or(0.0));
+        options.sensor_height_m ? *options.sensor_height_m : HeightAboveGround_m(survey.way, tiles);
   }
   const std::vector<FoundWire> wires = TakeWires(survey.way, surfels);
   tiles = TilesOf(surfels);

@@ -45,7 +45,8 @@ using FramesOfSurvey = std::function<void(const std::function<void(const SurveyF
 
 /// Makes a survey of frames.
 /// @param labels Those of the frames, complete once they were visited.
-/// @throws InputError as the frames' reader does, or if no surface was found.
+/// @throws InputError as the frames' reader does, if no surface was found, or if nothing tells the
+///   sensor's height above top of rail.
 [[nodiscard]] Survey MakeSurvey(const FramesOfSurvey& frames,
                                 const SurveyLabels& labels,
                                 const SurveyOptions& options);

@@ -158,7 +158,8 @@ void AddSurvey(CLI::App& app, ProgramCommand& command) {
   survey
       ->add_option("--sensor-height", options->made.sensor_height_m,
                    "Height of the sensor above top of rail, in m; default: that of the mount in "
-                   "railcast's own recordings, else above the ground below the way")
+                   "railcast's own recordings, else above the ground below the way, which must have been "
+                   "seen")
       ->check(Number({-100.0, 100.0}));
   survey->callback([&command, options] {
     command = [options](const std::string& /*all*/) { return RunSurvey(*options); };

@@ -38,7 +38,9 @@ std::vector<SurveyFrame> WholeTurns(const std::filesystem::path& file) {
 }
 
 Survey SurveyOf(const std::vector<SurveyFrame>& turns) {
-  return MakeSurvey([&](const auto& visit) { std::ranges::for_each(turns, visit); }, {}, {});
+  SurveyOptions options;
+  options.sensor_height_m = 0.0;  // Only a line would need it.
+  return MakeSurvey([&](const auto& visit) { std::ranges::for_each(turns, visit); }, {}, options);
 }
 
 /// The surfels of a survey as one mesh, around the sensor.

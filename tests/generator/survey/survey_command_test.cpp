@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "core/base/input_file.h"
@@ -65,13 +66,18 @@ TEST(SurveyCommand, SaysThatPosesAreMissing) {
       << ended.said;
 }
 
-/// Two clouds of the same square of ground 2 m below the sensor, and a file of poses.
-std::string WriteGroundSeenTwice(const std::filesystem::path& folder, const std::string& poses) {
+constexpr const char* kTwoPoses = "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n";
+
+/// Two clouds of the same square of ground 2 m below the sensor, from so far ahead of it on, and a
+/// file of poses.
+std::string WriteGroundSeenTwice(const std::filesystem::path& folder,
+                                 const std::string& poses,
+                                 double ahead_m = -1.0) {
   std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\n"
       "property float y\nproperty float z\nend_header\n";
   for (int i = 0; i < 400; ++i) {
-    ply += NumberText(1.0 + 0.1 * (i % 20)) + " " + NumberText(0.1 * (i / 20)) + " -2\n";
+    ply += NumberText(ahead_m + 0.1 * (i % 20)) + " " + NumberText(0.1 * (i / 20)) + " -2\n";
   }
   create_directory(folder / "clouds");
   WriteFileWhole(folder / "clouds" / "0.ply", ply);
@@ -83,37 +89,57 @@ std::string WriteGroundSeenTwice(const std::filesystem::path& folder, const std:
 
 TEST(SurveyCommand, TakesPosesOfAFile) {
   const TemporaryDirectory directory;
-  const Ended ended = Generate(WriteGroundSeenTwice(
-      directory.path(), "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n"));
+  const Ended ended = Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses));
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_TRUE(exists(directory.path() / "out" / "world.json"));
   const SurveyFile file(directory.path() / "out" / "scene.survey");
   EXPECT_EQ(file.num_surfels(), 800U);
-  for (const double x_m : {102.0, 106.0}) {
+  for (const double x_m : {100.0, 104.0}) {
     const Eigen::Vector2d place_m(x_m, 21.0);
     for (const SurveyTile& tile : file.tiles()) {
       if (tile.cell != SurveyCellAt(place_m)) continue;
       EXPECT_NEAR(GroundHeight_m(tile, place_m).value(), 5.0, 1e-3);
     }
   }
+  EXPECT_THAT(ended.said, testing::HasSubstr("top of rail is taken to be 2 m below the sensor"));
 }
 
-TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
+TEST(SurveyCommand, AsksForTheSensorsHeightWhereNoGroundWasSeenBelowTheWay) {
   const TemporaryDirectory directory;
-  const std::string poses = "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n";
-  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), poses)).status, 0);
+  // Without a place below which there is ground: 1 m ahead is more than a cell of 0.5 m.
+  const std::string command = WriteGroundSeenTwice(directory.path(), kTwoPoses, 1.0);
+  const Ended asked = Generate(command);
+  EXPECT_EQ(asked.status, 1);
+  EXPECT_EQ(asked.said,
+            "--sensor-height: must be given, since no ground was seen below the sensor's way by "
+            "which to tell the top of rail (got none)\n");
+  EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
+  const Ended told = Generate(command + " --sensor-height 1.5");
+  EXPECT_EQ(told.status, 0) << told.said;
+  EXPECT_THAT(told.said, testing::HasSubstr("top of rail is taken to be 1.5 m below the sensor"));
+}
+
+/// Makes one frame of a scenario of the folder as the sequence `name`.
+Ended MakeSequence(const std::filesystem::path& folder,
+                   const std::string& scenario,
+                   const std::string& name) {
   const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
-  WriteFileWhole(directory.path() / "site.json",
+  WriteFileWhole(folder / "site.json",
                  R"({"version": 1, "lidar": {"file": ")" + scenarios +
                      R"(sensors/vlp16.json"}, "world": "out/world.json", "vehicle": )" +
                      R"({"start_s_m": 60}, "materials": ")" + scenarios +
                      R"(materials/railway.json", "labels": ")" + scenarios + R"(labels.json"})");
+  return Generate("sequence " + (folder / scenario).string() + " --frames 1 --out " +
+                  (folder / name).string() + " 2>&1");
+}
+
+TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
   const auto make = [&](const std::string& scenario, const std::string& name) {
-    const auto run = directory.path() / name;
-    const Ended ended = Generate("sequence " + (directory.path() / scenario).string() +
-                                 " --frames 1 --out " + run.string() + " 2>&1");
+    const Ended ended = MakeSequence(directory.path(), scenario, name);
     EXPECT_EQ(ended.status, 0) << ended.said;
-    return run;
+    return directory.path() / name;
   };
   const auto first = make("site.json", "first");
   std::filesystem::remove_all(directory.path() / "out");
