@@ -13,6 +13,7 @@
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/insertion_verification.h"
 #include "core/io/verify/scenario_verification.h"
+#include "core/io/verify/survey_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
 
@@ -47,6 +48,7 @@ int RunVerify(const std::filesystem::path& directory) {
   return Report(directory, [&](const auto& show) {
     if (IsDataset(directory)) return VerifyDataset(directory, show);
     if (IsInsertion(directory)) return VerifyInsertion(directory, show);
+    if (IsSurvey(directory)) return VerifySurvey(directory);
     return VerifySequence(directory, show);
   });
 }
@@ -68,14 +70,14 @@ int RunVerifyAll(const std::filesystem::path& directory) {
 
 void AddVerify(CLI::App& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
-  CLI::App* verify = app.add_subcommand(
-      "verify",
-      "Check that a sequence directory, a data set or a recording with insertions is as it was "
-      "written: one line per fault");
+  CLI::App* verify = app.add_subcommand("verify",
+                                        "Check that a sequence directory, a data set, a survey or "
+                                        "a recording with insertions is as it "
+                                        "was written: one line per fault");
   verify
       ->add_option(
           "DIR", *directory,
-          "Directory that railcast-generate sequence, dataset or insert made, any --format")
+          "Directory that railcast-generate sequence, dataset, survey or insert made, any --format")
       ->required()
       ->check(NonEmpty());
   verify->callback([&command, directory] {

@@ -1,13 +1,19 @@
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/recording_kinds.h"
+#include "core/io/run/survey_record.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "core/program/version.h"
 #include "core/scenario/describe_alignment.h"
 #include "core/scenario/json_writer.h"
 #include "generator/commands.h"
@@ -16,9 +22,6 @@
 
 namespace railcast {
 namespace {
-
-constexpr const char* kSceneFile = "scene.survey";
-constexpr const char* kWorldFile = "world.json";
 
 struct SurveyCommandOptions {
   SurveySource source;
@@ -30,7 +33,7 @@ std::string WorldText(const AlignmentSpec& axis) {
   AlignmentSpec alignment = axis;
   alignment.attribution = "The way of the surveying vehicle, by railcast-generate survey.";
   const Json world = {
-      {"version", 1}, {"alignment", JsonWriter::WriteShort(alignment)}, {"survey", kSceneFile}};
+      {"version", 1}, {"alignment", JsonWriter::WriteShort(alignment)}, {"survey", kSurveyFile}};
   return world.dump(2) + "\n";
 }
 
@@ -50,6 +53,88 @@ std::string SurveyReport(const Survey& survey, std::size_t num_bytes) {
          line(survey.num_wires, "wires") + line(num_bytes, "bytes");
 }
 
+/// The name of a recording, and a hash over the names and the bytes of all of its files.
+Json ContentOf(const std::filesystem::path& source) {
+  const auto capture = FindCapture(source);
+  const auto bag = FindBag(source);
+  const std::filesystem::path recording = capture ? capture->file : bag ? bag->bag : source;
+  std::map<std::string, FileHash> files;
+  if (!is_directory(recording)) {
+    files[recording.filename().string()] = HashFile(recording);
+  } else {
+    ForEachFileBelow(recording, recording, {}, [&](const std::string& name) {
+      if (is_regular_file(recording / name)) files[name] = HashFile(recording / name);
+    });
+  }
+  if (capture && !capture->beside.file.empty()) {
+    files[capture->beside.file.filename().string()] = HashFile(capture->beside.file);
+  }
+  std::string text;
+  std::uint64_t num_bytes = 0;
+  for (const auto& [name, file] : files) {
+    text += name + '\n' + file.hash + '\n';
+    num_bytes += file.num_bytes;
+  }
+  return {{"name", source.filename().string()},
+          {"files", files.size()},
+          {"bytes", num_bytes},
+          {"xxh3", ContentHash(text)}};
+}
+
+/// The line of the survey's record.
+std::string RecordText(const SurveyCommandOptions& options,
+                       const Survey& survey,
+                       const Json& files_xxh3) {
+  const auto& [source, made, out] = options;
+  Json record = {{"railcast_survey", 1},
+                 {"version", ProgramVersion()},
+                 {"made_of", Json::array()},
+                 {"start_frame", source.first_frame},
+                 {"stride", source.stride},
+                 {"num_frames", survey.num_frames},
+                 {"range_m", source.range_max_m},
+                 {"voxel_m", made.voxel_m},
+                 {"max_gap_m", made.surfels.max_gap_m},
+                 {"surfel_size", made.surfels.size_factor},
+                 {"keep_moving", made.keeps_moving},
+                 {"standing", source.is_standing},
+                 {"world_axes", source.is_in_world}};
+  for (const auto& recording : source.recordings) record["made_of"].push_back(ContentOf(recording));
+  if (!source.poses.empty()) record["poses"] = ContentOf(source.poses);
+  if (source.white_intensity) record["white"] = *source.white_intensity;
+  if (!survey.is_way_of_vehicle && !survey.way.world_from_body.empty()) {
+    record["sensor_height_m"] = survey.way.above_rail_m;
+  }
+  record["files_xxh3"] = files_xxh3;
+  return WithLineHash(record.dump()) + "\n";
+}
+
+/// Writes the line along the vehicle's way and says where it is; returns the file's text, empty
+/// where there is no such line.
+std::string WriteWorld(const SurveyCommandOptions& options, const Survey& survey) {
+  if (survey.way.world_from_body.empty()) {
+    std::cout << "no way of a vehicle is known: name an alignment beside \"survey\"\n";
+    return "";
+  }
+  if (!survey.is_way_of_vehicle) {
+    std::cout << "top of rail is taken to be " << ShortText(survey.way.above_rail_m)
+              << " m below the sensor\n";
+  }
+  const auto axis = AxisAlong(survey.way, options.source.range_max_m);
+  if (!axis) {
+    std::cout << "the way turns back, or the recordings are not named in the order of their way: "
+                 "name an alignment beside \"survey\"\n";
+    return "";
+  }
+  const std::filesystem::path file = options.out / kSurveyWorldFile;
+  const std::string text = WorldText(*axis);
+  WriteFileWhole(file, text);
+  std::cout << "the line begins " << ShortText(options.source.range_max_m)
+            << " m before the first frame's place and is " << ShortText(Alignment(*axis).length_m())
+            << " m long: " << ShownPath(file) << "\n";
+  return text;
+}
+
 int RunSurvey(const SurveyCommandOptions& options) {
   MakeEmptyFolder(options.out);
   SurveyLabels labels;
@@ -64,26 +149,12 @@ int RunSurvey(const SurveyCommandOptions& options) {
   const Survey survey = MakeSurvey(frames, labels, options.made);
   progress.End();
   const std::string bytes = EncodeSurvey(survey.labels, survey.tiles);
-  WriteFileWhole(options.out / kSceneFile, bytes);
+  WriteFileWhole(options.out / kSurveyFile, bytes);
   std::cout << SurveyReport(survey, bytes.size());
-  if (survey.way.world_from_body.empty()) {
-    std::cout << "no way of a vehicle is known: name an alignment beside \"survey\"\n";
-    return kExitSuccess;
-  }
-  if (!survey.is_way_of_vehicle) {
-    std::cout << "top of rail is taken to be " << ShortText(survey.way.above_rail_m)
-              << " m below the sensor\n";
-  }
-  const auto axis = AxisAlong(survey.way, options.source.range_max_m);
-  if (!axis) {
-    std::cout << "the way turns back, or the recordings are not named in the order of their way: "
-                 "name an alignment beside \"survey\"\n";
-    return kExitSuccess;
-  }
-  WriteFileWhole(options.out / kWorldFile, WorldText(*axis));
-  std::cout << "the line begins " << ShortText(options.source.range_max_m)
-            << " m before the first frame's place and is " << ShortText(Alignment(*axis).length_m())
-            << " m long: " << ShownPath(options.out / kWorldFile) << "\n";
+  Json files_xxh3 = {{kSurveyFile, ContentHash(bytes)}};
+  const std::string world = WriteWorld(options, survey);
+  if (!world.empty()) files_xxh3[kSurveyWorldFile] = ContentHash(world);
+  WriteFileWhole(options.out / kSurveyRecordFile, RecordText(options, survey, files_xxh3));
   return kExitSuccess;
 }
 
@@ -156,10 +227,11 @@ void AddSurvey(CLI::App& app, ProgramCommand& command) {
   survey->add_flag("--keep-moving", options->made.keeps_moving,
                    "Leave in what other frames' beams have passed through");
   survey
-      ->add_option("--sensor-height", options->made.sensor_height_m,
-                   "Height of the sensor above top of rail, in m; default: that of the mount in "
-                   "railcast's own recordings, else above the ground below the way, which must have been "
-                   "seen")
+      ->add_option(
+          "--sensor-height", options->made.sensor_height_m,
+          "Height of the sensor above top of rail, in m; default: that of the mount in "
+          "railcast's own recordings, else above the ground below the way, which must have been "
+          "seen")
       ->check(Number({-100.0, 100.0}));
   survey->callback([&command, options] {
     command = [options](const std::string& /*all*/) { return RunSurvey(*options); };

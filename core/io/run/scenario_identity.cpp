@@ -11,6 +11,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/survey_record.h"
 #include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"
 #include "railcast/scenario.h"
@@ -59,7 +60,10 @@ class FileNaming {
     Rename(scenario.lidar);
     for (LidarSpec& lidar : scenario.lidars) Rename(lidar);
     if (auto& elevation = scenario.world.terrain.elevation) Rename(elevation->file);
-    if (scenario.world.survey) Rename(*scenario.world.survey);
+    if (auto& survey = scenario.world.survey) {
+      CheckSurveyFile(*survey, HashFile(*survey).hash);
+      Rename(*survey);
+    }
     if (auto& recording = scenario.world.recording; recording && recording->poses_file) {
       Rename(*recording->poses_file);
     }

@@ -38,7 +38,7 @@ struct ScenarioIdentity {
 
 /// Returns a scenario's identity. A scenario read back from a sequence directory has the identity
 /// of the one that the directory was made from.
-/// @throws InputError if a named file cannot be read.
+/// @throws InputError if a named file cannot be read, or a survey is not what its record says.
 [[nodiscard]] ScenarioIdentity IdentityOf(const ScenarioSpec& scenario);
 
 /// Writes a scenario, or a plan, and the files that it names into a folder, which is created.

@@ -6,8 +6,11 @@
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/verify/survey_verification.h"
 #include "core/io/write_file.h"
 #include "core/rail/survey/survey_file.h"
+#include "core/scenario/json_text.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
@@ -147,6 +150,42 @@ TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
   for (const std::string name : {"frames/000000.pcd", "scenario.resolved.json", "manifest.json"}) {
     EXPECT_EQ(ReadFileWhole(again / name), ReadFileWhole(first / name)) << name;
   }
+}
+
+TEST(SurveyCommand, RecordsWhatTheSurveyIsMadeOf) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
+  const auto record = Json::parse(ReadFileWhole(directory.path() / "out" / "survey.json"));
+  const auto& made_of = record.at("made_of").at(0);
+  EXPECT_EQ(made_of.at("name"), "clouds");
+  EXPECT_EQ(made_of.at("files"), 2);
+  const std::string cloud = HashFile(directory.path() / "clouds" / "0.ply").hash;
+  EXPECT_EQ(made_of.at("xxh3"), ContentHash("0.ply\n" + cloud + "\n1.ply\n" + cloud + "\n"));
+  EXPECT_EQ(record.at("poses").at("name"), "poses.txt");
+  EXPECT_EQ(record.at("sensor_height_m"), 2.0);
+}
+
+TEST(SurveyCommand, MakesSurveysOfWhichNoChangedByteGoesUnnoticed) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
+  const auto out = directory.path() / "out";
+  const Verification whole = VerifySurvey(out);
+  EXPECT_THAT(whole.faults, testing::IsEmpty());
+  EXPECT_EQ(whole.num_files, 3U);
+  std::string scene = ReadFileWhole(out / "scene.survey");
+  const std::string hash = ContentHash(scene);
+  scene.back() = static_cast<char>(scene.back() ^ 1);
+  WriteFileWhole(out / "scene.survey", scene);
+  const std::string fault = (out / "scene.survey").string() + ": must have the hash \"" + hash +
+                            "\", as survey.json says (got " + ContentHash(scene) + ")";
+  EXPECT_THAT(VerifySurvey(out).faults, testing::ElementsAre(fault));
+  const Ended refused = MakeSequence(directory.path(), "site.json", "made");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.said, fault + "\n");
+  std::filesystem::remove(out / "survey.json");
+  EXPECT_THAT(VerifySurvey(out).faults,
+              testing::ElementsAre((out / "survey.json").string() +
+                                   ": missing: the survey is unfinished, or of an older program"));
 }
 
 TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
