@@ -1,8 +1,7 @@
 #include "core/scenario/command_log.h"
 
+#include <algorithm>
 #include <fstream>
-#include <optional>
-#include <sstream>
 #include <utility>
 
 #include "core/base/error.h"
@@ -21,48 +20,127 @@ struct Header {
 
 template <class Archive>
 void Describe(Archive& a, Header& s) {
-  a.Required("railcast_commands", s.railcast_commands, "Version of the log.", OneNumberOf({1}));
+  a.Required("railcast_commands", s.railcast_commands, "Version of the log.", OneNumberOf({1, 2}));
   a.Required("scenario_xxh3", s.scenario_xxh3, "The scenario that was run.", NonEmptyString());
 }
 
 // About 100 years.
 constexpr double kMaxTime_ns = 3.2e18;
 
-std::optional<TimedCommand> ReadEntry(JsonSource& source, const Node& root) {
-  auto list = source.PlainMembers(root);
-  if (!list) return std::nullopt;
-  for (const char* key : {"time_ns", "command"}) {
-    if (!root.json->contains(key)) source.Missing(root, key);
-  }
-  for (const Member& member : list->members) {
-    if (member.key == "time_ns" || member.key == "command") continue;
-    source.FaultWithoutValue(member.value, Unknown("key", member.key, {"time_ns", "command"}));
-  }
-  if (!source.errors().empty()) return std::nullopt;
-  std::uint64_t time_ns = 0;
-  ReadValue(source, root.Child("time_ns"), time_ns, Limits{.at_most = kMaxTime_ns});
-  CommandTag tag;
-  auto command = ReadCommandObject(source, root.Child("command"), tag);
-  if (!command || !source.errors().empty()) return std::nullopt;
-  return TimedCommand{static_cast<std::int64_t>(time_ns), std::move(*command)};
+/// Reads the count of the commands up to a line.
+void ReadCount(JsonSource& source, const Node& node, std::size_t count) {
+  std::uint64_t got = 0;
+  ReadValue(source, node, got, Limits{});
+  if (!source.errors().empty() || got == count) return;
+  source.Fault(node, "must be " + std::to_string(count) +
+                         ", the count of the commands up to here: lines are missing or were added");
 }
+
+/// What the lines of a log have said so far.
+class LogLines {
+ public:
+  void Read(JsonSource& source, const Node& root) {
+    if (version_ == 0) {
+      ReadHeader(source, root);
+    } else if (is_ended_) {
+      source.FaultWithoutValue(root, "must not come after the log's end");
+    } else if (version_ > 1 && root.json->is_object() && root.json->contains("num_commands") &&
+               root.json->size() == 1) {
+      is_ended_ = true;
+      ReadCount(source, root.Child("num_commands"), num_lines_);
+    } else {
+      ++num_lines_;
+      ReadEntry(source, root);
+    }
+  }
+
+  CommandLog Take(const std::string& shown) {
+    if (version_ == 0) throw InputError(shown + ": is empty");
+    if (version_ > 1 && !is_ended_) {
+      throw InputError(shown + R"(: must end in {"num_commands":)" + std::to_string(num_lines_) +
+                       "}, unless the run was killed or lines are missing");
+    }
+    return std::move(log_);
+  }
+
+ private:
+  void ReadHeader(JsonSource& source, const Node& root) {
+    if (!root.json->is_object() || !root.json->contains("railcast_commands")) {
+      source.FaultWithoutValue(root, R"(must be {"railcast_commands": 2, "scenario_xxh3": ...})");
+      return;
+    }
+    Header header;
+    if (auto list = source.PlainMembers(root)) {
+      ReadMembers(source, root, std::move(*list), header);
+    }
+    version_ = header.railcast_commands;
+    log_.scenario_xxh3 = header.scenario_xxh3;
+  }
+
+  void ReadEntry(JsonSource& source, const Node& root) {
+    auto list = source.PlainMembers(root);
+    if (!list) return;
+    std::vector<std::string> keys = {"time_ns", "command"};
+    if (version_ > 1) keys.insert(keys.begin(), "number");
+    for (const std::string& key : keys) {
+      if (!root.json->contains(key)) source.Missing(root, key);
+    }
+    for (const Member& member : list->members) {
+      if (std::ranges::find(keys, member.key) != keys.end()) continue;
+      source.FaultWithoutValue(member.value, Unknown("key", member.key, keys));
+    }
+    if (!source.errors().empty()) return;
+    if (version_ > 1) ReadCount(source, root.Child("number"), num_lines_);
+    std::uint64_t time_ns = 0;
+    ReadValue(source, root.Child("time_ns"), time_ns, Limits{.at_most = kMaxTime_ns});
+    CommandTag tag;
+    auto command = ReadCommandObject(source, root.Child("command"), tag);
+    if (!command || !source.errors().empty()) return;
+    Add(source, root, {static_cast<std::int64_t>(time_ns), std::move(*command)});
+  }
+
+  void Add(JsonSource& source, const Node& root, TimedCommand command) {
+    auto& commands = log_.commands;
+    if (std::holds_alternative<Reset>(command.command)) {
+      commands.clear();
+    } else if (!commands.empty() && command.time_ns < commands.back().time_ns) {
+      source.Fault(root.Child("time_ns"), "must be at least " +
+                                              std::to_string(commands.back().time_ns) +
+                                              ", that of the command before it");
+    } else if (!std::holds_alternative<Step>(command.command)) {
+      commands.push_back(std::move(command));
+    }
+  }
+
+  CommandLog log_;
+  int version_ = 0;  ///< 0 = the header is yet to come.
+  std::size_t num_lines_ = 0;
+  bool is_ended_ = false;
+};
 
 }  // namespace
 
 std::string CommandLogHeader(const std::string& scenario_xxh3) {
-  return Json{{"railcast_commands", 1}, {"scenario_xxh3", scenario_xxh3}}.dump() + "\n";
+  return Json{{"railcast_commands", 2}, {"scenario_xxh3", scenario_xxh3}}.dump() + "\n";
 }
 
-std::string CommandLogLine(const TimedCommand& command) {
-  if (std::holds_alternative<Step>(command.command)) return "";
-  return Json{{"time_ns", command.time_ns}, {"command", CommandJson(command.command, {})}}.dump() +
+std::string CommandLogLine(const TimedCommand& command, std::size_t number) {
+  return Json{{"number", number},
+              {"time_ns", command.time_ns},
+              {"command", CommandJson(command.command, {})}}
+             .dump() +
          "\n";
+}
+
+std::string CommandLogEnd(std::size_t num_commands) {
+  return Json{{"num_commands", num_commands}}.dump() + "\n";
 }
 
 std::string CommandLogText(const CommandLog& log) {
   std::string text = CommandLogHeader(log.scenario_xxh3);
-  for (const TimedCommand& command : log.commands) text += CommandLogLine(command);
-  return text;
+  std::size_t number = 0;
+  for (const TimedCommand& command : log.commands) text += CommandLogLine(command, ++number);
+  return text + CommandLogEnd(number);
 }
 
 CommandLog ReadCommandLog(const std::filesystem::path& file, const std::vector<ModelSpec>& models) {
@@ -73,44 +151,17 @@ CommandLog ReadCommandLog(const std::filesystem::path& file, const std::vector<M
 CommandLog ParseCommandLog(std::istream& stream,
                            const std::string& shown,
                            const std::vector<ModelSpec>& models) {
-  CommandLog log;
+  LogLines lines;
   std::string line;
-  std::size_t number = 0;
-  while (std::getline(stream, line)) {
-    ++number;
+  for (std::size_t number = 1; std::getline(stream, line); ++number) {
     const std::string place = shown + ": line " + std::to_string(number);
     if (stream.eof()) throw InputError(place + ": must end in a line break");
     JsonSource source;
     source.types().Add(models);
-    const auto root = source.OpenText(line, place);
-    if (root && number == 1 &&
-        !(root->json->is_object() && root->json->contains("railcast_commands"))) {
-      source.FaultWithoutValue(*root, R"(must be {"railcast_commands": 1, "scenario_xxh3": ...})");
-    } else if (root && number == 1) {
-      Header header;
-      if (auto list = source.PlainMembers(*root)) {
-        ReadMembers(source, *root, std::move(*list), header);
-      }
-      log.scenario_xxh3 = header.scenario_xxh3;
-    } else if (root) {
-      auto entry = ReadEntry(source, *root);
-      const bool is_back = entry && !log.commands.empty() &&
-                           entry->time_ns < log.commands.back().time_ns &&
-                           !std::holds_alternative<Reset>(entry->command);
-      if (is_back) {
-        source.Fault(root->Child("time_ns"), "must be at least " +
-                                                 std::to_string(log.commands.back().time_ns) +
-                                                 ", that of the command before it");
-      } else if (entry && std::holds_alternative<Reset>(entry->command)) {
-        log.commands.clear();
-      } else if (entry && !std::holds_alternative<Step>(entry->command)) {
-        log.commands.push_back(std::move(*entry));
-      }
-    }
+    if (const auto root = source.OpenText(line, place)) lines.Read(source, *root);
     source.errors().ThrowIfAny();
   }
-  if (number == 0) throw InputError(shown + ": is empty");
-  return log;
+  return lines.Take(shown);
 }
 
 }  // namespace railcast

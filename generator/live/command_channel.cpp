@@ -256,6 +256,7 @@ void CommandLoop::End(const std::string& reason) {
   step_.reset();
   if (!waiting) waiting = NextOf(0);
   for (; waiting; waiting = NextOf(0)) waiting->source->Refuse(waiting->request, {reason});
+  if (log_) log_->Append(CommandLogEnd(num_logged_));
 }
 
 bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
@@ -276,7 +277,7 @@ bool CommandLoop::Handle(const Waiting& waiting, std::int64_t stamp_ns) {
     source->Refuse(request, {error.what()});
     return false;
   }
-  if (log_) log_->Append(CommandLogLine({time_ns, request.command}));
+  if (log_) log_->Append(CommandLogLine({time_ns, request.command}, ++num_logged_));
   source->Acknowledge(request, time_ns);
   return is_reset;
 }

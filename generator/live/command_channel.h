@@ -114,7 +114,7 @@ class CommandLoop {
                                        const std::function<bool()>& is_stopped);
   /// Answers the step that made these frames.
   void EndFrames(std::int64_t stamp_ns);
-  /// Refuses all waiting commands when the run has ended.
+  /// Refuses all waiting commands when the run has ended, and ends the log.
   void End(const std::string& reason);
 
  private:
@@ -133,6 +133,7 @@ class CommandLoop {
   std::vector<CommandSource*> sources_;
   bool lockstep_;
   std::optional<LineFile> log_;
+  std::size_t num_logged_ = 0;
   std::optional<Waiting> step_;  ///< The step under way.
 };
 
