@@ -7,11 +7,13 @@
 #include "analysis/commands.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/fit_report.h"
+#include "analysis/fit/proof.h"
 #include "analysis/fit/recorded_trials.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
@@ -26,6 +28,7 @@ namespace {
 struct FitOptions {
   std::vector<std::filesystem::path> sources;
   std::string topic;
+  std::optional<std::filesystem::path> scenario;
   std::string rung;  // Empty: the rung of the scenario.
   std::string intensity = "auto";
   std::optional<double> range_at_10_percent_m;
@@ -34,9 +37,9 @@ struct FitOptions {
   ReportOutput output;
 };
 
-bool IsPhysicalRung(const FitOptions& options, const RecordingInfo& info) {
+bool IsPhysicalRung(const FitOptions& options, const std::optional<ScenarioSpec>& scenario) {
   if (!options.rung.empty()) return options.rung == "surface";
-  return !(info.scenario && info.scenario->fidelity == Fidelity::kPlausibility);
+  return !(scenario && scenario->fidelity == Fidelity::kPlausibility);
 }
 
 // Intensities of railcast frames and of captures are reflectances; those of foreign clouds are
@@ -46,17 +49,29 @@ bool HasReflectances(const FitOptions& options, const RecordingInfo& info) {
   return IsSimulated(info) || info.kind.starts_with("capture");
 }
 
-FitSettings SettingsOf(const FitOptions& options, const RecordingInfo& info) {
+// The scenario that is fitted: a sequence's own, or the one that is given for another recording.
+std::optional<ScenarioSpec> ScenarioOf(const FitOptions& options, const RecordingInfo& info) {
+  if (!options.scenario) return IsSimulated(info) ? info.scenario : std::nullopt;
+  if (IsSimulated(info)) {
+    throw InputError("--scenario: must be left out for sequences, which have their own" +
+                     Got(ShownPath(*options.scenario)));
+  }
+  return PickSensor(ReadScenario(*options.scenario), std::nullopt);
+}
+
+FitSettings SettingsOf(const FitOptions& options,
+                       const RecordingInfo& info,
+                       const std::optional<ScenarioSpec>& scenario) {
   FitSettings settings;
-  settings.is_physical = IsPhysicalRung(options, info);
+  settings.is_physical = IsPhysicalRung(options, scenario);
   settings.has_reflectances = HasReflectances(options, info);
   settings.rain_rate_mmph = options.rain_rate_mmph;
   settings.range_at_10_percent_m = options.range_at_10_percent_m;
-  if (info.scenario && !settings.range_at_10_percent_m) {
-    settings.range_at_10_percent_m = info.scenario->lidar.receiver.range_at_10_percent_m;
+  if (scenario && !settings.range_at_10_percent_m) {
+    settings.range_at_10_percent_m = scenario->lidar.receiver.range_at_10_percent_m;
   }
-  settings.snr_at_threshold = info.scenario ? info.scenario->lidar.receiver.snr_at_threshold
-                                            : ReceiverSpec{}.snr_at_threshold;
+  settings.snr_at_threshold =
+      scenario ? scenario->lidar.receiver.snr_at_threshold : ReceiverSpec{}.snr_at_threshold;
   if (options.range_at_10_percent_m && !settings.is_physical) {
     throw InputError(
         "--range-at-10-percent-m: must come with rung surface: noise of rung plausibility does not "
@@ -74,6 +89,29 @@ FitSettings SettingsOf(const FitOptions& options, const RecordingInfo& info) {
   return settings;
 }
 
+/// The planes of the first source, where the scenario can be replayed before them.
+FitProof ProofOf(const std::vector<std::filesystem::path>& sources) {
+  const auto recording = OpenRecording(sources.front());
+  return FitProof(WholeTurns(*recording, FitProof::kMostTurns), ShownPath(sources.front()));
+}
+
+/// Judges what was fitted by the rung that was. A sequence's own scenario need not be one that can
+/// be replayed.
+void Judge(const FitProof& proof,
+           ScenarioSpec scenario,
+           const FitOptions& options,
+           FitResult& result) {
+  if (!proof.has_planes()) return;
+  if (!options.rung.empty()) {
+    scenario.fidelity = options.rung == "surface" ? Fidelity::kSurface : Fidelity::kPlausibility;
+  }
+  try {
+    proof.Judge(std::move(scenario), result);
+  } catch (const InputError&) {
+    if (options.scenario) throw;
+  }
+}
+
 int RunFit(const FitOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const auto sources = WithTopic(options.sources, options.topic);
@@ -83,35 +121,41 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
     infos.push_back(OpenRecording(source)->info());
   }
   const RecordingInfo& info = infos.front();
-  const FitSettings settings = SettingsOf(options, info);
+  const std::optional<ScenarioSpec> scenario = ScenarioOf(options, info);
+  const FitSettings settings = SettingsOf(options, info, scenario);
   const ProgressLine progress;
   RecordedTrials trials = ReadTrials(sources, [&](std::uint64_t num_frames) {
     if (!info.num_frames) return;
     const auto num = static_cast<double>(*info.num_frames * sources.size());
     progress.Show("frames", static_cast<double>(num_frames) / num);
   });
+  std::optional<FitProof> proof;
+  if (scenario) proof = ProofOf(sources);
+  if (options.scenario && proof->has_planes()) trials.losses = proof->Losses();
+  FitResult result = FitModel(trials, settings);
+  if (proof) Judge(*proof, *scenario, options, result);
   progress.End();
-  const FitResult result = FitModel(trials, settings);
 
-  FitReportInput input{{}, info.kind, command_line, info.scenario};
+  FitReportInput input{{}, info.kind, command_line, scenario};
   for (const std::filesystem::path& source : sources) {
     input.sources.push_back(source.string());
   }
   Report report = MakeFitReport(input, trials, settings, result);
   AddProvenance(infos, ProgramVersion(), report);
-  if (!options.output.out.empty()) {
+  if (!options.output.out.empty() && scenario) {
     MakeFolders(options.output.out);
-    WriteFileWhole(options.output.out / "fitted.json", FittedJson(result));
-    if (info.scenario) {
-      WriteFileWhole(options.output.out / "fitted_scenario.json",
-                     ResolvedScenarioJson(FittedScenario(*info.scenario, result)));
-    }
+    const ScenarioSpec fitted = FittedScenario(*scenario, result);
+    WriteFileWhole(options.output.out / "fitted.json", FittedJson(fitted, result));
+    WriteFileWhole(options.output.out / "fitted_scenario.json", ResolvedScenarioJson(fitted));
   }
   EmitReport(report, options.output, "fit");
   return kExitSuccess;
 }
 
 void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
+  fit.add_option("--scenario", options.scenario,
+                 "Scenario with the sensor of a recording that is no sequence, to be fitted: each "
+                 "value is replayed as by preset, worse ones are not written");
   fit.add_option("--rung", options.rung,
                  "Rung whose parameters to fit; default: the scenario's, else surface")
       ->check(Named({"plausibility", "surface"}));

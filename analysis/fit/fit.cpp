@@ -183,6 +183,7 @@ void AddNoiseBins(const std::vector<NoiseTrial>& trials,
 
 void FitNoise(RecordedTrials& trials, const FitSettings& settings, FitResult& result) {
   const ChannelBiases biases = TakeOutChannels(trials);
+  result.is_from_turn_to_turn = TakeChanges(trials);
   const bool knows_signal = settings.has_reflectances && settings.range_at_10_percent_m;
   if (settings.is_physical && knows_signal) {
     std::erase_if(trials.noise, [](const NoiseTrial& trial) { return !(trial.intensity > 0.0F); });

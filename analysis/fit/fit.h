@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -37,6 +38,18 @@ struct FitSettings {
   std::optional<double> rain_rate_mmph;
 };
 
+/// What a replay says of a fitted parameter.
+enum class ReplayVerdict { kNotTold, kBetter, kWorse };
+
+/// The simulated over the recorded value of the figure by which a parameter is judged, without and
+/// with its fitted value.
+struct ParameterProof {
+  std::string figure;  ///< Empty if nothing was replayed.
+  double before = std::numeric_limits<double>::quiet_NaN();
+  double after = std::numeric_limits<double>::quiet_NaN();
+  ReplayVerdict verdict = ReplayVerdict::kNotTold;
+};
+
 /// The estimate of one parameter of a scenario.
 struct FittedParameter {
   std::string place;  ///< Path in a scenario: "lidar/receiver/range_noise_floor_m".
@@ -44,6 +57,12 @@ struct FittedParameter {
   std::string unit;
   Estimate estimate;   ///< Without a value where the data do not identify it.
   std::string remark;  ///< Why there is no value, or what the value rests on; may be empty.
+  ParameterProof proof{};
+
+  /// Whether the value belongs into a scenario.
+  [[nodiscard]] bool is_written() const {
+    return estimate.is_enough() && !place.empty() && proof.verdict != ReplayVerdict::kWorse;
+  }
 };
 
 /// The scatter of the trials at similar ranges.
@@ -59,6 +78,8 @@ struct FitResult {
   std::vector<ChannelBias> channels;
   std::vector<NoiseBin> noise_by_range;
   RandomLoss loss;
+  bool
+      is_from_turn_to_turn{};  ///< Whether the noise is, and not that about pieces (TakeChanges()).
 };
 
 /// 1 / (2 SNR) of each trial. The SNR is known at the data sheet's range; it is proportional to the

@@ -43,33 +43,52 @@ double RoundedParameter(double value) {
                     : std::round(value / unit) * unit;
 }
 
-bool IsWritten(const FittedParameter& parameter) {
-  return parameter.estimate.is_enough() && !parameter.place.empty();
+bool HasPublishedNoise(const FitResult& result) {
+  return std::any_of(
+      result.parameters.begin(), result.parameters.end(), [](const FittedParameter& parameter) {
+        return parameter.place == "lidar/plausibility/noise_sigma0_m" && parameter.is_written();
+      });
 }
 
-bool HasPublishedNoise(const FitResult& result) {
-  return std::any_of(result.parameters.begin(), result.parameters.end(),
-                     [](const FittedParameter& parameter) {
-                       return parameter.place == "lidar/plausibility/noise_sigma0_m" &&
-                              parameter.estimate.is_enough();
-                     });
+std::string ReplayVerdictText(const FittedParameter& parameter) {
+  if (parameter.place.empty() || !parameter.estimate.is_enough()) return "";
+  switch (parameter.proof.verdict) {
+    case ReplayVerdict::kBetter:
+      return "better";
+    case ReplayVerdict::kWorse:
+      return "worse: not written";
+    case ReplayVerdict::kNotTold:
+      break;
+  }
+  return "not told";
 }
 
 Table ParameterTable(const FitReportInput& input, const FitResult& result) {
   Table table{
       "parameters",
       "Parameters",
-      "With 95 % intervals. What the recording does not identify has no value but a reason.",
+      "With 95 % intervals. What the recording does not identify has no value but a reason. With a "
+      "scenario, each value is put into it and the sensor replayed before the recording's planes.",
       {{"parameter", "Parameter", ""},
        {"key", "Key in a scenario", ""},
        {"unit", "Unit", ""},
        {"value", "Value", ""}},
       {}};
-  if (input.scenario) table.columns.push_back({"scenario", "Scenario's own", ""});
+  if (input.scenario) {
+    table.columns.insert(table.columns.end(), {{"scenario", "Scenario's own", ""},
+                                               {"figure", "Replayed, simulated / recorded", ""},
+                                               {"before", "With the scenario's own", ""},
+                                               {"after", "With the fitted", ""},
+                                               {"verdict", "Which is", ""}});
+  }
   table.columns.push_back({"remark", "Remark", ""});
   for (const FittedParameter& parameter : result.parameters) {
     std::vector<Cell> row = {parameter.title, parameter.place, parameter.unit, parameter.estimate};
-    if (input.scenario) row.emplace_back(ScenarioValue(*input.scenario, parameter.place));
+    if (input.scenario) {
+      const ParameterProof& proof = parameter.proof;
+      row.insert(row.end(), {ScenarioValue(*input.scenario, parameter.place), proof.figure,
+                             proof.before, proof.after, ReplayVerdictText(parameter)});
+    }
     row.emplace_back(parameter.remark);
     table.rows.push_back(std::move(row));
   }
@@ -154,7 +173,7 @@ std::vector<Chart> MakeCharts(const RecordedTrials& trials, const FitResult& res
 std::vector<Headline> Headlines(const FitResult& result) {
   std::vector<Headline> headlines;
   for (const FittedParameter& parameter : result.parameters) {
-    if (parameter.place.empty() || !parameter.estimate.is_enough()) continue;
+    if (!parameter.is_written()) continue;
     headlines.push_back({parameter.title, parameter.unit, parameter.estimate});
   }
   return headlines;
@@ -168,20 +187,21 @@ double ScenarioValue(const ScenarioSpec& scenario, const std::string& place) {
   return value == nullptr ? std::numeric_limits<double>::quiet_NaN() : *value;
 }
 
-std::string FittedJson(const FitResult& result) {
+std::string FittedJson(const ScenarioSpec& fitted, const FitResult& result) {
   using Json = nlohmann::ordered_json;
+  const Json whole = Json::parse(ResolvedScenarioJson(fitted));
   Json json = {{"version", 1}};
   for (const FittedParameter& parameter : result.parameters) {
-    if (!IsWritten(parameter)) continue;
-    json[Json::json_pointer("/" + parameter.place)] = RoundedParameter(parameter.estimate.value);
+    if (!parameter.is_written()) continue;
+    const Json::json_pointer place = Json::json_pointer("/" + parameter.place).parent_pointer();
+    json[place] = whole.at(place);
   }
-  if (HasPublishedNoise(result)) json["lidar"]["plausibility"]["noise_shape"] = NameOf(kNoiseShape);
   return json.dump(2) + "\n";
 }
 
 ScenarioSpec FittedScenario(ScenarioSpec scenario, const FitResult& result) {
   for (const FittedParameter& parameter : result.parameters) {
-    if (!IsWritten(parameter)) continue;
+    if (!parameter.is_written()) continue;
     *Find(scenario, parameter.place) = RoundedParameter(parameter.estimate.value);
   }
   if (HasPublishedNoise(result)) scenario.lidar.plausibility.noise_shape = kNoiseShape;
@@ -204,9 +224,14 @@ Report MakeFitReport(const FitReportInput& input,
   Section section{
       "fit",
       Joined({"Rung ", rung}),
-      {"Noise is that of the points about small flat pieces of surface, along the beam; roughness "
-       "counts as noise. Losses are firings without a point between two of their ring that lie on "
-       "one surface. Nothing but the points is used, no truth."},
+      {std::string(
+           result.is_from_turn_to_turn
+               ? "Noise is what changes from turn to turn on small flat pieces of surface, "
+                 "along the beam. "
+               : "Noise is that of the points about small flat pieces of surface, along the "
+                 "beam; roughness counts as noise. ") +
+       "Losses are firings without a point between two of their ring that lie on one surface. "
+       "Nothing but the points is used, no truth."},
       MakeCharts(trials, result),
       {ParameterTable(input, result)}};
   report.sections.push_back(std::move(section));

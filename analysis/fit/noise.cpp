@@ -179,6 +179,21 @@ ChannelBiases TakeOutChannels(RecordedTrials& trials) {
   return result;
 }
 
+bool TakeChanges(RecordedTrials& trials) {
+  constexpr std::size_t kLeast = 500;
+  std::vector<double> residuals_m, changes_m;
+  for (const NoiseTrial& trial : trials.noise) {
+    if (!std::isfinite(trial.change_m)) continue;
+    residuals_m.push_back(static_cast<double>(trial.residual_m));
+    changes_m.push_back(static_cast<double>(trial.change_m));
+  }
+  if (changes_m.size() < kLeast) return false;
+  if (!(PlainRobustScale(changes_m) < PlainRobustScale(residuals_m))) return false;
+  std::erase_if(trials.noise, [](const NoiseTrial& trial) { return std::isnan(trial.change_m); });
+  for (NoiseTrial& trial : trials.noise) trial.residual_m = trial.change_m;
+  return true;
+}
+
 double SignalNoise::At(const NoiseTrial& trial, double inverse_snr) const {
   const double grown_m2 = scale_m.is_enough() ? scale_m.value * scale_m.value * inverse_snr : 0.0;
   const double pointing_m = pointing_rad.value * static_cast<double>(trial.slant_m_per_rad);

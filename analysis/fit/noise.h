@@ -26,6 +26,12 @@ struct ChannelBiases {
 /// residuals stay as they are.
 [[nodiscard]] ChannelBiases TakeOutChannels(RecordedTrials& trials);
 
+/// Takes the changes from frame to frame for the residuals, where they are at least 500 and
+/// smaller: then the sensor stood, and the surfaces' roughness is in the residuals alone. Points
+/// without a change are left out.
+/// @returns Whether it did.
+bool TakeChanges(RecordedTrials& trials);
+
 /// sigma = sigma0 + sigma1 R, both >= 0.
 struct LinearNoise {
   Estimate sigma0_m;

@@ -4,22 +4,81 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "analysis/stats/column_finder.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/plane_patches.h"
+#include "analysis/stats/temporal_noise.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {
 
+/// The frame after the one whose trials are taken, in which its firings are looked for.
+struct NextFrame {
+  const Frame& frame;
+  ColumnFinder columns;
+  double reach_rad{};  ///< Half a column.
+};
+
+std::optional<NextFrame> FindNext(const RecordedFrame& recorded, const RecordedFrame* next) {
+  if (next == nullptr || next->frame.rows != recorded.frame.rows ||
+      next->frame.returns != recorded.frame.returns) {
+    return std::nullopt;
+  }
+  if (recorded.has_pose && next->has_pose && HasMoved(recorded, *next)) return std::nullopt;
+  const auto scan = MakeScanTable(next->frame);
+  if (!scan) return std::nullopt;
+  return NextFrame{next->frame, ColumnFinder(*scan), 0.5 * scan->column_step_rad};
+}
+
+/// Measured less expected range of a point on a piece's plane, and the expected one.
+struct OnPiece {
+  OnPiece(const Frame& frame, std::size_t slot, const FlatPiece& piece)
+      : direction(Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot])
+                      .cast<double>()
+                      .normalized()),
+        cosine(piece.normal.dot(direction)),
+        range_m(piece.normal.dot(piece.middle_m) / cosine),
+        residual_m(static_cast<double>(frame.range_m[slot]) - range_m) {}
+
+  Vector3 direction;
+  double cosine;
+  double range_m;
+  double residual_m;
+};
+
+float ChangeOn_m(const FlatPiece& piece,
+                 std::size_t slot,
+                 double residual_m,
+                 const RecordedFrame& recorded,
+                 const ScanTable& scan,
+                 const NextFrame& next) {
+  const Frame& frame = recorded.frame;
+  const std::size_t row = slot / frame.width();
+  const std::size_t in_row = slot % frame.width();
+  const auto found = next.columns.Nearest(scan.column_azimuth_rad[in_row / frame.returns]);
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  if (!found || !(std::abs(found->offset_rad) <= next.reach_rad)) return kNone;
+  const std::size_t later =
+      row * next.frame.width() + found->column * frame.returns + in_row % frame.returns;
+  const OnPiece at(next.frame, later, piece);
+  return static_cast<float>((at.residual_m - residual_m) / std::numbers::sqrt2);
+}
+
 // Pieces overlap where the frame has few flat places. A point belongs to the first of its pieces,
 // so that none is counted twice and pieces are independent, as the intervals take them to be.
+template <typename Change>
 void TakeNoise(const Frame& frame,
                const FlatPiece& piece,
+               const Change& change_m,
                std::vector<bool>& is_taken,
                RecordedTrials& trials) {
   const auto num = static_cast<double>(piece.slots.size());
@@ -27,18 +86,15 @@ void TakeNoise(const Frame& frame,
   for (const std::size_t slot : piece.slots) {
     if (is_taken[slot]) continue;
     is_taken[slot] = true;
-    const Vector3 direction =
-        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>().normalized();
-    const double cosine = piece.normal.dot(direction);
-    const double range_m = piece.normal.dot(piece.middle_m) / cosine;
-    const double measured_m = static_cast<double>(frame.range_m[slot]);
-    trials.noise.push_back(
-        {.range_m = static_cast<float>(range_m),
-         .slant_m_per_rad = static_cast<float>(range_m * std::sqrt(1.0 / (cosine * cosine) - 1.0)),
-         .residual_m = static_cast<float>(grow * (measured_m - range_m)),
-         .intensity = frame.intensity[slot],
-         .piece = trials.num_pieces,
-         .channel = frame.ring[slot]});
+    const OnPiece at(frame, slot, piece);
+    const double tangent = std::sqrt(1.0 / (at.cosine * at.cosine) - 1.0);
+    trials.noise.push_back({.range_m = static_cast<float>(at.range_m),
+                            .slant_m_per_rad = static_cast<float>(at.range_m * tangent),
+                            .residual_m = static_cast<float>(grow * at.residual_m),
+                            .change_m = change_m(slot, at.residual_m),
+                            .intensity = frame.intensity[slot],
+                            .piece = trials.num_pieces,
+                            .channel = frame.ring[slot]});
   }
   ++trials.num_pieces;
 }
@@ -102,7 +158,7 @@ void RecordedTrials::Add(const RecordedTrials& frame) {
   num_pieces += frame.num_pieces;
 }
 
-RecordedTrials TakeTrials(const RecordedFrame& recorded) {
+RecordedTrials TakeTrials(const RecordedFrame& recorded, const RecordedFrame* next) {
   RecordedTrials trials;
   trials.num_frames = 1;
   std::optional<ScanTable> scan;
@@ -110,9 +166,14 @@ RecordedTrials TakeTrials(const RecordedFrame& recorded) {
     scan = MakeScanTable(recorded.frame);
     TakeLosses(recorded, trials);
   }
+  const auto next_frame = scan ? FindNext(recorded, next) : std::nullopt;
   std::vector<bool> is_taken(recorded.frame.num_slots(), false);
   for (const FlatPiece& piece : FindFlatPieces(recorded, scan ? &*scan : nullptr)) {
-    TakeNoise(recorded.frame, piece, is_taken, trials);
+    const auto change_m = [&](std::size_t slot, double residual_m) {
+      if (!next_frame) return std::numeric_limits<float>::quiet_NaN();
+      return ChangeOn_m(piece, slot, residual_m, recorded, *scan, *next_frame);
+    };
+    TakeNoise(recorded.frame, piece, change_m, is_taken, trials);
   }
   return trials;
 }
@@ -120,12 +181,14 @@ RecordedTrials TakeTrials(const RecordedFrame& recorded) {
 RecordedTrials ReadTrials(const std::vector<std::filesystem::path>& sources,
                           const std::function<void(std::uint64_t num_frames)>& on_progress) {
   using Reader = Recording::FrameReader;
+  using FramePointer = std::shared_ptr<const RecordedFrame>;
   const std::size_t num_at_once =
       std::size_t{2} * std::max(1U, std::thread::hardware_concurrency());
   constexpr std::size_t kMaxPoints = 1'000'000;
   TrialSum sum(kMaxPoints);
   for (const std::filesystem::path& source : sources) {
     const auto recording = OpenRecording(source);
+    FramePointer last;
     const auto next = tbb::make_filter<void, Reader>(tbb::filter_mode::serial_in_order,
                                                      [&](tbb::flow_control& control) -> Reader {
                                                        auto reader = recording->Next();
@@ -133,14 +196,25 @@ RecordedTrials ReadTrials(const std::vector<std::filesystem::path>& sources,
                                                        control.stop();
                                                        return {};
                                                      });
-    const auto take = tbb::make_filter<Reader, RecordedTrials>(
-        tbb::filter_mode::parallel, [](const Reader& reader) { return TakeTrials(reader()); });
-    const auto add = tbb::make_filter<RecordedTrials, void>(tbb::filter_mode::serial_in_order,
-                                                            [&](RecordedTrials frame) {
-                                                              sum.Add(std::move(frame));
-                                                              on_progress(sum.sum().num_frames);
-                                                            });
-    tbb::parallel_pipeline(num_at_once, next & take & add);
+    const auto read = tbb::make_filter<Reader, FramePointer>(
+        tbb::filter_mode::parallel,
+        [](const Reader& reader) { return std::make_shared<const RecordedFrame>(reader()); });
+    const auto pair = tbb::make_filter<FramePointer, std::pair<FramePointer, FramePointer>>(
+        tbb::filter_mode::serial_in_order,
+        [&](const FramePointer& frame) { return std::pair(std::exchange(last, frame), frame); });
+    const auto take = tbb::make_filter<std::pair<FramePointer, FramePointer>, RecordedTrials>(
+        tbb::filter_mode::parallel, [](const std::pair<FramePointer, FramePointer>& frames) {
+          return frames.first ? TakeTrials(*frames.first, frames.second.get()) : RecordedTrials{};
+        });
+    const auto add_trials = [&](RecordedTrials frame) {
+      if (frame.num_frames == 0) return;
+      sum.Add(std::move(frame));
+      on_progress(sum.sum().num_frames);
+    };
+    const auto add =
+        tbb::make_filter<RecordedTrials, void>(tbb::filter_mode::serial_in_order, add_trials);
+    tbb::parallel_pipeline(num_at_once, next & read & pair & take & add);
+    if (last) add_trials(TakeTrials(*last));
   }
   return sum.sum();
 }

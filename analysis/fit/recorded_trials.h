@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -20,6 +21,10 @@ struct NoiseTrial {
   /// residuals are too small; they are multiplied by sqrt(n / (n - 3)),
   /// so that their mean square is that of the noise.
   float residual_m{};
+  /// By how much the distance from the plane differs in the next frame, divided by sqrt(2), so that
+  /// its mean square is that of the noise, without the surface's roughness. NaN where there is no
+  /// such point, or the sensor is known to have moved.
+  float change_m = std::numeric_limits<float>::quiet_NaN();
   float intensity{};      ///< As recorded.
   std::uint32_t piece{};  ///< Points of one piece share its number.
   std::uint16_t channel{};
@@ -67,7 +72,9 @@ class TrialSum {
 };
 
 /// The trials of one frame.
-[[nodiscard]] RecordedTrials TakeTrials(const RecordedFrame& recorded);
+/// @param next The frame after it; null if there is none.
+[[nodiscard]] RecordedTrials TakeTrials(const RecordedFrame& recorded,
+                                        const RecordedFrame* next = nullptr);
 
 /// Reads recordings to their ends, in parallel, and keeps noise trials of at most a million points.
 /// @throws InputError as the recordings do.

@@ -81,19 +81,19 @@ double MedianOfRatios(std::vector<double> values) {
 // A replay of planes that are equally bright everywhere, for the intensities.
 constexpr double kEvenReflectivity = 0.5;
 
-std::map<PlaneCell, double> EvenReflectivities(const PlaneFigures& recorded) {
+std::map<PlaneCell, double> EvenReflectivities(const std::map<PlaneCell, CellPoints>& recorded) {
   std::map<PlaneCell, double> reflectivities;
-  for (const auto& [cell, points] : recorded.intensities) reflectivities[cell] = kEvenReflectivity;
+  for (const auto& [cell, points] : recorded) reflectivities[cell] = kEvenReflectivity;
   return reflectivities;
 }
 
 // Reflectivities with which each cell answers as strongly as it did.
-std::map<PlaneCell, double> LocalReflectivities(const PlaneFigures& recorded,
+std::map<PlaneCell, double> LocalReflectivities(const std::map<PlaneCell, CellPoints>& recorded,
                                                 const PlaneFigures& even) {
   constexpr double kLeast = 0.002;
   constexpr double kMost = 1.0;
   std::map<PlaneCell, double> reflectivities;
-  for (const auto& [cell, points] : recorded.intensities) {
+  for (const auto& [cell, points] : recorded) {
     const auto replayed = even.intensities.find(cell);
     if (replayed == even.intensities.end()) continue;
     const double fitted =
@@ -115,63 +115,28 @@ void AddGaps(const Frame& frame, double dead_length_m, EchoGaps& gaps) {
   }
 }
 
-std::vector<RecordedFrame> WholeTurns(Recording& recording) {
-  constexpr double kWhole = 0.9;
-  std::vector<RecordedFrame> turns;
-  std::uint32_t most = 0;
-  while (const auto read = recording.Next()) {
-    turns.push_back((*read)());
-    most = std::max(most, turns.back().frame.columns);
-  }
-  std::erase_if(turns, [&](const RecordedFrame& turn) {
-    return !turn.is_grid || turn.frame.columns < kWhole * most;
-  });
-  return turns;
-}
-
-/// A turn, and the one after it if there is one.
-struct RecordedTurn {
-  const RecordedFrame& turn;
-  const RecordedFrame* next{};
-  std::uint32_t index{};
-};
-
-void CompareTurn(const RecordedTurn& recorded,
-                 const Replay& replay,
-                 Sectors sectors,
-                 PresetComparison& comparison) {
-  const auto& [turn, next, index] = recorded;
-  const auto scan = MakeScanTable(turn.frame);
-  if (!scan) return;
-  const SeenPlanes seen = FindSeenPlanes(turn.frame, *scan, sectors);
-  if (seen.planes.empty()) return;
-  const RecordedFrame masked = Masked(turn, seen);
-  comparison.recorded.Add(masked, seen, index);
-  if (comparison.recorded.intensities.empty()) return;
+void CompareTurn(const SeenTurns::Turn& turn, const Replay& replay, PresetComparison& comparison) {
   const ScanTable& replay_scan = replay.scan();
   // Frames of their own, so that no two replays draw the same numbers.
   const auto replayed = [&](const std::map<PlaneCell, double>& reflectivities,
                             std::uint32_t which) {
-    return AsRecorded(replay.Scan(seen, reflectivities, 3 * recorded.index + which),
-                      recorded.index);
+    return AsRecorded(replay.Scan(turn.seen, reflectivities, 3 * turn.index + which), turn.index);
+  };
+  const auto planes_of = [&](const RecordedFrame& frame) {
+    return PlanesOfReplay(frame.frame, turn.seen, replay_scan);
   };
   PlaneFigures even;
-  const RecordedFrame bright = replayed(EvenReflectivities(comparison.recorded), 0);
-  even.Add(bright, PlanesOfReplay(bright.frame, seen, replay_scan), index);
-  const auto cells =
-      ComparableCells(comparison.recorded.intensities, even.intensities, seen, index);
+  const RecordedFrame bright = replayed(EvenReflectivities(turn.intensities), 0);
+  even.Add(bright, planes_of(bright), turn.index);
+  const auto cells = ComparableCells(turn.intensities, even.intensities, turn.seen, turn.index);
   comparison.intensity.insert(comparison.intensity.end(), cells.begin(), cells.end());
-  const auto local = LocalReflectivities(comparison.recorded, even);
+  const auto local = LocalReflectivities(turn.intensities, even);
   if (local.empty()) return;
   ++comparison.num_turns;
-  comparison.num_planes += seen.planes.size();
+  comparison.num_planes += turn.seen.planes.size();
   const RecordedFrame first = replayed(local, 1);
-  comparison.simulated.Add(first, PlanesOfReplay(first.frame, seen, replay_scan), index);
+  comparison.simulated.Add(first, planes_of(first), turn.index);
   comparison.simulated.temporal.Add(first, replayed(local, 2), &replay_scan, &replay_scan);
-  if (next == nullptr) return;
-  if (const auto next_scan = MakeScanTable(next->frame)) {
-    comparison.recorded.temporal.Add(masked, *next, &*scan, &*next_scan);
-  }
 }
 
 }  // namespace
@@ -262,28 +227,70 @@ double PresetComparison::HoleRatio() const {
   return simulated.HoleShare() / recorded.HoleShare();
 }
 
-PresetComparison ComparePreset(Recording& recording,
-                               const ScenarioSpec& scenario,
-                               Sectors sectors) {
-  const std::vector<RecordedFrame> turns = WholeTurns(recording);
-  const Replay replay(scenario);
-  const std::string source = ShownPath(recording.info().source);
-  PresetComparison comparison;
-  comparison.gaps.least_m = kNoFigure;
-  const double dead_length_m = DeadLength_m(scenario.lidar.receiver);
+std::vector<RecordedFrame> WholeTurns(Recording& recording, std::size_t most_frames) {
+  constexpr double kWhole = 0.9;
+  std::vector<RecordedFrame> turns;
+  std::uint32_t most = 0;
+  while (turns.size() < most_frames) {
+    const auto read = recording.Next();
+    if (!read) break;
+    turns.push_back((*read)());
+    most = std::max(most, turns.back().frame.columns);
+  }
+  std::erase_if(turns, [&](const RecordedFrame& turn) {
+    return !turn.is_grid || turn.frame.columns < kWhole * most;
+  });
+  return turns;
+}
+
+SeenTurns SeePlanesOf(const std::vector<RecordedFrame>& turns, Sectors sectors) {
+  SeenTurns result;
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    const Frame& frame = turns[i].frame;
-    if (frame.rows != replay.scan().rows) {
-      throw InputError(source + ": must have the " + NumberText(replay.scan().rows) +
-                       " rings of the scenario's sensor (got " + NumberText(frame.rows) + ")");
+    const auto index = static_cast<std::uint32_t>(i);
+    const auto scan = MakeScanTable(turns[i].frame);
+    if (!scan) continue;
+    SeenPlanes seen = FindSeenPlanes(turns[i].frame, *scan, sectors);
+    if (seen.planes.empty()) continue;
+    const RecordedFrame masked = Masked(turns[i], seen);
+    result.recorded.Add(masked, seen, index);
+    if (result.recorded.intensities.empty()) continue;
+    result.turns.push_back(
+        {index, turns[i].frame.rows, std::move(seen), result.recorded.intensities});
+    if (i + 1 == turns.size()) continue;
+    if (const auto next_scan = MakeScanTable(turns[i + 1].frame)) {
+      result.recorded.temporal.Add(masked, turns[i + 1], &*scan, &*next_scan);
     }
-    AddGaps(frame, dead_length_m, comparison.gaps);
-    const RecordedFrame* const next = i + 1 < turns.size() ? &turns[i + 1] : nullptr;
-    CompareTurn({turns[i], next, static_cast<std::uint32_t>(i)}, replay, sectors, comparison);
+  }
+  return result;
+}
+
+PresetComparison CompareTurns(const SeenTurns& turns,
+                              const ScenarioSpec& scenario,
+                              const std::string& source) {
+  const Replay replay(scenario);
+  PresetComparison comparison;
+  comparison.recorded = turns.recorded;
+  for (const SeenTurns::Turn& turn : turns.turns) {
+    if (turn.num_rings != replay.scan().rows) {
+      throw InputError(source + ": must have the " + NumberText(replay.scan().rows) +
+                       " rings of the scenario's sensor (got " + NumberText(turn.num_rings) + ")");
+    }
+    CompareTurn(turn, replay, comparison);
   }
   if (comparison.num_turns == 0) {
     throw InputError(source + ": must hold a turn with planes and intensities up to 1");
   }
+  return comparison;
+}
+
+PresetComparison ComparePreset(Recording& recording,
+                               const ScenarioSpec& scenario,
+                               Sectors sectors) {
+  const std::vector<RecordedFrame> turns = WholeTurns(recording);
+  PresetComparison comparison =
+      CompareTurns(SeePlanesOf(turns, sectors), scenario, ShownPath(recording.info().source));
+  const double dead_length_m = DeadLength_m(scenario.lidar.receiver);
+  for (const RecordedFrame& turn : turns) AddGaps(turn.frame, dead_length_m, comparison.gaps);
   return comparison;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,7 +42,7 @@ struct PlaneFigures {
 /// Ranges between the two returns of a firing.
 struct EchoGaps {
   std::uint64_t num_pairs{};
-  double least_m{};             ///< NaN without pairs.
+  double least_m = std::numeric_limits<double>::quiet_NaN();  ///< NaN without pairs.
   std::uint64_t num_in_dead{};  ///< Nearer to each other than the preset's dead time allows.
 };
 
@@ -70,10 +72,37 @@ struct PresetComparison {
   [[nodiscard]] double HoleRatio() const;
 };
 
-/// Compares the whole turns of a recording (those of at least 0.9 of the most columns) with what
-/// the scenario's sensor would have measured on the planes that they show.
-/// @throws InputError if the sensor has another number of rings than the recording, or no turn
+/// The turns of a recording that are whole: those of at least 0.9 of the most columns.
+/// @param most_frames Frames that are read at most.
+[[nodiscard]] std::vector<RecordedFrame> WholeTurns(
+    Recording& recording, std::size_t most_frames = std::numeric_limits<std::size_t>::max());
+
+/// What the turns of a recording show on their planes, to be compared with several scenarios.
+struct SeenTurns {
+  struct Turn {
+    std::uint32_t index{};
+    std::uint32_t num_rings{};
+    SeenPlanes seen;
+    std::map<PlaneCell, CellPoints> intensities;
+  };
+  std::vector<Turn> turns;  ///< Those with planes and intensities up to 1.
+  PlaneFigures recorded;
+};
+
+[[nodiscard]] SeenTurns SeePlanesOf(const std::vector<RecordedFrame>& turns,
+                                    Sectors sectors = Sectors::kAll);
+
+/// Compares turns with what the scenario's sensor would have measured on their planes. Pairs of
+/// returns are left out.
+/// @param source Names the recording in messages.
+/// @throws InputError if the sensor has another number of rings than the turns, or none of them
 ///   shows a plane.
+[[nodiscard]] PresetComparison CompareTurns(const SeenTurns& turns,
+                                            const ScenarioSpec& scenario,
+                                            const std::string& source);
+
+/// Compares the whole turns of a recording.
+/// @throws InputError as CompareTurns().
 [[nodiscard]] PresetComparison ComparePreset(Recording& recording,
                                              const ScenarioSpec& scenario,
                                              Sectors sectors = Sectors::kAll);

@@ -10,6 +10,10 @@
 
 namespace railcast {
 
+/// Whether the sensor was elsewhere, or looked elsewhere, in the later frame.
+/// @pre Both have a pose.
+[[nodiscard]] bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later);
+
 /// Range noise from what changes between two frames of a sensor that stands.
 ///
 /// Firings of the same ring with azimuths less than half a column apart are paired, and the range

@@ -249,8 +249,11 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
   RailMap cropped = CropMap(
       map, {Eigen::Vector2d(corners[0], corners[1]), Eigen::Vector2d(corners[2], corners[3])});
   if (cropped.ways.empty()) {
-    throw InputError("--within: must have a track of " + ShownPath(options.map) + " in it (got " +
-                     got + ")");
+    const RailMap exchanged = CropMap(
+        map, {Eigen::Vector2d(corners[1], corners[0]), Eigen::Vector2d(corners[3], corners[2])});
+    throw InputError("--within: must have a track of " + ShownPath(options.map) + " in it" +
+                     (exchanged.ways.empty() ? "" : ": longitude and latitude are exchanged") +
+                     " (got " + got + ")");
   }
   return cropped;
 }

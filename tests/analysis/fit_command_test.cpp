@@ -96,6 +96,16 @@ TEST(FitCommand, RefusesOptionsThatWouldDoNothing) {
   EXPECT_EQ(Analyze("fit " + sequence + " --rung footprint --format text").status, 2);
 }
 
+/// A scenario with the sensor of the capture.
+std::string WriteVlp16Scenario(const TemporaryFolder& folder) {
+  const std::string scenarios = ScenariosDir().string();
+  return folder
+      .Write("vlp16.json", R"({"version": 1, "file": ")" + scenarios +
+                               R"(/minimal.json", "fidelity": "surface", "lidar": {"file": ")" +
+                               scenarios + R"(/sensors/vlp16.json"}})")
+      .string();
+}
+
 TEST(FitCommand, FindsNoiseAndDropoutOfARealSensor) {
   if (!std::filesystem::exists(kVlp16)) GTEST_SKIP() << "no " << kVlp16;
   const TemporaryFolder folder;
@@ -112,9 +122,49 @@ TEST(FitCommand, FindsNoiseAndDropoutOfARealSensor) {
   const Json scale = RowOf(report, "parameters", "Range noise scale");
   EXPECT_TRUE(scale.at("value").at("value").is_null());
   EXPECT_THAT(scale.at("remark").get<std::string>(), HasSubstr("the signal is not known"));
-  const Json fitted = Json::parse(ReadFileWhole(out / "fitted.json"));
-  EXPECT_TRUE(fitted.at("lidar").at("receiver").contains("range_noise_floor_m"));
   EXPECT_TRUE(std::filesystem::exists(out / "charts" / "noise.svg"));
+  // What was not replayed belongs into no scenario.
+  EXPECT_FALSE(std::filesystem::exists(out / "fitted.json"));
+}
+
+TEST(FitCommand, ReplaysWhatItFoundInACaptureAndSaysWhatIsWorse) {
+  if (!std::filesystem::exists(kVlp16)) GTEST_SKIP() << "no " << kVlp16;
+  const TemporaryFolder folder;
+  const std::string scenario = WriteVlp16Scenario(folder);
+  const auto out = std::filesystem::path(scenario).parent_path() / "out";
+  const Ended run = Analyze("fit " + kVlp16 + " --scenario " + scenario + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  const Json report = Json::parse(ReadFileWhole(out / "fit.json"));
+  const Json fitted = Json::parse(ReadFileWhole(out / "fitted_scenario.json"));
+  int num_judged = 0;
+  for (const Json& row : report.at("sections").at(0).at("tables").at(0).at("rows")) {
+    const std::string verdict = row.at("verdict");
+    if (verdict.empty()) continue;
+    ++num_judged;
+    const Json& written = fitted.at(Json::json_pointer("/" + row.at("key").get<std::string>()));
+    EXPECT_EQ(written == row.at("scenario"), verdict == "worse: not written") << row;
+  }
+  EXPECT_GE(num_judged, 2);
+  const Ended check =
+      RunCommand(RAILCAST_GENERATE " check " + (out / "fitted_scenario.json").string());
+  EXPECT_EQ(check.status, 0) << check.said;
+}
+
+TEST(FitCommand, RefusesAScenarioOfASensorWithOtherRings) {
+  if (!std::filesystem::exists(kVlp16)) GTEST_SKIP() << "no " << kVlp16;
+  const Ended run = Analyze("fit " + kVlp16 + " --format text --scenario " +
+                            (ScenariosDir() / "brake_wagon.json").string());
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("rings of the scenario's sensor (got 16)"));
+}
+
+TEST(FitCommand, RefusesAScenarioBesideThatOfASequence) {
+  const TemporaryFolder folder;
+  const std::string sequence = MakeFitSequence(folder).string();
+  const Ended run = Analyze("fit " + sequence + " --format text --scenario mine.json");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("--scenario: must be left out for sequences, which have their "
+                                  "own (got mine.json)"));
 }
 
 }  // namespace

@@ -22,6 +22,8 @@ struct MapPlace {
   std::string pointer;  ///< Of the first key.
   std::string other;    ///< The second key.
   std::optional<Eigen::Vector2d> world_m;
+  /// Where it would be if its longitude were its latitude.
+  std::optional<Eigen::Vector2d> exchanged_m = std::nullopt;
 };
 
 /// The place that the keys of an object or of a point of a path give; nothing if these are others.
@@ -53,6 +55,7 @@ std::optional<MapPlace> MapPlaceOf(const MappedTracks& tracks,
       WorldFromGeographic(*map, *placed.longitude_deg, *placed.latitude_deg);
   if (world_m.allFinite()) {
     place.world_m = world_m;
+    place.exchanged_m = WorldFromGeographic(*map, *placed.latitude_deg, *placed.longitude_deg);
   } else {
     faults.Add(place.pointer,
                "must lie within 90 degrees of the map's, " + NumberText(map->longitude_deg),
@@ -104,9 +107,15 @@ std::optional<double> ChainageBeside_m(const MappedTracks& tracks,
   const std::vector<PlaceBesideLine> nearest = NearestOnLine(*tracks.alignment, *place.world_m);
   if (!faults.AreKnown({"/world/terrain/half_width_m"})) return std::nullopt;
   if (!(std::abs(nearest.front().d_m) <= half_width_m)) {
+    const auto lies_there = [&](const Eigen::Vector2d& place_m) {
+      return place_m.allFinite() &&
+             std::abs(NearestOnLine(*tracks.alignment, place_m).front().d_m) <= half_width_m;
+    };
+    const bool is_exchanged = place.exchanged_m && lies_there(*place.exchanged_m);
     faults.Add(place.pointer,
                "must lie with " + place.other + " on the ground, within " +
-                   NumberText(half_width_m) + " m of the line",
+                   NumberText(half_width_m) + " m of the line" +
+                   (is_exchanged ? ": longitude and latitude are exchanged" : ""),
                MetresText(std::abs(nearest.front().d_m)) + " m");
     return std::nullopt;
   }

@@ -106,6 +106,23 @@ void CheckNeighbours(const RailMap& map) {
   errors.ThrowIfAny();
 }
 
+/// A rectangle without railways: the World Factbook names none in Somalia, Yemen and Oman, and
+/// those of their neighbours end west or north of it. It is where central Europe would be if its
+/// longitudes were latitudes.
+const Eigen::AlignedBox2d kNoRailways_deg{Eigen::Vector2d(43.5, -1.5), Eigen::Vector2d(60.0, 20.0)};
+
+void CheckIsWhereRailwaysAre(const RailMap& map) {
+  for (const MapWay& way : map.ways) {
+    const Eigen::Vector2d& place_deg = map.nodes[way.nodes.front()].geographic_deg;
+    if (!kNoRailways_deg.contains(place_deg)) continue;
+    throw InputError({Fault{
+        "track at " + NumberText(place_deg.x()) + ", " + NumberText(place_deg.y()) + " degrees",
+        "must be where railways are, not between Somalia and Oman: longitudes "
+        "and latitudes are likely exchanged",
+        ""}});
+  }
+}
+
 }  // namespace
 
 RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg) {
@@ -129,7 +146,10 @@ RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg) {
 
 RailMap ReadMap(const std::filesystem::path& file) {
   RailMap map = ReadAnyMap(file);
-  AtPlace(ShownPath(file) + ": ", [&] { CheckNeighbours(map); });
+  AtPlace(ShownPath(file) + ": ", [&] {
+    CheckNeighbours(map);
+    CheckIsWhereRailwaysAre(map);
+  });
   return map;
 }
 

@@ -192,6 +192,9 @@ TEST(Import, CutsTheMapToARectangle) {
   const Ended elsewhere = import("10,48,11,49", "elsewhere");
   EXPECT_EQ(elsewhere.status, 1);
   EXPECT_THAT(elsewhere.said, HasSubstr("map.geojson in it (got 10,48,11,49)"));
+  EXPECT_THAT(import("48.1,15.605,48.3,15.625", "elsewhere").said,
+              HasSubstr("map.geojson in it: longitude and latitude are exchanged (got "
+                        "48.1,15.605,48.3,15.625)"));
   EXPECT_EQ(import("15.6,48.1,15.7", "three").status, 2);
   EXPECT_EQ(import("15.6,48.1,15.7,99999", "far").status, 2);
   for (const char* refused : {"wrong", "elsewhere", "three", "far"}) {
