@@ -58,7 +58,7 @@ ROWS = (
     ("railcast-analyze sight", "drive.json --step-m 50 --out sight", ["sight/report.html", "sight/sight.json"], None),
     ("railcast-analyze study", "study.json --out study", ["study/report.html", "study/study.json"], None),
     ("railcast-analyze dossier", "study --out dossier", ["dossier/dossier.pdf", "dossier/report.html"], None),
-    ("railcast-analyze fit", "standing.pcap --out fit", ["fit/report.html", "fit/fitted.json"], None),
+    ("railcast-analyze fit", "standing.pcap --scenario standing.json --out fit", ["fit/report.html", "fit/fitted.json"], None),
     ("railcast-analyze frontier", "coarse.json --frames 1 --rows geometry,surface --out frontier",
      ["frontier/report.html", "frontier/frontier.csv"], None),
     ("railcast-analyze preset", "standing.pcap --scenario standing.json --out preset", ["preset/preset.json"], None),
@@ -201,15 +201,18 @@ def run_beside(command, arguments, beside, build, folder):
     both.sort(key=lambda each: not is_receiving(each[0]))
     running = subprocess.Popen(words_of(*both[0], build, port), cwd=folder, text=True, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT)
-    wait_for_receiver(port, running)
-    if other:
-        ended = subprocess.run(words_of(*both[1], build, port), cwd=folder, text=True, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, check=False)
-        check(ended.returncode == 0, f"{both[1][0]}: exit status {ended.returncode}: {ended.stdout}")
-    else:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-            sender.sendto(text.encode(), ("127.0.0.1", port))
-    return running.communicate(timeout=60)[0], running.returncode
+    try:
+        wait_for_receiver(port, running)
+        if other:
+            ended = subprocess.run(words_of(*both[1], build, port), cwd=folder, text=True, stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, check=False)
+            check(ended.returncode == 0, f"{both[1][0]}: exit status {ended.returncode}: {ended.stdout}")
+        else:
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+                sender.sendto(text.encode(), ("127.0.0.1", port))
+        return running.communicate(timeout=60)[0], running.returncode
+    finally:
+        running.kill()
 
 
 def run_row(row, build, folder):
@@ -217,7 +220,11 @@ def run_row(row, build, folder):
     command, arguments, expected, beside = row
     before = set(folder.rglob("*"))
     if beside:
-        said, status = run_beside(command, arguments, beside, build, folder)
+        try:
+            said, status = run_beside(command, arguments, beside, build, folder)
+        except (ValueError, subprocess.TimeoutExpired) as fault:
+            yield str(fault)
+            return
     else:
         ended = subprocess.run(words_of(command, arguments, build, 0), cwd=folder, text=True, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, check=False)
