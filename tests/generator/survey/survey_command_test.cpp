@@ -176,8 +176,8 @@ TEST(SurveyCommand, MakesSurveysOfWhichNoChangedByteGoesUnnoticed) {
   const std::string hash = ContentHash(scene);
   scene.back() = static_cast<char>(scene.back() ^ 1);
   WriteFileWhole(out / "scene.survey", scene);
-  const std::string fault = (out / "scene.survey").string() + ": must have the hash \"" + hash +
-                            "\", as survey.json says (got " + ContentHash(scene) + ")";
+  const std::string fault = (out / "scene.survey").string() + ": must have the hash " + hash +
+                            ", as survey.json says (got " + ContentHash(scene) + ")";
   EXPECT_THAT(VerifySurvey(out).faults, testing::ElementsAre(fault));
   const Ended refused = MakeSequence(directory.path(), "site.json", "made");
   EXPECT_EQ(refused.status, 1);
