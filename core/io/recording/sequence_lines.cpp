@@ -136,7 +136,7 @@ Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::
       const auto stamp = ParseNumber<std::int64_t>(word);
       if (stamp != stamp_ns) {
         throw InputError(place + ": stamp_ns: must be " + NumberText(stamp_ns) +
-                         ", as in frames.jsonl (got " + ShownText(word) + ")");
+                         ", as in frames.jsonl or insert.jsonl (got " + ShownText(word) + ")");
       }
       is_stamp = false;
       continue;
@@ -166,7 +166,7 @@ std::vector<RecordedObject> ReadObjectsLine(const std::string& line,
     const std::uint32_t got = json.at("frame");
     if (got != frame) {
       throw InputError(place + ": frame: must be " + NumberText(frame) +
-                       ", as in frames.jsonl (got " + NumberText(got) + ")");
+                       ", as in frames.jsonl or insert.jsonl (got " + NumberText(got) + ")");
     }
     std::vector<RecordedObject> objects;
     for (const StrictJson& object : json.at("objects")) {

@@ -339,11 +339,12 @@ TEST(SequenceRecording, NamesWhatIsDamaged) {
   EXPECT_EQ(MessageAfter("frames.jsonl", "{\"frame\":0", "{\"frme\":0"),
             "frames.jsonl:1: is damaged: key frame is missing");
   EXPECT_EQ(MessageAfter("poses.csv", "\n100000000,", "\n100000001,"),
-            "poses.csv:3: stamp_ns: must be 100000000, as in frames.jsonl (got 100000001)");
+            "poses.csv:3: stamp_ns: must be 100000000, as in frames.jsonl or insert.jsonl (got "
+            "100000001)");
   EXPECT_EQ(MessageAfter("poses.csv", "\n100000000,", "\n100000000,1,"),
             "poses.csv:3: a pose must have seven numbers (got 8)");
   EXPECT_EQ(MessageAfter("objects.jsonl", "{\"frame\":1", "{\"frame\":2"),
-            "objects.jsonl:2: frame: must be 1, as in frames.jsonl (got 2)");
+            "objects.jsonl:2: frame: must be 1, as in frames.jsonl or insert.jsonl (got 2)");
   EXPECT_EQ(MessageAfter("objects.jsonl", "\"occlusion\":0", "\"occlusion\":-4"),
             "objects.jsonl:1: /objects/0/occlusion: must be from 0 to 1 (got -4.181818181818182)");
   EXPECT_EQ(
