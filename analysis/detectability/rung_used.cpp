@@ -10,16 +10,18 @@ namespace {
 
 std::optional<bool> HasWideBeams(const RecordingInfo& run) {
   if (run.scenario->fidelity != Fidelity::kAuto) return SwitchedEffects(*run.scenario).footprint;
-  const std::vector<std::string>& chosen = run.origin->chosen_effects;
   // Fidelity auto always chooses something: the effects that have a cause, jitter for example.
-  if (chosen.empty()) return {};
+  if (!run.origin || run.origin->chosen_effects.empty()) return {};
+  const std::vector<std::string>& chosen = run.origin->chosen_effects;
   return std::ranges::find(chosen, "footprint") != chosen.end();
 }
 
 }  // namespace
 
 std::string RungUsed::InWords() const {
-  if (!has_wide_beams) return name + ": not known what was chosen, as a run is unfinished";
+  if (!has_wide_beams) {
+    return name + ": not known what was chosen, as a run is unfinished or its clouds are merged";
+  }
   return name + (*has_wide_beams ? ": beams with a width" : ": one ray per beam");
 }
 

@@ -12,7 +12,7 @@ namespace railcast {
 struct RungUsed {
   std::string name;  ///< As the scenario names it.
   /// Whether every run has beams with a width (effect `footprint`). Absent: fidelity `auto` chose,
-  /// and a run that has not finished does not record what.
+  /// and a run that has not finished, or clouds that are merged, do not record what.
   std::optional<bool> has_wide_beams;
 
   /// "surface: one ray per beam".

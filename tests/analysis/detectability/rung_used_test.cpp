@@ -49,8 +49,12 @@ TEST(RungUsed, GoesByWhatAutoChoseInEveryRun) {
   EXPECT_EQ(RungOf({wide, wide}).InWords(), "auto: beams with a width");
   EXPECT_EQ(RungOf({wide, narrow, wide}).InWords(), "auto: one ray per beam");
   const RungUsed unknown = RungOf({wide, RunOf(Fidelity::kAuto)});
-  EXPECT_EQ(unknown.InWords(), "auto: not known what was chosen, as a run is unfinished");
+  EXPECT_EQ(unknown.InWords(),
+            "auto: not known what was chosen, as a run is unfinished or its clouds are merged");
   EXPECT_THAT(unknown.Warning(), HasSubstr("If the rung that was chosen"));
+  RecordingInfo merged = RunOf(Fidelity::kAuto);
+  merged.origin.reset();
+  EXPECT_EQ(RungOf({merged}).InWords(), unknown.InWords());
 }
 
 TEST(RungUsed, StandsWithItsWarningBeforeTheVerdicts) {
