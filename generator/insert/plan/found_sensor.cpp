@@ -28,8 +28,10 @@ LidarSpec ReadSensorFile(std::string_view text, const ScenarioSpec& plan) {
 }
 
 std::optional<LidarSpec> SensorOfSequence(const RecordingInfo& info) {
-  if (info.kind == kMergedKind || !info.origin) return std::nullopt;
+  if (info.kind == kMergedKind) return std::nullopt;
+  // Those into which something was put have one, too.
   if (info.scenario) return info.scenario->lidar;
+  if (!info.origin) return std::nullopt;
   const auto file = info.source / kScenarioFile;
   if (!exists(file)) return std::nullopt;
   return ReadScenario(file).lidar;
