@@ -123,6 +123,8 @@ std::vector<GivenShard> ReadShards(const std::vector<fs::path>& directories) {
 // Links or copies a file. One that is there already must have the same bytes.
 void PutFile(const fs::path& from, const fs::path& to) {
   std::error_code error;
+  // What a merge that was killed has left; a shard that is whole has no such file.
+  fs::remove(to.string() + std::string(kUnfinishedSuffix), error);
   fs::create_hard_link(from, to, error);
   if (!error) return;
   if (fs::exists(to)) {
@@ -186,6 +188,8 @@ std::uint32_t MergeShards(
     CheckScenario(shard.directory, number, line.placed);
     const std::string folder = SequenceFolderOf(number);
     PutScenario(shard.directory / folder, out / folder);
+    // Files of others are not removed.
+    if (merged.WasDone(number)) CheckScenario(out, number, line.placed);
     merged.Append(line.record);
   }
   merged.Sync();

@@ -354,10 +354,22 @@ TEST_F(RunDatasetTest, MergingMendsWhatIsDamaged) {
   const fs::path frame = Path("set/sequences/000/000002/frames/000001.pcd");
   fs::remove(frame);  // It is linked to that of the shard.
   WriteFileWhole(frame, "x");
+  WriteFileWhole(frame.string() + ".part", "x");
   EXPECT_THAT(MessageOf(merge), HasSubstr("000002/frames/000001.pcd: must have "));
   fs::remove(Path("set/manifest.json"));
   merge();
   EXPECT_TRUE(FilesOfDataset(Path("set")) == whole);
+}
+
+TEST_F(RunDatasetTest, MergingLeavesAStrangersFileAlone) {
+  (void)MakeDataset(recipe_, Path("a"), {1, 1});
+  const auto merge = [&] { (void)MergeShards({Path("a")}, Path("set"), NoProgress); };
+  merge();
+  const fs::path letter = Path("set/sequences/000/000002/letter.txt");
+  WriteFileWhole(letter, "dear");
+  fs::remove(Path("set/manifest.json"));
+  EXPECT_THAT(MessageOf(merge), HasSubstr("000002/letter.txt: is named neither in "));
+  EXPECT_EQ(ReadFileWhole(letter), "dear");
 }
 
 TEST_F(RunDatasetTest, NoticesAChangedBase) {
