@@ -236,7 +236,7 @@ class Insertions(unittest.TestCase):
         generate("stream", cls.folder / "vlp16.json", "--protocol", "vlp16", "--pcap", cls.folder / "drive.pcap",
                  "--duration", 1)
         generate("sequence", cls.folder / "vlp16.json", "--out", cls.folder / "drive", "--frames", 8, "--format", "mcap")
-        for recording, poses in (("drive.pcap", {"poses": "standing"}), ("drive/drive.mcap", {})):
+        for recording, poses in (("drive.pcap", {"poses": "standing"}), ("drive/frames.mcap", {})):
             name = pathlib.Path(recording).suffix[1:]
             plan = {key: scenario[key] for key in ("version", "lidar", "materials", "labels")}
             plan["world"] = {"recording": poses}
@@ -248,9 +248,9 @@ class Insertions(unittest.TestCase):
                                    "ahead_m": {"type": "uniform", "min": 10, "max": 12}}]}
             (cls.folder / f"plan_{name}.json").write_text(json.dumps(plan), "utf-8")
             (cls.folder / f"recipe_{name}.json").write_text(json.dumps(recipe), "utf-8")
-            for kind in ("same", "pcd"):
+            for kind, options in (("same", []), ("pcd", ["--format", "pcd"])):
                 generate("dataset", cls.folder / f"recipe_{name}.json", "--out", cls.folder / f"{name}_{kind}",
-                         "--format", kind)
+                         *options)
         cls.sets = [cls.folder / f"{name}_{kind}" for name in ("pcap", "mcap") for kind in ("same", "pcd")]
 
     @classmethod
