@@ -52,10 +52,10 @@ class LongRecording : public testing::Test {
     return run.string();
   }
 
-  static void ExpectDone(const std::string& command) {
+  static void ExpectDone(const std::string& command, const std::string& num_frames = "2001") {
     const Ended run = Analyze(command);
     EXPECT_EQ(run.status, 0) << command << ": " << run.said;
-    EXPECT_THAT(run.said, testing::HasSubstr("2001")) << command;
+    EXPECT_THAT(run.said, testing::HasSubstr(num_frames)) << command;
   }
 
   inline static TemporaryFolder* folder_ = nullptr;
@@ -76,13 +76,15 @@ TEST_F(LongRecording, IsReadInEveryForm) {
   const std::string pcd = Made("pcd"), kitti = Made("kitti");
   const std::filesystem::path capture = here_ / "capture.pcap";
   const Ended sent = RunCommand(RAILCAST_GENERATE " stream " + scenario_.string() +
-                                " --protocol vlp16 --duration 200.1 --pcap " + capture.string());
+                                " --protocol vlp16 --duration 200.2 --pcap " + capture.string());
   ASSERT_EQ(sent.status, 0) << sent.said;
   for (const std::string& source :
        {pcd + "/frames", Made("ply") + "/frames", kitti, kitti + "/sequences/00/velodyne",
-        Made("mcap") + "/frames.mcap", Made("rosbag2") + "/rosbag2", capture.string()}) {
+        Made("mcap") + "/frames.mcap", Made("rosbag2") + "/rosbag2"}) {
     ExpectDone("stats " + source + " --format text");
   }
+  // Of 2,001 turns the last would not fill a packet, which is not sent.
+  ExpectDone("stats " + capture.string() + " --format text", "2002");
 }
 
 }  // namespace

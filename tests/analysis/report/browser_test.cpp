@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/dossier/print_page.h"
 #include "analysis/report/output.h"
 #include "tests/analysis/report/browser.h"
 #include "tests/analysis/report/made_report.h"
@@ -81,6 +82,16 @@ TEST_F(ReportInBrowser, UnfoldsTablesOnPaper) {
 TEST_F(ReportInBrowser, FitsOnTenPagesOfPaper) {
   if (!IsInstalled("pdftotext")) GTEST_SKIP() << "pdftotext is not installed";
   ExpectFitsOnPaper(Printed(page()), 10, 12.0);
+}
+
+// As the dossier is.
+TEST_F(ReportInBrowser, IsPrintedByWeasyprintWithEveryColumn) {
+  if (!IsInstalled("pdftotext")) GTEST_SKIP() << "pdftotext is not installed";
+  if (!IsInstalled("weasyprint")) GTEST_SKIP() << "weasyprint is not installed";
+  const auto pdf = here_ / "made.pdf";
+  PrintPage(page(), pdf);
+  ExpectFitsOnPaper(pdf, 20, 14.0);
+  EXPECT_THAT(RunCommand("pdftotext -layout '" + pdf.string() + "' -").said, HasSubstr("Column30"));
 }
 
 }  // namespace
