@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -149,6 +150,11 @@ void PcapWriter::Write(const Datagrams& datagrams, std::span<const Datagrams::It
     const std::int64_t time_us = (item.due_ns + clock_ahead_ns_) / kNsPerUs;
     pcap_pkthdr header{};
     header.ts.tv_sec = kSimulationEpoch_s + time_us / 1'000'000;
+    if (header.ts.tv_sec > std::numeric_limits<std::uint32_t>::max()) {
+      throw InputError(ShownPath(file_) +
+                       ": times in captures must be before 2106-02-07 06:28:16 (got " +
+                       NumberText(header.ts.tv_sec) + " s since 1970)");
+    }
     header.ts.tv_usec = time_us % 1'000'000;
     header.caplen = header.len = static_cast<bpf_u_int32>(udp + udp_size - frame.data());
     // libpcap's functions take the dumper as a byte pointer.

@@ -36,7 +36,8 @@ class PcapWriter {
   void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
 
   /// Appends these datagrams.
-  /// @throws InputError if the system refuses, as on a full disk. The unfinished file then holds
+  /// @throws InputError if the system refuses, as on a full disk, or at times after the 32 unsigned
+  ///   bits of classic captures' seconds. The unfinished file then holds
   ///   what earlier calls wrote, and the writer must not be used any more.
   void Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
 

@@ -84,6 +84,18 @@ TEST(Pcap, KeepsTimesAfter2038UntilTheEndOf32Bits) {
   }
 }
 
+TEST(PcapWriter, RefusesTimesThatItsSecondsCannotHold) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  const Datagrams datagrams = ExampleDatagrams();
+  PcapWriter writer(file, 2368, 8308);
+  writer.SetClockAhead(0x1'0000'0000 * 1'000'000'000 - kEpoch_ns);
+  EXPECT_EQ(MessageOf([&] { writer.Write(datagrams, datagrams.items); }),
+            file.string() +
+                ": times in captures must be before 2106-02-07 06:28:16 "
+                "(got 4294967296 s since 1970)");
+}
+
 TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
   const TemporaryDirectory directory;
   WriteExample(directory.path() / "a.pcap");
