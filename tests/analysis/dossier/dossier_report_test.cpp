@@ -163,7 +163,9 @@ TEST_F(DossierOfAStudy, IsWrittenWholeAndOnAtMostTwentyPages) {
   const auto json = nlohmann::json::parse(ReadFileWhole(out / "dossier.json"));
   EXPECT_EQ(json.at("title"), "Seen?");
   std::vector<std::string> keys;
-  for (const auto& section : json.at("sections")) keys.push_back(section.at("key"));
+  for (const auto& section : json.at("sections")) {
+    keys.push_back(section.at("key").get<std::string>());
+  }
   EXPECT_THAT(keys, testing::ElementsAre("verdict", "scope", "model", "sensor", "limits", "factors",
                                          "conditions", "yardsticks", "credibility", "traceability",
                                          "signatures"));
