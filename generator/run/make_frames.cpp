@@ -329,6 +329,7 @@ std::vector<SequenceUnderWay> OpenWithBag(const std::vector<SensorSequence>& sen
     std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, &bag);
     std::uint64_t num_done = 0;
     for (const SequenceUnderWay& sequence : sequences) num_done += sequence.num_resumed;
+    if (bag.is_complete()) bag.CheckUnchanged();
     if (bag.is_complete() && num_done == bag.num_frames()) return sequences;
     const std::vector<std::uint32_t> in_order = FramesAmongFirst(sensors, num_done);
     for (std::size_t i = 0; i < sensors.size(); ++i) {

@@ -1,12 +1,13 @@
 #include "generator/run/run_bag.h"
 
 #include <algorithm>
-#include <span>
+#include <limits>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/run/run_topics.h"
@@ -42,28 +43,6 @@ bool IsBegun(bool is_mcap, const fs::path& path) {
   return fs::exists(UnfinishedPath(is_mcap, path));
 }
 
-// How many frames an unfinished bag holds. It is only read, since another process may be writing
-// it; what cannot be read has no frames, and is refused when it is gone on with.
-std::uint64_t CountFrames(const fs::path& path, const RunPlan& plan) {
-  std::uint64_t num_frames = 0;
-  try {
-    const auto reader = bag::OpenBag(path);
-    std::vector<std::size_t> first_clouds;
-    for (std::size_t i = 0; i < reader->topics().size(); ++i) {
-      if (std::ranges::any_of(plan.sensors, [&](const SensorPlan& sensor) {
-            return sensor.spec.cloud_topics.front() == reader->topics()[i].name;
-          })) {
-        first_clouds.push_back(i);
-      }
-    }
-    reader->Select(first_clouds);
-    while (reader->Next()) ++num_frames;
-  } catch (const InputError&) {
-    return num_frames;
-  }
-  return num_frames;
-}
-
 // A rosbag2 directory gets its metadata last.
 bool IsFinished(bool is_mcap, const fs::path& path) {
   return fs::exists(is_mcap ? path : path / "metadata.yaml");
@@ -79,34 +58,89 @@ RunBag::RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_n
       topics_(std::move(topics)),
       begin_ns_(begin_ns),
       is_complete_(IsFinished(is_mcap_, path_)) {
+  for (const auto& [name, type, is_latched] : topics_.topics()) {
+    bag_topics_.push_back({name, type.name, type.definition, type.hash, is_latched});
+    topic_hashes_.push_back(TopicHash(bag_topics_.back()));
+  }
   if (is_complete_) {
     for (const SensorPlan& sensor : plan.sensors) num_frames_ += sensor.spec.num_frames;
   } else if (IsBegun(is_mcap_, path_)) {
-    num_frames_ = CountFrames(UnfinishedPath(is_mcap_, path_), plan);
+    FindFrames(UnfinishedPath(is_mcap_, path_));
   }
+}
+
+// Finds what an unfinished bag holds. It is only read, since another process may be writing it;
+// what cannot be read has no frames.
+void RunBag::FindFrames(const fs::path& bag) {
+  try {
+    found_ = ReadBagLines(BagLinesFile(path_));
+    const auto reader = bag::OpenBag(bag);
+    whole_ = FindWholeCommits(found_.commits, ReadMessageHashes(*reader));
+    attached_ = reader->ReadAttachments();
+  } catch (const InputError&) {
+    whole_ = {};
+  }
+  num_frames_ = whole_.num - std::min<std::uint64_t>(whole_.num, kFirstCommits);
+}
+
+void RunBag::RefuseIf(bool has_changed, const std::string& what) const {
+  if (!has_changed) return;
+  throw InputError(ShownPath(path_) + ": " + what + " not what was written, as " +
+                   std::string(kBagLinesFile) +
+                   " says; delete the bag and manifest.json to make them anew");
+}
+
+void RunBag::CheckUnchanged() const {
+  const BagLines lines = ReadBagLines(BagLinesFile(path_));
+  if (!lines.files.empty()) {
+    ErrorList faults;
+    CompareWithBagLines(path_, true, faults);
+    return RefuseIf(!faults.empty(), "is complete, but it is");
+  }
+  const std::vector<std::uint64_t> messages = ReadMessageHashes(*bag::OpenBag(path_));
+  const WholeCommits whole = FindWholeCommits(lines.commits, messages);
+  RefuseIf(whole.num < lines.commits.size() || whole.num_messages < messages.size(),
+           "is complete, but it is");
+  LineFile(BagLinesFile(path_), lines.commits.back().end).Append(BagFilesLine(path_));
 }
 
 std::uint64_t RunBag::Open(std::uint64_t num_frames) {
   Check(!is_complete_ && num_frames <= num_frames_, "a bag goes on after frames that it holds");
+  const std::string next = "commit " + NumberText(whole_.num + 1) + " is";
+  RefuseIf(whole_.has_others, next);
   writer_.reset();
+  std::size_t num_commits = 0;
   if (IsBegun(is_mcap_, path_)) {
-    writer_ = Continue(is_mcap_, path_, num_frames + kFirstCommits);
-  } else {
-    writer_ = is_mcap_ ? bag::CreateMcap(path_) : bag::CreateRosbag2(path_);
+    // A database cannot be cut. All of its commits have lines, so that each must be whole.
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+    RefuseIf(!is_mcap_ && bag::ContinueRosbag2(path_, kAll)->num_commits() > whole_.num, next);
+    writer_ = Continue(is_mcap_, path_, std::min(num_frames + kFirstCommits, whole_.num));
+    num_commits = writer_->num_commits();
   }
-  for (const ros::Topic& topic : topics_.topics()) {
-    const auto& [name, type, is_latched] = topic;
-    writer_->Add({name, type.name, type.definition, type.hash, is_latched});
-  }
-  if (writer_->num_commits() == 0) Begin();
+  lines_.emplace(BagLinesFile(path_), num_commits == 0 ? 0 : found_.commits[num_commits - 1].end);
+  if (!writer_) writer_ = is_mcap_ ? bag::CreateMcap(path_) : bag::CreateRosbag2(path_);
+  for (const bag::BagTopic& topic : bag_topics_) writer_->Add(topic);
+  Attach(num_commits > 0);
+  if (num_commits == 0) Put(topics_.First(begin_ns_));
   num_frames_ = writer_->num_commits() - kFirstCommits;
   return num_frames_;
 }
 
-void RunBag::Begin() {
-  AttachFile(*writer_, std::string(kScenarioFile), scenario_json_);
-  AttachFile(*writer_, std::string(kLabelsFile), ReadFileWhole(labels_file_));
-  Put(topics_.First(begin_ns_));
+// What stands in an MCAP file cannot be written anew.
+void RunBag::Attach(bool are_there) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {std::string(kScenarioFile), scenario_json_},
+      {std::string(kLabelsFile), ReadFileWhole(labels_file_)}};
+  for (const auto& [name, text] : files) {
+    if (!are_there || !is_mcap_) {
+      AttachFile(*writer_, name, text);
+      continue;
+    }
+    const auto found = std::ranges::find(attached_, name, &bag::BagAttachment::name);
+    RefuseIf(found == attached_.end() ||
+                 !std::ranges::equal(found->bytes, std::as_bytes(std::span(text))),
+             "its " + name + " is");
+  }
 }
 
 void RunBag::Encode(std::size_t sensor, const MadeFrame& made, EncodedFrame& encoded) const {
@@ -125,6 +159,13 @@ void RunBag::Write(const EncodedFrame& encoded) {
 }
 
 void RunBag::Put(const std::vector<ros::TopicMessage>& messages) {
+  std::vector<std::uint64_t> hashes;
+  for (const ros::TopicMessage& message : messages) {
+    hashes.push_back(MessageHash(topic_hashes_[message.topic], message.time_ns, message.cdr));
+  }
+  // Before the commit, so that none is without its line.
+  lines_->Append(CommitLine(hashes));
+  if (!is_mcap_) lines_->Sync();
   for (const ros::TopicMessage& message : messages) {
     writer_->Write({message.topic, message.time_ns, message.cdr});
   }
@@ -140,6 +181,8 @@ void RunBag::Finish(const RunPlan& plan, std::int64_t end_ns, const Transform& w
   }
   writer_->Close();
   writer_.reset();
+  lines_->Append(BagFilesLine(path_));
+  lines_->Sync();
   is_complete_ = true;
 }
 

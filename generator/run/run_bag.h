@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/io/bag/bag.h"
 #include "core/io/ros/frame_topics.h"
+#include "core/io/run/run_folder.h"
+#include "core/io/verify/bag_lines.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_directory.h"
 #include "generator/run/run_plan.h"
@@ -18,7 +21,7 @@ namespace railcast {
 /// The bag of a run whose format is one: the messages of all its sensors' frames, in the order in
 /// which these begin. A commit of the bag is a frame, but for the first, which holds what is said
 /// once. So an interrupted bag is whole up to its last frame, and a resumed one has the bytes of
-/// one that was never interrupted.
+/// one that was never interrupted. Beside it stands what each commit holds (BagLines).
 class RunBag {
  public:
   /// Looks what there is of the bag; writes nothing.
@@ -28,8 +31,14 @@ class RunBag {
   [[nodiscard]] std::uint64_t num_frames() const { return num_frames_; }
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
+  /// Compares a complete bag with what was written. Gives it the hashes of its files if the run was
+  /// interrupted before that.
+  /// @throws InputError if it was changed since.
+  void CheckUnchanged() const;
+
   /// Begins the bag, or goes on with it after its first `num_frames` frames.
   /// @return num_frames(), which is less where the end of the last frame is missing.
+  /// @throws InputError if what it holds is not what was written.
   /// @pre It is not complete, and num_frames <= num_frames().
   std::uint64_t Open(std::uint64_t num_frames);
 
@@ -45,17 +54,25 @@ class RunBag {
   void Finish(const RunPlan& plan, std::int64_t end_ns, const Transform& world_from_vehicle);
 
  private:
+  void FindFrames(const std::filesystem::path& bag);
+  void RefuseIf(bool has_changed, const std::string& what) const;
+  void Attach(bool are_there);
   void Put(const std::vector<ros::TopicMessage>& messages);
-  void Begin();
 
   std::filesystem::path path_;
   bool is_mcap_;
   std::string scenario_json_;
   std::filesystem::path labels_file_;
   ros::FrameTopics topics_;
+  std::vector<bag::BagTopic> bag_topics_;
+  std::vector<std::uint64_t> topic_hashes_;
   std::int64_t begin_ns_;
   bool is_complete_ = false;
   std::uint64_t num_frames_ = 0;
+  BagLines found_;      ///< Of an interrupted bag.
+  WholeCommits whole_;  ///< What there is of these.
+  std::vector<bag::BagAttachment> attached_;
+  std::optional<LineFile> lines_;
   std::unique_ptr<bag::BagWriter> writer_;
 };
 

@@ -435,6 +435,7 @@ std::string RunDirectory::ManifestJson() const {
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
+  if (!spec_.trace.empty()) names.push_back(spec_.trace);
   for (const std::string& name : names) {
     // Of thousands of objects, their file is larger than the memory may be.
     const std::string hash = HashFile(spec_.directory / name).hash;

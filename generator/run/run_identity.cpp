@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/motion_files.h"
 #include "generator/run/run_directory.h"
 
@@ -32,7 +33,7 @@ Json RunObject(const SequenceSpec& spec) {
   if (spec.commands_jsonl.empty()) run.erase("commands_xxh3");
   if (!spec.bag.empty()) {
     run["fields"] = ros::TextOf(spec.clouds);
-    run["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
+    run["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}, {"lines", kBagLinesFile}};
   } else if (!spec.trace.empty()) {
     run["trace"] = spec.trace;
   } else if (!spec.files.format->dataset) {

@@ -9,6 +9,7 @@
 #include "core/io/cloud/track_fields.h"
 #include "core/io/osi/sensor_view.h"
 #include "core/io/ros/frame_topics.h"
+#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/trace_name.h"
@@ -164,11 +165,12 @@ void ChooseFrames(const SequenceSpec& first,
   static_cast<void>(LastFrameOf(sensor.spec, pattern));
 }
 
-// Whether the name is that of the run's bag, complete or not.
+// Whether the name is that of the run's bag, complete or not, or of what tells of it.
 bool IsOwnBag(const RunPlan& plan, std::string_view name) {
   const std::string_view bag = plan.sensors.front().spec.files.format->bag;
   if (bag.empty()) return false;
-  return name == bag || name == std::string(bag) + std::string(kUnfinishedSuffix);
+  return name == bag || name == kBagLinesFile ||
+         name == std::string(bag) + std::string(kUnfinishedSuffix);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/trace_name.h"
 #include "core/io/strict_json.h"
@@ -112,10 +113,12 @@ bool IsCameraFile(std::string_view name) {
 }
 
 bool IsOfBag(std::string_view name) {
-  return std::ranges::any_of(FrameFormats(), [&](const FrameFormat& format) {
-    std::string_view rest = name;
-    return !format.bag.empty() && Take(rest, format.bag) && (rest.empty() || rest.starts_with('/'));
-  });
+  return name == kBagLinesFile ||
+         std::ranges::any_of(FrameFormats(), [&](const FrameFormat& format) {
+           std::string_view rest = name;
+           return !format.bag.empty() && Take(rest, format.bag) &&
+                  (rest.empty() || rest.starts_with('/'));
+         });
 }
 
 std::string FrameDigits(std::uint32_t number) {

@@ -7,6 +7,8 @@
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
 #include "core/io/content_hash.h"
+#include "core/io/mcap/byte_file.h"
+#include "core/io/mcap/record_scan.h"
 #include "core/io/osi/trace_file.h"
 
 namespace railcast {
@@ -81,6 +83,18 @@ void CompareWithBag(const std::filesystem::path& bag,
   }
 }
 
+void CheckHasItsEnd(const std::filesystem::path& file, ErrorList& faults) {
+  if (!std::filesystem::is_regular_file(file)) return;
+  const mcap::ByteFile bytes(file, ShownPath(file));
+  if (!mcap::BeginsAsMcap(bytes)) return;
+  mcap::RecordScan scan(bytes);
+  while (scan.Next()) {
+  }
+  if (!scan.is_complete()) {
+    faults.Add({ShownPath(file), "must have the end of an MCAP file: it is unfinished or cut", ""});
+  }
+}
+
 void CompareWithTrace(const std::filesystem::path& trace,
                       const std::vector<CloudsOfFrame>& frames,
                       bool is_finished,
@@ -97,6 +111,7 @@ void CompareWithTrace(const std::filesystem::path& trace,
     }
   }
   if (!is_finished) return;
+  CheckHasItsEnd(trace, faults);
   if (!fault.empty()) faults.AddLine(fault);
   if (messages.size() > frames.size()) {
     faults.Add({ShownPath(trace),

@@ -27,6 +27,10 @@ void CompareWithBag(const std::filesystem::path& bag,
                     const std::vector<CloudsOfFrame>& frames,
                     ErrorList& faults);
 
+/// Adds a fault if a file is an MCAP file without its end.
+/// @throws InputError if it cannot be read.
+void CheckHasItsEnd(const std::filesystem::path& file, ErrorList& faults);
+
 /// Compares the messages of an OSI trace with a sequence's frames.
 /// @param is_finished Whether the run is: otherwise the trace may hold a frame more, and end within
 ///   a message.

@@ -12,6 +12,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/strict_json.h"
@@ -217,6 +218,7 @@ class ScenarioVerifier : private Findings {
     ForEachFileBelow(dataset_ / folder_, dataset_, sequences_, [&](const std::string& name) {
       if (name == folder_ + "/" + std::string(kSensorsFile)) return;
       if (!bag_.empty() && (name == bag_ || name.starts_with(bag_ + "/"))) return;
+      if (!bag_.empty() && name == folder_ + "/" + std::string(kBagLinesFile)) return;
       faults_.Add({ShownPath(dataset_ / name), "belongs to no sequence of the scenario", ""});
     });
   }

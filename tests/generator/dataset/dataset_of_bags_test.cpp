@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/generator/dataset/dataset_in_format.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Data sets whose clouds are in bags of ROS 2.
@@ -71,6 +73,20 @@ TEST_P(DatasetOfBags, HasThePointsOfOneOfFiles) {
     }
   }
   EXPECT_THAT(FaultsOf("bags"), IsEmpty());
+}
+
+// All clouds are there.
+TEST_P(DatasetOfBags, IsNotMergedWithAChangedBag) {
+  Make("a", {1, 2});
+  Make("b", {2, 2});
+  const std::string name =
+      GetParam() == std::string("mcap") ? "frames.mcap" : "rosbag2/metadata.yaml";
+  const fs::path changed = Path("b/sequences/000/000001") / name;
+  fs::resize_file(changed, fs::file_size(changed) - 1);
+  EXPECT_THAT(MessageOf([&] {
+                (void)MergeShards({Path("a"), Path("b")}, Path("merged"), [](auto, auto) {});
+              }),
+              HasSubstr(changed.string() + ": must have the hash "));
 }
 
 TEST_P(DatasetOfBags, IsNotWholeWithAStrangerBesideABag) {

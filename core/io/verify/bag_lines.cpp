@@ -1,0 +1,171 @@
+#include "core/io/verify/bag_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+#include <utility>
+
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/run/bag_lines_name.h"
+#include "core/io/strict_json.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string CommitHash(std::span<const std::uint64_t> messages) {
+  return ContentHash({reinterpret_cast<const char*>(messages.data()), messages.size_bytes()});
+}
+
+// The files of a bag that keep their bytes, by their names beside the file of lines.
+std::vector<std::string> FixedFilesOf(const fs::path& bag) {
+  if (!fs::is_directory(bag)) return {bag.filename().string()};
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(bag)) {
+    const bool is_of_database = entry.path().filename().string().find(".db3") != std::string::npos;
+    if (is_of_database) continue;
+    names.push_back(entry.path().lexically_relative(bag.parent_path()).generic_string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults) {
+  const std::string said = ", as " + std::string(kBagLinesFile) + " says";
+  for (const auto& [name, hash] : lines.files) {
+    const fs::path file = bag.parent_path() / name;
+    const auto got = Attempt("", faults, [&] { return HashFile(file).hash; });
+    if (!got || *got == hash) continue;
+    faults.Add({ShownPath(file), "must have the hash " + ShownText(hash) + said, *got});
+  }
+  for (const std::string& name : FixedFilesOf(bag)) {
+    if (lines.files.contains(name)) continue;
+    faults.Add(
+        {ShownPath(bag.parent_path() / name), "is not named in " + std::string(kBagLinesFile), ""});
+  }
+}
+
+}  // namespace
+
+fs::path BagLinesFile(const fs::path& bag) {
+  return bag.parent_path() / kBagLinesFile;
+}
+
+std::uint64_t TopicHash(const bag::BagTopic& topic) {
+  std::string all;
+  for (const std::string& part :
+       {topic.name, topic.type, topic.definition, topic.hash, topic.encoding}) {
+    all += part + '\0';
+  }
+  return ContentHashNumber(all + (topic.is_latched ? '1' : '0'));
+}
+
+std::uint64_t MessageHash(std::uint64_t topic_hash,
+                          std::int64_t time_ns,
+                          std::span<const std::byte> data) {
+  const std::array<std::uint64_t, 3> parts = {
+      topic_hash, static_cast<std::uint64_t>(time_ns),
+      ContentHashNumber({reinterpret_cast<const char*>(data.data()), data.size()})};
+  return ContentHashNumber({reinterpret_cast<const char*>(parts.data()), sizeof parts});
+}
+
+std::vector<std::uint64_t> ReadMessageHashes(bag::BagReader& reader) {
+  std::vector<std::uint64_t> topics;
+  for (const bag::BagTopic& topic : reader.topics()) topics.push_back(TopicHash(topic));
+  std::vector<std::pair<bag::BagPlace, std::uint64_t>> placed;
+  while (const auto message = reader.Next()) {
+    placed.emplace_back(message->place,
+                        MessageHash(topics[message->topic], message->time_ns, message->data));
+  }
+  std::ranges::sort(placed);
+  std::vector<std::uint64_t> hashes;
+  for (const auto& [place, hash] : placed) hashes.push_back(hash);
+  return hashes;
+}
+
+std::string CommitLine(std::span<const std::uint64_t> messages) {
+  const StrictOrderedJson line = {{"messages", messages.size()}, {"xxh3", CommitHash(messages)}};
+  return WithLineHash(line.dump()) + "\n";
+}
+
+std::string BagFilesLine(const fs::path& bag) {
+  StrictOrderedJson files;
+  for (const std::string& name : FixedFilesOf(bag)) {
+    files[name] = HashFile(bag.parent_path() / name).hash;
+  }
+  return WithLineHash(StrictOrderedJson{{"files_xxh3", files}}.dump()) + "\n";
+}
+
+BagLines ReadBagLines(const fs::path& file) {
+  BagLines lines;
+  if (!fs::exists(file)) return lines;
+  const std::string text = ReadFileWhole(file);
+  std::size_t begin = 0;
+  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+    const std::string line = text.substr(begin, end - begin);
+    if (!lines.files.empty() || !LineHashFault(line).empty()) break;
+    begin = end + 1;
+    const std::string place = ShownPath(file) + ":" + NumberText(lines.commits.size() + 1);
+    ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
+      if (json.contains("files_xxh3")) {
+        lines.files = json.at("files_xxh3");
+      } else {
+        lines.commits.push_back({json.at("messages"), json.at("xxh3"), begin});
+      }
+      return true;
+    });
+  }
+  return lines;
+}
+
+WholeCommits FindWholeCommits(const std::vector<BagLines::Commit>& commits,
+                              std::span<const std::uint64_t> messages) {
+  WholeCommits whole;
+  for (const BagLines::Commit& commit : commits) {
+    const std::span<const std::uint64_t> rest = messages.subspan(whole.num_messages);
+    if (commit.num_messages > rest.size()) break;
+    whole.has_others = CommitHash(rest.first(commit.num_messages)) != commit.hash;
+    if (whole.has_others) break;
+    ++whole.num;
+    whole.num_messages += commit.num_messages;
+  }
+  return whole;
+}
+
+void CompareWithBagLines(const fs::path& bag, bool is_finished, ErrorList& faults) {
+  const fs::path file = BagLinesFile(bag);
+  if (!fs::exists(file)) return faults.Add({ShownPath(file), "missing", ""});
+  const BagLines lines = ReadBagLines(file);
+  if (is_finished && lines.files.empty()) {
+    faults.Add({ShownPath(file),
+                "must end with the hashes of the bag's files: the bag is unfinished or a line was "
+                "changed",
+                ""});
+  }
+  if (!lines.files.empty()) CompareFiles(bag, lines, faults);
+  // The hash of a file stands for all that is in it.
+  if (lines.files.contains(bag.filename().string())) return;
+  const auto reader = bag::OpenBag(bag);
+  const std::vector<std::uint64_t> messages = ReadMessageHashes(*reader);
+  const WholeCommits whole = FindWholeCommits(lines.commits, messages);
+  const std::string first = NumberText(whole.num_messages + 1);
+  // What an interrupted bag lacks at its end is made anew.
+  if (is_finished ? whole.num < lines.commits.size() : whole.has_others) {
+    faults.Add({ShownPath(bag),
+                "must hold the messages " + first + " to " +
+                    NumberText(whole.num_messages + lines.commits[whole.num].num_messages) +
+                    " as " + ShownPath(file) + ":" + NumberText(whole.num + 1) + " says",
+                ""});
+  } else if (is_finished && whole.num_messages < messages.size()) {
+    faults.Add({ShownPath(bag),
+                "must hold " + NumberText(whole.num_messages) + " messages, as " +
+                    std::string(kBagLinesFile) + " says",
+                NumberText(messages.size())});
+  }
+}
+
+}  // namespace railcast

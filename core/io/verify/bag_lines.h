@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/io/bag/bag.h"
+
+namespace railcast {
+
+// bag.jsonl stands beside a run's bag and says what the bag holds: a line for each of its commits,
+// and, once it is complete, a last one with the hashes of its files. A line is written before its
+// commit, so that an interrupted bag never holds one that no line tells of.
+
+/// The file of these lines of a bag, complete or not.
+[[nodiscard]] std::filesystem::path BagLinesFile(const std::filesystem::path& bag);
+
+/// Hash of all that a bag says of a topic.
+[[nodiscard]] std::uint64_t TopicHash(const bag::BagTopic& topic);
+/// Hash of a message: of its topic, time and data.
+[[nodiscard]] std::uint64_t MessageHash(std::uint64_t topic_hash,
+                                        std::int64_t time_ns,
+                                        std::span<const std::byte> data);
+/// The hashes of all messages of a bag, in the order in which they were written.
+/// @throws InputError as BagReader does.
+[[nodiscard]] std::vector<std::uint64_t> ReadMessageHashes(bag::BagReader& reader);
+
+/// The line of a commit, with its end.
+[[nodiscard]] std::string CommitLine(std::span<const std::uint64_t> messages);
+/// The last line: the hashes of a complete bag's files. That of a database is not among them, since
+/// its bytes change when it is opened; the hashes of its messages stand for it.
+[[nodiscard]] std::string BagFilesLine(const std::filesystem::path& bag);
+
+/// What the lines say.
+struct BagLines {
+  struct Commit {
+    std::size_t num_messages{};
+    std::string hash;     ///< Of its messages.
+    std::uint64_t end{};  ///< Where its line ends in the file.
+  };
+  std::vector<Commit> commits;
+  std::map<std::string, std::string> files{};  ///< Hashes by name; none while it is unfinished.
+};
+
+/// Reads the lines up to the first that is incomplete or was changed; none without a file.
+/// @throws InputError if the file cannot be read.
+[[nodiscard]] BagLines ReadBagLines(const std::filesystem::path& file);
+
+/// How many of the first commits have the messages that the lines say.
+struct WholeCommits {
+  std::size_t num{};
+  std::size_t num_messages{};
+  bool has_others{};  ///< Whether others stand in place of the next commit's.
+};
+[[nodiscard]] WholeCommits FindWholeCommits(const std::vector<BagLines::Commit>& commits,
+                                            std::span<const std::uint64_t> messages);
+
+/// Compares a bag with its lines.
+/// @param is_finished Whether the bag must be complete.
+/// @param faults Gets a line for each file that differs, and one for the first messages that do.
+/// @throws InputError if the bag or the lines cannot be read.
+void CompareWithBagLines(const std::filesystem::path& bag, bool is_finished, ErrorList& faults);
+
+}  // namespace railcast

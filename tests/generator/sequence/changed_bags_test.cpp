@@ -1,0 +1,183 @@
+// Bags of runs, of which something was changed since they were written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/bag/bag.h"
+#include "core/io/bag/sqlite_database.h"
+#include "core/io/write_file.h"
+#include "tests/core/io/bag/read_bag.h"
+#include "tests/generator/sequence/sequence_runs.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ChangedBags : public SequenceRuns {
+ protected:
+  ChangedBags() : SequenceRuns(4) {}
+
+  // Does something to the first message of a topic, which :id names.
+  static void ChangeDatabase(const fs::path& bag, const std::string& topic, std::string sql) {
+    const std::string id =
+        "(SELECT min(messages.id) FROM messages JOIN topics ON topics.id = topic_id WHERE name = "
+        "'" +
+        topic + "')";
+    sql.replace(sql.find(":id"), 3, id);
+    bag::SqliteDatabase(bag / "rosbag2_0.db3", bag::SqliteAccess::kChange, "bag").Run(sql);
+  }
+  // Writes an MCAP file anew without the first message of a topic.
+  static void LeaveOut(const fs::path& file, const fs::path& copy, const std::string& topic) {
+    const auto reader = bag::OpenBag(file);
+    const auto writer = bag::CreateMcap(copy);
+    for (const bag::BagTopic& each : reader->topics()) writer->Add(each);
+    for (const bag::BagAttachment& each : reader->ReadAttachments()) {
+      writer->Attach(each.name, each.media_type, each.bytes);
+    }
+    bool is_left_out = false;
+    while (const auto message = reader->Next()) {
+      if (!is_left_out && reader->topics()[message->topic].name == topic) {
+        is_left_out = true;
+      } else {
+        writer->Write(*message);
+      }
+    }
+    writer->Close();
+  }
+  void Restore(const fs::path& out, const fs::path& whole) const {
+    fs::copy(whole, out, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
+
+  const std::vector<std::string> topics_ = {"/beams/points", "/clock",     "/objects", "/odometry",
+                                            "/tf",           "/tf_static", "/track"};
+};
+
+TEST_F(ChangedBags, OfRosbag2AreFaultsWhicheverMessageWasChanged) {
+  const fs::path whole = Make("whole", "--format rosbag2 " + frames_);
+  for (const std::string& topic : topics_) {
+    for (const char* sql :
+         {"DELETE FROM messages WHERE id = :id",
+          "UPDATE messages SET timestamp = timestamp + 1 WHERE id = :id",
+          "UPDATE messages SET data = CAST(data || x'00' AS BLOB) WHERE id = :id",
+          "INSERT INTO messages (topic_id, timestamp, data) SELECT topic_id, timestamp, data "
+          "FROM messages WHERE id = :id"}) {
+      Restore(Out("bag"), whole);
+      ChangeDatabase(Out("bag") / "rosbag2", topic, sql);
+      EXPECT_THAT(FaultsOf(Out("bag")), testing::Not(testing::IsEmpty())) << topic << sql;
+    }
+  }
+}
+
+TEST_F(ChangedBags, OfRosbag2AreFaultsWhicheverFileBesideTheDatabaseWasChanged) {
+  const fs::path out = Make("bag", "--format rosbag2 " + frames_);
+  for (const std::string name :
+       {"metadata.yaml", "scenario.resolved.json", "labels.json", "manifest.json"}) {
+    const fs::path file = out / "rosbag2" / name;
+    const std::string text = ReadFileWhole(file);
+    WriteFileWhole(file, text + " ");
+    EXPECT_THAT(FaultsOf(out), ElementsAre(HasSubstr(file.string() + ": must have the hash ")));
+    WriteFileWhole(file, text);
+  }
+  WriteFileWhole(out / "rosbag2/notes", "");
+  EXPECT_THAT(FaultsOf(out),
+              ElementsAre((out / "rosbag2/notes").string() + ": is not named in bag.jsonl"));
+}
+
+TEST_F(ChangedBags, OfMcapAreFaultsWhicheverMessageIsMissing) {
+  const fs::path out = Make("bag", "--format mcap " + frames_);
+  const fs::path bag = out / "frames.mcap";
+  const fs::path whole = Out("whole.mcap");
+  fs::copy_file(bag, whole);
+  for (const std::string& topic : topics_) {
+    LeaveOut(whole, bag, topic);
+    EXPECT_THAT(FaultsOf(out), testing::Contains(HasSubstr(bag.string() + ": must have the hash ")))
+        << topic;
+  }
+}
+
+TEST_F(ChangedBags, ThatAreCutAreFaultsOfOldAndNewRuns) {
+  const fs::path out = Make("bag", "--format mcap " + frames_);
+  const fs::path old = Out("old");
+  fs::copy(fs::path(RAILCAST_SOURCE_DIR) / "tests/releases/0.2.0/mcap", old,
+           fs::copy_options::recursive);
+  EXPECT_THAT(FaultsOf(old), ElementsAre());
+  for (const fs::path& run : {out, old}) {
+    const fs::path bag = run / "frames.mcap";
+    fs::resize_file(bag, fs::file_size(bag) - 8);
+    EXPECT_THAT(FaultsOf(run),
+                testing::Contains(bag.string() +
+                                  ": must have the end of an MCAP file: it is unfinished or cut"));
+  }
+}
+
+TEST_F(ChangedBags, AreNotGoneOnWith) {
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    MakeFirst(format, format, 3);
+    const fs::path bag = Out(format) / (format == "mcap" ? "frames.mcap" : "rosbag2");
+    if (format == "mcap") {
+      const fs::path unfinished = bag.string() + ".part";
+      LeaveOut(unfinished, Out("changed.mcap"), "/odometry");
+      fs::rename(Out("changed.mcap"), unfinished);
+    } else {
+      ChangeDatabase(bag, "/odometry", "DELETE FROM messages WHERE id = :id");
+    }
+    EXPECT_THAT(Run("--format " + format + " " + frames_ + " --out " + Out(format).string(), 1),
+                HasSubstr(bag.string() +
+                          ": commit 2 is not what was written, as bag.jsonl says; delete the bag "
+                          "and manifest.json to make them anew\n"));
+  }
+}
+
+// What was deleted last is not made anew by a database, which cannot be cut.
+TEST_F(ChangedBags, AreNotGoneOnWithWithoutTheirLastMessage) {
+  MakeFirst("bag", "rosbag2", 3);
+  bag::SqliteDatabase(Out("bag") / "rosbag2/rosbag2_0.db3", bag::SqliteAccess::kChange, "bag")
+      .Run("DELETE FROM messages WHERE id = (SELECT max(id) FROM messages)");
+  EXPECT_THAT(Run("--format rosbag2 " + frames_ + " --out " + Out("bag").string(), 1),
+              HasSubstr("/rosbag2: commit 4 is not what was written, as bag.jsonl says"));
+}
+
+TEST_F(ChangedBags, AreNotCalledComplete) {
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    const std::string options = "--format " + format + " " + frames_;
+    const fs::path out = Make(format, options);
+    if (format == "mcap") {
+      fs::copy_file(out / "frames.mcap", Out("whole.mcap"));
+      LeaveOut(Out("whole.mcap"), out / "frames.mcap", "/track");
+    } else {
+      ChangeDatabase(out / "rosbag2", "/track", "DELETE FROM messages WHERE id = :id");
+    }
+    EXPECT_THAT(Run(options + " --out " + out.string(), 1),
+                HasSubstr(": is complete, but it is not what was written, as bag.jsonl says"));
+  }
+}
+
+// A run may end between the end of its bag and the hashes of that.
+TEST_F(ChangedBags, GetTheHashesThatTheyLack) {
+  for (const std::string format : {"mcap", "rosbag2"}) {
+    const std::string options = "--format " + format + " " + frames_;
+    const fs::path out = Make(format, options);
+    const std::string lines = ReadFileWhole(out / "bag.jsonl");
+    // Once, for each frame, for the end of the last one, and the hashes.
+    EXPECT_EQ(std::ranges::count(lines, '\n'), 1 + 4 + 1 + 1);
+    WriteFileWhole(out / "bag.jsonl", lines.substr(0, lines.rfind("{\"files_xxh3") + 20));
+    EXPECT_THAT(FaultsOf(out),
+                ElementsAre((out / "bag.jsonl").string() +
+                            ": must end with the hashes of the bag's files: the bag is unfinished "
+                            "or a line was changed"));
+    EXPECT_THAT(Run(options + " --out " + out.string()), HasSubstr("already complete"));
+    EXPECT_EQ(ReadFileWhole(out / "bag.jsonl"), lines);
+    fs::remove(out / "bag.jsonl");
+    EXPECT_THAT(FaultsOf(out), ElementsAre((out / "bag.jsonl").string() + ": missing"));
+  }
+}
+
+}  // namespace
+}  // namespace railcast
