@@ -1,6 +1,5 @@
 #include "analysis/study/finished_study.h"
 
-#include <algorithm>
 #include <string>
 
 #include "analysis/study/kept_files.h"
@@ -47,12 +46,15 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
   study.result.num_approaches = num_approaches;
   study.result.approaches = ReadApproaches(directory);
   const std::size_t num_done = study.result.approaches.size();
-  if (num_done < num_approaches || !fs::exists(directory / kAskedFile)) {
+  // The manifest is written last.
+  const bool has_manifest = fs::exists(directory / kManifestFile);
+  if (num_done < num_approaches || !has_manifest) {
     throw InputError(ShownPath(directory) + ": must be a finished study (got " +
                      std::to_string(num_done) + " of " + std::to_string(num_approaches) +
-                     " approaches); the command that began it, railcast-analyze study, continues "
-                     "it");
+                     " approaches" + (has_manifest ? "" : " and no manifest.json") +
+                     "); the command that began it, railcast-analyze study, continues it");
   }
+  static_cast<void>(CheckKeptFiles(directory));
   study.spec = ReadStudy(directory / kAskedFile);
   study.recipe = ReadRecordedJson<Json>(ReadFileWhole(directory / kAskedRecipeFile),
                                         ShownPath(directory / kAskedRecipeFile),
@@ -68,20 +70,8 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
 }
 
 std::vector<ScenarioSpec> ReadSample(const FinishedStudy& study) {
-  const fs::path folder = study.directory / kSampleFolder;
-  std::vector<fs::path> files;
-  std::error_code ignored;  // A folder that is missing has no entries.
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    files.push_back(entry.path() / kScenarioFile);
-  }
-  std::ranges::sort(files);
-  if (files.empty()) {
-    throw InputError(ShownPath(folder) +
-                     ": must hold scenarios of the study: the command that made it, "
-                     "railcast-analyze study, writes them again");
-  }
   std::vector<ScenarioSpec> sample;
-  for (const fs::path& file : files) sample.push_back(ReadScenario(file));
+  for (const fs::path& file : CheckKeptFiles(study.directory)) sample.push_back(ReadScenario(file));
   return sample;
 }
 

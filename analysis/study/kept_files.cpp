@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/study/study_directory.h"
+#include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/sequence_summary.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
@@ -12,10 +17,23 @@
 namespace railcast {
 namespace {
 
-void KeepScenario(const ScenarioDrawer& drawer,
-                  std::uint32_t number,
-                  const std::filesystem::path& folder) {
-  WriteScenarioFiles(IdentityOf(drawer.Draw(number).scenario), folder, std::string(kScenarioFile));
+// Returns the names of its files.
+std::set<std::string> KeepScenario(const ScenarioDrawer& drawer,
+                                   std::uint32_t number,
+                                   const std::string& folder,
+                                   const std::filesystem::path& directory) {
+  const ScenarioIdentity identity = IdentityOf(drawer.Draw(number).scenario);
+  WriteScenarioFiles(identity, directory / folder, std::string(kScenarioFile));
+  std::set<std::string> names = {folder + "/" + std::string(kScenarioFile)};
+  for (const InputFile& input : identity.inputs) names.insert(folder + "/" + input.CopyName());
+  return names;
+}
+
+void WriteManifest(const std::set<std::string>& names, const std::filesystem::path& directory) {
+  Json files;
+  for (const std::string& name : names) files[name] = HashFile(directory / name).hash;
+  WriteFileWhole(directory / kManifestFile,
+                 WithManifestHash(Json{{"files_xxh3", files}}.dump(2) + "\n"));
 }
 
 }  // namespace
@@ -44,17 +62,44 @@ void KeepFiles(const StudySpec& study,
                const std::filesystem::path& directory) {
   std::set<std::uint32_t> of_worst;
   for (const Observation& each : worst) of_worst.insert(each.approach->scenario);
+  std::set<std::string> names;
   for (const std::uint32_t number : of_worst) {
-    KeepScenario(drawer, number, directory / KeptFolder(kWorstFolder, number));
+    names.merge(KeepScenario(drawer, number, KeptFolder(kWorstFolder, number), directory));
   }
   for (const std::uint32_t number : sample) {
-    KeepScenario(drawer, number, directory / KeptFolder(kSampleFolder, number));
+    names.merge(KeepScenario(drawer, number, KeptFolder(kSampleFolder, number), directory));
   }
   Json asked = Json::parse(ReadFileWhole(study.file));
   asked["recipe"] = std::filesystem::path(kAskedRecipeFile).filename().string();
   MakeFolders((directory / kAskedFile).parent_path());
   WriteFileWhole(directory / kAskedFile, asked.dump(2) + "\n");
   WriteFileWhole(directory / kAskedRecipeFile, ReadFileWhole(study.recipe));
+  for (const std::string_view name : {kAskedFile, kAskedRecipeFile, kStudyFile, kApproachesFile}) {
+    names.emplace(name);
+  }
+  WriteManifest(names, directory);
+}
+
+std::vector<std::filesystem::path> CheckKeptFiles(const std::filesystem::path& directory) {
+  const std::filesystem::path manifest = directory / kManifestFile;
+  const std::string text = ReadFileWhole(manifest);
+  CheckManifestHash(text, ShownPath(manifest));
+  ErrorList faults;
+  std::vector<std::filesystem::path> sample;
+  const Json files = Json::parse(text).at("files_xxh3");
+  for (const auto& [name, hash] : files.items()) {
+    const auto got = Attempt("", faults, [&] { return HashFile(directory / name).hash; });
+    if (got && hash != *got) {
+      faults.Add({ShownPath(directory / name),
+                  "must have the hash " + hash.get<std::string>() + ", as manifest.json says",
+                  *got});
+    }
+    if (name.starts_with(std::string(kSampleFolder) + "/") && name.ends_with(kScenarioFile)) {
+      sample.push_back(directory / name);
+    }
+  }
+  faults.ThrowIfAny();
+  return sample;
 }
 
 }  // namespace railcast

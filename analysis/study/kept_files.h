@@ -28,12 +28,19 @@ inline constexpr std::string_view kAskedRecipeFile = "inputs/recipe.json";
 /// Numbers of at most 16 scenarios with observations, spread evenly over them.
 [[nodiscard]] std::vector<std::uint32_t> SampleOf(const std::vector<Observation>& observations);
 
-/// Writes the scenarios of the worst and those of the sample, the study and its recipe.
+/// Writes the scenarios of the worst and those of the sample, the study and its recipe, and
+/// manifest.json with the hashes of these and of the study's own files.
 /// @throws InputError if a file cannot be written.
 void KeepFiles(const StudySpec& study,
                const ScenarioDrawer& drawer,
                const std::vector<Observation>& worst,
                const std::vector<std::uint32_t>& sample,
                const std::filesystem::path& directory);
+
+/// Checks that a study's files are as they were kept.
+/// @return The scenarios of the sample, in the order of their numbers.
+/// @throws InputError with a line for each file that is missing or was changed.
+[[nodiscard]] std::vector<std::filesystem::path> CheckKeptFiles(
+    const std::filesystem::path& directory);
 
 }  // namespace railcast

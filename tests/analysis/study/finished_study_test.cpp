@@ -4,6 +4,7 @@
 
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"
+#include "core/io/content_hash.h"
 #include "tests/analysis/study/study_project.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
@@ -46,6 +47,40 @@ TEST_F(FinishedStudies, AreReadFromTheirFolderAlone) {
   const std::vector<ScenarioSpec> sample = ReadSample(study);
   ASSERT_EQ(sample.size(), 6U);
   EXPECT_EQ(sample.front().world.objects.front().name.substr(0, 6), "person");
+}
+
+TEST_F(FinishedStudies, AreRefusedWhereAFileWasChanged) {
+  Make();
+  for (const std::string name : {"inputs/study.json", "inputs/recipe.json", "study.json",
+                                 "approaches.jsonl", "sample/000003/scenario.resolved.json"}) {
+    const auto file = folder() / name;
+    const std::string text = ReadFileWhole(file);
+    WriteFileWhole(file, text + " ");
+    EXPECT_EQ(MessageOfReading(), file.string() + ": must have the hash " + ContentHash(text) +
+                                      ", as manifest.json says (got " + ContentHash(text + " ") +
+                                      ")");
+    std::filesystem::remove(file);
+    EXPECT_NE(MessageOfReading(), "no error") << name;
+    WriteFileWhole(file, text);
+  }
+  EXPECT_EQ(MessageOfReading(), "no error");
+}
+
+// Another scenario beside those of the sample is none of it.
+TEST_F(FinishedStudies, HaveTheSampleThatTheyKept) {
+  Make();
+  std::filesystem::copy(folder() / "sample/000003", folder() / "sample/000009",
+                        std::filesystem::copy_options::recursive);
+  EXPECT_EQ(ReadSample(ReadFinishedStudy(folder())).size(), 6U);
+}
+
+TEST_F(FinishedStudies, AreRefusedWithoutTheirHashes) {
+  Make();
+  std::filesystem::remove(folder() / "manifest.json");
+  EXPECT_EQ(MessageOfReading(),
+            folder().string() +
+                ": must be a finished study (got 6 of 6 approaches and no manifest.json); the "
+                "command that began it, railcast-analyze study, continues it");
 }
 
 TEST_F(FinishedStudies, AreRefusedWhereApproachesAreMissing) {
