@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "analysis/commands.h"
@@ -11,6 +12,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/net/udp.h"
+#include "core/io/stream/arrivals.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
@@ -28,12 +31,17 @@ struct CollectOptions {
   std::filesystem::path out;
 };
 
+std::optional<Endpoint> WantedSender(const CollectOptions& options) {
+  if (!options.from) return std::nullopt;
+  return AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
+}
+
+/// Lines are appended to the unfinished file as they come, so that they are there however the
+/// program ends.
 class Collecting {
  public:
-  explicit Collecting(const CollectOptions& options) : options_(options) {
-    if (!options.from) return;
-    from_ = AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
-  }
+  explicit Collecting(const CollectOptions& options)
+      : options_(options), sender_(WantedSender(options)) {}
 
   /// Takes datagrams until there are enough or the time is over.
   void Run(UdpReceiver& receiver) {
@@ -51,8 +59,20 @@ class Collecting {
     progress.End();
   }
 
-  [[nodiscard]] const CollectedLines& lines() const { return lines_; }
-  [[nodiscard]] std::uint64_t num_strangers() const { return num_strangers_; }
+  /// Gives the file its name, with the lines in their order.
+  void Finish() const {
+    if (!file_) return;
+    file_->Overwrite(0, lines_.Text());
+    file_->Finish();
+  }
+
+  [[nodiscard]] std::string Summary() const {
+    std::string text = lines_.Summary() + "\n";
+    if (!stranger_) return text;
+    return text + "datagrams of other senders: " + NumberText(num_strangers_) +
+           ", dropped; the last from " + EndpointText(*stranger_) + "\n";
+  }
+  [[nodiscard]] bool has_lines() const { return file_.has_value(); }
 
  private:
   // The longest time until a run notices that it was stopped.
@@ -66,38 +86,56 @@ class Collecting {
   }
 
   void Take(const UdpReceiver::Received& received) {
-    if (from_ && !from_->Covers(received.from)) {
+    const std::chrono::nanoseconds now = std::chrono::steady_clock::now().time_since_epoch();
+    const DatagramOrigin origin = {.from = received.from, .time_ns = now.count()};
+    if (sender_.IsAnother(origin)) {
       ++num_strangers_;
+      stranger_ = received.from;
       return;
     }
-    lines_.Take({received.bytes.data(), received.bytes.size()}, EndpointText(received.from));
+    const std::string line =
+        lines_.Take({received.bytes.data(), received.bytes.size()}, EndpointText(received.from));
+    static_cast<void>(sender_.Follow(origin));
+    if (line.empty()) return;
+    if (!file_) file_.emplace(options_.out, 0);
+    file_->Append(std::as_bytes(std::span(line)));
   }
 
   const CollectOptions& options_;
-  std::optional<Endpoint> from_;
+  FollowedSender sender_;
   std::uint64_t num_wanted_ =
       options_.num_frames.value_or(std::numeric_limits<std::uint64_t>::max());
   std::chrono::steady_clock::time_point end_ = EndAfter(options_.duration_s);
   CollectedLines lines_;
+  std::optional<UnfinishedFile> file_;  ///< From the first line on.
   std::uint64_t num_strangers_ = 0;
+  std::optional<Endpoint> stranger_;  ///< The last of these.
 };
 
+// What a collection left that was killed would be lost.
+void RefuseKeptLines(const std::filesystem::path& out) {
+  const std::filesystem::path kept = FileToReplace(out).string() + std::string(kUnfinishedSuffix);
+  if (!std::filesystem::exists(kept)) return;
+  throw InputError(ShownPath(kept) +
+                   ": holds the lines of a collection that was killed; move it away");
+}
+
 int RunCollect(const CollectOptions& options) {
+  RefuseKeptLines(options.out);
   CheckCanWrite(options.out);
   Collecting collecting(options);
   UdpReceiver receiver(ParseEndpoint(options.at, kDetectionsPort));
   CatchStopSignals();
   std::cout << "listening at " << EndpointText(receiver.at()) << std::endl;
-  collecting.Run(receiver);
-  std::cout << collecting.lines().Summary() << "\n";
-  if (options.from) {
-    std::cout << "datagrams of other senders: " << collecting.num_strangers() << ", dropped\n";
-  }
+  ErrorList faults;
+  static_cast<void>(Attempt("", faults, [&] { return collecting.Run(receiver), true; }));
+  collecting.Finish();
+  std::cout << collecting.Summary() << std::flush;
+  faults.ThrowIfAny();
   // An empty file would say that nothing was detected in any frame.
-  if (collecting.lines().num_frames() == 0) {
+  if (!collecting.has_lines()) {
     throw InputError({{EndpointText(receiver.at()), "must be sent a line for each frame", "none"}});
   }
-  WriteFileWhole(options.out, collecting.lines().Text());
   return kExitSuccess;
 }
 
@@ -116,7 +154,7 @@ void AddCollect(CLI::App& app, ProgramCommand& command) {
       ->capture_default_str();
   collect
       ->add_option("--from", options->from,
-                   "HOST or HOST:PORT whose datagrams are taken; default: those of all senders")
+                   "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
       ->check(NonEmpty());
   collect
       ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")
@@ -125,7 +163,7 @@ void AddCollect(CLI::App& app, ProgramCommand& command) {
       ->transform(Whole({1}));
   collect
       ->add_option("--out", options->out,
-                   "File to write when all is collected: JSON lines (docs/evaluate.md)")
+                   "File to write: JSON lines (docs/evaluate.md); until the end FILE.part")
       ->required()
       ->check(NonEmpty());
   collect->callback([&command, options] {

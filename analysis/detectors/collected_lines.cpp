@@ -6,7 +6,7 @@
 
 namespace railcast {
 
-void CollectedLines::Take(std::string_view datagram, const std::string& from) {
+std::string CollectedLines::Take(std::string_view datagram, const std::string& from) {
   std::string_view rest = datagram;
   // An empty one is no JSON, which the reader says.
   const std::string_view line = TakeLine(rest).value_or("");
@@ -15,11 +15,12 @@ void CollectedLines::Take(std::string_view datagram, const std::string& from) {
   }
   const std::uint32_t frame = ReadDetectionLine(line, from).frame;
   const auto [known, is_new] = lines_.try_emplace(frame, line);
-  if (is_new) return;
+  if (is_new) return known->second + "\n";
   if (known->second != line) {
     throw InputError({{from + ": /frame", "must be that of one line only", NumberText(frame)}});
   }
   ++num_repeated_;
+  return "";
 }
 
 std::string CollectedLines::Text() const {

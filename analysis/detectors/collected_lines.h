@@ -15,9 +15,10 @@ class CollectedLines {
   /// Takes a datagram: a line as ReadDetectionLine() reads it, with or without its end. The same
   /// line again, which a network may deliver, changes nothing.
   /// @param from Names the sender in messages.
+  /// @return The line with its end; empty if it is there already.
   /// @throws InputError "127.0.0.1:4711: /pointer: rule (got value)" for every fault of the line,
   ///   and for another line of a frame that has one. Nothing has been taken then.
-  void Take(std::string_view datagram, const std::string& from);
+  std::string Take(std::string_view datagram, const std::string& from);
 
   [[nodiscard]] std::size_t num_frames() const { return lines_.size(); }
 

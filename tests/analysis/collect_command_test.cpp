@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -61,7 +62,7 @@ TEST_F(CollectCommand, EndsAtASignalWithWhatHadArrived) {
   }
 }
 
-TEST_F(CollectCommand, EndsAtTheFirstFaultyDatagramAndWritesNothing) {
+TEST_F(CollectCommand, EndsAtTheFirstFaultyDatagramWithTheLinesBeforeIt) {
   for (const auto& [datagram, fault] :
        {std::pair{R"({"frame": 5})", "/detections: missing"},
         std::pair{R"({"frame": 4, "detections": [{"points": [1]}]})",
@@ -69,10 +70,48 @@ TEST_F(CollectCommand, EndsAtTheFirstFaultyDatagramAndWritesNothing) {
     ListeningProgram program(Collect(""));
     Send(program, LineOf("4"));
     Send(program, datagram);
-    EXPECT_EQ(program.Rest(), detector() + ": " + fault + "\n");
+    EXPECT_EQ(program.Rest(), "frames: 1, from 4 to 4, 0 missing between; 0 repeated datagrams\n" +
+                                  detector() + ": " + fault + "\n");
     EXPECT_EQ(program.ExitStatus(), 1);
-    EXPECT_FALSE(exists(file()));
+    EXPECT_EQ(ReadFileWhole(file()), LineOf("4"));
+    std::filesystem::remove(file());
   }
+}
+
+TEST_F(CollectCommand, FollowsTheFirstSenderThatItHears) {
+  ListeningProgram program(Collect("--frames 2"));
+  const UdpReceiver other(kAnyLoopbackPort);
+  Send(program, LineOf("4"));
+  other.Answer(std::string("nonsense"), program.at());
+  other.Answer(LineOf("6"), program.at());
+  Send(program, LineOf("5"));
+  EXPECT_EQ(program.Rest(),
+            "frames: 2, from 4 to 5, 0 missing between; 0 repeated datagrams\ndatagrams of other "
+            "senders: 2, dropped; the last from " +
+                EndpointText(other.at()) + "\n");
+  EXPECT_EQ(ReadFileWhole(file()), LineOf("4") + LineOf("5"));
+}
+
+TEST_F(CollectCommand, KeepsEachLineAsItComes) {
+  const std::filesystem::path kept = file().string() + ".part";
+  ListeningProgram program(Collect(""));
+  Send(program, LineOf("7"));
+  Send(program, LineOf("4"));
+  const std::string lines = LineOf("7") + LineOf("4");
+  while (!exists(kept) || std::filesystem::file_size(kept) < lines.size()) ::usleep(1000);
+  EXPECT_EQ(ReadFileWhole(kept), lines);
+  program.Interrupt();
+  EXPECT_EQ(program.ExitStatus(), 0);
+  EXPECT_EQ(ReadFileWhole(file()), LineOf("4") + LineOf("7"));
+  EXPECT_FALSE(exists(kept));
+}
+
+TEST_F(CollectCommand, RefusesToWriteOverTheLinesOfOneThatWasKilled) {
+  const std::string kept = file().string() + ".part";
+  WriteFileWhole(kept, LineOf("4"));
+  EXPECT_EQ(RunCommand(Collect("")).said,
+            kept + ": holds the lines of a collection that was killed; move it away\n");
+  EXPECT_EQ(ReadFileWhole(kept), LineOf("4"));
 }
 
 TEST_F(CollectCommand, TakesNobodyButWhoItIsToldAndWritesNothingWithoutDetections) {
@@ -81,8 +120,9 @@ TEST_F(CollectCommand, TakesNobodyButWhoItIsToldAndWritesNothingWithoutDetection
   Send(program, "nonsense");
   const std::string at = EndpointText(program.at());
   EXPECT_EQ(program.Rest(),
-            "frames: 0; 0 repeated datagrams\ndatagrams of other senders: 2, dropped\n" + at +
-                ": must be sent a line for each frame (got none)\n");
+            "frames: 0; 0 repeated datagrams\ndatagrams of other senders: 2, dropped; the last "
+            "from " +
+                detector() + "\n" + at + ": must be sent a line for each frame (got none)\n");
   EXPECT_EQ(program.ExitStatus(), 1);
   EXPECT_FALSE(exists(file()));
 }
