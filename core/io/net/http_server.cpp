@@ -8,6 +8,7 @@
 #include <boost/beast/http.hpp>
 #include <chrono>
 #include <cstdint>
+#include <list>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -23,21 +24,30 @@ namespace http = boost::beast::http;
 using boost::system::error_code;
 using Tcp = asio::ip::tcp;
 
+class HttpConnection;
+/// The one that has waited for longest is first.
+using OpenConnections = std::list<HttpConnection*>;
+
 /// One connection; lives as long as something is awaited on it.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  /// @param ended Called when the connection is closed.
-  HttpConnection(Tcp::socket socket, const HttpServer::Answer& answer, std::function<void()> ended)
-      : stream_(std::move(socket)), answer_(answer), ended_(std::move(ended)) {}
-  ~HttpConnection() { ended_(); }
+  /// @param open Holds the connection until it is closed.
+  HttpConnection(Tcp::socket socket, const HttpServer::Answer& answer, OpenConnections& open)
+      : stream_(std::move(socket)), answer_(answer), open_(open) {}
+  ~HttpConnection() { open_.remove(this); }
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
 
+  void Close() {
+    open_.remove(this);
+    stream_.close();
+  }
+
   void Read() {
+    BeginWaiting();
     parser_.emplace();
     parser_->header_limit(HttpServer::kMaxHeaderBytes);
     parser_->body_limit(HttpServer::kMaxBodyBytes);
-    stream_.expires_after(std::chrono::seconds(HttpServer::kPatience_s));
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](const error_code& error, std::size_t) {
                        if (!error) self->Write();
@@ -45,6 +55,12 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
  private:
+  void BeginWaiting() {
+    open_.remove(this);
+    open_.push_back(this);
+    stream_.expires_after(std::chrono::seconds(HttpServer::kPatience_s));
+  }
+
   void Write() {
     const http::request<http::string_body>& request = parser_->get();
     HttpAnswer answer = answer_({.method = std::string(request.method_string()),
@@ -56,7 +72,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response_.body() = std::move(answer.body);
     response_.prepare_payload();
     if (request.method() == http::verb::head) response_.body().clear();
-    stream_.expires_after(std::chrono::seconds(HttpServer::kPatience_s));
+    BeginWaiting();
     http::async_write(stream_, response_,
                       [self = shared_from_this()](const error_code& error, std::size_t) {
                         if (error) return;
@@ -68,7 +84,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   beast::tcp_stream stream_;
   const HttpServer::Answer& answer_;
-  std::function<void()> ended_;
+  OpenConnections& open_;
   beast::flat_buffer buffer_{HttpServer::kMaxHeaderBytes + HttpServer::kMaxBodyBytes};
   std::optional<http::request_parser<http::string_body>> parser_;
   http::response<http::string_body> response_;
@@ -85,25 +101,17 @@ struct HttpServer::Parts {
   Answer answer;
   Endpoint at;
   // Of the server's thread, and of connections that end when the context does.
-  std::size_t num_connections = 0;
-  bool is_accepting = false;
-  bool is_ending = false;
+  OpenConnections open;
   asio::io_context context{1};
   Tcp::acceptor acceptor{context};
   std::thread thread;
 
   void Accept() {
-    if (is_accepting || num_connections >= kMaxConnections) return;
-    is_accepting = true;
     acceptor.async_accept([this](const error_code& error, Tcp::socket socket) {
-      is_accepting = false;
       if (error == asio::error::operation_aborted) return;
       if (!error) {
-        ++num_connections;
-        std::make_shared<HttpConnection>(std::move(socket), answer, [this] {
-          --num_connections;
-          if (!is_ending) Accept();
-        })->Read();
+        if (open.size() >= kMaxConnections) open.front()->Close();
+        std::make_shared<HttpConnection>(std::move(socket), answer, open)->Read();
       }
       Accept();
     });
@@ -131,7 +139,6 @@ HttpServer::HttpServer(const Endpoint& at, Answer answer) : parts_(std::make_uni
 HttpServer::~HttpServer() {
   parts_->context.stop();
   parts_->thread.join();
-  parts_->is_ending = true;
 }
 
 const Endpoint& HttpServer::at() const {

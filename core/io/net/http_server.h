@@ -23,11 +23,12 @@ struct HttpAnswer {
 
 /// Answers HTTP requests on a thread of its own, while the object lives.
 ///
-/// It takes at most kMaxConnections at once; others wait. A connection that neither asks nor reads
-/// for kPatience_s is closed, and so is one whose request is larger than the limits.
+/// It has at most kMaxConnections at once: for one more, the one that has neither asked nor read
+/// for longest is closed, so that nobody is kept from asking. A connection that does neither for
+/// kPatience_s is closed, and so is one whose request is larger than the limits.
 class HttpServer {
  public:
-  static constexpr std::size_t kMaxConnections = 16;
+  static constexpr std::size_t kMaxConnections = 256;
   static constexpr std::size_t kMaxHeaderBytes = 8192;
   static constexpr std::size_t kMaxBodyBytes = 65'536;
   static constexpr int kPatience_s = 10;

@@ -76,6 +76,21 @@ print(send(b"GET /still HTTP/1.1\r\n\r\n")))"),
             "b''\nb''\nb''\nb'HTTP/1.1 200'\n");
 }
 
+// More than it holds: each further one closes the one that has waited for longest. Without that,
+// nobody would be answered until they are given up, after kPatience_s.
+TEST(HttpServer, AnswersBesideHundredsOfConnectionsThatAskNothing) {
+  static_assert(HttpServer::kMaxConnections < 300 && HttpServer::kPatience_s > 8);
+  const HttpServer server(kFreeLoopbackPort, Echo);
+  EXPECT_EQ(Python(server, R"(
+idle = [socket.create_connection(("127.0.0.1", port), timeout=8) for _ in range(300)]
+for i in range(3):
+    client = http.client.HTTPConnection("127.0.0.1", port, timeout=8)
+    client.request("GET", f"/{i}")
+    print(client.getresponse().read().decode())
+print(idle[0].recv(1)))"),
+            "GET /0 \nGET /1 \nGET /2 \nb''\n");
+}
+
 TEST(HttpServer, AnswersByIpv6) {
   const auto any = AnyIpv6LoopbackPort();
   if (!any) GTEST_SKIP() << "this machine has no IPv6 at ::1";
