@@ -81,6 +81,22 @@ std::string InOurForm(const std::string& said) {
   return said;
 }
 
+/// The line for a value that CLI11 could not convert: that of a flag, or of numbers for which there
+/// is no rule of our own.
+std::string Unconverted(const CLI::App* app, std::string_view said) {
+  constexpr std::string_view kBefore = "Could not convert: ";
+  const std::size_t end = said.find(" = ");
+  if (!said.starts_with(kBefore) || end == said.npos) return std::string(said);
+  const std::string name(said.substr(kBefore.size(), end - kBefore.size()));
+  bool is_flag = false;
+  for (const CLI::App* in_use : AppsInUse(app)) {
+    const CLI::Option* const option = in_use->get_option_no_throw(name);
+    is_flag = is_flag || (option != nullptr && option->get_items_expected_max() == 0);
+  }
+  return name + (is_flag ? ": must have no value" : ": must be numbers") + " (got " +
+         std::string(said.substr(end + 3)) + ")";
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> WithTopic(std::vector<std::filesystem::path> sources,
@@ -162,8 +178,11 @@ std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {
   if (fault.empty()) fault = UnknownArgument(app);
   if (fault.empty()) {
     const std::string kind = error.get_name();
-    const bool is_of_value = kind == "ValidationError" || kind == "ConversionError";
-    fault = is_of_value ? error.what() : InOurForm(error.what());
+    if (kind == "ConversionError") {
+      fault = Unconverted(app, error.what());
+    } else {
+      fault = kind == "ValidationError" ? error.what() : InOurForm(error.what());
+    }
   }
   return ShownLines(fault) + "\nRun with --help for more information.\n";
 }

@@ -124,6 +124,7 @@ TEST(CommandLine, SaysInOneFormWhatIsMissingOrTooMuch) {
       "--fidelity: must be \"geometry\", \"plausibility\", \"surface\", \"footprint\", "
       "\"reference\" or \"auto\" (got publish)");
   ExpectUsageError("insert a b.json --check --threads 1", "--threads: must not come with --check");
+  ExpectUsageError("stream a.json --lockstep=foo", "--lockstep: must have no value (got foo)");
 }
 
 TEST(CommandLine, NamesTheOptionThatAMisspeltOneMayMean) {
