@@ -278,7 +278,10 @@ PresetComparison CompareTurns(const SeenTurns& turns,
     CompareTurn(turn, replay, comparison);
   }
   if (comparison.num_turns == 0) {
-    throw InputError(source + ": must hold a turn with planes and intensities up to 1");
+    throw InputError(source +
+                     (turns.recorded.firings.empty()
+                          ? ": must hold a whole turn in which planes are seen (got none)"
+                          : ": must have intensities from 0 to 1 on its planes (got none)"));
   }
   return comparison;
 }

@@ -189,6 +189,14 @@ TEST(PresetComparison, RefusesASensorOfOtherRings) {
             ": must have the 32 rings of the scenario's sensor (got 16)");
 }
 
+TEST(PresetComparison, RefusesARecordingWithoutPlanes) {
+  std::vector<RecordedFrame> frames = RecordYard(LossyVlp16());
+  for (RecordedFrame& recorded : frames) recorded.is_grid = false;
+  HeldRecording recording(std::move(frames));
+  EXPECT_EQ(MessageOf([&] { (void)ComparePreset(recording, LossyVlp16()); }),
+            ": must hold a whole turn in which planes are seen (got none)");
+}
+
 TEST(PresetComparison, RefusesARecordingWithoutIntensities) {
   std::vector<RecordedFrame> frames = RecordYard(LossyVlp16());
   for (RecordedFrame& recorded : frames) {
@@ -196,7 +204,7 @@ TEST(PresetComparison, RefusesARecordingWithoutIntensities) {
   }
   HeldRecording recording(std::move(frames));
   EXPECT_EQ(MessageOf([&] { (void)ComparePreset(recording, LossyVlp16()); }),
-            ": must hold a turn with planes and intensities up to 1");
+            ": must have intensities from 0 to 1 on its planes (got none)");
 }
 
 }  // namespace
