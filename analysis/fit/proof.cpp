@@ -85,16 +85,15 @@ bool IsOfLosses(const FittedParameter& parameter) {
 }
 
 ReplayVerdict VerdictOf(const Figure& before, const Figure& after) {
-  const auto all = [&](double sign) {
-    for (std::size_t i = 0; i < before.halves.size(); ++i) {
-      const double gain = before.halves[i].distance - after.halves[i].distance;
-      // Negated so that NaN fails, too.
-      if (!(sign * gain > before.halves[i].error)) return false;
-    }
-    return true;
-  };
-  if (all(1.0)) return ReplayVerdict::kBetter;
-  return all(-1.0) ? ReplayVerdict::kWorse : ReplayVerdict::kNotTold;
+  double gain_of_all = 0.0;
+  bool is_better = true;
+  for (std::size_t i = 0; i < before.halves.size(); ++i) {
+    const double gain = before.halves[i].distance - after.halves[i].distance;
+    gain_of_all += gain;
+    is_better = is_better && gain > before.halves[i].error;
+  }
+  if (is_better) return ReplayVerdict::kBetter;
+  return gain_of_all < 0.0 ? ReplayVerdict::kWorse : ReplayVerdict::kNotTold;
 }
 
 /// Indices of parameters that have a value, those in one place that mean nothing without each

@@ -30,9 +30,9 @@ class FitProof {
 
   /// Puts the fitted parameters into a scenario one after the other, replays it, and gives each its
   /// proof. Noise is judged by that from turn to turn, without which roughness would count, or
-  /// where there is none by that about planes; losses are judged by holes. Better or worse is what
-  /// is so in each half of the sectors by more than a standard error; a worse one is taken out
-  /// again.
+  /// where there is none by that about planes; losses are judged by holes. Better is
+  /// what is nearer to the recording in each half of the sectors, by more than a standard error;
+  /// worse is what is farther in their mean, and is taken out again.
   /// @pre has_planes().
   /// @throws InputError as CompareTurns().
   void Judge(ScenarioSpec scenario, FitResult& result) const;
