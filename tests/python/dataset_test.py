@@ -285,8 +285,8 @@ class Insertions(unittest.TestCase):
             self.assertIn("person", (out / "card" / "README.md").read_text("utf-8"), card)
             run = source / "sequences" / "000" / "000000"
             for folder in (run, run / "recording"):
-                self.assertIn("person/1", analyze("detect", folder, "--frames", "1/1"))
-                self.assertIn("person/1", analyze("evaluate", folder, "--frames", "1/1"))
+                self.assertIn("person/1", analyze("detect", folder, "--frames", "1/1", "--format", "json"))
+                self.assertIn("person/1", analyze("evaluate", folder, "--frames", "1/1", "--format", "json"))
 
 
 if __name__ == "__main__":
