@@ -53,8 +53,8 @@ bool HasReflectances(const FitOptions& options, const RecordingInfo& info) {
 std::optional<ScenarioSpec> ScenarioOf(const FitOptions& options, const RecordingInfo& info) {
   if (!options.scenario) return IsSimulated(info) ? info.scenario : std::nullopt;
   if (IsSimulated(info)) {
-    throw InputError("--scenario: must be left out for sequences, which have their own" +
-                     Got(ShownPath(*options.scenario)));
+    throw InputError("--scenario: must be left out for sequences, which have their own (got " +
+                     ShownPath(*options.scenario) + ")");
   }
   return PickSensor(ReadScenario(*options.scenario), std::nullopt);
 }
