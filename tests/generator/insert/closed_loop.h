@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "generator/insert/inserter.h"
+#include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
 #include "tests/support/analytic_meshes.h"
@@ -103,6 +104,25 @@ inline void AddThings(const ScenarioSpec& scenario,
   add({66.0, 16.0, 0.0}, {0.5, 18.0, 12.0});
   add({27.0, -6.5, 0.0}, {0.1, 3.0, 0.9});
   add({90.0, 3.0, 0.0}, {0.1, 6.0, 1.4});
+  world->velocity_chunk_mps = {15.0, 0.0, 0.0};
+  return world;
+}
+
+/// The ballasted track of scenarios/minimal.json up to 100 m ahead, in the axes of the vehicle.
+[[nodiscard]] inline std::shared_ptr<SimpleWorld> MakeTrackScene(const ScenarioSpec& scenario) {
+  const RailWorld line(scenario.world, scenario.vehicle, LabelTable(scenario.labels),
+                       MaterialLibrary(scenario.materials), scenario.seed);
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.name = "scene";
+  const Transform vehicle_from_world = line.WorldFromVehicle(0).inverse();
+  for (const int chunk : line.ChunksInReach(line.HomeChunk(0), 100.0)) {
+    const Eigen::Affine3f vehicle_from_chunk =
+        (vehicle_from_world * line.WorldFromChunk(chunk)).cast<float>();
+    for (Part part : line.BuildChunk(chunk).ground.parts) {
+      for (Eigen::Vector3f& vertex : part.mesh.vertices) vertex = vehicle_from_chunk * vertex;
+      world->ground.parts.push_back(std::move(part));
+    }
+  }
   world->velocity_chunk_mps = {15.0, 0.0, 0.0};
   return world;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/text.h"
 #include "tests/generator/insert/closed_loop.h"
 #include "tests/support/frame_bytes.h"
 
@@ -29,14 +31,18 @@ struct Loop {
 
 constexpr SectorSpec kLoopSector{12.0, -25.0, 15.0};
 
-Loop RunLoop(const LoopSensor& sensor, bool is_own = true) {
+Loop RunLoopIn(const SimpleWorld& scene,
+               const std::vector<LoopThing>& things,
+               const LoopSensor& sensor,
+               bool is_own = true) {
   Loop loop;
-  loop.recorded = RecordedOf(ScanLoop(sensor, MakeLoopScene(sensor.scenario)), sensor.pattern);
+  const auto without = std::make_shared<SimpleWorld>(scene);
+  loop.recorded = RecordedOf(ScanLoop(sensor, without), sensor.pattern);
   if (!is_own) ForgetOwnFields(loop.recorded);
-  const auto with = MakeLoopScene(sensor.scenario);
-  AddThings(sensor.scenario, LoopThings(), *with);
+  const auto with = std::make_shared<SimpleWorld>(scene);
+  AddThings(sensor.scenario, things, *with);
   loop.truth = ScanLoop(sensor, with);
-  const auto alone = ThingsAlone(sensor.scenario, LoopThings());
+  const auto alone = ThingsAlone(sensor.scenario, things);
   Inserter inserter(PlanOf(sensor.scenario, alone, sensor.pattern), 0);
   loop.inserted = inserter.Insert(loop.recorded, 0);
   const ReceiverSpec& receiver = sensor.scenario.lidar.receiver;
@@ -44,6 +50,10 @@ Loop RunLoop(const LoopSensor& sensor, bool is_own = true) {
       std::hypot(receiver.range_noise_floor_m,
                  receiver.range_noise_scale_m / std::sqrt(2.0 * receiver.snr_at_threshold));
   return loop;
+}
+
+Loop RunLoop(const LoopSensor& sensor, bool is_own = true) {
+  return RunLoopIn(*MakeLoopScene(sensor.scenario), LoopThings(), sensor, is_own);
 }
 
 bool HasPointAt(const Frame& frame, std::size_t slot) {
@@ -165,6 +175,60 @@ TEST(Inserter, GivesSeveralReturnsByTheRuleOfTheSensor) {
     sensor.scenario.lidar.receiver.return_mode = mode;
     ExpectTheSame(RunLoop(sensor), std::string(NameOf(mode)));
   }
+}
+
+// What a beam meets beside and behind a thing is known by one or two recorded echoes, where grazing
+// ballast has a row of them: first returns agree, second ones in nine of ten slots.
+TEST(Inserter, GivesNineOfTenSecondReturnsOnGrazingBallast) {
+  LoopSensor sensor = MakeLoopSensor("vls128", Fidelity::kFootprint, kLoopSector);
+  sensor.scenario.lidar.receiver.return_mode = ReturnMode::kDual;
+  std::vector<LoopThing> things;
+  for (const double ahead_m : {20.0, 40.0, 60.0, 80.0}) {
+    things.push_back({ahead_m, things.size() % 2 == 0 ? 1.0 : -1.0, {0.5, 0.6, 0.5}});
+  }
+  const Loop loop = RunLoopIn(*MakeTrackScene(sensor.scenario), things, sensor);
+  const Frame& truth = loop.truth;
+  const Frame& now = loop.inserted.recorded.frame;
+  double num = 0.0;
+  std::array<double, 2> num_same{};
+  for (std::size_t first = 0; first < truth.num_slots(); first += 2) {
+    const auto is_on_thing = [&](const Frame& frame) {
+      return (HasPointAt(frame, first) && frame.instance[first] != 0) ||
+             (HasPointAt(frame, first + 1) && frame.instance[first + 1] != 0);
+    };
+    if (!is_on_thing(truth) && !is_on_thing(now)) continue;
+    num += 1.0;
+    for (const std::size_t k : {0U, 1U}) {
+      num_same[k] += AreSame(truth, now, first + k, 4.0 * loop.sigma_m) ? 1.0 : 0.0;
+    }
+  }
+  RecordProperty("same", NumberText(num_same[0]) + " and " + NumberText(num_same[1]) + " of " +
+                             NumberText(num));
+  EXPECT_GT(num, 150.0);
+  EXPECT_GE(num_same[0] / num, 0.98);
+  EXPECT_GE(num_same[1] / num, 0.90);
+}
+
+// Of a beam that a pole covers in part, the rest is known by the recorded echo alone.
+TEST(Inserter, MakesThinPolesOverBallastLittleDarkerThanTheSimulation) {
+  const LoopSensor sensor = MakeLoopSensor("vls128", Fidelity::kFootprint, kLoopSector);
+  std::vector<LoopThing> poles;
+  for (int left_m = -6; left_m <= 6; ++left_m) {
+    poles.push_back({50.0, static_cast<double>(left_m), {0.05, 0.05, 3.0}});
+  }
+  const Loop loop = RunLoopIn(*MakeTrackScene(sensor.scenario), poles, sensor);
+  const Frame& now = loop.inserted.recorded.frame;
+  std::array<double, 2> sums{};
+  for (std::size_t slot = 0; slot < now.num_slots(); ++slot) {
+    const bool is_pole = loop.truth.instance[slot] != 0 && now.instance[slot] != 0 &&
+                         HasPointAt(loop.truth, slot) && HasPointAt(now, slot);
+    if (!is_pole) continue;
+    sums[0] += static_cast<double>(loop.truth.intensity[slot]);
+    sums[1] += static_cast<double>(now.intensity[slot]);
+  }
+  RecordProperty("ratio", NumberText(sums[1] / sums[0]));
+  EXPECT_GT(sums[1] / sums[0], 0.97);
+  EXPECT_LT(sums[1] / sums[0], 1.0);
 }
 
 TEST(Inserter, TellsOfEachReturnWhichOfHowManyItIs) {

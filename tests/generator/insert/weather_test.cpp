@@ -171,24 +171,21 @@ std::vector<RainedFrame> LetItRain(const std::string& name) {
 // What has been returned is returned in rain with P' / P. The count has the variance of that many
 // independent draws, and is off by more than four standard deviations once in 16,000.
 TEST(AddedWeather, KeepsWeakReturnsByChanceAlsoWithTheSeedOfTheRecording) {
-  for (const char* name : {"vir2rail", "pandar64"}) {
-    double expected = 0.0;
-    double variance = 0.0;
-    double num = 0.0;
-    for (const RainedFrame& frame : LetItRain(name)) {
-      for (std::size_t slot = 0; slot < frame.clear.num_slots(); ++slot) {
-        const double before = frame.Chance(static_cast<double>(frame.clear.power_ratio[slot]));
-        if (std::isnan(frame.clear.x[slot]) || before > 0.99) continue;
-        const double kept = frame.Chance(frame.Weakened(slot)) / before;
-        expected += kept;
-        variance += kept * (1.0 - kept);
-        num += std::isnan(frame.now.x[slot]) ? 0.0 : 1.0;
-      }
+  double expected = 0.0;
+  double variance = 0.0;
+  double num = 0.0;
+  for (const RainedFrame& frame : LetItRain("pandar64")) {
+    for (std::size_t slot = 0; slot < frame.clear.num_slots(); ++slot) {
+      const double before = frame.Chance(static_cast<double>(frame.clear.power_ratio[slot]));
+      if (std::isnan(frame.clear.x[slot]) || before > 0.99) continue;
+      const double kept = frame.Chance(frame.Weakened(slot)) / before;
+      expected += kept;
+      variance += kept * (1.0 - kept);
+      num += std::isnan(frame.now.x[slot]) ? 0.0 : 1.0;
     }
-    EXPECT_GT(variance, 50.0) << name;
-    EXPECT_NEAR(num, expected, 4.0 * std::sqrt(variance)) << name;
-    RecordProperty(name, std::to_string(num) + " for " + std::to_string(expected));
   }
+  EXPECT_GT(variance, 50.0);
+  EXPECT_NEAR(num, expected, 4.0 * std::sqrt(variance));
 }
 
 TEST(AddedWeather, TakesTheAirsPartOfThePowerOfWhatStillReturns) {
@@ -205,25 +202,25 @@ TEST(AddedWeather, TakesTheAirsPartOfThePowerOfWhatStillReturns) {
 }
 
 // 59 % of its returns have reflectivity byte 0. The least reflectance that the preset detects at
-// 5 m is 0.006 %, and fog of 100 m leaves exp(-0.3) of it.
+// 5 m is 0.006 %, and fog of 100 m leaves exp(-0.3) of 0.25 %.
 TEST(AddedWeather, LeavesWhatIsNearInARealCaptureOfMostlyByte0) {
   const auto capture =
       std::filesystem::path(RAILCAST_SHARED_DATA_DIR) / "lidar_packets_nebula/pandar64.pcap";
   if (!exists(capture)) GTEST_SKIP() << capture << " is not there";
   const TemporaryDirectory folder;
   const auto plan = WritePlan(folder.path(), R"({"poses": "standing"})", "",
-                              R"("weather": {"visibility_m": 100}, )");
+                              R"("fidelity": "footprint", "weather": {"visibility_m": 100}, )");
   const RecordedFrame recorded = (*OpenRecording(capture)->Next())();
   const Frame& frame = recorded.frame;
   const auto num_points = std::ranges::count_if(frame.x, [](float x) { return !std::isnan(x); });
   EXPECT_GT(std::ranges::count(frame.intensity, 0.0025F), num_points / 2);
-  std::size_t num_lost = 0;
+  std::size_t num_added = 0;
   for (const SlotEdit& edit : MakeInsertion(plan, capture)(recorded).edits) {
+    num_added += edit.is_added ? 1U : 0U;
     if (edit.lost_to != Outcome::kBelowThreshold) continue;
-    ++num_lost;
     EXPECT_GT(frame.range_m[edit.slot], 5.0F);
   }
-  EXPECT_GT(num_lost, 100U);
+  EXPECT_GT(num_added, 10'000U);  // By the fog.
 }
 
 std::vector<WeatherCase> WeatherCases() {
