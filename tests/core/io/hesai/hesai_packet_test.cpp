@@ -75,8 +75,10 @@ class Remade {
       const std::size_t number = index * groups + group;
       const std::size_t column = number / model_.loops.size();
       const std::size_t loop = number % model_.loops.size();
-      loop_ns = turn_.stamp_ns + turn_.column_time_ns.at(column) +
-                model_.loop_ns * static_cast<std::int64_t>(loop);
+      if (group == 0 || !model_.states_first) {
+        loop_ns = turn_.stamp_ns + turn_.column_time_ns.at(column) +
+                  model_.loop_ns * static_cast<std::int64_t>(loop);
+      }
       for (std::size_t i = 0; i < in_group; ++i) {
         packet.BeginBlock(group * in_group + i, loop, azimuths_.at(number));
       }
