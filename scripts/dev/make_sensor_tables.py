@@ -219,7 +219,7 @@ VLS128 = [
 ]
 XT32 = [
     {"noise_sigma0_m": 0.004, "noise_sigma1": 0.0, "dropout_probability": 0.00005,
-     "dark_dropout_probability": 0.008, "dark_dropout_intensity": 0.001},
+     "dark_dropout_probability": 0.042, "dark_dropout_intensity": 0.00115},
     {"range_noise_floor_m": 0.0037, "channel_bias_sigma_m": 0.0, "pointing_jitter_deg": 0.0015,
      "dead_time_ns": 2.6},
 ]
