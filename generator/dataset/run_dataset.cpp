@@ -171,9 +171,9 @@ class DatasetRun {
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
-    Reopen(plan, was_done);
     FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
+    Reopen(plan, was_done);
     if (plan.is_merged) CheckCanMerge(maker, plan);
     if (!MakeScenario(turn, maker, plan)) return std::nullopt;
     if (plan.is_in_folders()) {
