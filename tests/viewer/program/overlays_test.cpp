@@ -167,14 +167,14 @@ TEST_F(Overlays, HaveRingsAtTheirDistancesFromBelowTheSensor) {
 
 TEST_F(Overlays, HaveTheGaugeRoundTheTrack) {
   const Picture picture = Show("gauge", beside_);
-  // At chainage 440 m; the gauge for wagons is 3.15 m x 4.28 m.
+  // At chainage 440 m; the clear space is widest at 3.58 m and narrows evenly down to 1.16 m.
   const double x_m = 440.0 - kSensorChainage_m;
   const auto at = [&](double y_m, double height_m) {
     return Vector3(x_m, y_m, kRailTop_m + height_m);
   };
-  ExpectLine(picture, beside_eye_, at(1.575, 0.0), at(1.575, 4.28), kReddishPurple);
-  ExpectLine(picture, beside_eye_, at(-1.575, 4.28), at(-1.575, 1.0), kReddishPurple);
-  ExpectLine(picture, beside_eye_, at(1.575, 4.28), at(1.575, 4.28) + Vector3(20, 0, 0),
+  ExpectLine(picture, beside_eye_, at(1.69, 1.16), at(1.754, 3.58), kReddishPurple);
+  ExpectLine(picture, beside_eye_, at(-1.754, 3.58), at(-1.69, 1.16), kReddishPurple);
+  ExpectLine(picture, beside_eye_, at(1.754, 3.58), at(1.754, 3.58) + Vector3(20, 0, 0),
              kReddishPurple);
 }
 
