@@ -54,7 +54,7 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
                      " approaches" + (has_manifest ? "" : " and no manifest.json") +
                      "); the command that began it, railcast-analyze study, continues it");
   }
-  static_cast<void>(CheckKeptFiles(directory));
+  study.sample = CheckKeptFiles(directory);
   study.spec = ReadStudy(directory / kAskedFile);
   study.recipe = ReadRecordedJson<Json>(ReadFileWhole(directory / kAskedRecipeFile),
                                         ShownPath(directory / kAskedRecipeFile),
@@ -71,7 +71,7 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
 
 std::vector<ScenarioSpec> ReadSample(const FinishedStudy& study) {
   std::vector<ScenarioSpec> sample;
-  for (const fs::path& file : CheckKeptFiles(study.directory)) sample.push_back(ReadScenario(file));
+  for (const fs::path& file : study.sample) sample.push_back(ReadScenario(file));
   return sample;
 }
 

@@ -18,6 +18,7 @@ struct FinishedStudy {
   Json recipe;                        ///< As kept in the folder; what it names need not exist.
   StudyResult result;                 ///< Without times.
   std::vector<std::uint32_t> frames;  ///< Those of each approach.
+  std::vector<std::filesystem::path> sample;  ///< Files of scenarios, a sample of all.
 };
 
 /// Reads the folder of a study.

@@ -1,6 +1,7 @@
 #include "analysis/study/kept_files.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "analysis/study/study_directory.h"
@@ -12,6 +13,8 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/strict_json.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -86,14 +89,12 @@ std::vector<std::filesystem::path> CheckKeptFiles(const std::filesystem::path& d
   CheckManifestHash(text, ShownPath(manifest));
   ErrorList faults;
   std::vector<std::filesystem::path> sample;
-  const Json files = Json::parse(text).at("files_xxh3");
-  for (const auto& [name, hash] : files.items()) {
-    const auto got = Attempt("", faults, [&] { return HashFile(directory / name).hash; });
-    if (got && hash != *got) {
-      faults.Add({ShownPath(directory / name),
-                  "must have the hash " + hash.get<std::string>() + ", as manifest.json says",
-                  *got});
-    }
+  const auto files =
+      ReadRecordedJson<StrictJson>(text, ShownPath(manifest), [](const StrictJson& json) {
+        return json.at("files_xxh3").get<std::map<std::string, std::string>>();
+      });
+  for (const auto& [name, hash] : files) {
+    (void)CompareHash(directory / name, hash, std::string(kManifestFile), faults);
     if (name.starts_with(std::string(kSampleFolder) + "/") && name.ends_with(kScenarioFile)) {
       sample.push_back(directory / name);
     }

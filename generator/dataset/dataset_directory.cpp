@@ -102,15 +102,10 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
 
 bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
   const fs::path& directory = spec_.directory;
-  ErrorList errors;
   if (is_complete_) {
     const auto show = [&](double share) { static_cast<void>(goes_on(share)); };
-    for (const std::string& fault : VerifyDataset(directory, show).faults) errors.AddLine(fault);
-    if (errors.size() == 0) return true;
-    errors.AddLine(ShownPath(directory) +
-                   ": is complete, but was changed; delete its manifest.json, and the same command "
-                   "makes anew what is not as it was");
-    errors.ThrowIfAny();
+    RefuseChanged(directory, VerifyDataset(directory, show));
+    return true;
   }
   ScenarioLines lines(directory / kScenariosFile, spec_.shard);
   std::optional<std::uint32_t> first_hole;

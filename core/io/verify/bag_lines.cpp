@@ -10,6 +10,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/bag_lines_name.h"
 #include "core/io/strict_json.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -35,12 +36,8 @@ std::vector<std::string> FixedFilesOf(const fs::path& bag) {
 }
 
 void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults) {
-  const std::string said = ", as " + std::string(kBagLinesFile) + " says";
   for (const auto& [name, hash] : lines.files) {
-    const fs::path file = bag.parent_path() / name;
-    const auto got = Attempt("", faults, [&] { return HashFile(file).hash; });
-    if (!got || *got == hash) continue;
-    faults.Add({ShownPath(file), "must have the hash " + ShownText(hash) + said, *got});
+    (void)CompareHash(bag.parent_path() / name, hash, std::string(kBagLinesFile), faults);
   }
   for (const std::string& name : FixedFilesOf(bag)) {
     if (lines.files.contains(name)) continue;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <system_error>
@@ -18,6 +19,21 @@ namespace railcast {
 /// Names of files or folders.
 using NameSet = std::set<std::string, std::less<>>;
 
+/// Reads a file and compares its hash. Returns what it has, even if that is another one; nothing if
+/// it cannot be read.
+/// @param said_in The file that states the hash.
+inline std::optional<FileHash> CompareHash(const std::filesystem::path& file,
+                                           const std::string& hash,
+                                           const std::string& said_in,
+                                           ErrorList& faults) {
+  auto got = Attempt("", faults, [&] { return HashFile(file); });
+  if (got && got->hash != hash) {
+    faults.Add({ShownPath(file),
+                "must have the hash " + ShownText(hash) + ", as " + said_in + " says", got->hash});
+  }
+  return got;
+}
+
 /// What a verifier has found so far, and the work that all verifiers do.
 class Findings {
  protected:
@@ -27,23 +43,15 @@ class Findings {
     return Attempt("", faults_, [&] { return work(), true; }).has_value();
   }
 
-  /// Reads a file and compares its hash. Returns whether it is that one.
-  /// @param said_in The file that states the hash.
+  /// As CompareHash(), and counts the file. Returns whether it is that one.
   bool CheckHash(const std::filesystem::path& file,
                  const std::string& hash,
                  const std::string& said_in) {
-    bool is_same = false;
-    Try([&] {
-      const FileHash got = HashFile(file);
-      ++result_.num_files;
-      result_.num_bytes += got.num_bytes;
-      is_same = got.hash == hash;
-      if (is_same) return;
-      faults_.Add({ShownPath(file),
-                   "must have the hash " + ShownText(hash) + ", as " + said_in + " says",
-                   got.hash});
-    });
-    return is_same;
+    const auto got = CompareHash(file, hash, said_in, faults_);
+    if (!got) return false;
+    ++result_.num_files;
+    result_.num_bytes += got->num_bytes;
+    return got->hash == hash;
   }
 
   void Add(const Verification& found) {

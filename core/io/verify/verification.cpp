@@ -352,4 +352,14 @@ Verification VerifySequence(const fs::path& directory,
   return Verifier(directory, on_progress).Run();
 }
 
+void RefuseChanged(const fs::path& directory, const Verification& found) {
+  if (found.faults.empty()) return;
+  ErrorList errors;
+  for (const std::string& fault : found.faults) errors.AddLine(fault);
+  errors.AddLine(ShownPath(directory) +
+                 ": is complete, but was changed; delete its manifest.json, and the same command "
+                 "makes anew what is not as it was");
+  errors.ThrowIfAny();
+}
+
 }  // namespace railcast

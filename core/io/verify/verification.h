@@ -24,4 +24,8 @@ struct Verification {
 [[nodiscard]] Verification VerifySequence(const std::filesystem::path& directory,
                                           const std::function<void(double)>& on_progress);
 
+/// Refuses a complete folder that is not as its command wrote it, and says how it is mended.
+/// @throws InputError with a line for each fault, and one more.
+void RefuseChanged(const std::filesystem::path& directory, const Verification& found);
+
 }  // namespace railcast

@@ -62,20 +62,10 @@ InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock
     WriteFileWhole(run_file, spec_.run_json);
   }
   is_complete_ = fs::exists(spec_.directory / kManifestFile);
-  if (is_complete_) CheckUnchanged();
-  CountFrames();
-}
-
-void InsertFolder::CheckUnchanged() const {
-  ErrorList errors;
-  for (const std::string& fault : VerifyInsertion(spec_.directory, [](double) {}).faults) {
-    errors.AddLine(fault);
+  if (is_complete_) {
+    RefuseChanged(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));
   }
-  if (errors.size() == 0) return;
-  errors.AddLine(ShownPath(spec_.directory) +
-                 ": is complete, but was changed; delete its manifest.json, and the same command "
-                 "makes anew what is not as it was");
-  errors.ThrowIfAny();
+  CountFrames();
 }
 
 void InsertFolder::CheckSameRun(const std::string& found) const {

@@ -61,7 +61,6 @@ class InsertFolder {
 
  private:
   void CheckSameRun(const std::string& found) const;
-  void CheckUnchanged() const;
   void RemoveUnfinished(const std::vector<std::string>& own) const;
   void CountFrames();
   [[nodiscard]] std::vector<LineFileName> LineFiles() const;
