@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/detect/base/beam_optics.h"
 #include "core/io/run/object_survey.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/simulate/returns.h"
 #include "core/simulate/screen_surfaces.h"
 #include "core/simulate/screened_scan.h"
@@ -156,12 +157,12 @@ void FillPhotons(const RecordedFrame& before, InsertedFrame& inserted) {
   if (photons == foreign.end()) return;
   const std::vector<float>& known =
       before.foreign[static_cast<std::size_t>(photons - foreign.begin())].values;
-  constexpr float kOfByte0 = 0.0025F;  // How dark these are is not known.
-  std::vector<float> at_1_m;           // Of intensity 1.
+  const float of_byte_0 = IntensityOfByte(0);  // How dark these are is not known.
+  std::vector<float> at_1_m;                   // Of intensity 1.
   for (std::size_t slot = 0; slot < recorded.num_slots(); ++slot) {
     const float range_m = recorded.range_m[slot];
     const float each = known[slot] * range_m * range_m / recorded.intensity[slot];
-    const bool is_known = HasReturn(recorded, slot) && recorded.intensity[slot] > kOfByte0;
+    const bool is_known = HasReturn(recorded, slot) && recorded.intensity[slot] > of_byte_0;
     if (is_known && std::isfinite(each)) at_1_m.push_back(each);
   }
   if (at_1_m.empty()) return;
