@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kReach = 4;  // Neighbours on either side.
 constexpr std::size_t kNumNeighbours = 2 * kReach;
 constexpr double kSmooth_m = 0.03;
-constexpr double kLikeFactor = 1.5;
+constexpr double kEqualFactor = 1.5;
 constexpr double kIntensityStep = 0.01;
 
 using Neighbours = Eigen::Array<double, static_cast<int>(kNumNeighbours), 1>;
@@ -37,7 +37,7 @@ double DeviationFromLine_m(const Neighbours& ranges_m) {
 
 bool IsOneBrightness(const Neighbours& intensities) {
   return intensities.maxCoeff() <= 1.0 &&
-         intensities.maxCoeff() <= kLikeFactor * intensities.minCoeff() + 1.01 * kIntensityStep;
+         intensities.maxCoeff() <= kEqualFactor * intensities.minCoeff() + 1.01 * kIntensityStep;
 }
 
 constexpr float kRelativeTolerance = 0.05F;
