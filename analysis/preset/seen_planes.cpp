@@ -134,13 +134,17 @@ bool LiesAlong(const SeenPlane& plane, const GridPoint& point) {
   return std::abs(plane.normal.dot(point.normal)) >= kLeastCosine;
 }
 
+bool IsOf(const SeenPlane& plane, const GridPoint& point) {
+  return LiesAlong(plane, point) && IsOnPlane(plane, point.position_m);
+}
+
 // Least squares through the points on the plane.
 SeenPlane Refitted(const SeenPlane& plane, const std::vector<GridPoint>& points) {
   SeenPlane fitted;
   Vector3 sum = Vector3::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const GridPoint& point : points) {
-    if (!LiesAlong(plane, point) || !IsOnPlane(plane, point.position_m)) continue;
+    if (!IsOf(plane, point)) continue;
     const Vector3 from_middle = point.position_m - plane.middle_m;
     // Weighted by range, since the tolerance grows and far points are few.
     sum += from_middle;
@@ -171,9 +175,7 @@ std::optional<SeenPlane> BestPlane(const std::vector<GridPoint>& points) {
     SeenPlane plane{.middle_m = points[place].position_m, .normal = points[place].normal};
     if (!IsApart(plane)) continue;
     for (std::size_t k = 0; k < points.size(); k += kStride) {
-      const GridPoint& point = points[k];
-      const bool is_in = LiesAlong(plane, point) && IsOnPlane(plane, point.position_m);
-      plane.num_points += is_in ? kStride : 0;
+      plane.num_points += IsOf(plane, points[k]) ? kStride : 0;
     }
     if (!best || plane.num_points > best->num_points) best = plane;
   }
@@ -274,26 +276,32 @@ SeenPlanes FindSeenPlanes(const Frame& frame, const ScanTable& scan, Sectors sec
   const auto least = static_cast<std::size_t>(kLeastShare * static_cast<double>(points.size()));
   std::vector<bool> lies_along(seen.plane.size(), false);
   while (seen.planes.size() < kMostPlanes && smooth.size() > 3) {
-    auto plane = BestPlane(smooth);
-    if (!plane) break;
-    for (int pass = 0; pass < 4; ++pass) plane = Refitted(*plane, smooth);
-    if (plane->num_points < std::max<std::size_t>(least, 3)) break;
+    const auto best = BestPlane(smooth);
+    if (!best) break;
+    SeenPlane plane = *best;
+    for (int pass = 0; pass < 4; ++pass) plane = Refitted(plane, smooth);
+    if (plane.num_points < std::max<std::size_t>(least, 3)) break;
     const auto index = static_cast<std::uint8_t>(seen.planes.size());
-    const bool is_apart = IsApart(*plane);
-    std::erase_if(smooth, [&](const GridPoint& point) {
-      if (!LiesAlong(*plane, point) || !IsOnPlane(*plane, point.position_m)) return false;
+    const bool is_apart = IsApart(plane);
+    const std::size_t num_taken = std::erase_if(smooth, [&](const GridPoint& point) {
+      if (!IsOf(plane, point)) return false;
       const std::size_t place = point.row * scan.columns + point.column;
       if (is_apart) seen.plane[place] = index;
       lies_along[place] = is_apart;
       return true;
     });
+    // The fits may have turned the plane away from all points; it would be the best one again.
+    if (num_taken == 0) {
+      std::erase_if(smooth, [&](const GridPoint& point) { return IsOf(*best, point); });
+      continue;
+    }
     if (!is_apart) continue;
     // Points with too few neighbours for a surface of their own go with those of their run.
     for (const GridPoint& point : points) {
       std::uint8_t& its = seen.plane[point.row * scan.columns + point.column];
-      if (its == SeenPlanes::kNone && IsOnPlane(*plane, point.position_m)) its = index;
+      if (its == SeenPlanes::kNone && IsOnPlane(plane, point.position_m)) its = index;
     }
-    seen.planes.push_back(*plane);
+    seen.planes.push_back(plane);
   }
   for (std::size_t row = 0; row < frame.rows; ++row) CloseRuns(frame, row, lies_along, seen);
   return seen;
