@@ -11,6 +11,7 @@
 #include <iostream>
 #include <new>
 #include <string_view>
+#include <system_error>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -46,9 +47,11 @@ std::terminate_handler default_terminate = nullptr;
 constexpr std::string_view kOutOfThreads =
     "no further thread can be started; fewer threads or more memory are needed\n";
 
-// Compared by text because TBB has no exception type for this.
+// TBB has no exception type for this and is compared by text; std::thread throws EAGAIN.
 bool IsOutOfThreads(const std::exception& error) {
-  return std::string_view(error.what()).starts_with("pthread_create has failed");
+  const auto* system = dynamic_cast<const std::system_error*>(&error);
+  return std::string_view(error.what()).starts_with("pthread_create has failed") ||
+         (system != nullptr && system->code() == std::errc::resource_unavailable_try_again);
 }
 
 // Reports that memory or threads have run out where no exception may be thrown, for example while

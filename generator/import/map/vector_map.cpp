@@ -8,7 +8,9 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <new>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
@@ -139,6 +141,14 @@ struct VectorFile {
   bool is_osm{};
 };
 
+/// GDAL reads OpenStreetMap's files by tables in memory and in SQLite, and calls their files
+/// unreadable when memory has run out.
+void EndIfOutOfMemory(std::string_view reason) {
+  for (const std::string_view sign : {"llocate", "out of memory", "sqlite3_prepare"}) {
+    if (reason.find(sign) != std::string_view::npos) throw std::bad_alloc();
+  }
+}
+
 /// @param is_in_order Whether OpenStreetMap's nodes are expected in the order of their ids, as most
 ///   files have them, and GDAL reads them faster then.
 /// @return Absent if they are not.
@@ -151,6 +161,7 @@ std::optional<VectorFile> ReadFeatures(const std::filesystem::path& file, bool i
       GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
                         is_in_order ? nullptr : kAnyOrder.data()));
   const std::string reason = gdal_errors.first();
+  EndIfOutOfMemory(reason);
   if (!dataset) {
     throw InputError(ShownPath(file) +
                      ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" +
@@ -162,6 +173,7 @@ std::optional<VectorFile> ReadFeatures(const std::filesystem::path& file, bool i
   if (is_in_order && gdal_errors.first().find("OSM_USE_CUSTOM_INDEXING") != std::string::npos) {
     return std::nullopt;
   }
+  EndIfOutOfMemory(gdal_errors.first());
   if (!gdal_errors.first().empty()) {
     throw InputError(ShownPath(file) + ": must be readable to its end (" +
                      ShownText(gdal_errors.first()) + ")");

@@ -41,6 +41,15 @@ TEST(RunProgram, SaysWhoseOtherErrorsAre) {
   EXPECT_EQ(run.said, "railcast-test: no such window\n");
 }
 
+TEST(RunProgram, SaysInWordsThatAThreadCouldNotBeStarted) {
+  const Outcome run = RunOf([]() -> int {
+    throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+  });
+  EXPECT_EQ(run.status, kExitFailure);
+  EXPECT_EQ(run.said,
+            "no further thread can be started; fewer threads or more memory are needed\n");
+}
+
 TEST(RunProgram, SaysInWordsThatMemoryRanOut) {
   const Outcome run = RunOf([]() -> int { throw std::bad_alloc(); });
   EXPECT_EQ(run.status, kExitFailure);
