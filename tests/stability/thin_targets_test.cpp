@@ -166,8 +166,8 @@ TEST(ThinTargets, ARayHitsAWireNowAndThenAndThenClaimsAFilledBeam) {
     const double p = 2.0 * kWireRadius_m / (RadFromDeg(kSpacing_deg) * range_m);
     EXPECT_NEAR(ShareOfColumnsThatHit(rays), p, 0.03) << range_m;
     RecordRegime("a wire of 12 mm at " + std::to_string(std::lround(range_m)) + " m",
-                 {"met in " + TwoDigits(100.0 * ShareOfColumnsThatHit(rays)) +
-                      " % of the columns, each time as if it filled the beam",
+                 {"met in " + TwoDigits(100.0 * ShareOfColumnsThatHit(rays)) + " % of " +
+                      std::to_string(rays.columns) + " columns, each time as if it filled the beam",
                   "met in " + TwoDigits(100.0 * ShareOfColumnsThatHit(beams)) +
                       " %, with its share of the beam to 0.2 %",
                   "as its sub-rays meet it"});
