@@ -183,6 +183,12 @@ void Describe(Archive& a, RecordingWorldSpec& s) {
 }
 
 template <class Archive>
+void Describe(Archive& a, HalfWidth& s) {
+  a.Required("height_m", s.height_m, "Above top of rail.", Within(0, 10));
+  a.Required("half_width_m", s.half_width_m, "From the axis.", Within(0.5, 10));
+}
+
+template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.OneOfTwo("alignment", "recording");
@@ -209,6 +215,17 @@ void Describe(Archive& a, WorldSpec& s) {
              "File of railcast-generate survey, whose surfaces and wires take the place of ground, "
              "tracks, contact line and plants.",
              ExistingFile());
+  std::optional<std::vector<HalfWidth>> clear_space;
+  if (!s.clear_space.empty()) clear_space = s.clear_space;
+  a.Optional("clear_space", clear_space,
+             "What must be clear of structures: half widths on straight track without cant, linear "
+             "between the heights; absent = the outline of EBO, Anlage 2.",
+             NonEmptyList());
+  if (clear_space) s.clear_space = *clear_space;
+  a.Ensure({"clear_space"}, std::ranges::is_sorted(s.clear_space, {}, &HalfWidth::height_m),
+           "must have heights that do not fall");
+  a.Ensure({"clear_space"}, s.clear_space.empty() || s.clear_space.back().height_m >= 2.0,
+           "must reach 2 m or higher");
   a.Optional(
       "detail", s.detail,
       "auto: far away, where the sensor cannot tell the difference, plants, ground and tracks are "

@@ -84,15 +84,16 @@ constexpr double kRingStep_m = 10.0;
 
 /// The corners of the clear space at a chainage: up the left side and down the right one.
 std::vector<Vector3> ClearSpaceRing(const TrackStretch& stretch,
+                                    const std::vector<HalfWidth>& half_widths,
                                     std::optional<double> contact_height_m,
                                     double s_m) {
   const Transform sensor_from_track = stretch.SensorFromTrack(s_m);
   const TrackBend bend = BendAt(stretch.track, stretch.alignment, s_m);
   std::vector<Vector3> corners;
-  for (const HalfWidth& row : ClearSpace(contact_height_m, bend, 1.0)) {
+  for (const HalfWidth& row : ClearSpace(half_widths, contact_height_m, bend, 1.0)) {
     corners.emplace_back(sensor_from_track * Vector3(0.0, row.half_width_m, row.height_m));
   }
-  const std::vector<HalfWidth> right = ClearSpace(contact_height_m, bend, -1.0);
+  const std::vector<HalfWidth> right = ClearSpace(half_widths, contact_height_m, bend, -1.0);
   for (std::size_t i = right.size(); i-- > 0;) {
     corners.emplace_back(sensor_from_track *
                          Vector3(0.0, -right[i].half_width_m, right[i].height_m));
@@ -145,15 +146,17 @@ Overlay DrawClearSpace(const Surroundings& surroundings, const RecordedFrame& re
   if (!stretch) return drawing;
   const std::optional<double> contact_height_m =
       ContactHeightOver_m(world.vehicle_track(), surroundings.scenario.world.catenary);
+  const std::vector<HalfWidth> half_widths = ClearHalfWidths(surroundings.scenario.world);
   for (const double s_m : WholeChainages_m(stretch->from_s_m, stretch->to_s_m, kRingStep_m)) {
-    std::vector<Vector3> ring = ClearSpaceRing(*stretch, contact_height_m, s_m);
+    std::vector<Vector3> ring = ClearSpaceRing(*stretch, half_widths, contact_height_m, s_m);
     ring.push_back(ring.front());
     AddPolyline(ring, kClearSpaceRgb, drawing);
   }
   std::vector<Vector3> last;
   for (const double s_m : stretch->LineChainages_m()) {
-    const std::vector<Vector3> corners = ClearSpaceRing(*stretch, contact_height_m, s_m);
-    for (std::size_t i = 0; i < last.size(); ++i) {
+    const std::vector<Vector3> corners =
+        ClearSpaceRing(*stretch, half_widths, contact_height_m, s_m);
+    for (std::size_t i = 0; i < std::min(last.size(), corners.size()); ++i) {
       AddSegment(last[i], corners[i], kClearSpaceRgb, drawing);
     }
     last = corners;

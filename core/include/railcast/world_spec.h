@@ -209,6 +209,14 @@ struct RecordingWorldSpec {
   bool operator==(const RecordingWorldSpec&) const = default;
 };
 
+/// Half the width of a space about a track at a height above top of rail.
+struct HalfWidth {
+  double height_m{};
+  double half_width_m{};
+
+  bool operator==(const HalfWidth&) const = default;
+};
+
 struct WorldSpec {
   /// Seed of the world's geometry: relief, stones, plants. The scenario's own seed drives the
   /// sensor and the weather.
@@ -229,6 +237,9 @@ struct WorldSpec {
   /// File of a survey (core/rail/survey/survey_file.h), whose surfaces and wires take the place of
   /// ground, tracks, contact line and plants; absent = none.
   std::optional<std::string> survey{};
+  /// What must be clear of structures about straight track without cant, from the lowest row
+  /// upwards; empty = kClearHalfWidths (core/rail/clearance/clear_space.h).
+  std::vector<HalfWidth> clear_space{};
 
   bool operator==(const WorldSpec&) const = default;
 };

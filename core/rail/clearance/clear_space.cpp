@@ -32,25 +32,36 @@ double CantWidening_m(double height_m, double cant_m) {
          std::max(height_m - kRollCentre_m, 0.0);
 }
 
-std::vector<HalfWidth> ClearSpace(std::optional<double> contact_height_m,
+std::vector<HalfWidth> ClearHalfWidths(const WorldSpec& world) {
+  if (!world.clear_space.empty()) return world.clear_space;
+  return {kClearHalfWidths.begin(), kClearHalfWidths.end()};
+}
+
+std::vector<HalfWidth> ClearSpace(std::vector<HalfWidth> rows,
+                                  std::optional<double> contact_height_m,
                                   const TrackBend& bend,
                                   double side) {
-  std::vector<HalfWidth> rows(kClearHalfWidths.begin(), kClearHalfWidths.end());
   for (HalfWidth& row : rows) {
     row.half_width_m +=
         CurveWidening_m(bend.curvature_per_m, side) + CantWidening_m(row.height_m, bend.cant_m);
   }
   const std::optional<double> pantograph_m =
       contact_height_m ? PantographHalfWidth_m(*contact_height_m) : std::nullopt;
-  if (!pantograph_m) return rows;
-  const HalfWidth& below = rows[rows.size() - 2];
-  HalfWidth& top = rows.back();
-  if (top.half_width_m < *pantograph_m) {
-    const double share =
-        (below.half_width_m - *pantograph_m) / (below.half_width_m - top.half_width_m);
-    top = {std::lerp(below.height_m, top.height_m, share), *pantograph_m};
+  if (!pantograph_m || rows.back().height_m >= kPantographTop_m) return rows;
+  std::size_t num_wider = rows.size();
+  while (num_wider > 0 && rows[num_wider - 1].half_width_m < *pantograph_m) --num_wider;
+  if (num_wider < rows.size()) {
+    HalfWidth& first = rows[num_wider];
+    if (num_wider > 0) {
+      const HalfWidth& below = rows[num_wider - 1];
+      const double share =
+          (below.half_width_m - *pantograph_m) / (below.half_width_m - first.half_width_m);
+      first.height_m = std::lerp(below.height_m, first.height_m, share);
+    }
+    first.half_width_m = *pantograph_m;
+    rows.resize(num_wider + 1);
   }
-  const double from_m = top.height_m;
+  const double from_m = rows.back().height_m;
   rows.push_back({from_m, *pantograph_m});
   rows.push_back({kPantographTop_m, *pantograph_m});
   return rows;

@@ -6,16 +6,9 @@
 
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
+#include "railcast/world_spec.h"
 
 namespace railcast {
-
-/// Half the width of a space at a height above top of rail.
-struct HalfWidth {
-  double height_m{};
-  double half_width_m{};
-
-  bool operator==(const HalfWidth&) const = default;
-};
 
 /// What must be clear of structures about a straight track without cant: linear between two rows,
 /// with a step where two have the same height.
@@ -63,12 +56,16 @@ struct TrackBend {
 /// @param cant_m u, not negative.
 [[nodiscard]] double CantWidening_m(double height_m, double cant_m);
 
-/// The clear space on one side of a track: kClearHalfWidths wider by CurveWidening_m() and, on both
+/// The half widths of a world's clear space.
+[[nodiscard]] std::vector<HalfWidth> ClearHalfWidths(const WorldSpec& world);
+
+/// The clear space on one side of a track: half widths wider by CurveWidening_m() and, on both
 /// sides, by CantWidening_m(). Under a contact line it reaches up to kPantographTop_m, with half
 /// the width of pantographs where it else would be narrower.
 /// @param contact_height_m Absent = no contact line.
 /// @param side As for CurveWidening_m().
-[[nodiscard]] std::vector<HalfWidth> ClearSpace(std::optional<double> contact_height_m,
+[[nodiscard]] std::vector<HalfWidth> ClearSpace(std::vector<HalfWidth> rows,
+                                                std::optional<double> contact_height_m,
                                                 const TrackBend& bend,
                                                 double side);
 

@@ -22,11 +22,18 @@ constexpr double kLeastPiece_m = 0.1;
 constexpr double kEdgeTolerance_m = 5e-3;
 /// The edge is looked for within this height; the wall below stands back.
 constexpr double kAboutEdge_m = 0.12;
-/// No part of the clear space of straight track is farther from its axis: 1.754 m, and 0.13 m for a
-/// cant of 0.2 m.
-constexpr double kWidest_m = 1.9;
-/// Nor is any in a curve, for a quick look.
-constexpr double kGaugeReach_m = 2.5;
+constexpr double kMostCant_m = 0.3;
+/// A curve makes the clear space wider by so much at most, for a quick look.
+constexpr double kMostBend_m = 0.6;
+
+/// The farthest that a clear space reaches from the axis of straight track.
+double WidestOf_m(const std::vector<HalfWidth>& rows) {
+  double widest_m = 0.0;
+  for (const HalfWidth& row : rows) {
+    widest_m = std::max(widest_m, row.half_width_m + CantWidening_m(row.height_m, kMostCant_m));
+  }
+  return widest_m;
+}
 
 /// The part of a polygon on one side of a line (Sutherland, Hodgman 1974): where `normal` times a
 /// point is at most the limit.
@@ -95,7 +102,9 @@ GaugeProbe::GaugeProbe(const WorldTracks& tracks,
       platform_(platform),
       contact_height_m_(ContactHeightOver_m(track_, tracks.world.catenary)),
       outline_(VehicleOutline(contact_height_m_)),
-      top_m_(std::max(outline_.back().top_m, kClearHalfWidths.back().height_m)) {}
+      half_widths_(ClearHalfWidths(tracks.world)),
+      widest_m_(std::max(outline_.front().half_width_m, WidestOf_m(half_widths_))),
+      top_m_(std::max(outline_.back().top_m, half_widths_.back().height_m)) {}
 
 bool GaugeProbe::MayReach(const Eigen::AlignedBox2d& bounds_m) {
   const double begin_s_m = std::max(bounds_m.min().x(), course_.begin_s_m());
@@ -116,7 +125,7 @@ bool GaugeProbe::MayReach(const Eigen::AlignedBox2d& bounds_m) {
   // What differs between its places and the track's cross-sections: their angle, cant, gradients,
   // and what a track goes aside between samples.
   constexpr double kMargin_m = 6.0;
-  const double reach_m = kGaugeReach_m + kMargin_m;
+  const double reach_m = widest_m_ + kMostBend_m + kMargin_m;
   if (bounds_m.min().y() > most_m + reach_m || bounds_m.max().y() < least_m - reach_m) return false;
   constexpr double kCurveStep_m = 2.0;
   constexpr double kBetweenSamples = 1.2;
@@ -127,7 +136,7 @@ bool GaugeProbe::MayReach(const Eigen::AlignedBox2d& bounds_m) {
     sharpest_per_m_ = std::max(sharpest_per_m_, kBetweenSamples * std::abs(curvature_per_m));
   }
   // Outside of a curve it is wider than inside.
-  reach_m_ = kWidest_m + CurveWidening_m(sharpest_per_m_, -1.0);
+  reach_m_ = widest_m_ + CurveWidening_m(sharpest_per_m_, -1.0);
   return true;
 }
 
@@ -222,7 +231,7 @@ void GaugeProbe::Divide(const ProbedCorners& triangle) {
 void GaugeProbe::MeasureClearSpace(const ProbedTriangle& here, double s_m) {
   const TrackBend bend = BendAt(course_, alignment_, s_m);
   for (const double side : {-1.0, 1.0}) {
-    std::vector<HalfWidth> rows = ClearSpace(contact_height_m_, bend, side);
+    std::vector<HalfWidth> rows = ClearSpace(half_widths_, contact_height_m_, bend, side);
     if (platform_ != nullptr) CutBelow(platform_->height_m + kAboutEdge_m, rows);
     static_cast<void>(Measure(here, side, rows, s_m));
   }

@@ -88,9 +88,11 @@ class GaugeProbe {
   const PlatformSpec* platform_;
   std::optional<double> contact_height_m_;
   std::vector<GaugePart> outline_;
-  double top_m_;                 ///< Of both spaces.
-  double sharpest_per_m_ = 0.0;  ///< Of the track where it is compared with something.
-  double reach_m_ = 0.0;         ///< Of the spaces from the axis there.
+  std::vector<HalfWidth> half_widths_;  ///< Of the clear space.
+  double widest_m_;                     ///< Of both spaces, on straight track.
+  double top_m_;                        ///< Of both spaces.
+  double sharpest_per_m_ = 0.0;         ///< Of the track where it is compared with something.
+  double reach_m_ = 0.0;                ///< Of the spaces from the axis there.
   std::size_t num_comparisons_ = 0;
   GaugeEntry entry_;
   std::set<int> metres_;  ///< Of chainage, with something of it in a space.

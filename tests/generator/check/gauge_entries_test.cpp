@@ -151,6 +151,18 @@ TEST(GaugeEntries, NameWhatIsNearAWagonThoughNotInItsWay) {
   EXPECT_TRUE(EntriesOf(world).empty());
 }
 
+TEST(GaugeEntries, AreOfTheSpaceThatTheWorldWantsClear) {
+  WorldSpec world = CurveOfTwoTracks();
+  world.tracks.pop_back();
+  world.objects = {BoxAt(150.0, -2.9, {0.5, 1.0, 1.0})};
+  EXPECT_TRUE(EntriesOf(world).empty());
+  world.clear_space = {{0.0, 2.5}, {5.0, 2.5}};
+  const std::vector<GaugeEntry> entries = EntriesOf(world);
+  ASSERT_EQ(entries.size(), 1U);
+  // The curve of 400 m wants 9 mm more; the box's ends are 0.25^2 / 800 m farther away.
+  EXPECT_NEAR(entries[0].depth_m, 2.5 + 3.75 / 400.0 - 2.4, 1e-3);
+}
+
 TEST(GaugeEntries, WantMoreRoomBesideCantedTrack) {
   WorldSpec world = CurveOfTwoTracks();
   world.tracks.pop_back();

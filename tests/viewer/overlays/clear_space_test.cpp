@@ -45,8 +45,8 @@ TEST(ClearSpaceOverlay, LeansWithTheCantAndFollowsTheCurve) {
   const double cant_rad = std::asin(0.1);
   const Eigen::Rotation2Dd lean(-cant_rad);
   const TrackBend bend{1.0 / kRadius_m, 0.15};
-  const std::vector<HalfWidth> left = ClearSpace(std::nullopt, bend, 1.0);
-  const std::vector<HalfWidth> right = ClearSpace(std::nullopt, bend, -1.0);
+  const std::vector<HalfWidth> left = ClearSpace(ClearHalfWidths({}), std::nullopt, bend, 1.0);
+  const std::vector<HalfWidth> right = ClearSpace(ClearHalfWidths({}), std::nullopt, bend, -1.0);
   for (std::size_t i = 0; i < drawing.segments.size(); ++i) {
     const std::size_t corner = i % kCorners;
     const bool is_left = corner < left.size();

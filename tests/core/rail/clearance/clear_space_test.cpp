@@ -28,7 +28,7 @@ TEST(ClearSpace, AddsUpAsTheRegulationSays) {
                                          {3.53, 1.645, 0.104},
                                          {3.835, 1.47, 0.114},
                                          {4.68, 0.785, 0.140}}};
-  const std::vector<HalfWidth> rows = ClearSpace(std::nullopt, {}, 1.0);
+  const std::vector<HalfWidth> rows = ClearSpace(ClearHalfWidths({}), std::nullopt, {}, 1.0);
   ASSERT_EQ(rows.size(), kSums.size() + 3);
   for (std::size_t i = 0; i < kSums.size(); ++i) {
     const Sum& sum = kSums[i];
@@ -51,7 +51,8 @@ TEST(ClearSpace, IsWiderInCurvesByTheStandardsFormulas) {
   EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, 1.0), 0.065, 1e-12);
   EXPECT_NEAR(CurveWidening_m(1.0 / 200.0, -1.0), 0.075, 1e-12);
   EXPECT_NEAR(CurveWidening_m(-1.0 / 200.0, -1.0), 0.065, 1e-12);
-  const std::vector<HalfWidth> outside = ClearSpace(std::nullopt, {1.0 / 200.0, 0.0}, -1.0);
+  const std::vector<HalfWidth> outside =
+      ClearSpace(ClearHalfWidths({}), std::nullopt, {1.0 / 200.0, 0.0}, -1.0);
   for (std::size_t i = 0; i < outside.size(); ++i) {
     EXPECT_NEAR(outside[i].half_width_m, kClearHalfWidths[i].half_width_m + 0.075, kRounding) << i;
   }
@@ -63,20 +64,22 @@ TEST(ClearSpace, IsWiderOnCantedTrackByWhatVehiclesLeanOut) {
   // 0.4 x 0.1 m x 3.08 m / 1.5 m.
   EXPECT_NEAR(CantWidening_m(3.58, 0.15), 0.0821, 1e-4);
   for (const double side : {-1.0, 1.0}) {
-    EXPECT_NEAR(ClearSpace(std::nullopt, {0.0, 0.15}, side)[8].half_width_m, 1.754 + 0.0821, 1e-4);
+    EXPECT_NEAR(ClearSpace(ClearHalfWidths({}), std::nullopt, {0.0, 0.15}, side)[8].half_width_m,
+                1.754 + 0.0821, 1e-4);
   }
 }
 
 TEST(ClearSpace, LeavesRoomForPantographsUnderAContactLine) {
   for (const TrackBend& bend : {TrackBend{}, TrackBend{1.0 / 100.0, 0.15}}) {
-    const std::vector<HalfWidth> rows = ClearSpace(5.3, bend, 1.0);
+    const std::vector<HalfWidth> rows = ClearSpace(ClearHalfWidths({}), 5.3, bend, 1.0);
     EXPECT_EQ(rows.back(), (HalfWidth{5.2, 1.43}));
     EXPECT_EQ(rows[rows.size() - 2].half_width_m, 1.43);
     EXPECT_GE(rows[rows.size() - 3].half_width_m, 1.43);
     EXPECT_TRUE(std::ranges::is_sorted(rows, {}, &HalfWidth::height_m));
   }
   // Of 1.589 to 0.93 m, 1.43 m are reached after 0.159 of 0.659 of the way up.
-  EXPECT_NEAR(ClearSpace(5.3, {}, 1.0)[10].height_m, 3.885 + 0.845 * 0.159 / 0.659, kRounding);
+  EXPECT_NEAR(ClearSpace(ClearHalfWidths({}), 5.3, {}, 1.0)[10].height_m,
+              3.885 + 0.845 * 0.159 / 0.659, kRounding);
 }
 
 }  // namespace
