@@ -28,6 +28,7 @@ check_format() {
 check_architecture() {
   echo "== architecture"
   scripts/dev/lint_architecture.py
+  python3 -B scripts/dev/lint_budget.py
 }
 
 check_docs() {

@@ -52,8 +52,8 @@ TEST(FitCommand, WritesAScenarioOfWhatItFound) {
   const double k_per_m = fitted.at("weather").at("rain_dropout_per_m");
   EXPECT_NEAR(k_per_m, 3.65e-4, 5e-5);
   EXPECT_EQ(fitted.at("lidar").at("plausibility").count("dropout_probability"), 1U);
-  // The few beams only meet ballast at grazing incidence.
-  EXPECT_EQ(fitted.at("lidar").at("plausibility").count("noise_shape"), 0U);
+  // The few beams only meet ballast at grazing incidence: the noise stays that of the scenario.
+  EXPECT_EQ(fitted.at("lidar").at("plausibility").at("noise_shape"), "isotropic");
   const Json scenario = Json::parse(ReadFileWhole(out / "fitted_scenario.json"));
   EXPECT_EQ(scenario.at("weather").at("rain_dropout_per_m"), k_per_m);
   const Ended check =
