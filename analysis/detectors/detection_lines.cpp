@@ -10,23 +10,11 @@
 
 namespace railcast {
 
-// Found by its argument's namespace: lists of numbers are read nowhere else.
-inline void ReadValue(JsonSource& source,
-                      const Node& node,
-                      std::vector<std::uint32_t>& values,
-                      Anything) {
-  if (!CheckListOfAtLeast(source, node, {.count = 1})) return;
-  for (std::size_t i = 0; i < node.json->size(); ++i) {
-    ReadValue(source, node.Child(i), values.emplace_back(), Anything());
-  }
-}
-
-template <class Archive>
 void Describe(Archive& a, ReportedDetection& s) {
   a.Optional("center_m", s.center_m, "Of a box.", Within(-kFarthestBox_m, kFarthestBox_m));
   a.Optional("size_m", s.size_m, "Of a box: length, width, height.", PositiveUpTo(kLargestBox_m));
   a.Optional("quaternion_xyzw", s.quaternion_xyzw, "Turns the box.", Within(-1, 1));
-  a.Optional("points", s.points, "Of a cluster: their places in the frame's file.");
+  a.Optional("points", s.points, "Of a cluster: their places in the frame's file.", NonEmptyList());
   a.Optional("score", s.score, "How sure the detector is.", Within(0, 1));
   a.Optional("class", s.class_name, "What it is taken for.", OneLine());
   const Eigen::Map<const Eigen::Vector4d> turn(s.quaternion_xyzw.data());
@@ -37,7 +25,6 @@ void Describe(Archive& a, ReportedDetection& s) {
            "must have either center_m and size_m, or points");
 }
 
-template <class Archive>
 void Describe(Archive& a, ReportedFrame& s) {
   a.Required("frame", s.frame, "Number of the frame, as its file has it.");
   a.Optional("latency_ms", s.latency_ms, "From the stamp until this is known.", Within(0, 1e5));

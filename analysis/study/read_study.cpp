@@ -11,7 +11,6 @@
 
 namespace railcast {
 
-template <class Archive>
 void Describe(Archive& a, DetectionRule& s) {
   a.Optional("points", s.min_points, "Least number of points on an object that is seen.",
              Within(1, 1e6));
@@ -20,14 +19,12 @@ void Describe(Archive& a, DetectionRule& s) {
   a.Ensure({"of_frames", "frames"}, s.min_frames <= s.of_frames, "must be >= frames");
 }
 
-template <class Archive>
 void Describe(Archive& a, BrakingSpec& s) {
   a.Optional("reaction_s", s.reaction_s, "From the detection to full braking.", Within(0, 60));
   a.Optional("deceleration_mps2", s.deceleration_mps2, "On the level.", Within(0.01, 10));
   a.Optional("margin_m", s.margin_m, "To be left before the object.", Within(0, 1000));
 }
 
-template <class Archive>
 void Describe(Archive& a, ClusterDetectorSpec& s) {
   std::string type;
   a.Required("type", type, "The reference detector, the only one.", OneOf({"clusters"}));
@@ -40,13 +37,11 @@ void Describe(Archive& a, ClusterDetectorSpec& s) {
   a.Optional("min_points", s.min_points, "Of a cluster.", Within(1, 1e6));
 }
 
-template <class Archive>
 void Describe(Archive& a, TrainGauge& s) {
   a.Required("width_m", s.width_m, "Of the gauge.", Within(0.1, 10));
   a.Required("height_m", s.height_m, "Over top of rail.", Within(0.1, 10));
 }
 
-template <class Archive>
 void Describe(Archive& a, StudySpec& s) {
   a.Optional("question", s.question, "What the study is to answer.");
   a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());

@@ -3,8 +3,7 @@
 #include <utility>
 
 #include "core/scenario/command_reading.h"
-#include "core/scenario/describe_weather.h"
-#include "core/scenario/describe_world.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_reader.h"
 #include "core/scenario/json_writer.h"
 
@@ -36,7 +35,6 @@ inline constexpr const char* kCommandName<Reset> = "reset";
   return Within(1e-3, 10);
 }
 
-template <class Archive>
 void Describe(Archive& a, SetSpeed& s) {
   a.Required("speed_mps", s.speed_mps, "Speed to be reached and then kept.", Within(0, 200));
   a.Optional("acceleration_mps2", s.acceleration_mps2,
@@ -44,33 +42,26 @@ void Describe(Archive& a, SetSpeed& s) {
              AccelerationLimits());
 }
 
-template <class Archive>
 void Describe(Archive& a, Brake& s) {
   a.Optional("deceleration_mps2", s.deceleration_mps2, "To a standstill.", AccelerationLimits());
 }
 
-template <class Archive>
 void Describe(Archive&, Stop&) {}
 
-template <class Archive>
 void Describe(Archive& a, PlaceObject& s) {
   a.Required("object", s.object, "As in world.objects.");
 }
 
-template <class Archive>
 void Describe(Archive& a, RemoveObject& s) {
   a.Required("name", s.name, "Name of the object.", NonEmptyString());
 }
 
-template <class Archive>
 void Describe(Archive& a, SetWeather& s) {
   a.Required("weather", s.weather, "A whole section: what is left out takes its default.");
 }
 
-template <class Archive>
 void Describe(Archive&, Step&) {}
 
-template <class Archive>
 void Describe(Archive&, Reset&) {}
 
 namespace {

@@ -18,7 +18,6 @@ struct Header {
   std::string scenario_xxh3;
 };
 
-template <class Archive>
 void Describe(Archive& a, Header& s) {
   a.Required("railcast_commands", s.railcast_commands, "Version of the log.", OneNumberOf({1, 2}));
   a.Required("scenario_xxh3", s.scenario_xxh3, "The scenario that was run.", NonEmptyString());
@@ -30,7 +29,7 @@ constexpr double kMaxTime_ns = 3.2e18;
 /// Reads the count of the commands up to a line.
 void ReadCount(JsonSource& source, const Node& node, std::size_t count) {
   std::uint64_t got = 0;
-  ReadValue(source, node, got, Limits{});
+  ReadAs(source, node, got);
   if (!source.errors().empty() || got == count) return;
   source.Fault(node, "must be " + std::to_string(count) +
                          ", the count of the commands up to here: lines are missing or were added");
@@ -92,7 +91,7 @@ class LogLines {
     if (!source.errors().empty()) return;
     if (version_ > 1) ReadCount(source, root.Child("number"), num_lines_);
     std::uint64_t time_ns = 0;
-    ReadValue(source, root.Child("time_ns"), time_ns, Limits{.at_most = kMaxTime_ns});
+    ReadAs(source, root.Child("time_ns"), time_ns, Limits{.at_most = kMaxTime_ns});
     CommandTag tag;
     auto command = ReadCommandObject(source, root.Child("command"), tag);
     if (!command || !source.errors().empty()) return;

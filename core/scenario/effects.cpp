@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,71 +12,101 @@
 #include "core/detect/detector/effect_table.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/table_models.h"
-#include "core/scenario/describe_lidar.h"
-#include "core/scenario/describe_weather.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_text.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
 namespace {
 
-/// The archive that checks (see describe_scenario.h): holds the numbers of a struct that was made
-/// in C++ against the rules of its description. A fault's place is a JSON pointer:
+/// The archive that checks (descriptions.h): holds the numbers of a struct that was made in C++
+/// against the rules of its description. A fault's place is a JSON pointer:
 /// "/beam/wavelength_nm: must be 905 or 1550 (got 1064)".
-class SpecChecker {
+class SpecChecker final : public Archive {
  public:
   SpecChecker(std::string pointer, ErrorList& errors)
       : pointer_(std::move(pointer)), errors_(errors) {}
 
-  template <class T, class Rule = Anything>
-  void Required(std::string_view key, T& value, const char* /*doc*/, const Rule& rule = {}) {
-    const std::string place = pointer_ + PointerStep(key);
-    const std::size_t num_faults = errors_.faults().size();
-    CheckValue(place, value, rule);
-    if (errors_.faults().size() == num_faults) sound_[std::string(key)] = TextOf(value);
-  }
-  template <class T, class Rule = Anything>
-  void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
-    Required(key, value, doc, rule);
-  }
-
-  // Of files only: another way to give a value.
-  void OneOfTwo(std::string_view, std::string_view) {}
-  void Alternative(std::string_view, double, const Multiple&, const char*, const Limits&) {}
-
-  void Ensure(const std::vector<std::string>& keys, bool holds, const std::string& rule) {
-    const auto is_sound = [&](const std::string& key) { return sound_.contains(key); };
+  void Ensure(std::initializer_list<std::string_view> keys,
+              bool holds,
+              std::string_view rule) override {
+    const auto is_sound = [&](std::string_view key) { return sound_.contains(std::string(key)); };
     if (holds || !std::ranges::all_of(keys, is_sound)) return;
-    errors_.Add({pointer_ + PointerStep(keys.front()), rule, sound_.at(keys.front())});
+    const std::string first(*keys.begin());
+    errors_.Add({pointer_ + PointerStep(first), std::string(rule), sound_.at(first)});
   }
+
+  // Of files only.
+  void Preset(std::string_view,
+              std::optional<std::string>&,
+              const char*,
+              const FilePreset&) override {}
+  void Types(std::string_view, std::vector<ModelSpec>&, const char*) override {}
+  void Switches(std::string_view,
+                std::map<std::string, bool>&,
+                const char*,
+                const std::vector<std::string>&) override {}
 
  private:
-  template <class T>
-  [[nodiscard]] static std::string TextOf(const T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      return NumberText(value);
-    } else if constexpr (requires { value.has_value(); }) {
-      return value ? TextOf(*value) : "";
-    } else {
-      return "";
+  void Visit(const Key& key, const ValueRef& value) override {
+    const std::string place = pointer_ + PointerStep(key.name);
+    const std::size_t num_faults = errors_.faults().size();
+    CheckValue(place, value, key.rule);
+    if (errors_.faults().size() == num_faults) sound_[std::string(key.name)] = TextOf(value);
+  }
+
+  [[nodiscard]] static std::string TextOf(const ValueRef& value) {
+    switch (value.type->kind) {
+      case ValueType::Kind::kNumber:
+        return NumberText(*static_cast<const double*>(value.place));
+      case ValueType::Kind::kWhole:
+        return NumberText(value.type->whole(value.place));
+      case ValueType::Kind::kOptional:
+        if (value.type->size(value.place) == 0) return "";
+        return TextOf({value.type->at(value.place, 0), value.type->of()});
+      default:
+        return "";
     }
   }
-  template <class T, class Rule>
-  void CheckValue(const std::string& place, T& value, const Rule& rule) {
-    if constexpr (requires { value.has_value(); }) {
-      if (value) CheckValue(place, *value, rule);
-    } else if constexpr (kIsArray<T>) {
-      for (std::size_t i = 0; i < value.size(); ++i) {
-        CheckValue(place + "/" + std::to_string(i), value[i], rule);
+
+  void CheckValue(const std::string& place, const ValueRef& value, const RuleRef& rule) {
+    const ValueType& type = *value.type;
+    switch (type.kind) {
+      case ValueType::Kind::kOptional:
+        if (type.size(value.place) > 0) {
+          CheckValue(place, {type.at(value.place, 0), type.of()}, rule);
+        }
+        break;
+      case ValueType::Kind::kArray:
+        for (std::size_t i = 0; i < type.size(value.place); ++i) {
+          CheckValue(place + "/" + std::to_string(i), {type.at(value.place, i), type.of()}, rule);
+        }
+        break;
+      case ValueType::Kind::kStruct: {
+        SpecChecker checker(place, errors_);
+        type.describe(checker, value.place);
+        break;
       }
-    } else if constexpr (std::is_class_v<T>) {
-      SpecChecker checker(place, errors_);
-      Describe(checker, value);
-    } else if constexpr (!std::is_same_v<Rule, Anything>) {
-      if (const auto broken = Broken(rule, value)) errors_.Add({place, *broken, NumberText(value)});
+      case ValueType::Kind::kNumber:
+        CheckNumber(place, *static_cast<const double*>(value.place), rule);
+        break;
+      case ValueType::Kind::kWhole:
+        CheckNumber(place, static_cast<double>(type.whole(value.place)), rule);
+        break;
+      default:
+        break;  // The specs of a detector have no lists and no texts.
     }
+  }
+
+  void CheckNumber(const std::string& place, double number, const RuleRef& rule) {
+    std::optional<std::string> broken;
+    if (const auto* const limits = rule.As<Limits>()) broken = Broken(*limits, number);
+    if (const auto* const choices = rule.As<NumberChoices>()) {
+      broken = Broken(*choices, static_cast<int>(number));
+    }
+    if (broken) errors_.Add({place, *broken, NumberText(number)});
   }
 
   std::string pointer_;

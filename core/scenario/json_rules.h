@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace railcast {
@@ -88,38 +87,11 @@ struct Multiple {
 
 /// What a file of another format gives to a struct: the value of a required key, which is then left
 /// out, and defaults of others.
-template <class T>
 struct FilePreset {
   const char* gives{};  ///< The required key.
-  T& value;
   /// Throws InputError with a fault for each place of the file.
-  void (*use)(const std::string& text, T& value){};
+  std::function<void(const std::string& text)> use;
 };
-
-/// The "type" that distinguishes a struct from other alternatives. The description of each such
-/// struct specialises it.
-template <class T>
-inline constexpr const char* kTypeName = nullptr;
-
-template <class T>
-inline constexpr bool kIsArray = false;
-template <class T, std::size_t kCount>
-inline constexpr bool kIsArray<std::array<T, kCount>> = true;
-
-/// Whether it is one of several structs, which "type" distinguishes.
-template <class T>
-inline constexpr bool kIsVariant = false;
-template <class... Ts>
-inline constexpr bool kIsVariant<std::variant<Ts...>> = true;
-
-/// Whether elements of this type in a list may be given as a file or build on one. Not possible for
-/// types that have a key "file" of their own.
-template <class T>
-inline constexpr bool kElementMayBeFile = false;
-
-/// Whether a struct is always written in place, since it has a key "file" of its own.
-template <class T>
-inline constexpr bool kIsWrittenInPlace = false;
 
 /// The rule in words, "must be > 0 and <= 360", if the value breaks it.
 [[nodiscard]] std::optional<std::string> Broken(const Limits& limits, double value);

@@ -19,41 +19,67 @@ std::optional<std::uint64_t> WholeNumberOf(const Json& json) {
 
 }  // namespace
 
-void ReadValue(JsonSource& source, const Node& node, bool& value, Anything) {
+void ReadBool(JsonSource& source, const Node& node, bool& value) {
   if (!node.json->is_boolean()) return source.Fault(node, "must be true or false");
   value = node.json->get<bool>();
 }
 
-void ReadValue(JsonSource& source, const Node& node, double& value, Anything) {
-  ReadValue(source, node, value, Limits{});
-}
-
-void ReadValue(JsonSource& source, const Node& node, double& value, const Limits& limits) {
+void ReadNumber(JsonSource& source, const Node& node, double& value, const RuleRef& rule) {
   if (!node.json->is_number()) return source.Fault(node, "must be a number");
   const auto number = node.json->get<double>();
-  if (const auto broken = Broken(limits, number)) return source.Fault(node, *broken);
+  if (const auto* const limits = rule.As<Limits>()) {
+    if (const auto broken = Broken(*limits, number)) return source.Fault(node, *broken);
+  }
   value = number;
 }
 
-void ReadValue(JsonSource& source, const Node& node, int& value, const NumberChoices& choices) {
+void ReadWhole(JsonSource& source, const Node& node, const ValueRef& value, const RuleRef& rule) {
   const auto whole = WholeNumberOf(*node.json);
-  const bool fits = whole && *whole <= std::numeric_limits<int>::max();
-  // 0 is never among the choices, so that a value that is not an integer breaks the rule as well.
-  const int number = fits ? static_cast<int>(*whole) : 0;
-  if (const auto broken = Broken(choices, number)) return source.Fault(node, *broken);
-  value = number;
+  const std::uint64_t most = value.type->most;
+  if (const auto* const choices = rule.As<NumberChoices>()) {
+    // 0 is never among the choices, so that a value that is not an integer breaks the rule as well.
+    const std::uint64_t number = whole && *whole <= most ? *whole : 0;
+    if (const auto broken = Broken(*choices, static_cast<int>(number))) {
+      return source.Fault(node, *broken);
+    }
+    return value.type->set_whole(value.place, number);
+  }
+  const auto* const limits = rule.As<Limits>();
+  const auto limit = [](const std::optional<double>& given, std::uint64_t otherwise) {
+    return given ? static_cast<std::uint64_t>(*given) : otherwise;
+  };
+  const std::uint64_t at_least = limits != nullptr ? limit(limits->at_least, 0) : 0;
+  const std::uint64_t at_most = limits != nullptr ? limit(limits->at_most, most) : most;
+  if (whole && *whole >= at_least && *whole <= at_most) {
+    return value.type->set_whole(value.place, *whole);
+  }
+  source.Fault(node, "must be a whole number from " + std::to_string(at_least) + " to " +
+                         std::to_string(at_most));
 }
 
-void ReadValue(JsonSource& source, const Node& node, std::string& value, Anything) {
+void ReadText(JsonSource& source, const Node& node, std::string& value, const RuleRef& rule) {
+  if (rule.kind() == RuleRef::Kind::kExistingFile) {
+    if (const auto file = source.FileNamedBy(node)) value = file->string();
+    return;
+  }
   if (!node.json->is_string()) return source.Fault(node, "must be a string");
-  value = node.json->get<std::string>();
+  const auto text = node.json->get<std::string>();
+  std::optional<std::string> broken;
+  if (const auto* const names = rule.As<AllowedNames>()) broken = Broken(*names, text);
+  if (rule.kind() == RuleRef::Kind::kOneLine) broken = Broken(OneLine(), text);
+  if (rule.kind() == RuleRef::Kind::kNonEmptyString) broken = Broken(NonEmptyString(), text);
+  if (rule.kind() == RuleRef::Kind::kHostAndPort) broken = Broken(HostAndPort(), text);
+  if (broken) return source.Fault(node, *broken);
+  value = text;
 }
 
-void ReadValue(JsonSource& source, const Node& node, std::string& value, ExistingFile) {
-  if (const auto file = source.FileNamedBy(node)) value = file->string();
+void ReadName(JsonSource& source, const Node& node, const ValueRef& value) {
+  std::string name = value.type->name(value.place);
+  ReadText(source, node, name, OneOf(value.type->names()));
+  value.type->set_name(value.place, name);
 }
 
-void ReadValue(JsonSource& source, const Node& node, ObjectType& value, Anything) {
+void ReadObjectType(JsonSource& source, const Node& node, ObjectType& value) {
   if (node.json->is_string()) {
     if (auto type = source.types().Find(node.json->get<std::string>())) {
       value = std::move(*type);
@@ -63,18 +89,7 @@ void ReadValue(JsonSource& source, const Node& node, ObjectType& value, Anything
     if (!source.unknown().IsKnown("/models")) return source.unknown().Add(node.resolved_pointer);
   }
   std::string name;
-  ReadValue(source, node, name, OneOf(source.types().Names()));
-}
-
-std::optional<std::uint64_t> ReadWhole(JsonSource& source,
-                                       const Node& node,
-                                       std::uint64_t at_least,
-                                       std::uint64_t at_most) {
-  const auto whole = WholeNumberOf(*node.json);
-  if (whole && *whole >= at_least && *whole <= at_most) return whole;
-  source.Fault(node, "must be a whole number from " + std::to_string(at_least) + " to " +
-                         std::to_string(at_most));
-  return std::nullopt;
+  ReadText(source, node, name, OneOf(source.types().Names()));
 }
 
 bool CheckEachNumber(JsonSource& source, const Node& list, const EachNumber& rule) {

@@ -5,7 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/shipped_files.h"
-#include "core/scenario/describe_models.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_reader.h"
 #include "railcast/scenario.h"
 
@@ -25,7 +25,7 @@ std::vector<ObjectType> ReadShippedTypes() {
   JsonSource source;
   ModelFile table;
   if (const auto root = source.OpenShipped(std::string(*text), name)) {
-    ReadValue(source, *root, table, Anything{});
+    ReadAs(source, *root, table);
   }
   source.errors().ThrowIfAny();
   std::vector<ObjectType> types;

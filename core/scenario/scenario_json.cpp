@@ -7,7 +7,7 @@
 #include "core/rail/network/yard.h"
 #include "core/rail/survey/survey_levels.h"
 #include "core/scenario/build_faults.h"
-#include "core/scenario/describe_scenario.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_reader.h"
 #include "core/scenario/json_writer.h"
 #include "railcast/scenario.h"
@@ -135,7 +135,7 @@ ScenarioSpec ReadRoot(const Open& open) {
   JsonSource source;
   ScenarioSpec spec;
   if (const std::optional<Node> root = open(source)) {
-    ReadValue(source, *root, spec, Anything{});
+    ReadAs(source, *root, spec);
     AddSurveyMaterials(spec);
     CheckNumberOfMaterials(spec, source);
     CheckReferences(spec, source);
@@ -173,7 +173,7 @@ ScenarioSpec ReadScenarioText(const std::string& text, const std::filesystem::pa
 LabelTable ReadLabelTable(const std::filesystem::path& file) {
   JsonSource source;
   LabelFile table;
-  if (const auto root = source.Open(file)) ReadValue(source, *root, table, Anything{});
+  if (const auto root = source.Open(file)) ReadAs(source, *root, table);
   source.errors().ThrowIfAny();
   return LabelTable(std::move(table.labels));
 }

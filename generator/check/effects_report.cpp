@@ -3,7 +3,7 @@
 
 #include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
-#include "core/scenario/describe_weather.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 #include "generator/check/check_report.h"
 #include "railcast/effects.h"

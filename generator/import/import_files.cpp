@@ -5,8 +5,7 @@
 #include <sstream>
 
 #include "core/base/text.h"
-#include "core/scenario/describe_alignment.h"
-#include "core/scenario/describe_world.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 
 namespace railcast {

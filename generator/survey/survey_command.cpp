@@ -14,7 +14,7 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
-#include "core/scenario/describe_alignment.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 #include "generator/commands.h"
 #include "generator/empty_folder.h"

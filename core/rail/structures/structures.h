@@ -21,7 +21,7 @@ namespace railcast {
 //
 // - AddStructure() adds the part that lies in a chunk;
 // - ClearedBy() (clearance/cleared.h) returns the areas that it clears;
-// - CheckShape() reports what its description (core/scenario/describe_structures.h) cannot check.
+// - CheckShape() reports what its description (core/scenario/describe_structures.cpp) cannot check.
 //   Its name, its track and its chainages are checked for all types alike, so most have none.
 
 /// Where the faults of a structure belong.

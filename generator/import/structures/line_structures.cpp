@@ -14,7 +14,7 @@
 #include "core/base/text.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structure_track.h"
-#include "core/scenario/describe_structures.h"
+#include "core/scenario/descriptions.h"
 #include "generator/import/lines/line_places.h"
 #include "generator/import/network/line_world.h"
 

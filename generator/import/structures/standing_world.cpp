@@ -20,7 +20,7 @@
 #include "core/rail/structures/structures.h"
 #include "core/rail/world/gauge_entries.h"
 #include "core/rail/world/world_draft.h"
-#include "core/scenario/describe_structures.h"
+#include "core/scenario/descriptions.h"
 #include "generator/import/structures/line_structures.h"
 #include "railcast/world_spec.h"
 

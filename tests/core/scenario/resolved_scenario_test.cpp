@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/scenario/describe_scenario.h"
+#include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"

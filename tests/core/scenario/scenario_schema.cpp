@@ -1,6 +1,6 @@
 #include "tests/core/scenario/scenario_schema.h"
 
-#include "core/scenario/describe_scenario.h"
+#include "core/scenario/descriptions.h"
 #include "tests/core/scenario/schema_writer.h"
 
 namespace railcast {

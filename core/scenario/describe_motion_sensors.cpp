@@ -1,23 +1,35 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <set>
 #include <string>
 
-#include "core/scenario/describe_lidar.h"
-#include "core/scenario/json_rules.h"
 #include "railcast/camera.h"
 #include "railcast/motion_sensors.h"
 
 namespace railcast {
 
-template <class Archive>
+namespace {
+
 void DescribeMotionSensorName(Archive& a, std::string& name) {
   a.Optional("name", name, "Unique among the motion sensors; lower-case letters, digits and _.");
   a.Ensure({"name"}, IsCameraName(name),
            "must consist of 1 to 64 lower-case letters, digits and _");
 }
 
-template <class Archive>
+/// Whether all names differ; the same name twice among the sensors of one kind counts, too.
+[[nodiscard]] bool HaveDifferentNames(const MotionSensorsSpec& spec) {
+  std::set<std::string> names;
+  const auto add = [&](const auto& sensors) {
+    for (const auto& sensor : sensors) names.insert(sensor.name);
+  };
+  add(spec.imus);
+  add(spec.gnss);
+  add(spec.odometers);
+  return names.size() == spec.imus.size() + spec.gnss.size() + spec.odometers.size();
+}
+
+}  // namespace
+
 void Describe(Archive& a, ImuSpec& s) {
   DescribeMotionSensorName(a, s.name);
   a.Optional("rate_hz", s.rate_hz, "Samples per second.", PositiveUpTo(10'000));
@@ -41,7 +53,6 @@ void Describe(Archive& a, ImuSpec& s) {
              "Standard deviation of this bias at time 0.", Within(0, 1000));
 }
 
-template <class Archive>
 void Describe(Archive& a, GnssSpec& s) {
   DescribeMotionSensorName(a, s.name);
   a.Optional("rate_hz", s.rate_hz, "Samples per second.", PositiveUpTo(10'000));
@@ -62,7 +73,6 @@ void Describe(Archive& a, GnssSpec& s) {
              "Share of the sky above the mask that must be free for a fix.", Within(0, 1));
 }
 
-template <class Archive>
 void Describe(Archive& a, OdometerSpec& s) {
   DescribeMotionSensorName(a, s.name);
   a.Optional("rate_hz", s.rate_hz, "Samples per second.", PositiveUpTo(10'000));
@@ -83,19 +93,6 @@ void Describe(Archive& a, OdometerSpec& s) {
              Within(0, 1));
 }
 
-/// Whether all names differ; the same name twice among the sensors of one kind counts, too.
-[[nodiscard]] inline bool HaveDifferentNames(const MotionSensorsSpec& spec) {
-  std::set<std::string> names;
-  const auto add = [&](const auto& sensors) {
-    for (const auto& sensor : sensors) names.insert(sensor.name);
-  };
-  add(spec.imus);
-  add(spec.gnss);
-  add(spec.odometers);
-  return names.size() == spec.imus.size() + spec.gnss.size() + spec.odometers.size();
-}
-
-template <class Archive>
 void Describe(Archive& a, MotionSensorsSpec& s) {
   a.Optional("imus", s.imus, "Inertial measurement units.");
   a.Optional("gnss", s.gnss, "Receivers of satellite navigation.");

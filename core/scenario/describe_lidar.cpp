@@ -1,22 +1,12 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
-#include "core/scenario/json_rules.h"
 #include "core/scenario/ouster_metadata.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
 
-template <>
-inline constexpr const char* kTypeName<RasterSpec> = "raster";
-template <>
-inline constexpr const char* kTypeName<SpinningSpec> = "spinning";
-template <>
-inline constexpr const char* kTypeName<RisleySpec> = "risley";
-template <>
-inline constexpr const char* kTypeName<FiringTableSpec> = "table";
-
-template <class Archive>
 void Describe(Archive& a, RasterSpec& s) {
   a.Required("horizontal_fov_deg", s.horizontal_fov_deg, "Field of view.", PositiveUpTo(360));
   a.Required("vertical_fov_deg", s.vertical_fov_deg, "Field of view, symmetric about the horizon.",
@@ -26,7 +16,6 @@ void Describe(Archive& a, RasterSpec& s) {
   a.Optional("order", s.order, "What fires one after the other.");
 }
 
-template <class Archive>
 void Describe(Archive& a, ChannelSpec& s) {
   a.Required("elevation_deg", s.elevation_deg, "Up positive.", Within(-90, 90));
   a.Required("azimuth_deg", s.azimuth_deg,
@@ -36,7 +25,6 @@ void Describe(Archive& a, ChannelSpec& s) {
   a.Required("time_us", s.time_us, "Since the start of the firing cycle.", Within(0, 4.3e6));
 }
 
-template <class Archive>
 void Describe(Archive& a, SpinningSpec& s) {
   a.Required("channels", s.channels, "In the vendor's laser order.", NonEmptyList());
   a.Required("cycle_us", s.cycle_us, "Duration of a firing cycle.", Within(1e-3, 4.3e6));
@@ -53,7 +41,6 @@ void Describe(Archive& a, SpinningSpec& s) {
              Within(0, 360));
 }
 
-template <class Archive>
 void Describe(Archive& a, PrismSpec& s) {
   a.Required("wedge_deg", s.wedge_deg, "Angle between the faces.", Within(0, 60));
   a.Required("refractive_index", s.refractive_index, "Of the glass.", Within(1, 4));
@@ -65,7 +52,6 @@ void Describe(Archive& a, PrismSpec& s) {
              Within(-360, 360));
 }
 
-template <class Archive>
 void Describe(Archive& a, RisleySpec& s) {
   a.Required("channels", s.channels, "The beams before the prisms.", NonEmptyList());
   a.Required("cycle_us", s.cycle_us, "Duration of a firing cycle.", Within(1e-3, 4.3e6));
@@ -76,7 +62,6 @@ void Describe(Archive& a, RisleySpec& s) {
              NonEmptyList());
 }
 
-template <class Archive>
 void Describe(Archive& a, FiringTableSpec& s) {
   a.Required("file", s.file,
              "CSV with the header azimuth_deg,elevation_deg,time_us, or these and ring.",
@@ -85,13 +70,11 @@ void Describe(Archive& a, FiringTableSpec& s) {
              Within(1, 100'000));
 }
 
-template <class Archive>
 void Describe(Archive& a, ScanSpec& s) {
   a.Required("rate_hz", s.rate_hz, "Frames per second.", Within(0.01, 1e6));
   a.Required("pattern", s.pattern, "Where the beams of a frame go, and when.");
 }
 
-template <class Archive>
 void Describe(Archive& a, MountSpec& s) {
   a.Optional("position_m", s.position_m, "In the vehicle frame: forward, left, up.",
              Within(-50, 50));
@@ -100,7 +83,6 @@ void Describe(Archive& a, MountSpec& s) {
   a.Optional("roll_deg", s.roll_deg, "Right side down positive.", Within(-360, 360));
 }
 
-template <class Archive>
 void Describe(Archive& a, MountErrorSpec& s) {
   a.Optional("position_m", s.position_m, "In the axes of the nominal sensor: forward, left, up.",
              Within(-1, 1));
@@ -109,7 +91,6 @@ void Describe(Archive& a, MountErrorSpec& s) {
   a.Optional("roll_deg", s.roll_deg, "Right side down positive.", Within(-30, 30));
 }
 
-template <class Archive>
 void Describe(Archive& a, PlausibilitySpec& s) {
   a.Optional("reference_threshold", s.reference_threshold,
              "Least detectable reflectivity x cos x fog at the reference range.", Within(0, 1e6));
@@ -133,7 +114,6 @@ void Describe(Archive& a, PlausibilitySpec& s) {
              PositiveUpTo(1));
 }
 
-template <class Archive>
 void Describe(Archive& a, BeamSpec& s) {
   a.Optional("wavelength_nm", s.wavelength_nm, "905 also represents 850 to 950.",
              OneNumberOf({905, 1550}));
@@ -152,7 +132,6 @@ void Describe(Archive& a, BeamSpec& s) {
       OneNumberOf({16, 64}));
 }
 
-template <class Archive>
 void Describe(Archive& a, ReceiverSpec& s) {
   a.Optional("range_at_10_percent_m", s.range_at_10_percent_m,
              "The data sheet's detection range on a Lambertian target of 10 % at normal incidence.",
@@ -195,12 +174,15 @@ void Describe(Archive& a, ReceiverSpec& s) {
              Within(0, 1));
 }
 
+namespace {
+
 /// Limits of the diameter of what lies on a sensor's window.
-[[nodiscard]] inline Limits SpotLimits() {
+[[nodiscard]] Limits SpotLimits() {
   return Within(1, 20);
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, CoverSpec& s) {
   a.Optional("window_radius_mm", s.window_radius_mm,
              "Distance of the window from the sensor's origin.", Within(20, 150));
@@ -215,7 +197,6 @@ void Describe(Archive& a, CoverSpec& s) {
   a.Optional("snow_diameter_mm", s.snow_diameter_mm, "Diameter of a spot of snow.", SpotLimits());
 }
 
-template <class Archive>
 void Describe(Archive& a, VelocitySpec& s) {
   a.Required("sigma_mps", s.sigma_mps,
              "Standard deviation; none on rung geometry, as of the range.", Within(0, 100));
@@ -225,27 +206,13 @@ void Describe(Archive& a, VelocitySpec& s) {
   a.Optional("step_mps", s.step_mps, "Velocities are multiples of it; 0 = any.", Within(0, 10));
 }
 
-/// The range gate, of a sensor or of a detector.
-template <class Archive, class Spec>
-void DescribeRange(Archive& a, Spec& s) {
-  a.Optional("range_min_m", s.range_min_m,
-             "Least range; nearer surfaces block the beam and give no point.", Within(0, 10'000));
-  a.Optional("range_max_m", s.range_max_m, "Greatest range; farther surfaces give no point.",
-             PositiveUpTo(10'000));
-  a.Ensure({"range_min_m", "range_max_m"}, s.range_min_m < s.range_max_m, "must be < range_max_m");
-}
-
-template <>
-inline constexpr bool kElementMayBeFile<LidarSpec> = true;
-
-template <class Archive>
 void Describe(Archive& a, LidarSpec& s) {
   a.Optional("name", s.name, "Name of the sensor.", OneLine());
   a.OneOfTwo("scan", "ouster_metadata");
   a.Preset("ouster_metadata", s.ouster_metadata,
            "Metadata of an Ouster sensor, instead of scan: its beams, columns, window, rate and "
            "returns; range and divergence of its product line.",
-           FilePreset<LidarSpec>{"scan", s, &UseOusterMetadata});
+           {"scan", [&s](const std::string& text) { UseOusterMetadata(text, s); }});
   if (s.ouster_metadata) {
     std::optional<ScanSpec> none;
     a.Optional("scan", none, "");

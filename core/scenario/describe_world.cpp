@@ -1,17 +1,13 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <algorithm>
 
 #include "core/rail/catenary/support_layout.h"
-#include "core/scenario/describe_alignment.h"
-#include "core/scenario/describe_objects.h"
-#include "core/scenario/describe_structures.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/world_spec.h"
 
 namespace railcast {
 
-template <class Archive>
 void Describe(Archive& a, TurnoutSpec& s) {
   a.Required("track", s.track, "The track in which it lies, which runs straight through it.",
              NonEmptyString());
@@ -27,7 +23,6 @@ void Describe(Archive& a, TurnoutSpec& s) {
              "Where its blades lead; absent = as the vehicle's route needs it, else straight.");
 }
 
-template <class Archive>
 void Describe(Archive& a, TrackSpec& s) {
   a.Optional("name", s.name, "Objects and the vehicle name their track by it.", NonEmptyString());
   a.Optional("offset_m", s.offset_m, "From the alignment, left positive; absent = 0.",
@@ -52,7 +47,6 @@ void Describe(Archive& a, TrackSpec& s) {
   a.Ensure({"end_s_m", "start_s_m"}, !s.end_s_m || *s.end_s_m > s.start_s_m, "must be > start_s_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, YardSpec& s) {
   a.Required("name", s.name, "Its tracks are called NAME_lead, NAME_1, NAME_2 and so on.",
              NonEmptyString());
@@ -69,14 +63,12 @@ void Describe(Archive& a, YardSpec& s) {
   a.Optional("electrified", s.electrified, "Whether its tracks have a contact line.");
 }
 
-template <class Archive>
 void Describe(Archive& a, DiamondCrossingSpec& s) {
   a.Required("tracks", s.tracks, "The two tracks that cross.", NonEmptyString());
   a.Required("s_m", s.s_m, "Chainage where their axes cross, within 5 m.", PlaceLimits());
   a.Ensure({"tracks"}, s.tracks.size() == 2, "must name two tracks");
 }
 
-template <class Archive>
 void Describe(Archive& a, CatenarySpec& s) {
   a.Optional("enabled", s.enabled, "Whether there is a contact line.");
   a.Optional("contact_height_m", s.contact_height_m, "Above top of rail.", Within(4, 8));
@@ -91,11 +83,6 @@ void Describe(Archive& a, CatenarySpec& s) {
              Within(kMastClearance_m, 20));
 }
 
-/// Its key "file" does not name a file with its other keys.
-template <>
-inline constexpr bool kIsWrittenInPlace<ElevationSpec> = true;
-
-template <class Archive>
 void Describe(Archive& a, ElevationSpec& s) {
   a.Required("file", s.file, "ESRI ASCII grid (.asc) of heights in metres.", ExistingFile());
   a.Optional("origin_m", s.origin_m,
@@ -103,14 +90,12 @@ void Describe(Archive& a, ElevationSpec& s) {
              CoordinateLimits());
 }
 
-template <class Archive>
 void Describe(Archive& a, ReliefSpec& s) {
   a.Optional("sigma_m", s.sigma_m, "Standard deviation of the hills' heights.", Within(0, 100));
   a.Optional("wavelength_m", s.wavelength_m, "Spacing of hills and valleys, about half of it.",
              Within(50, 10'000));
 }
 
-template <class Archive>
 void Describe(Archive& a, TerrainSpec& s) {
   a.Optional("half_width_m", s.half_width_m,
              "Half width of the ground strip; it narrows inside curves that are tighter.",
@@ -131,12 +116,15 @@ void Describe(Archive& a, TerrainSpec& s) {
   a.Ensure({"elevation", "relief"}, !s.elevation || !s.relief, "must not be given with relief");
 }
 
+namespace {
+
 /// The upper limit exceeds the widest ground strip.
-[[nodiscard]] inline Limits DistanceLimits() {
+[[nodiscard]] Limits DistanceLimits() {
   return Within(0, 10'000);
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, VegetationSpec& s) {
   a.Optional("trees_per_hectare", s.trees_per_hectare, "0 = none.", Within(0, 5000));
   a.Optional("tree_min_distance_m", s.tree_min_distance_m,
@@ -166,7 +154,6 @@ void Describe(Archive& a, VegetationSpec& s) {
            s.grass_min_distance_m <= s.grass_max_distance_m, "must be <= grass_max_distance_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, RecordingWorldSpec& s) {
   a.Optional("poses", s.poses,
              "Where the sensor's poses come from: recorded; standing, for a sensor that does not "
@@ -182,13 +169,11 @@ void Describe(Archive& a, RecordingWorldSpec& s) {
              "where it is in the first frame.");
 }
 
-template <class Archive>
 void Describe(Archive& a, HalfWidth& s) {
   a.Required("height_m", s.height_m, "Above top of rail.", Within(0, 10));
   a.Required("half_width_m", s.half_width_m, "From the axis.", Within(0.5, 10));
 }
 
-template <class Archive>
 void Describe(Archive& a, WorldSpec& s) {
   a.Optional("seed", s.seed, "Seed of the world's shape: relief, stones, plants.");
   a.OneOfTwo("alignment", "recording");
@@ -236,12 +221,10 @@ void Describe(Archive& a, WorldSpec& s) {
   a.Unique("trains", s.trains, "name", &TrainSpec::name);
 }
 
-template <class Archive>
 void Describe(Archive& a, RideSpec& s) {
   a.Optional("track_quality", s.track_quality, "State of the track that shakes the vehicle.");
 }
 
-template <class Archive>
 void Describe(Archive& a, VehicleSpec& s) {
   DescribeTracks(a, s.track, s.route);
   a.Optional("start_s_m", s.start_s_m, "Chainage of its origin at time 0.", PlaceLimits());

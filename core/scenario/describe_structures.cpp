@@ -1,40 +1,19 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
-#include "core/scenario/describe_alignment.h"
-#include "core/scenario/describe_lineside.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/structures.h"
 
 namespace railcast {
 
-template <>
-inline constexpr const char* kTypeName<PlatformSpec> = "platform";
-template <>
-inline constexpr const char* kTypeName<NoiseWallSpec> = "noise_wall";
-template <>
-inline constexpr const char* kTypeName<FenceSpec> = "fence";
-template <>
-inline constexpr const char* kTypeName<RetainingWallSpec> = "retaining_wall";
-template <>
-inline constexpr const char* kTypeName<CableTroughSpec> = "cable_trough";
-template <>
-inline constexpr const char* kTypeName<TunnelSpec> = "tunnel";
-template <>
-inline constexpr const char* kTypeName<BridgeSpec> = "bridge";
-template <>
-inline constexpr const char* kTypeName<OverbridgeSpec> = "overbridge";
-template <>
-inline constexpr const char* kTypeName<ThirdRailSpec> = "third_rail";
-template <>
-inline constexpr const char* kTypeName<SlabTrackSpec> = "slab_track";
+namespace {
 
 /// Distance of a structure from its track's axis.
-[[nodiscard]] inline Limits BesideTrackLimits() {
+[[nodiscard]] Limits BesideTrackLimits() {
   return Within(1, 500);
 }
 
 /// The keys of StretchSpec.
-template <class Archive, class Structure>
+template <class Structure>
 void DescribeStretch(Archive& a, Structure& s) {
   DescribeNameAndTrack(a, s, "The track along which it runs.");
   a.Required("begin_s_m", s.begin_s_m, "Chainage where it begins.", ChainageLimits());
@@ -43,13 +22,14 @@ void DescribeStretch(Archive& a, Structure& s) {
 }
 
 /// The keys of SideStretchSpec.
-template <class Archive, class Structure>
+template <class Structure>
 void DescribeSideStretch(Archive& a, Structure& s) {
   DescribeStretch(a, s);
   a.Required("side", s.side, "Side of the track, towards increasing chainage.");
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, PlatformRoofSpec& s) {
   a.Optional("begin_s_m", s.begin_s_m,
              "Chainage where it begins; absent = with the platform, or behind its ramp.",
@@ -64,7 +44,6 @@ void Describe(Archive& a, PlatformRoofSpec& s) {
            "must be > begin_s_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, PlatformSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("height_m", s.height_m, "Of its edge above top of rail.", Within(0.2, 1.3));
@@ -78,7 +57,6 @@ void Describe(Archive& a, PlatformSpec& s) {
   a.Optional("roof", s.roof, "A roof on a row of columns; absent = none.");
 }
 
-template <class Archive>
 void Describe(Archive& a, NoiseWallSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its face from the track's axis.", BesideTrackLimits());
@@ -86,7 +64,6 @@ void Describe(Archive& a, NoiseWallSpec& s) {
   a.Optional("post_spacing_m", s.post_spacing_m, "Greatest distance between posts.", Within(1, 20));
 }
 
-template <class Archive>
 void Describe(Archive& a, FenceSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "From the track's axis.", BesideTrackLimits());
@@ -96,7 +73,6 @@ void Describe(Archive& a, FenceSpec& s) {
              Within(0.5, 20));
 }
 
-template <class Archive>
 void Describe(Archive& a, RetainingWallSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its face from the track's axis, at top of rail.",
@@ -105,7 +81,6 @@ void Describe(Archive& a, RetainingWallSpec& s) {
   a.Optional("depth_m", s.depth_m, "Of its foot below top of rail.", Within(0.8, 30));
 }
 
-template <class Archive>
 void Describe(Archive& a, CableTroughSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("distance_m", s.distance_m, "Of its nearer side from the track's axis.",
@@ -113,7 +88,6 @@ void Describe(Archive& a, CableTroughSpec& s) {
   a.Optional("width_m", s.width_m, "Its width.", Within(0.1, 2));
 }
 
-template <class Archive>
 void Describe(Archive& a, TunnelSpec& s) {
   DescribeStretch(a, s);
   a.Optional("radius_m", s.radius_m, "Of its vault, inside; absent = as the tracks need.",
@@ -126,7 +100,6 @@ void Describe(Archive& a, TunnelSpec& s) {
            "must be 0 or >= 5");
 }
 
-template <class Archive>
 void Describe(Archive& a, BridgeSpec& s) {
   DescribeStretch(a, s);
   a.Optional("depth_m", s.depth_m,
@@ -141,7 +114,6 @@ void Describe(Archive& a, BridgeSpec& s) {
            "must be at least 1.5 m more than deck_thickness_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, OverbridgeSpec& s) {
   DescribeStretch(a, s);
   a.Optional("clearance_m", s.clearance_m, "Of its lower side above top of rail.", Within(3, 50));
@@ -154,7 +126,6 @@ void Describe(Archive& a, OverbridgeSpec& s) {
              Within(30, 150));
 }
 
-template <class Archive>
 void Describe(Archive& a, ThirdRailSpec& s) {
   DescribeSideStretch(a, s);
   a.Optional("contact", s.contact, "Side of the rail on which the shoes of trains run.");
@@ -168,7 +139,6 @@ void Describe(Archive& a, ThirdRailSpec& s) {
              "Whether there are boards beside the rail, or a cover over it.");
 }
 
-template <class Archive>
 void Describe(Archive& a, SlabTrackSpec& s) {
   DescribeStretch(a, s);
   a.Optional("width_m", s.width_m, "Its width.", Within(2.4, 6));

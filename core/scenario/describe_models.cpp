@@ -1,21 +1,13 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <vector>
 
-#include "core/scenario/describe_objects.h"
-#include "core/scenario/json_rules.h"
 #include "railcast/objects.h"
 
 namespace railcast {
 
 // The tables of models: railcast's own, scenarios/models/models.json, and those of users.
 
-template <>
-inline constexpr bool kIsWrittenInPlace<RailVehicleSpec> = true;
-template <>
-inline constexpr bool kIsWrittenInPlace<OsdarSpec> = true;
-
-template <class Archive>
 void Describe(Archive& a, RailVehicleSpec& s) {
   a.Required("pivot_distance_m", s.pivot_distance_m, "Between the pivots of the two bogies.",
              PositiveUpTo(100));
@@ -24,7 +16,6 @@ void Describe(Archive& a, RailVehicleSpec& s) {
              ExistingFile());
 }
 
-template <class Archive>
 void Describe(Archive& a, OsdarSpec& s) {
   a.Required("class", s.class_name, "Class in OSDaR23.", NonEmptyString());
   a.Optional("type", s.type, "Attribute type, of vehicles.", NonEmptyString());
@@ -32,7 +23,6 @@ void Describe(Archive& a, OsdarSpec& s) {
   a.Optional("pose", s.pose, "Attribute pose, of animals.", NonEmptyString());
 }
 
-template <class Archive>
 void Describe(Archive& a, ModelSpec& s) {
   a.Required("name", s.name, "Unique; the type of objects and of trains' vehicles.",
              NonEmptyString());
@@ -71,12 +61,6 @@ void Describe(Archive& a, ModelSpec& s) {
            "must not be given beside rail_vehicle");
 }
 
-// A table of models as a file of its own.
-struct ModelFile {
-  std::vector<ModelSpec> models;
-};
-
-template <class Archive>
 void Describe(Archive& a, ModelFile& s) {
   a.Required("models", s.models, "The models.", NonEmptyList());
   a.Unique("models", s.models, "name", &ModelSpec::name);

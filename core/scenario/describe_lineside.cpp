@@ -1,54 +1,29 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <algorithm>
 
-#include "core/scenario/describe_alignment.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/lineside.h"
 
 namespace railcast {
 
-template <>
-inline constexpr const char* kTypeName<SignalSpec> = "signal";
-template <>
-inline constexpr const char* kTypeName<BoardSpec> = "board";
-template <>
-inline constexpr const char* kTypeName<BaliseSpec> = "balise";
-template <>
-inline constexpr const char* kTypeName<DerailerSpec> = "derailer";
-template <>
-inline constexpr const char* kTypeName<RelayBoxSpec> = "relay_box";
-template <>
-inline constexpr const char* kTypeName<FurnitureSpec> = "furniture";
-template <>
-inline constexpr const char* kTypeName<BufferStopSpec> = "buffer_stop";
-template <>
-inline constexpr const char* kTypeName<LevelCrossingSpec> = "level_crossing";
-template <>
-inline constexpr const char* kTypeName<BuildingSpec> = "building";
+namespace {
 
 /// Distances from the axis of a track at which something may stand: nothing nearer than rails and
 /// sleepers leave room for.
-[[nodiscard]] inline Limits StandingDistanceLimits() {
+[[nodiscard]] Limits StandingDistanceLimits() {
   return Within(1.0, 1000);
 }
 
-/// The keys that all structures have.
-template <class Archive, class Structure>
-void DescribeNameAndTrack(Archive& a, Structure& s, const char* track_doc) {
-  a.Required("name", s.name, "Unique among the structures.", NonEmptyString());
-  a.Optional("track", s.track, track_doc);
-}
-
 /// The keys of PointSpec.
-template <class Archive, class Structure>
+template <class Structure>
 void DescribePoint(Archive& a, Structure& s) {
   DescribeNameAndTrack(a, s, "The track beside or in which it stands.");
   a.Required("s_m", s.s_m, "Chainage of its middle.", ChainageLimits());
 }
 
 /// The keys of FacingSpec.
-template <class Archive, class Structure>
+template <class Structure>
 void DescribeFacing(Archive& a, Structure& s, const char* height_doc) {
   DescribePoint(a, s);
   a.Required("kind", s.kind, "Its kind.");
@@ -61,7 +36,8 @@ void DescribeFacing(Archive& a, Structure& s, const char* height_doc) {
   a.Optional("height_m", s.height_m, height_doc, Within(0, 15));
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, SignalSpec& s) {
   DescribeFacing(a, s,
                  "Of its top above top of rail: at least 2.5 for a main or distant signal, 0.4 for "
@@ -73,7 +49,6 @@ void Describe(Archive& a, SignalSpec& s) {
                                            : "must be >= 2.5 for a main or distant signal");
 }
 
-template <class Archive>
 void Describe(Archive& a, BoardSpec& s) {
   DescribeFacing(a, s, "Of its top above top of rail; absent = by kind.");
   a.Optional("size_m", s.size_m, "Width and height of its plate; absent = by kind.",
@@ -82,18 +57,15 @@ void Describe(Archive& a, BoardSpec& s) {
            "must not be given for a fouling point marker");
 }
 
-template <class Archive>
 void Describe(Archive& a, BaliseSpec& s) {
   DescribePoint(a, s);
 }
 
-template <class Archive>
 void Describe(Archive& a, DerailerSpec& s) {
   DescribePoint(a, s);
   a.Optional("side", s.side, "The rail on which it lies, towards increasing chainage.");
 }
 
-template <class Archive>
 void Describe(Archive& a, RelayBoxSpec& s) {
   DescribePoint(a, s);
   a.Optional("side", s.side, "Side of the track, towards increasing chainage.");
@@ -102,7 +74,6 @@ void Describe(Archive& a, RelayBoxSpec& s) {
   a.Optional("size_m", s.size_m, "Length, depth, height.", Within(0.3, 10));
 }
 
-template <class Archive>
 void Describe(Archive& a, FurnitureSpec& s) {
   DescribePoint(a, s);
   a.Required("kind", s.kind, "Its kind.");
@@ -114,19 +85,16 @@ void Describe(Archive& a, FurnitureSpec& s) {
              Within(-100, 100));
 }
 
-template <class Archive>
 void Describe(Archive& a, BufferStopSpec& s) {
   DescribeNameAndTrack(a, s, "The track that ends.");
   a.Optional("at", s.at, "Whether it stands where the track begins or where it ends.");
 }
 
-template <class Archive>
 void Describe(Archive& a, TimedValue& s) {
   a.Required("time_s", s.time_s, "Simulation time.", Within(0, 1e9));
   a.Required("value", s.value, "Value at that time.", Within(0, 90));
 }
 
-template <class Archive>
 void Describe(Archive& a, LevelCrossingSpec& s) {
   DescribePoint(a, s);
   // Barriers and shoulders must not reach farther beyond a chunk than windows allow for.
@@ -159,7 +127,6 @@ void Describe(Archive& a, LevelCrossingSpec& s) {
       "must have rising times");
 }
 
-template <class Archive>
 void Describe(Archive& a, BuildingSpec& s) {
   DescribeNameAndTrack(a, s, "The track in whose coordinates its footprint is given.");
   a.Required("footprint_m", s.footprint_m,

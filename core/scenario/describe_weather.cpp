@@ -1,20 +1,21 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
-#include "core/scenario/json_rules.h"
 #include "railcast/effects.h"
 
 namespace railcast {
+namespace {
 
 /// The published system gives rain as an intensity from 0 to 1. Intensity 1 is 50 mm/h, from which
 /// rain is called violent; the rate is proportional to the intensity.
-inline constexpr double kRainAtFullIntensity_mmph = 50.0;
+constexpr double kRainAtFullIntensity_mmph = 50.0;
 
 /// The heaviest recorded rain within a minute has a rate of about 2000 mm/h.
-[[nodiscard]] inline Limits PrecipitationLimits() {
+[[nodiscard]] Limits PrecipitationLimits() {
   return Within(0, 5000);
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, SunSpec& s) {
   a.Optional("illuminance_klx", s.illuminance_klx, "100 = full sun, 0 = night.", Within(0, 150));
   a.Optional("azimuth_deg", s.azimuth_deg, "In the world: from +x (east) towards +y (north).",
@@ -22,7 +23,6 @@ void Describe(Archive& a, SunSpec& s) {
   a.Optional("elevation_deg", s.elevation_deg, "Elevation above the horizon.", Within(-90, 90));
 }
 
-template <class Archive>
 void Describe(Archive& a, WeatherSpec& s) {
   a.OneOfTwo("visibility_m", "fog_density_per_m");
   a.OneOfTwo("rain_intensity", "rain_rate_mmph");

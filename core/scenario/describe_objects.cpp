@@ -1,48 +1,20 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "core/scenario/describe_alignment.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/objects.h"
 
 namespace railcast {
 
-/// The tracks that a vehicle or object follows: one, or a route over several.
-template <class Archive>
-void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
-  std::optional<std::vector<std::string>> given_route;
-  if (!route.empty()) given_route = route;
-  std::optional<std::string> given_track;
-  if (route.empty() && track != "main") given_track = track;
-  a.OneOfTwo("track", "route");
-  a.Optional("track", given_track, "The track that it runs or stands on; absent = main.");
-  a.Optional("route", given_route,
-             "Instead of track: tracks that turnouts join, one after the other in the direction of "
-             "travel.",
-             NonEmptyString());
-  a.Ensure({"track", "route"}, !given_track || !given_route, "must not be given beside route");
-  a.Ensure({"route"}, !given_route || !given_route->empty(), "must name a track");
-  if (given_track) track = *given_track;
-  if (given_route) route = *given_route;
-}
-
-template <class Archive>
-void Describe(Archive& a, SpeedPoint& s) {
-  a.Optional("time_s", s.time_s, "Simulation time of the point; or s_m instead.", Within(0, 1e9));
-  a.Optional("s_m", s.s_m, "Chainage of the point; or time_s instead.", PlaceLimits());
-  a.Required("speed_mps", s.speed_mps, "Speed at the point.", Within(0, 200));
-  a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
-           "must have either time_s or s_m");
-}
+namespace {
 
 /// Describes where something is on the map: ObjectSpec, PathPoint.
-template <class Archive, class Placed>
+template <class Placed>
 void DescribeMapPlace(Archive& a, Placed& s) {
   a.Optional("x_m", s.x_m,
              "With y_m instead of s_m and d_m: easting in the projection of the alignment's map, "
@@ -67,7 +39,57 @@ template <class Placed>
           std::min(num_projected, num_geographic) == 0);
 }
 
-template <class Archive>
+/// Describes where an object is.
+void DescribePlace(Archive& a, ObjectSpec& s) {
+  // What the reader is to fill has no place yet, not the one at 0.
+  const bool has_track_place = !a.is_reading() && !s.x_m && !s.longitude_deg;
+  std::optional<double> s_m;
+  std::optional<double> d_m;
+  if (has_track_place) s_m = s.s_m;
+  if (has_track_place) d_m = s.d_m;
+  a.Optional("s_m", s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
+  a.Optional("d_m", d_m, "With s_m: distance from the track's axis, left positive; absent = 0.",
+             Within(-1000, 1000));
+  DescribeMapPlace(a, s);
+  a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
+           HasOnePlace(s_m.has_value(), !s_m && !d_m, s),
+           "must have either s_m (and d_m), or x_m and y_m, or longitude_deg and latitude_deg");
+  a.Optional("frame", s.frame,
+             "In plans for recordings only: s_m counts ahead from where the vehicle is in this "
+             "frame, and x_m and y_m are in the axes of the sensor there.");
+  a.Ensure({"frame", "longitude_deg"}, !s.frame || !s.longitude_deg,
+           "must not be given beside longitude_deg");
+  s.s_m = s_m.value_or(0.0);
+  s.d_m = d_m.value_or(0.0);
+}
+
+}  // namespace
+
+void DescribeTracks(Archive& a, std::string& track, std::vector<std::string>& route) {
+  std::optional<std::vector<std::string>> given_route;
+  if (!route.empty()) given_route = route;
+  std::optional<std::string> given_track;
+  if (route.empty() && track != "main") given_track = track;
+  a.OneOfTwo("track", "route");
+  a.Optional("track", given_track, "The track that it runs or stands on; absent = main.");
+  a.Optional("route", given_route,
+             "Instead of track: tracks that turnouts join, one after the other in the direction of "
+             "travel.",
+             NonEmptyString());
+  a.Ensure({"track", "route"}, !given_track || !given_route, "must not be given beside route");
+  a.Ensure({"route"}, !given_route || !given_route->empty(), "must name a track");
+  if (given_track) track = *given_track;
+  if (given_route) route = *given_route;
+}
+
+void Describe(Archive& a, SpeedPoint& s) {
+  a.Optional("time_s", s.time_s, "Simulation time of the point; or s_m instead.", Within(0, 1e9));
+  a.Optional("s_m", s.s_m, "Chainage of the point; or time_s instead.", PlaceLimits());
+  a.Required("speed_mps", s.speed_mps, "Speed at the point.", Within(0, 200));
+  a.Ensure({"", "time_s", "s_m"}, s.time_s.has_value() != s.s_m.has_value(),
+           "must have either time_s or s_m");
+}
+
 void Describe(Archive& a, PathPoint& s) {
   a.Optional("s_m", s.s_m, "Chainage.", PlaceLimits());
   a.Optional("d_m", s.d_m, "Left of its track's axis.", Within(-1000, 1000));
@@ -80,7 +102,6 @@ void Describe(Archive& a, PathPoint& s) {
            "must have either s_m and d_m, or x_m and y_m, or longitude_deg and latitude_deg");
 }
 
-template <class Archive>
 void Describe(Archive& a, PathSpec& s) {
   a.Required("points", s.points, "Where it goes from its place, one after the other.",
              NonEmptyList());
@@ -100,7 +121,6 @@ void Describe(Archive& a, PathSpec& s) {
            "must not be given beside start_at_vehicle_s_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, MotionSpec& s) {
   std::optional<std::vector<SpeedPoint>> profile;
   if (!s.profile.empty()) profile = s.profile;
@@ -122,7 +142,6 @@ void Describe(Archive& a, MotionSpec& s) {
            "must be all by time_s or all by s_m");
 }
 
-template <class Archive>
 void Describe(Archive& a, MeshPartSpec& s) {
   a.Required("of", s.of, "Name of a material or of a group in the mesh's file.", NonEmptyString());
   a.Optional("material", s.material, "Of the materials; absent = the object's.");
@@ -130,7 +149,6 @@ void Describe(Archive& a, MeshPartSpec& s) {
   a.Ensure({"", "material", "label"}, s.material || s.label, "must have a material or a label");
 }
 
-template <class Archive>
 void Describe(Archive& a, PersonSpec& s) {
   a.Optional("posture", s.posture, "The limbs of a walking person move while the person does.");
   a.Optional("physique", s.physique,
@@ -139,34 +157,6 @@ void Describe(Archive& a, PersonSpec& s) {
   a.Optional("luggage", s.luggage, "What it pulls or pushes.");
 }
 
-class JsonReader;
-
-/// Describes where an object is.
-template <class Archive>
-void DescribePlace(Archive& a, ObjectSpec& s) {
-  // What the reader is to fill has no place yet, not the one at 0.
-  const bool has_track_place = !std::is_same_v<Archive, JsonReader> && !s.x_m && !s.longitude_deg;
-  std::optional<double> s_m;
-  std::optional<double> d_m;
-  if (has_track_place) s_m = s.s_m;
-  if (has_track_place) d_m = s.d_m;
-  a.Optional("s_m", s_m, "Chainage of its middle, at time 0 where it moves.", PlaceLimits());
-  a.Optional("d_m", d_m, "With s_m: distance from the track's axis, left positive; absent = 0.",
-             Within(-1000, 1000));
-  DescribeMapPlace(a, s);
-  a.Ensure({"", "s_m", "d_m", "x_m", "y_m", "longitude_deg", "latitude_deg"},
-           HasOnePlace(s_m.has_value(), !s_m && !d_m, s),
-           "must have either s_m (and d_m), or x_m and y_m, or longitude_deg and latitude_deg");
-  a.Optional("frame", s.frame,
-             "In plans for recordings only: s_m counts ahead from where the vehicle is in this "
-             "frame, and x_m and y_m are in the axes of the sensor there.");
-  a.Ensure({"frame", "longitude_deg"}, !s.frame || !s.longitude_deg,
-           "must not be given beside longitude_deg");
-  s.s_m = s_m.value_or(0.0);
-  s.d_m = d_m.value_or(0.0);
-}
-
-template <class Archive>
 void Describe(Archive& a, ObjectSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("type", s.type, "What it is.");
@@ -233,7 +223,6 @@ void Describe(Archive& a, ObjectSpec& s) {
            "must be given for type \"person\" only");
 }
 
-template <class Archive>
 void Describe(Archive& a, TrainVehicleSpec& s) {
   a.Required("type", s.type, "A rail vehicle.");
   a.Optional("name", s.name, "Unique; absent = TRAIN/1, TRAIN/2 and so on.", NonEmptyString());
@@ -241,7 +230,6 @@ void Describe(Archive& a, TrainVehicleSpec& s) {
   a.Ensure({"type"}, IsRailVehicle(s.type), "must be a vehicle that runs on rails");
 }
 
-template <class Archive>
 void Describe(Archive& a, TrainSpec& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   DescribeTracks(a, s.track, s.route);

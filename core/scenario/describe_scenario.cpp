@@ -1,23 +1,22 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <algorithm>
 #include <string>
 
 #include "core/detect/detector/effect_table.h"
-#include "core/scenario/describe_lidar.h"
-#include "core/scenario/describe_models.h"
-#include "core/scenario/describe_motion_sensors.h"
-#include "core/scenario/describe_weather.h"
-#include "core/scenario/describe_world.h"
-#include "core/scenario/json_rules.h"
 #include "core/scenario/sensors.h"
 #include "railcast/camera.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
+namespace {
 
-template <class Archive>
+constexpr const char* kNoUdpForRos2 =
+    "must be left out with protocol ros2, whose readers find its topics by themselves";
+
+}  // namespace
+
 void Describe(Archive& a, DistortionSpec& s) {
   a.Optional("k1", s.k1, "Radial, of the order r^2.", Within(-10, 10));
   a.Optional("k2", s.k2, "Radial, of the order r^4.", Within(-10, 10));
@@ -26,7 +25,6 @@ void Describe(Archive& a, DistortionSpec& s) {
   a.Optional("k3", s.k3, "Radial, of the order r^6.", Within(-10, 10));
 }
 
-template <class Archive>
 void Describe(Archive& a, CameraSpec& s) {
   a.Optional("name", s.name, "Folder of its images; lower-case letters, digits and _.");
   a.Required("width_px", s.width_px, "Of the image.", Within(1, 65'536));
@@ -60,38 +58,6 @@ void Describe(Archive& a, CameraSpec& s) {
            "must be invertible over the whole image");
 }
 
-// Every spec has one description: `Describe(archive, spec)` names each field's key, value, meaning
-// and rule (json_rules.h). Four archives visit it, so that reading, writing, checking and the
-// published schema cannot drift apart: JsonReader fills the spec, JsonWriter writes the resolved
-// scenario and the short files that are made for users, SpecChecker checks what was made in C++,
-// SchemaWriter (tests/core/scenario) makes the schema. An archive has:
-//
-// - Required(key, value, meaning, rule): the key must be given.
-// - Optional(key, value, meaning, rule): if absent, the struct's default is kept; a std::optional
-//   stays empty.
-// - OneOfTwo(key, other): at most one of the two may be given; each of them replaces the other one
-//   of a base file. Must come before the descriptions of both keys.
-// - Alternative(key, value, {other_key, factor}, meaning, rule): another way to give other_key.
-// - RequiredLibrary(key, list, meaning): a list, or a file that holds it under the same key.
-// - Types(key, models, meaning): a list or file like a library, which may be absent, of types that
-//   the objects described after it may have.
-// - Switches(key, map, meaning, names): an object of flags.
-// - Ensure(keys, holds, rule): a rule across the fields of `keys`. The message is about the value
-// of
-//   the first key, or about the whole object if that is "".
-// - Unique(list_key, list, key, member): no two elements of the list may agree in a member.
-//
-// A value may be a bool, an unsigned integer, a double, a string, an enumeration with names
-// (kEnumNames), an array, a vector, an optional, a struct with a description, or a variant of such
-// structs, which "type" distinguishes (kTypeName).
-//
-// To add a field: add it, with its default, to the struct; add one line to its description;
-// regenerate the schemas (see tests/core/scenario/scenario_schema_test.cpp).
-
-inline constexpr const char* kNoUdpForRos2 =
-    "must be left out with protocol ros2, whose readers find its topics by themselves";
-
-template <class Archive>
 void Describe(Archive& a, SensorInterface& s) {
   a.Required("sensor", s.sensor, "Name of the sensor.", NonEmptyString());
   a.Optional("protocol", s.protocol, "How its live frames are packed.");
@@ -103,7 +69,6 @@ void Describe(Archive& a, SensorInterface& s) {
   a.Ensure({"udp", "protocol"}, s.protocol != Protocol::kRos2 || s.udp.empty(), kNoUdpForRos2);
 }
 
-template <class Archive>
 void Describe(Archive& a, Ros2Spec& s) {
   constexpr double kMaxDomain = 232;  // Ports of higher ones would be above 65535.
   a.Optional("domain", s.domain, "Absent = as ROS_DOMAIN_ID says, or 0.", Within(0, kMaxDomain));
@@ -115,7 +80,6 @@ void Describe(Archive& a, Ros2Spec& s) {
              "Of the vehicle at commands of ROS 2, which name none.", Within(0.001, 10));
 }
 
-template <class Archive>
 void Describe(Archive& a, InterfacesSpec& s) {
   a.Optional(
       "udp", s.udp,
@@ -130,7 +94,6 @@ void Describe(Archive& a, InterfacesSpec& s) {
   a.Optional("ros2", s.ros2, "How frames of protocol ros2 reach ROS 2.");
 }
 
-template <class Archive>
 void Describe(Archive& a, ToleranceSpec& s) {
   a.Optional("range_m", s.range_m, "Median error of the ranges of echoes, before noise.",
              Within(0, 10'000));
@@ -144,7 +107,6 @@ void Describe(Archive& a, ToleranceSpec& s) {
              Within(0, 1e6));
 }
 
-template <class Archive>
 void Describe(Archive& a, OutputSpec& s) {
   a.Optional("frame", s.frame, "Frame of reference of the points.");
   a.Optional("handedness", s.handedness, "left: y is negated, as Unreal has it.");
@@ -153,7 +115,6 @@ void Describe(Archive& a, OutputSpec& s) {
              Within(-1e8, 1e8));
 }
 
-template <class Archive>
 void Describe(Archive& a, Material& s) {
   a.Required("name", s.name, "Unique.", NonEmptyString());
   a.Required("reflectivity", s.reflectivity, "Diffuse reflectance at 905 nm; 1 = white Lambertian.",
@@ -178,7 +139,6 @@ void Describe(Archive& a, Material& s) {
   a.Ensure({"name"}, s.name != "none", "must not be \"none\": that is the material of nothing");
 }
 
-template <class Archive>
 void Describe(Archive& a, Label& s) {
   a.Required("id", s.id, "Unique; 0 = nothing was hit.");
   a.Required("name", s.name, "Unique.", NonEmptyString());
@@ -190,19 +150,12 @@ void Describe(Archive& a, Label& s) {
              "The nearest of SemanticKITTI's own ids.");
 }
 
-// A label table as a file of its own.
-struct LabelFile {
-  std::vector<Label> labels;
-};
-
-template <class Archive>
 void Describe(Archive& a, LabelFile& s) {
   a.Required("labels", s.labels, "What things are called.", NonEmptyList());
   a.Unique("labels", s.labels, "id", &Label::id);
   a.Unique("labels", s.labels, "name", &Label::name);
 }
 
-template <class Archive>
 void Describe(Archive& a, ScenarioSpec& s) {
   a.Optional("seed", s.seed, "Seed of the sensor's and the weather's random numbers.");
   a.Optional("fidelity", s.fidelity,

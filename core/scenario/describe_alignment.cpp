@@ -1,59 +1,40 @@
-#pragma once
+#include "core/scenario/descriptions.h"
 
 #include <cmath>
 #include <cstddef>
 #include <string>
 
 #include "core/base/text.h"
-#include "core/scenario/json_rules.h"
+#include "core/scenario/shared_keys.h"
 #include "railcast/alignment.h"
 
 namespace railcast {
 
-template <>
-inline constexpr const char* kTypeName<AlignmentSectionsSpec> = "sections";
-template <>
-inline constexpr const char* kTypeName<AlignmentElementsSpec> = "elements";
-template <>
-inline constexpr const char* kTypeName<AlignmentSplineSpec> = "spline";
+namespace {
 
 /// Longer lines are probably typing errors; a spline of this length takes 240 MB and a few seconds.
-inline constexpr double kLongestLine_m = 1e7;
+constexpr double kLongestLine_m = 1e7;
 
-[[nodiscard]] inline std::string LongestLineRule(double length_m) {
+[[nodiscard]] std::string LongestLineRule(double length_m) {
   return "must make a line of at most 10000000 m, not of " + NumberText(length_m) + " m";
 }
 
 /// Shorter elements would be lost in the rounding of a long line's chainage.
-[[nodiscard]] inline Limits LengthOfLine() {
+[[nodiscard]] Limits LengthOfLine() {
   return Within(1e-3, kLongestLine_m);
 }
 
-[[nodiscard]] inline Limits ChainageLimits() {
-  return Within(0, 1e7);
-}
-/// Limits of the chainage of an object or of a beginning. A moving object may start before the
-/// beginning of the line.
-[[nodiscard]] inline Limits PlaceLimits() {
-  return Within(-1e7, 1e7);
-}
-/// Double precision resolves such coordinates to 0.02 um.
-[[nodiscard]] inline Limits CoordinateLimits() {
-  return Within(-1e8, 1e8);
-}
-[[nodiscard]] inline Limits HeadingLimits() {
-  return Within(-360, 360);
-}
 /// An arc of the longest radius is practically straight: it deviates by 1 um in 1 km.
-[[nodiscard]] inline Limits RadiusLimits() {
+[[nodiscard]] Limits RadiusLimits() {
   return Within(-1e12, 1e12);
 }
 /// From a negligible smoothing length to one that flattens a whole valley.
-[[nodiscard]] inline Limits SmoothingLimits() {
+[[nodiscard]] Limits SmoothingLimits() {
   return Within(1e-3, 1e4);
 }
 
-template <class Archive>
+}  // namespace
+
 void Describe(Archive& a, CurvatureSection& s) {
   a.Required("s_m", s.s_m, "Chainage of the start.", ChainageLimits());
   a.Optional("radius_start_m", s.radius_start_m,
@@ -64,14 +45,12 @@ void Describe(Archive& a, CurvatureSection& s) {
   a.Ensure({"radius_end_m"}, s.radius_end_m != 0.0, "must not be 0");
 }
 
-template <class Archive>
 void Describe(Archive& a, AlignmentSectionsSpec& s) {
   a.Required("length_m", s.length_m, "Chainage of the end.", LengthOfLine());
   a.Required("sections", s.sections, "The sections; the first one starts at chainage 0.",
              NonEmptyList());
 }
 
-template <class Archive>
 void Describe(Archive& a, AlignmentElement& s) {
   a.Required("type", s.type, "A clothoid leads from the curvature before it to the one after it.");
   a.Required("length_m", s.length_m, "Length.", LengthOfLine());
@@ -84,7 +63,6 @@ void Describe(Archive& a, AlignmentElement& s) {
            "must be given for an arc only");
 }
 
-template <class Archive>
 void Describe(Archive& a, AlignmentElementsSpec& s) {
   a.Required("elements", s.elements, "One after the other from chainage 0.", NonEmptyList());
   double length_m = 0.0;
@@ -92,7 +70,6 @@ void Describe(Archive& a, AlignmentElementsSpec& s) {
   a.Ensure({"elements"}, length_m <= kLongestLine_m, LongestLineRule(length_m));
 }
 
-template <class Archive>
 void Describe(Archive& a, AlignmentSplineSpec& s) {
   a.Required("points_m", s.points_m, "Plan points (x, y), joined with continuous curvature.",
              EachNumber{.limits = CoordinateLimits(), .at_least = 2});
@@ -104,7 +81,6 @@ void Describe(Archive& a, AlignmentSplineSpec& s) {
   a.Ensure({"points_m"}, length_m <= kLongestLine_m, LongestLineRule(length_m));
 }
 
-template <class Archive>
 void Describe(Archive& a, ChainageValue& s) {
   a.Required("s_m", s.s_m, "Chainage of the value.", ChainageLimits());
   a.Required("value", s.value,
@@ -112,7 +88,6 @@ void Describe(Archive& a, ChainageValue& s) {
              "value at this chainage.");
 }
 
-template <class Archive>
 void Describe(Archive& a, MapSpec& s) {
   a.Optional("origin_m", s.origin_m,
              "Easting and northing in the map's projection of the world's origin.",
@@ -130,7 +105,6 @@ void Describe(Archive& a, MapSpec& s) {
              EachNumber{.limits = CoordinateLimits()});
 }
 
-template <class Archive>
 void Describe(Archive& a, AlignmentSpec& s) {
   a.Required("course", s.course, "The line in plan.");
   a.Optional("attribution", s.attribution, "Where the figures come from.");
