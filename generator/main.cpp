@@ -1,12 +1,31 @@
 #include "generator/commands.h"
 
+#include <string>
+
+#include "core/base/error.h"
+
 namespace {
 
-void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.add_flag("-v,--verbose")->description("Print details of each step");
-  railcast::AddSequence(app, command);
+#ifdef RAILCAST_FIRST_STAGE
+
+/// The commands that are not built yet say how they come.
+void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
+  for (const std::string name : {"insert", "stream", "replay", "check", "world", "trace", "dataset",
+                                 "merge", "survey", "import"}) {
+    CLI::App* const subcommand = app.add_subcommand(name, "Not built yet");
+    subcommand->prefix_command()->fallthrough(false)->set_help_flag();
+    subcommand->callback([&command, name] {
+      command = [name](const std::string&) -> int {
+        throw railcast::InputError("railcast-generate: " + name +
+                                   " is not built yet: scripts/build.sh builds all commands");
+      };
+    });
+  }
+}
+
+#else
+
+void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
   railcast::AddInsert(app, command);
   railcast::AddStream(app, command);
   railcast::AddReplay(app, command);
@@ -19,6 +38,16 @@ void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
 #ifdef RAILCAST_HAS_IMPORT
   railcast::AddImportProgram(app, command);
 #endif
+}
+
+#endif
+
+void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.add_flag("-v,--verbose")->description("Print details of each step");
+  railcast::AddSequence(app, command);
+  AddOtherCommands(app, command);
 }
 
 }  // namespace

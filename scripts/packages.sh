@@ -1,6 +1,33 @@
 # The Debian 12 packages that railcast needs, in one place. To be sourced by bash.
 # shellcheck shell=bash disable=SC2034  # The lists are for the scripts that source this.
 
+# For railcast-generate with its command sequence alone (RAILCAST_FIRST_STAGE).
+first_packages=(
+  cmake
+  g++
+  git  # The version string contains the commit.
+  libboost-dev
+  libcli11-dev
+  libeigen3-dev
+  libembree-dev
+  libjpeg-dev
+  liblz4-dev
+  liblzf-dev
+  libnanoflann-dev
+  libpcap-dev
+  libpng-dev
+  librandom123-dev
+  libsqlite3-dev
+  libssl-dev  # SHA-256 of the types of messages.
+  libtbb-dev
+  libxxhash-dev
+  libyaml-cpp-dev
+  libzstd-dev
+  ninja-build
+  nlohmann-json3-dev
+  zlib1g-dev
+)
+
 # The libraries of the core and of its tests.
 core_packages=(
   libeigen3-dev
@@ -16,44 +43,27 @@ core_packages=(
 # For configuring and building every target. The tests' libraries are included because the presets
 # build the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
 build_packages=(
+  "${first_packages[@]}"
   "${core_packages[@]}"
-  cmake
   cyclonedds-dev
-  g++
-  git  # The version string contains the commit.
   libassimp-dev
   libbenchmark-dev
-  libboost-dev
-  libcli11-dev
   libexpat1-dev
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
-  libjpeg-dev
   libkainjow-mustache-dev
-  liblz4-dev
-  liblzf-dev
-  libnanoflann-dev
   libnlopt-cxx-dev
-  libpcap-dev
   libpcl-dev
-  libpng-dev
   libproj-dev
   libprotobuf-dev
-  libsqlite3-dev
-  libssl-dev  # SHA-256 of the types of messages.
   libsystemd-dev  # Says to systemd that a stream is ready.
   libvtk9-dev
   libx11-dev
-  libxxhash-dev
-  libyaml-cpp-dev
-  libzstd-dev
-  ninja-build
   pkg-config
   protobuf-compiler
   pybind11-dev
   python3-dev
-  zlib1g-dev
 )
 
 # For drawing pictures on a machine without a display.

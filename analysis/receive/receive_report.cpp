@@ -86,7 +86,7 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
 void ReceivedFiles::Write(const ReceivedFrame& frame) {
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "frames/%06u.pcd", num_files_++);
-  WriteFileWhole(directory_ / name.data(), EncodePcd(MakePclCloud(frame), false));
+  WriteFileWhole(directory_ / name.data(), EncodePcd(MakeCloud(frame), false));
   const StreamHeader& header = frame.header;
   lines_ << name.data() << ',' << header.run << ',' << header.frame << ',' << header.stamp_ns;
   PutPose(header.world_from_sensor, lines_);

@@ -1,7 +1,5 @@
 #include "generator/run/all_sensors.h"
 
-#include <pcl/PCLPointCloud2.h>
-#include <pcl/common/io.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -13,12 +11,14 @@
 #include <nlohmann/json.hpp>
 #include <ranges>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/pcd_encoder.h"
+#include "core/io/cloud/pcd_reader.h"
 #include "core/io/content_hash.h"
 #include "core/io/field_layout.h"
 #include "core/io/recording/line_reader.h"
@@ -44,12 +44,16 @@ std::vector<MergedSensor> MergedSensorsOf(const FrameMaker& maker, const RunPlan
   return sensors;
 }
 
-std::size_t OffsetOf(const pcl::PCLPointCloud2& cloud, const std::string& name) {
-  const int field = pcl::getFieldIndex(cloud, name);
-  Check(field >= 0 &&
-            cloud.fields[static_cast<std::size_t>(field)].datatype == pcl::PCLPointField::FLOAT32,
+const CloudField* CloudFieldNamed(const Cloud& cloud, std::string_view name) {
+  const auto found = std::ranges::find(cloud.fields, name, &CloudField::name);
+  return found == cloud.fields.end() ? nullptr : &*found;
+}
+
+std::size_t OffsetOf(const Cloud& cloud, std::string_view name) {
+  const CloudField* const field = CloudFieldNamed(cloud, name);
+  Check(field != nullptr && field->type == NumberType::kFloat,
         "a cloud that is merged has coordinates");
-  return cloud.fields[static_cast<std::size_t>(field)].offset;
+  return field->offset;
 }
 
 template <typename T>
@@ -73,7 +77,7 @@ class MergedCloud {
 
   /// Adds the points of a cloud; slots without a point (x is NaN) are left out.
   /// @pre The cloud has the fields x, y and z as float32, and those of the clouds before it.
-  void Add(const pcl::PCLPointCloud2& cloud, const Part& part);
+  void Add(const Cloud& cloud, const Part& part);
 
   [[nodiscard]] std::uint32_t num_points() const { return merged_.width; }
 
@@ -81,28 +85,23 @@ class MergedCloud {
   [[nodiscard]] std::string Pcd(bool is_compressed) const;
 
  private:
-  pcl::PCLPointCloud2 merged_;
+  Cloud merged_;
 };
 
-void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
+void MergedCloud::Add(const Cloud& cloud, const Part& part) {
   const std::size_t step = cloud.point_step;
   if (merged_.fields.empty()) {
     merged_.fields = cloud.fields;
-    pcl::PCLPointField index;
-    index.name = kSensorIndexField;
-    index.offset = cloud.point_step;
-    index.datatype = pcl::PCLPointField::UINT8;
-    index.count = 1;
-    merged_.fields.push_back(index);
-    merged_.point_step = cloud.point_step + 1;
+    merged_.point_step = cloud.point_step;
+    merged_.AddField(std::string(kSensorIndexField), NumberType::kUint8);
     merged_.height = 1;
   }
   Check(merged_.point_step == step + 1, "clouds that are merged have the same fields");
   const std::size_t x = OffsetOf(cloud, "x");
   const std::size_t y = OffsetOf(cloud, "y");
   const std::size_t z = OffsetOf(cloud, "z");
-  const int time = pcl::getFieldIndex(cloud, "time_ns");
-  const std::size_t num_slots = std::size_t{cloud.width} * cloud.height;
+  const CloudField* const time = CloudFieldNamed(cloud, "time_ns");
+  const std::size_t num_slots = cloud.num_points();
   merged_.data.reserve(merged_.data.size() + num_slots * (step + 1));
   for (std::size_t slot = 0; slot < num_slots; ++slot) {
     const std::uint8_t* const from = cloud.data.data() + slot * step;
@@ -117,13 +116,12 @@ void MergedCloud::Add(const pcl::PCLPointCloud2& cloud, const Part& part) {
     StoreAt<float>(to + x, point.x());
     StoreAt<float>(to + y, point.y());
     StoreAt<float>(to + z, point.z());
-    if (time >= 0) {
-      const std::size_t offset = cloud.fields[static_cast<std::size_t>(time)].offset;
+    if (time != nullptr) {
+      const std::size_t offset = time->offset;
       StoreAt<std::uint32_t>(to + offset, ValueAt<std::uint32_t>(from + offset) + part.later_ns);
     }
   }
   merged_.width = static_cast<std::uint32_t>(merged_.data.size() / merged_.point_step);
-  merged_.row_step = static_cast<std::uint32_t>(merged_.data.size());
 }
 
 std::string MergedCloud::Pcd(bool is_compressed) const {
@@ -206,7 +204,7 @@ class MergedWriter {
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
     for (const MergedFrame::Part& part : frame.parts) {
       const auto& [name, scenario, spec] = sensors_[part.sensor].plan;
-      cloud.Add(ReadPcd(spec.directory / CloudName(spec, part.frame)),
+      cloud.Add(ReadPcdCloud(spec.directory / CloudName(spec, part.frame)),
                 {.sensor_index = static_cast<std::uint8_t>(part.sensor),
                  .merged_from_cloud = MergedFromCloud(scenario),
                  .later_ns = part.later_ns});

@@ -13,14 +13,9 @@
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/cloud/woven_cloud.h"
 #include "core/io/write_file.h"
-#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
-
-static_assert(static_cast<int>(NumberType::kInt64) == pcl::PCLPointField::INT64 &&
-                  static_cast<int>(NumberType::kUint64) == pcl::PCLPointField::UINT64,
-              "PCL gives the types the same numbers");
 
 // The points of a file, point after point.
 std::string PackRows(const PcdHeader& header, std::string_view points, const std::string& plain) {
@@ -57,32 +52,25 @@ bool IsFinite(const PcdHeader& header, const std::string& rows) {
   return true;
 }
 
-pcl::PCLPointCloud2 ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
+Cloud ParsePcd(const std::filesystem::path& file, const std::string& bytes) {
   std::string plain;
   const PcdHeader header = CheckPcd(ShownPath(file), bytes, &plain);
   const std::string rows =
       PackRows(header, std::string_view(bytes).substr(header.data_begin), plain);
-  pcl::PCLPointCloud2 cloud;
+  Cloud cloud;
   for (const PcdField& field : header.fields) {
-    pcl::PCLPointField of_pcl;
-    of_pcl.name = field.name;
-    of_pcl.offset = cloud.point_step;
-    of_pcl.datatype = static_cast<std::uint8_t>(field.number_type());
-    of_pcl.count = static_cast<std::uint32_t>(field.count);
-    cloud.fields.push_back(of_pcl);
-    cloud.point_step += static_cast<std::uint32_t>(field.size * field.count);
+    cloud.AddField(field.name, field.number_type(), static_cast<std::uint32_t>(field.count));
   }
   cloud.width = static_cast<std::uint32_t>(header.width);
   cloud.height = static_cast<std::uint32_t>(header.height);
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.is_dense = IsFinite(header, rows) ? 1 : 0;
+  cloud.is_dense = IsFinite(header, rows);
   cloud.data.assign(rows.begin(), rows.end());
   return cloud;
 }
 
 }  // namespace
 
-pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
+Cloud ReadPcdCloud(const std::filesystem::path& file) {
   return WithinMemory([&] { return ReadingText(file); },
                       [&] { return ParsePcd(file, ReadFileWhole(file)); });
 }

@@ -67,8 +67,8 @@ struct PcdType {
   char letter{};
 };
 
-PcdType PcdTypeOf(const pcl::PCLPointField& field) {
-  return VisitNumberType(static_cast<NumberType>(field.datatype), [](auto zero) -> PcdType {
+PcdType PcdTypeOf(const CloudField& field) {
+  return VisitNumberType(field.type, [](auto zero) -> PcdType {
     using Value = decltype(zero);
     const char letter = std::is_floating_point_v<Value> ? 'F' : std::is_signed_v<Value> ? 'I' : 'U';
     return {sizeof zero, letter};
@@ -77,10 +77,10 @@ PcdType PcdTypeOf(const pcl::PCLPointField& field) {
 
 }  // namespace
 
-std::string PcdHeaderOf(const pcl::PCLPointCloud2& cloud, std::string_view data) {
+std::string PcdHeaderOf(const Cloud& cloud, std::string_view data) {
   std::string names, sizes, types, counts;
   std::size_t offset = 0;
-  for (const pcl::PCLPointField& field : cloud.fields) {
+  for (const CloudField& field : cloud.fields) {
     Check(field.offset == offset, "the fields of a cloud are packed");
     const PcdType type = PcdTypeOf(field);
     offset += type.size * field.count;
@@ -99,13 +99,13 @@ std::string PcdHeaderOf(const pcl::PCLPointCloud2& cloud, std::string_view data)
   return header;
 }
 
-std::string EncodePcd(const pcl::PCLPointCloud2& cloud, bool is_compressed) {
+std::string EncodePcd(const Cloud& cloud, bool is_compressed) {
   const std::size_t num_points = std::size_t{cloud.width} * cloud.height;
   Check(cloud.data.size() == num_points * cloud.point_step, "a cloud has all its points");
   const std::string_view rows(reinterpret_cast<const char*>(cloud.data.data()), cloud.data.size());
   if (!is_compressed || rows.empty()) return PcdHeaderOf(cloud, "binary").append(rows);
   std::vector<std::size_t> field_bytes;
-  for (const pcl::PCLPointField& field : cloud.fields) {
+  for (const CloudField& field : cloud.fields) {
     field_bytes.push_back(PcdTypeOf(field).size * field.count);
   }
   std::string fields;
@@ -135,7 +135,7 @@ void EncodePcd(const Frame& frame,
                PcdEncoding encoding,
                std::string& bytes) {
   const SelectedFields selected(frame, fields);
-  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, selected);
+  const Cloud cloud = DescribeCloud(frame, selected);
   switch (encoding) {
     case PcdEncoding::kBinary: {
       const std::string header = PcdHeaderOf(cloud, "binary");

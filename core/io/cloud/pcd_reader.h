@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/number_type.h"
+#include "core/io/cloud/cloud.h"
 
 namespace railcast {
 
@@ -46,5 +48,8 @@ struct PcdHeader {
 /// Packs the numbers of an ASCII file as in a binary one: point after point, fields in order.
 /// @pre CheckPcd() has accepted the text.
 [[nodiscard]] std::string PackAscii(std::string_view text, const PcdHeader& header);
+
+/// Reads a PCD file, as ReadPcd() (railcast/io/cloud_files.h) does.
+[[nodiscard]] Cloud ReadPcdCloud(const std::filesystem::path& file);
 
 }  // namespace railcast

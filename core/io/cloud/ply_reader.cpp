@@ -6,41 +6,31 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/io/write_file.h"
-#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
 
-pcl::PCLPointCloud2 Describe(const PlyHeader& header) {
-  pcl::PCLPointCloud2 cloud;
+Cloud Describe(const PlyHeader& header) {
+  Cloud cloud;
   for (const PlyProperty& property : header.properties) {
-    pcl::PCLPointField field;
-    field.name = property.name;
-    field.offset = cloud.point_step;
-    field.datatype = static_cast<std::uint8_t>(property.type);
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += static_cast<std::uint32_t>(property.size);
+    cloud.AddField(property.name, property.type);
   }
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(header.num_points);
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.data.resize(cloud.row_step);
+  cloud.data.resize(header.num_points * cloud.point_step);
   return cloud;
 }
 
-bool StoreWord(std::string_view word, std::uint8_t pcl_type, std::uint8_t* place) {
-  return VisitNumberType(NumberType(pcl_type), [&](auto zero) {
+bool StoreWord(std::string_view word, NumberType type, std::uint8_t* place) {
+  return VisitNumberType(type, [&](auto zero) {
     const auto number = ParseNumber<decltype(zero)>(word);
     if (number) std::memcpy(place, &*number, sizeof *number);
     return number.has_value();
   });
 }
 
-void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCloud2& cloud) {
+void ParsePoints(const std::string& file, std::string_view text, Cloud& cloud) {
   for (std::uint32_t point = 0; point < cloud.width; ++point) {
     const auto line = TakeLine(text);
     const auto words = line ? Words(*line) : std::vector<std::string_view>{};
@@ -51,8 +41,8 @@ void ParsePoints(const std::string& file, std::string_view text, pcl::PCLPointCl
     }
     std::uint8_t* row = cloud.data.data() + std::size_t{point} * cloud.point_step;
     for (std::size_t i = 0; i < words.size(); ++i) {
-      const pcl::PCLPointField& field = cloud.fields[i];
-      if (StoreWord(words[i], field.datatype, row + field.offset)) continue;
+      const CloudField& field = cloud.fields[i];
+      if (StoreWord(words[i], field.type, row + field.offset)) continue;
       throw InputError(file + place + ": " + ShownText(field.name) +
                        ": no value of its type (got " + ShownText(words[i]) + ")");
     }
@@ -109,14 +99,9 @@ void CheckLength(const std::string& file, const PlyHeader& header, std::size_t s
 
 }  // namespace
 
-pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
-  return WithinMemory([&] { return ReadingText(file); },
-                      [&] { return ParsePly(ShownPath(file), ReadFileWhole(file)); });
-}
-
-pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes) {
+Cloud ParsePlyCloud(const std::string& file, const std::string& bytes) {
   const PlyHeader header = CheckPly(file, bytes);
-  pcl::PCLPointCloud2 cloud = Describe(header);
+  Cloud cloud = Describe(header);
   if (header.is_ascii) {
     ParsePoints(file, std::string_view(bytes).substr(header.points_begin), cloud);
   } else if (!cloud.data.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/number_type.h"
+#include "core/io/cloud/cloud.h"
 
 namespace railcast {
 
@@ -36,5 +37,8 @@ struct PlyHeader {
 /// @param file Named in errors.
 /// @throws InputError with one line: "file: place: rule (got value)".
 [[nodiscard]] PlyHeader CheckPly(const std::string& file, std::string_view bytes);
+
+/// Reads the points of a PLY file held in `bytes`, as ReadPly() (railcast/io/cloud_files.h) does.
+[[nodiscard]] Cloud ParsePlyCloud(const std::string& file, const std::string& bytes);
 
 }  // namespace railcast

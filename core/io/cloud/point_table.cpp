@@ -1,7 +1,5 @@
 #include "core/io/cloud/point_table.h"
 
-#include <pcl/PCLPointField.h>
-
 #include <algorithm>
 #include <limits>
 #include <type_traits>
@@ -10,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/cloud/pcd_reader.h"
+#include "core/io/cloud/ply_reader.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 
@@ -69,15 +68,13 @@ PointTable ParsePcdTable(const std::string& file, std::string bytes) {
 }
 
 PointTable ParsePlyTable(const std::string& file, const std::string& bytes) {
-  const pcl::PCLPointCloud2 cloud = ParsePly(file, bytes);
+  const Cloud cloud = ParsePlyCloud(file, bytes);
   PointTable table;
   table.width = cloud.width;
   table.height = 1;
-  for (const pcl::PCLPointField& field : cloud.fields) {
-    table.columns.push_back({.name = field.name,
-                             .type = static_cast<NumberType>(field.datatype),
-                             .offset = field.offset,
-                             .step = cloud.point_step});
+  for (const CloudField& field : cloud.fields) {
+    table.columns.push_back(
+        {.name = field.name, .type = field.type, .offset = field.offset, .step = cloud.point_step});
   }
   table.bytes.assign(cloud.data.begin(), cloud.data.end());
   return table;

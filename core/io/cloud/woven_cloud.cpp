@@ -13,10 +13,10 @@ namespace railcast {
 namespace {
 
 template <typename Stored>
-constexpr std::uint8_t PclType() {
-  if (std::is_same_v<Stored, float>) return pcl::PCLPointField::FLOAT32;
-  constexpr std::array<std::uint8_t, 5> kUnsignedBySize = {
-      0, pcl::PCLPointField::UINT8, pcl::PCLPointField::UINT16, 0, pcl::PCLPointField::UINT32};
+constexpr NumberType TypeOfNumber() {
+  if (std::is_same_v<Stored, float>) return NumberType::kFloat;
+  constexpr std::array<NumberType, 5> kUnsignedBySize = {
+      NumberType{}, NumberType::kUint8, NumberType::kUint16, NumberType{}, NumberType::kUint32};
   return kUnsignedBySize[sizeof(Stored)];
 }
 
@@ -29,21 +29,20 @@ void StoreColumn(const T* from, std::size_t count, std::size_t step, char* to) {
 
 }  // namespace
 
-pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const SelectedFields& fields) {
-  pcl::PCLPointCloud2 cloud;
+void Cloud::AddField(std::string name, NumberType type, std::uint32_t count) {
+  fields.push_back({std::move(name), point_step, type, count});
+  const std::size_t size = VisitNumberType(type, [](auto zero) { return sizeof zero; });
+  point_step += static_cast<std::uint32_t>(size * count);
+}
+
+Cloud DescribeCloud(const Frame& frame, const SelectedFields& fields) {
+  Cloud cloud;
   fields.ForEach([&](std::string_view name, std::string_view, const auto& values) {
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
-    pcl::PCLPointField field;
-    field.name = name;
-    field.offset = cloud.point_step;
-    field.datatype = PclType<Stored>();
-    field.count = 1;
-    cloud.fields.push_back(field);
-    cloud.point_step += static_cast<std::uint32_t>(sizeof(Stored));
+    cloud.AddField(std::string(name), TypeOfNumber<Stored>());
   });
   cloud.width = frame.width();
   cloud.height = frame.rows;
-  cloud.row_step = cloud.width * cloud.point_step;
   return cloud;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <pcl/PCLPointCloud2.h>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/io/cloud/cloud.h"
 #include "core/io/cloud/track_fields.h"
 #include "railcast/frame.h"
 
@@ -13,7 +13,7 @@ namespace railcast {
 
 /// Describes a frame's points as a cloud, without the data: organised, each point packed, the types
 /// those of the frame.
-[[nodiscard]] pcl::PCLPointCloud2 DescribeCloud(const Frame& frame, const SelectedFields& fields);
+[[nodiscard]] Cloud DescribeCloud(const Frame& frame, const SelectedFields& fields);
 
 /// Writes the fields interleaved, point by point.
 /// @param step Bytes of a point: point_step of DescribeCloud().

@@ -249,9 +249,10 @@ void PutVendorPoints(const Frame& frame,
 
 void PutOwnPoints(const Frame& frame, const FieldSelection& fields, PointCloud2& message) {
   const SelectedFields selected(frame, fields);
-  const pcl::PCLPointCloud2 cloud = DescribeCloud(frame, selected);
-  for (const pcl::PCLPointField& field : cloud.fields) {
-    message.fields.push_back({field.name, field.offset, field.datatype, field.count});
+  const Cloud cloud = DescribeCloud(frame, selected);
+  for (const CloudField& field : cloud.fields) {
+    message.fields.push_back(
+        {field.name, field.offset, static_cast<std::uint8_t>(field.type), field.count});
   }
   message.height = cloud.height;
   message.width = cloud.width;

@@ -64,24 +64,15 @@ bool HasOutcomes(const ReceivedFrame& received) {
 
 }  // namespace
 
-pcl::PCLPointCloud2 MakePclCloud(const ReceivedFrame& received) {
-  pcl::PCLPointCloud2 cloud;
-  cloud.header.seq = received.header.frame;
-  cloud.header.stamp = static_cast<std::uint64_t>(received.header.stamp_ns / kNsPerUs);
-  cloud.header.frame_id = "railcast_" + std::to_string(received.header.sensor);
+Cloud MakeCloud(const ReceivedFrame& received) {
+  Cloud cloud;
   for (const StreamField& field : received.header.fields) {
-    pcl::PCLPointField described;
-    described.name = field.name;
-    described.offset = field.offset;
-    described.datatype = static_cast<std::uint8_t>(field.type);
-    described.count = 1;
-    cloud.fields.push_back(described);
+    cloud.fields.push_back({field.name, field.offset, static_cast<NumberType>(field.type)});
   }
   cloud.height = 1;
   cloud.width = static_cast<std::uint32_t>(received.num_points());
   cloud.point_step = received.header.point_size;
-  cloud.row_step = cloud.width * cloud.point_step;
-  cloud.is_dense = static_cast<std::uint8_t>(HasOnlyFinitePlaces(received));
+  cloud.is_dense = HasOnlyFinitePlaces(received);
   cloud.data.assign(received.points.begin(), received.points.end());
   return cloud;
 }

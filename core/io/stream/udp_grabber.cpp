@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
+#include "core/base/units.h"
+#include "core/io/cloud/cloud.h"
 #include "core/io/stream/stream_clouds.h"
 
 namespace railcast {
@@ -29,6 +31,14 @@ bool Sends(const StreamHeader& header, std::string_view name, StreamType type) {
 }
 
 }  // namespace
+
+pcl::PCLPointCloud2 MakePclCloud(const ReceivedFrame& received) {
+  pcl::PCLPointCloud2 cloud = ToPcl(MakeCloud(received));
+  cloud.header.seq = received.header.frame;
+  cloud.header.stamp = static_cast<std::uint64_t>(received.header.stamp_ns / kNsPerUs);
+  cloud.header.frame_id = "railcast_" + std::to_string(received.header.sensor);
+  return cloud;
+}
 
 UdpGrabber::UdpGrabber(const Endpoint& at, const WantedStream& wanted)
     : listens_at_(at), wanted_(wanted), at_(at) {

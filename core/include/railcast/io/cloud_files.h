@@ -1,6 +1,5 @@
 #pragma once
 
-#include <pcl/PCLPointCloud2.h>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,15 @@
 
 #include "railcast/frame.h"
 #include "railcast/transform.h"
+
+// What returns clouds of PCL is there for programs that have its headers.
+#if __has_include(<pcl/PCLPointCloud2.h>)
+#include <pcl/PCLPointCloud2.h>
+#else
+namespace pcl {
+struct PCLPointCloud2;
+}
+#endif
 
 namespace railcast {
 
