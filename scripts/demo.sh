@@ -1,30 +1,62 @@
 #!/usr/bin/env bash
-# Installs missing packages, builds all that `cmake --install` installs, simulates 50 frames of an
-# on-sight approach on the St.Gallen - Wil line into out/demo, draws one of them (out/demo.png) and
-# analyses all of them (out/stats).
+# In two stages, from a bare Debian 12: demo.sh [--first]
+#   1. installs what `railcast-generate sequence` needs, builds it, simulates 50 frames of an on-sight approach on the
+#      St.Gallen - Wil line into out/demo and draws the last of them (out/first.png);
+#   2. installs and builds everything else, draws a frame with the viewer (out/demo.png) and analyses all of them
+#      (out/stats).
+# --first ends after the first stage. What a stage has made stays if the next one is interrupted.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
 
-install_packages "${build_packages[@]}" "${display_packages[@]}" "${python_packages[@]}"
-scripts/build.sh installed
+if (($# > 1)) || [[ "${1:-}" != "" && "$1" != --first ]]; then
+  echo "usage: scripts/demo.sh [--first]" >&2
+  exit 2
+fi
+build=build/release
 
-rm -rf out/demo out/demo.png out/stats
+# end_stage NUMBER: says how long the stage took.
+end_stage() {
+  printf '\nStage %d took %d:%02d minutes.\n' "$1" $((SECONDS / 60)) $((SECONDS % 60))
+  SECONDS=0
+}
+
+SECONDS=0
+if grep -qs '^RAILCAST_FIRST_STAGE:BOOL=OFF$' "$build/CMakeCache.txt"; then
+  scripts/build.sh railcast-generate  # Everything has been configured here before.
+else
+  install_packages "${first_packages[@]}"
+  cmake --preset release -D RAILCAST_FIRST_STAGE=ON
+  cmake --build --preset release --target railcast-generate
+fi
+rm -rf out/demo out/demo.png out/first.png out/stats
 mkdir -p out
-build/release/generator/railcast-generate sequence scenarios/st_gallen_approach.json \
-  --out out/demo --frames 50
-xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
-  build/release/viewer/railcast-view out/demo --frame 36 --camera driver --color-by label \
-  --screenshot out/demo.png
-build/release/analysis/railcast-analyze stats out/demo --out out/stats
-
+"$build/generator/railcast-generate" sequence scenarios/st_gallen_approach.json --out out/demo --frames 50 \
+  --picture out/first.png
+end_stage 1
 cat <<TEXT
-
 Look at
-  $PWD/out/demo.png              frame 36: wagons and a person, points coloured by label
-  $PWD/out/stats/report.html     dropout, density, noise, intensity: open it in a browser
+  $PWD/out/first.png             the last frame: points in the colours of their labels
   $PWD/out/demo/frames/          50 labelled point clouds, PCD: pcl_viewer, Open3D
   $PWD/out/demo/objects.jsonl    every object's box, points and occlusion, a line per frame
   $PWD/out/demo/poses.csv        where the sensor was
   $PWD/out/demo/manifest.json    version, seed and counts
+TEXT
+if [[ "${1:-}" == --first ]]; then
+  echo "scripts/demo.sh without --first builds the analysis and the viewer, too."
+  exit
+fi
+
+printf '\nNext, the analysis and the viewer are built; Ctrl-C leaves all of the above as it is.\n\n'
+install_packages "${build_packages[@]}" "${display_packages[@]}" "${python_packages[@]}"
+scripts/build.sh installed
+xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
+  "$build/viewer/railcast-view" out/demo --frame 36 --camera driver --color-by label \
+  --screenshot out/demo.png
+"$build/analysis/railcast-analyze" stats out/demo --out out/stats
+end_stage 2
+cat <<TEXT
+Look at
+  $PWD/out/demo.png              frame 36: wagons and a person, points coloured by label
+  $PWD/out/stats/report.html     dropout, density, noise, intensity: open it in a browser
 TEXT

@@ -34,6 +34,7 @@ struct SequenceOptions {
   std::optional<std::string> sensor;              ///< Which sensor, if there are several.
   std::optional<std::filesystem::path> commands;  ///< Log of a live run to replay.
   std::optional<std::filesystem::path> summary;   ///< JSON file on the run.
+  std::optional<std::filesystem::path> picture;   ///< PNG of its last frame.
   bool is_verbose = false;
 };
 
@@ -106,16 +107,20 @@ bool Report(const std::optional<std::filesystem::path>& summary,
 }
 
 // A file in the directory of the frames would be a stranger there.
-void CheckSummary(const std::filesystem::path& summary, const std::filesystem::path& out) {
-  if (IsInFolder(summary, out)) {
-    throw InputError("--summary: must not be in the directory of --out (got " + ShownPath(summary) +
+void CheckIsBeside(const std::string& option,
+                   const std::optional<std::filesystem::path>& file,
+                   const std::filesystem::path& out) {
+  if (!file) return;
+  if (IsInFolder(*file, out)) {
+    throw InputError(option + ": must not be in the directory of --out (got " + ShownPath(*file) +
                      ")");
   }
-  CheckCanWrite(summary);
+  CheckCanWrite(*file);
 }
 
 int RunSequenceCommand(const SequenceOptions& options) {
-  if (options.summary) CheckSummary(*options.summary, options.made.directory);
+  CheckIsBeside("--summary", options.summary, options.made.directory);
+  CheckIsBeside("--picture", options.picture, options.made.directory);
   RunPlan plan = PlanOf(options);
   FrameMaker maker(plan.scenario, options.made.num_threads, plan.sensors.front().spec.isa);
   for (std::size_t i = 0; options.is_verbose && i < maker.num_sensors(); ++i) {
@@ -148,6 +153,11 @@ int RunSequenceCommand(const SequenceOptions& options) {
   const bool is_finished = FinishRun(
       maker, plan, [&](double done) { progress.Show("merged clouds", done); }, StopRequested);
   progress.End();
+  if (is_finished && options.picture) {
+    const SequenceSpec& spec = plan.sensors.front().spec;
+    WriteFileWhole(*options.picture, PictureOfFrame(plan, spec.FrameAt(spec.num_frames - 1),
+                                                    options.made.num_threads));
+  }
   if (is_finished) return kExitSuccess;
   std::cerr << "interrupted; the same command merges the clouds\n";
   return kExitInterrupted;
@@ -195,6 +205,11 @@ void AddSequence(CLI::App& app, ProgramCommand& command) {
           "Command log of a live run to replay; with that run's scenario it reproduces its frames")
       ->check(NonEmpty());
   AddSummaryFile(*sequence, options->summary);
+  sequence
+      ->add_option("--picture", options->picture,
+                   "PNG file to draw the last frame into: its points in the colours of their "
+                   "labels, over what the scenario's camera sees, or one in the sensor's place")
+      ->check(NonEmpty());
   sequence->footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "generator/run/make_frames.h"
+#include "generator/run/run_plan.h"
 
 namespace railcast {
 
@@ -26,5 +28,10 @@ struct SummarizedRun {
                                                std::uint32_t num_frames,
                                                std::uint32_t num_resumed,
                                                double elapsed_s);
+
+/// A frame of a run's first sensor as a picture: what the scenario's camera sees, or one in the
+/// sensor's place if it has none, with the frame's points over it in the colours of their labels.
+/// @return A PNG file.
+[[nodiscard]] std::string PictureOfFrame(const RunPlan& plan, std::uint32_t frame, int num_threads);
 
 }  // namespace railcast
