@@ -86,9 +86,9 @@ void CheckJourney(const FrameMaker& maker, const RunPlan& plan) {
 }
 
 // Prints what was made. Returns whether all of it is there.
-bool Report(const std::optional<std::filesystem::path>& summary,
-            const RunPlan& plan,
-            const std::vector<SequenceResult>& results) {
+bool PrintSummaries(const std::optional<std::filesystem::path>& summary,
+                    const RunPlan& plan,
+                    const std::vector<SequenceResult>& results) {
   std::vector<SummarizedRun> summarized;
   std::string unfinished;
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -148,7 +148,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   }
   const std::vector<SequenceResult> results = MakeFrames(maker, plan, hooks);
   if (!std::ranges::all_of(results, &SequenceResult::is_complete)) display.Break();
-  if (!Report(options.summary, plan, results)) return kExitInterrupted;
+  if (!PrintSummaries(options.summary, plan, results)) return kExitInterrupted;
   const ProgressLine progress;
   const bool is_finished = FinishRun(
       maker, plan, [&](double done) { progress.Show("merged clouds", done); }, StopRequested);
