@@ -15,7 +15,9 @@ namespace {
 TEST(PictureOfFrame, ShowsPointsInTheColoursOfWhatTheCameraSeesThere) {
   ScenarioSpec scenario = ReadScenario(ScenariosDir() / "minimal.json");
   scenario.camera = {.width_px = 320, .height_px = 180, .horizontal_fov_deg = 40.0};
-  const RunPlan plan = PlanRun(scenario, {.directory = "out"}, "minimal.json");
+  RunChoices choices;
+  choices.directory = "out";
+  const RunPlan plan = PlanRun(scenario, choices, "minimal.json");
   constexpr std::uint32_t kFrame = 3;
   FrameMaker maker(plan.sensors.front().scenario, 0);
   MadeFrame made;
