@@ -112,7 +112,7 @@ def command_faults(command, build, built, made):
             if not any(path == each or path.startswith(f"{each}/") for each in made):
                 yield f"{command}: nothing makes {path}"
     yield from options_faults(words, build)
-    made |= {words[place + 1] for place, word in enumerate(words[:-1]) if word in ("--out", "--screenshot")}
+    made |= {words[place + 1] for place, word in enumerate(words[:-1]) if word in ("--out", "--picture", "--screenshot")}
 
 
 def demo_faults(demo, made):
@@ -140,7 +140,7 @@ def claimed_files_faults():
 def faults(text, build):
     demo = (ROOT / "scripts" / "demo.sh").read_text("utf-8")
     built = outputs_of(build, targets_of(demo))
-    made = set(re.findall(r"(?:--out|--screenshot) (out/[\w./]+)", demo.replace("\\\n ", "")))
+    made = set(re.findall(r"(?:--out|--picture|--screenshot) (out/[\w./]+)", demo.replace("\\\n ", "")))
     yield from demo_faults(demo, made)
     yield from install_faults(build, built)
     module = [file for file in built if re.fullmatch(r"python/railcast/_railcast\..*so", file)]

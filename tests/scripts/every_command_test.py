@@ -33,7 +33,8 @@ TOOLS = ("xvfb-run", "weasyprint")
 ROWS = (
     ("railcast-generate check", "drive.json --resolved resolved.json", ["resolved.json"], None),
     ("railcast-generate sequence", "drive.json --frames 40 --out drive", ["drive/frames/000039.pcd"], None),
-    ("railcast-generate sequence", "coarse.json --frames 8 --out again", ["again/poses.csv"], None),
+    ("railcast-generate sequence", "coarse.json --frames 8 --out again --picture again.png", ["again/poses.csv", "again.png"],
+     None),
     ("railcast-generate trace", "drive.json --frame 3 --firing 900", "frame 3 firing 900", None),
     ("railcast-generate world", "drive.json --from-s 100 --to-s 110 --out world.glb", ["world.glb"], None),
     ("railcast-generate insert", "drive plan.json --frames 3 --out inserted", ["inserted/insert.jsonl"], None),
