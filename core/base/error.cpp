@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace railcast {
 namespace {
 
-std::vector<Fault> FaultsOfLines(const std::string& lines) {
+// Without a stream, which swallows that memory has run out: the error would have no line.
+std::vector<Fault> FaultsOfLines(std::string_view lines) {
   std::vector<Fault> faults;
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) faults.push_back({"", std::move(line), ""});
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size());
+    faults.push_back({"", std::string(lines.substr(0, end)), ""});
+    lines.remove_prefix(std::min(end + 1, lines.size()));
+  }
   return faults;
 }
 
