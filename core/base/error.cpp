@@ -6,17 +6,15 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/text.h"
+
 namespace railcast {
 namespace {
 
 // Without a stream, which swallows that memory has run out: the error would have no line.
 std::vector<Fault> FaultsOfLines(std::string_view lines) {
   std::vector<Fault> faults;
-  while (!lines.empty()) {
-    const std::size_t end = std::min(lines.find('\n'), lines.size());
-    faults.push_back({"", std::string(lines.substr(0, end)), ""});
-    lines.remove_prefix(std::min(end + 1, lines.size()));
-  }
+  while (const auto line = TakeLine(lines)) faults.push_back({"", std::string(*line), ""});
   return faults;
 }
 

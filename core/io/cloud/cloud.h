@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/number_type.h"
@@ -32,7 +33,11 @@ struct Cloud {
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
   /// Adds a field behind the others.
-  void AddField(std::string name, NumberType type, std::uint32_t count = 1);
+  void AddField(std::string name, NumberType type, std::uint32_t count = 1) {
+    fields.push_back({std::move(name), point_step, type, count});
+    const std::size_t size = VisitNumberType(type, [](auto zero) { return sizeof zero; });
+    point_step += static_cast<std::uint32_t>(size * count);
+  }
 };
 
 /// The cloud as PCL has it; the header stays empty.

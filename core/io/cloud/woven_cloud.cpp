@@ -29,12 +29,6 @@ void StoreColumn(const T* from, std::size_t count, std::size_t step, char* to) {
 
 }  // namespace
 
-void Cloud::AddField(std::string name, NumberType type, std::uint32_t count) {
-  fields.push_back({std::move(name), point_step, type, count});
-  const std::size_t size = VisitNumberType(type, [](auto zero) { return sizeof zero; });
-  point_step += static_cast<std::uint32_t>(size * count);
-}
-
 Cloud DescribeCloud(const Frame& frame, const SelectedFields& fields) {
   Cloud cloud;
   fields.ForEach([&](std::string_view name, std::string_view, const auto& values) {
