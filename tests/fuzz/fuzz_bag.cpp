@@ -16,6 +16,7 @@
 #include "core/io/ros/sensor_messages.h"
 #include "railcast/io/recording.h"
 #include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/input_files.h"
 
 namespace railcast {
@@ -93,7 +94,7 @@ void ReadInput(char kind, std::string_view text) {
 /// Entry point for libFuzzer. The first byte selects what the rest is: m or d, an MCAP file or a
 /// database of rosbag2, of which M and D read the frames; o, an OSI trace; or a message:
 /// c PointCloud2, p PandarScan, n NebulaPackets.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(bag) {
   if (size == 0) return 0;
   const railcast::InputFiles nothing_of_the_last("");
   try {

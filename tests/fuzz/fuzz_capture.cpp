@@ -16,6 +16,7 @@
 #include "core/io/hesai/hesai_packet.h"
 #include "core/io/recording/packet_recording.h"
 #include "core/io/recording/recording_kinds.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -86,7 +87,7 @@ void UseCorrection(std::span<const char> bytes) {
   }
 }
 
-void CheckFrame(const RecordedFrame& recorded) {
+void CheckCapturedFrame(const RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
   Check(recorded.is_grid && frame.columns > 0, "a turn is a grid");
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
@@ -98,7 +99,7 @@ void CheckFrame(const RecordedFrame& recorded) {
 
 void ReadFrames(const std::function<std::FILE*()>& open) {
   const auto recording = OpenCapture(open, "fuzz");
-  while (const auto read = recording->Next()) CheckFrame((*read)());
+  while (const auto read = recording->Next()) CheckCapturedFrame((*read)());
 }
 
 void ReadPackets(const std::function<std::FILE*()>& open) {
@@ -136,7 +137,7 @@ void ReadCapture(std::span<const char> bytes) {
 /// Entry point for libFuzzer. The first byte selects the format of the rest: h for packets of a
 /// Pandar64, x of an XT32, q of a QT128, 0 to 9 of any spinning sensor of Hesai's, a of an AT128, c
 /// for the start of its correction file, anything else for a capture.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(capture) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   const std::string_view letters = "hxq";

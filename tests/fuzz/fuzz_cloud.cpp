@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -81,7 +82,7 @@ void ReadCloud(char kind, const std::string& bytes) {
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: p PCD, l PLY, k KITTI;
 /// P and L are files of a railcast sequence.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(cloud) {
   if (size == 0) return 0;
   railcast::ReadCloud(static_cast<char>(data[0]),
                       std::string(reinterpret_cast<const char*>(data) + 1, size - 1));

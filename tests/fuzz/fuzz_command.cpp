@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/scenario/command.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -30,9 +31,9 @@ void ReadLine(std::string_view line) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a datagram of the command channel, which is also a line of a command
+/// a datagram of the command channel, which is also a line of a command
 /// log.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(command) {
   railcast::ReadLine({reinterpret_cast<const char*>(data), size});
   return 0;
 }

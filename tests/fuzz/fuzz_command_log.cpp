@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/scenario/command_log.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -43,8 +44,8 @@ void ReadLog(const std::string& text) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a command log.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a command log.
+RAILCAST_FUZZ_TARGET(command_log) {
   railcast::ReadLog({reinterpret_cast<const char*>(data), size});
   return 0;
 }

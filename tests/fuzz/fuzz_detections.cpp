@@ -5,6 +5,7 @@
 #include "analysis/detectors/reported_detections.h"
 #include "core/base/error.h"
 #include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -33,8 +34,8 @@ void TryReading(const Read& read) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a file of detections, read as either kind.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a file of detections, read as either kind.
+RAILCAST_FUZZ_TARGET(detections) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   railcast::TryReading([&] { return railcast::ReadDetectionLines(text, "fuzz"); });
   railcast::TryReading(

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scan/firing.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -83,8 +84,8 @@ void ReadTable(const std::string& text, std::uint32_t num_frames) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a table of firings as CSV.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a table of firings as CSV.
+RAILCAST_FUZZ_TARGET(firing_table) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   for (const std::uint32_t num_frames : {1U, 2U}) railcast::ReadTable(text, num_frames);
   return 0;

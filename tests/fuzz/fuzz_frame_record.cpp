@@ -5,10 +5,11 @@
 
 #include "core/base/error.h"
 #include "core/io/content_hash.h"
+#include "tests/fuzz/fuzz_target.h"
 
-/// Entry point for libFuzzer: a line of frames.jsonl as a resumed run reads it, without its hash,
+/// a line of frames.jsonl as a resumed run reads it, without its hash,
 /// which is added.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(frame_record) {
   const std::string_view line(reinterpret_cast<const char*>(data), size);
   static_cast<void>(railcast::ParseFrameLine(line));
   if (line.size() < 3 || !line.ends_with('}')) return 0;

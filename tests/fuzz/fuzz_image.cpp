@@ -9,6 +9,7 @@
 #include "core/io/image/png.h"
 #include "core/io/run/camera_files.h"
 #include "railcast/camera.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -49,9 +50,9 @@ void Decode(char kind, std::string_view bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a letter for the kind of image (c: colours, l: labels, d: depths, j:
+/// a letter for the kind of image (c: colours, l: labels, d: depths, j:
 /// JPEG) and the bytes of its file.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(image) {
   if (size == 0) return 0;
   railcast::Decode(static_cast<char>(data[0]), {reinterpret_cast<const char*>(data) + 1, size - 1});
   return 0;

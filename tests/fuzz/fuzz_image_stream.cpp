@@ -8,6 +8,7 @@
 #include "core/io/image/jpeg.h"
 #include "core/io/stream/image_receiver.h"
 #include "railcast/camera.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/input_datagrams.h"
 
 namespace railcast {
@@ -49,8 +50,8 @@ void AssembleImages(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: datagrams as ForEachDatagram() separates them.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// datagrams as ForEachDatagram() separates them.
+RAILCAST_FUZZ_TARGET(image_stream) {
   railcast::AssembleImages(std::span(reinterpret_cast<const char*>(data), size));
   return 0;
 }

@@ -4,10 +4,11 @@
 #include "core/base/error.h"
 #include "core/io/cloud/kitti_names.h"
 #include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/fuzz_target.h"
 
-/// Entry point for libFuzzer: a configuration of semantic-kitti-api, of which names and colours are
+/// a configuration of semantic-kitti-api, of which names and colours are
 /// read.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(kitti_names) {
   using namespace railcast;
   try {
     const std::string yaml(reinterpret_cast<const char*>(data), size);

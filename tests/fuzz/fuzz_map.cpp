@@ -11,6 +11,7 @@
 #include "generator/import/map/read_map.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -88,7 +89,7 @@ void ReadBytes(char kind, std::string_view bytes) {
 
 /// Entry point for libFuzzer. The first byte selects the format: j Overpass JSON, g GeoJSON, x GPX,
 /// k KML, o OpenStreetMap's XML, p its PBF, a an ESRI ASCII grid, anything else railML.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(map) {
   if (size == 0) return 0;
   railcast::ReadBytes(static_cast<char>(data[0]),
                       {reinterpret_cast<const char*>(data) + 1, size - 1});

@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_import.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -61,7 +62,7 @@ void ReadBytes(const std::string& bytes, const MeshUnits& units) {
 
 /// Entry point for libFuzzer. The first byte selects unit and up axis of the file: m or c for
 /// metres or centimetres with z up, M or C with y up, anything else for kilometres with z up.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(mesh) {
   if (size == 0) return 0;
   const char kind = static_cast<char>(data[0]);
   const bool y_up = kind == 'M' || kind == 'C';

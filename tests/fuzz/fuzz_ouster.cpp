@@ -11,6 +11,7 @@
 #include "core/io/ouster/ouster_http.h"
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/lidar.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {
@@ -82,7 +83,7 @@ void Ask(std::string_view text) {
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: 0 to 5 for packets of
 /// a profile, h for what is asked over HTTP, anything else for metadata.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(ouster) {
   using railcast::OusterProfile;
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);

@@ -10,6 +10,7 @@
 #include "core/io/ros/geometry_messages.h"
 #include "core/io/ros/scene_messages.h"
 #include "core/io/ros/sensor_messages.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast::ros {
 namespace {
@@ -41,8 +42,8 @@ void Decode(char kind, std::span<const std::byte> bytes) {
 }  // namespace
 }  // namespace railcast::ros
 
-/// Entry point for libFuzzer: a letter for the type of message and its CDR.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a letter for the type of message and its CDR.
+RAILCAST_FUZZ_TARGET(ros_message) {
   if (size == 0) return 0;
   railcast::ros::Decode(static_cast<char>(data[0]), std::as_bytes(std::span(data + 1, size - 1)));
   return 0;

@@ -12,6 +12,7 @@
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 #include "tests/fuzz/fault_lines.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/input_files.h"
 
 namespace railcast {
@@ -208,9 +209,9 @@ void ReadInput(std::string_view input) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a scenario and the files that it names, separated as InputFiles
+/// a scenario and the files that it names, separated as InputFiles
 /// describes.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(scenario) {
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   if (!railcast::IsSlow(input)) railcast::ReadInput(input);
   return 0;

@@ -7,6 +7,7 @@
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/recording/sequence_summary.h"
 #include "core/io/verify/cloud_counts.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -67,7 +68,7 @@ void ReadLine(char kind, const std::string& line) {
 
 /// Entry point for libFuzzer. The first byte selects the file of a sequence: the rest is a line of
 /// f frames.jsonl, o objects.jsonl or p poses.csv, or the whole of m manifest.json or r run.json.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(sequence) {
   if (size == 0) return 0;
   railcast::ReadLine(static_cast<char>(data[0]),
                      std::string(reinterpret_cast<const char*>(data) + 1, size - 1));

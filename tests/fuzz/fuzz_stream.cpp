@@ -8,6 +8,7 @@
 #include "core/io/recording/live_frame.h"
 #include "core/io/stream/frame_assembler.h"
 #include "core/io/stream/stream_clouds.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/input_datagrams.h"
 
 namespace railcast {
@@ -89,8 +90,8 @@ void Assemble(std::span<const char> bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: datagrams as ForEachDatagram() separates them.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// datagrams as ForEachDatagram() separates them.
+RAILCAST_FUZZ_TARGET(stream) {
   railcast::Assemble(std::span(reinterpret_cast<const char*>(data), size));
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "core/io/write_file.h"
 #include "core/rail/survey/survey_file.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -38,8 +39,8 @@ void ReadSurvey(std::string_view bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a survey as railcast-generate survey writes it.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a survey as railcast-generate survey writes it.
+RAILCAST_FUZZ_TARGET(survey) {
   railcast::ReadSurvey({reinterpret_cast<const char*>(data), size});
   return 0;
 }

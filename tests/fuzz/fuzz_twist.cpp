@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/scenario/command.h"
 #include "generator/live/twist_message.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -31,8 +32,8 @@ void ReadTwist(std::span<const std::byte> cdr) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer: a message of ROS 2 on the topic of commands.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+/// a message of ROS 2 on the topic of commands.
+RAILCAST_FUZZ_TARGET(twist) {
   railcast::ReadTwist(std::as_bytes(std::span(data, size)));
   return 0;
 }

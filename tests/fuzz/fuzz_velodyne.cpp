@@ -11,6 +11,7 @@
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/velodyne/calibration_xml.h"
 #include "core/io/velodyne/velodyne_decoder.h"
+#include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
@@ -25,7 +26,7 @@ VelodyneDecoder MakeDecoder(std::string_view format) {
   return {model, std::vector<LaserCalibration>(model.lasers.size(), {.elevation_deg = 1.0})};
 }
 
-void CheckTurn(const SensorTurn& turn) {
+void CheckVelodyneTurn(const SensorTurn& turn) {
   Check(turn.points.size() <= (std::size_t{1} << 20U) + 64, "a turn has an end");
   for (const TurnPoint& point : turn.points) {
     Check(point.range_m > 0.0F && point.range_m < 263.0F, "a range is within the format");
@@ -46,10 +47,10 @@ void DecodePackets(std::string_view format, std::span<const char> bytes) {
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());
-  std::ranges::for_each(turns, CheckTurn);
+  std::ranges::for_each(turns, CheckVelodyneTurn);
 }
 
-void ReadCapture(std::span<const char> bytes) {
+void ReadVelodyneCapture(std::span<const char> bytes) {
   std::FILE* const stream =
       ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // Mode "r" does not write.
   if (stream == nullptr) return;
@@ -63,7 +64,7 @@ void ReadCapture(std::span<const char> bytes) {
     }
   } catch (const InputError&) {
   }
-  std::ranges::for_each(turns, CheckTurn);
+  std::ranges::for_each(turns, CheckVelodyneTurn);
 }
 
 }  // namespace
@@ -71,13 +72,13 @@ void ReadCapture(std::span<const char> bytes) {
 
 /// Entry point for libFuzzer. The first byte selects the format of the rest: 0 to 4 for packets of
 /// a model, anything else for a capture.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+RAILCAST_FUZZ_TARGET(velodyne) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (data[0] >= '0' && data[0] <= '4') {
     railcast::DecodePackets(railcast::kFormats.at(data[0] - std::size_t{'0'}), bytes);
   } else {
-    railcast::ReadCapture(bytes);
+    railcast::ReadVelodyneCapture(bytes);
   }
   return 0;
 }

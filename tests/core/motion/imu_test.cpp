@@ -18,7 +18,7 @@ namespace {
 constexpr double kTolerance_mps2 = 1e-6;
 constexpr double kTolerance_radps = 1e-9;
 
-Transform At(double x_m, double y_m, double z_m) {
+Transform Placed(double x_m, double y_m, double z_m) {
   return MakeTransform(Eigen::Matrix3d::Identity(), {x_m, y_m, z_m});
 }
 
@@ -34,7 +34,7 @@ void ExpectNear(const Vector3& got, const Vector3& expected, double tolerance) {
 }
 
 TEST(TrueImuSample, StandingOnLevelTrackIsGravityAlone) {
-  const ImuSample sample = TrueSampleAt(StraightScenario(), 1.0, At(2.0, 0.5, 3.0));
+  const ImuSample sample = TrueSampleAt(StraightScenario(), 1.0, Placed(2.0, 0.5, 3.0));
   ExpectNear(sample.true_specific_force_mps2, {0.0, 0.0, 9.80665}, kTolerance_mps2);
   ExpectNear(sample.true_angular_velocity_radps, Vector3::Zero(), kTolerance_radps);
 }
@@ -114,7 +114,7 @@ TEST(TrueImuSample, AtALeverArmHasTheCentripetalAccelerationOfItsOwnPlace) {
   ScenarioSpec spec = BareLine({{ElementType::kArc, 1000.0, 500.0}});
   Drive({SpeedAt(0, 25)}, spec);
   const double turn_radps = 25.0 / 500.0;
-  const ImuSample sample = TrueSampleAt(spec, 10.0, At(8.0, 2.0, 3.0));
+  const ImuSample sample = TrueSampleAt(spec, 10.0, Placed(8.0, 2.0, 3.0));
   ExpectNear(sample.true_specific_force_mps2,
              {-turn_radps * turn_radps * 8.0, turn_radps * turn_radps * (500.0 - 2.0), 9.80665},
              kTolerance_mps2);
@@ -129,7 +129,7 @@ TEST(TrueImuSample, InATransitionHasTheAngularAccelerationOfTheClothoid) {
   Drive({SpeedAt(0, 20)}, spec);
   constexpr double kChange_per_m2 = 1.0 / (500.0 * 100.0);
   const double curvature_per_m = 60.0 * kChange_per_m2;  // After 160 m, at 260 m.
-  const ImuSample sample = TrueSampleAt(spec, 8.0, At(5.0, 0.0, 2.0));
+  const ImuSample sample = TrueSampleAt(spec, 8.0, Placed(5.0, 0.0, 2.0));
   const double turn_radps = 20.0 * curvature_per_m;
   EXPECT_NEAR(sample.true_angular_velocity_radps.z(), turn_radps, 1e-8);
   ExpectNear(sample.true_specific_force_mps2,
@@ -174,13 +174,13 @@ TEST(TrueImuSample, LeadsFromOnePoseToALaterOne) {
 }
 
 constexpr double kRate_hz = 100.0;
-constexpr std::size_t kNumSamples = 1 << 15;
+constexpr std::size_t kNumImuSamples = 1 << 15;
 constexpr std::size_t kClusters[] = {1, 4, 16, 64};
 
 std::vector<Vector3> TurnErrorsOf(const ImuSpec& spec, std::uint64_t seed) {
   const ImuErrors errors(spec, seed);
   std::vector<Vector3> of_samples;
-  for (std::uint64_t sample = 0; sample < kNumSamples; ++sample) {
+  for (std::uint64_t sample = 0; sample < kNumImuSamples; ++sample) {
     of_samples.push_back(errors.Of(sample).angular_velocity_radps);
   }
   return of_samples;
@@ -204,7 +204,7 @@ double AllanVariance(const std::vector<Vector3>& samples, std::size_t num_averag
 // Relative: five standard deviations. Half the squared difference of two averages has a variance of
 // 2; neighbouring differences share an average, which raises it to 3 at most.
 double AllanTolerance(double num_averaged) {
-  return 5.0 * std::sqrt(3.0 * num_averaged / (3.0 * kNumSamples));
+  return 5.0 * std::sqrt(3.0 * num_averaged / (3.0 * kNumImuSamples));
 }
 
 // IEEE Std 952-1997, C.1.1: N^2 / tau.

@@ -8,18 +8,18 @@
 namespace railcast {
 namespace {
 
-constexpr int kNumSeeds = 4000;
+constexpr int kNumSequences = 4000;
 // Five standard deviations of a mean over that many independent numbers of variance 1, and of their
 // mean square, whose variance is 2.
-const double kMeanTolerance = 5.0 / std::sqrt(kNumSeeds);
-const double kSquareTolerance = 5.0 * std::sqrt(2.0 / kNumSeeds);
+const double kMeanTolerance = 5.0 / std::sqrt(kNumSequences);
+const double kSquareTolerance = 5.0 * std::sqrt(2.0 / kNumSequences);
 
 /// Mean of f(seed) over independent seeds.
 template <typename F>
 double MeanOverSeeds(const F& f) {
   double sum = 0.0;
-  for (std::uint64_t seed = 0; seed < kNumSeeds; ++seed) sum += f(seed);
-  return sum / kNumSeeds;
+  for (std::uint64_t seed = 0; seed < kNumSequences; ++seed) sum += f(seed);
+  return sum / kNumSequences;
 }
 
 double WalkAt(std::uint64_t seed, std::uint64_t index) {
@@ -36,7 +36,7 @@ TEST(WhiteNoise, IsStandardNormalAndIndependentFromOneElementToTheNext) {
   // The normal distribution's share within one standard deviation, and its deviation.
   const double within = std::erf(std::sqrt(0.5));
   EXPECT_NEAR(MeanOverSeeds([&](std::uint64_t i) { return std::abs(noise(i)) < 1.0; }), within,
-              5.0 * std::sqrt(within * (1.0 - within) / kNumSeeds));
+              5.0 * std::sqrt(within * (1.0 - within) / kNumSequences));
 }
 
 TEST(WhiteNoise, DiffersBetweenSeedsAndComponents) {

@@ -22,11 +22,11 @@ ConvexBody BodyOf(const Mesh& mesh) {
   return MakeConvexBody(std::move(corners));
 }
 
-ConvexBody Box(const Vector3& half_size_m) {
+ConvexBody BoxOfSize(const Vector3& half_size_m) {
   return BodyOf(MakeBox({-half_size_m, half_size_m}));
 }
 
-const ConvexBody cube = Box(Vector3::Constant(0.5));
+const ConvexBody cube = BoxOfSize(Vector3::Constant(0.5));
 
 Transform At(const Vector3& place, double yaw_rad = 0.0, double pitch_rad = 0.0) {
   return MakeTransform(RotationFromYawPitchRoll(yaw_rad, pitch_rad, 0.0), place);
@@ -72,7 +72,7 @@ TEST(ConvexBody, MeasuresTheGapOfARotatedBox) {
 }
 
 TEST(ConvexBody, MeasuresTheGapOfCrossedBars) {
-  const ConvexBody bar = Box({5.0, 0.1, 0.1});
+  const ConvexBody bar = BoxOfSize({5.0, 0.1, 0.1});
   ExpectGap(0.05, bar, At({1.7, 2.2, 0.25}, 1.1), bar);
 }
 
@@ -99,7 +99,8 @@ TEST(ConvexBody, MeasuresHowDeepBoxesAreInEachOther) {
   ExpectDepth(0.25, cube, At({0.75, 0.3, 0.2}), cube);
   ExpectDepth(0.0, cube, At({1.0, 0.0, 0.0}), cube);
   // Enclosed: it leaves by the nearest side, with all of its own size.
-  ExpectDepth(0.3 + 0.5 - 0.1, Box({1.0, 0.9, 0.5}), At({0.2, 0.0, 0.1}), Box({0.3, 0.3, 0.3}));
+  ExpectDepth(0.3 + 0.5 - 0.1, BoxOfSize({1.0, 0.9, 0.5}), At({0.2, 0.0, 0.1}),
+              BoxOfSize({0.3, 0.3, 0.3}));
   constexpr double kEighth_rad = std::numbers::pi / 4.0;
   ExpectDepth(0.5 + std::sqrt(0.5) - 1.1, cube, At({1.1, 0.0, 0.1}, kEighth_rad), cube);
 }
@@ -107,7 +108,7 @@ TEST(ConvexBody, MeasuresHowDeepBoxesAreInEachOther) {
 TEST(ConvexBody, PartsCrossedBarsBetweenTheirEdges) {
   // Both stand on an edge. The way out is along neither's faces but across both bars.
   const Eigen::AngleAxisd on_edge(std::numbers::pi / 4.0, Vector3::UnitX());
-  const ConvexBody bar = Box({5.0, 0.1, 0.1});
+  const ConvexBody bar = BoxOfSize({5.0, 0.1, 0.1});
   const Transform one_from_other =
       Transform(on_edge.inverse()) * At({0.0, 0.0, 0.25}, 1.2) * Transform(on_edge);
   ExpectDepth(0.2 * std::sqrt(2.0) - 0.25, bar, one_from_other, bar);

@@ -123,7 +123,7 @@ TEST(SurveyCommand, AsksForTheSensorsHeightWhereNoGroundWasSeenBelowTheWay) {
 }
 
 /// Makes one frame of a scenario of the folder as the sequence `name`.
-Ended MakeSequence(const std::filesystem::path& folder,
+Ended MakeSurveyed(const std::filesystem::path& folder,
                    const std::string& scenario,
                    const std::string& name) {
   const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
@@ -140,7 +140,7 @@ TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
   const TemporaryDirectory directory;
   ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
   const auto make = [&](const std::string& scenario, const std::string& name) {
-    const Ended ended = MakeSequence(directory.path(), scenario, name);
+    const Ended ended = MakeSurveyed(directory.path(), scenario, name);
     EXPECT_EQ(ended.status, 0) << ended.said;
     return directory.path() / name;
   };
@@ -179,7 +179,7 @@ TEST(SurveyCommand, MakesSurveysOfWhichNoChangedByteGoesUnnoticed) {
   const std::string fault = (out / "scene.survey").string() + ": must have the hash " + hash +
                             ", as survey.json says (got " + ContentHash(scene) + ")";
   EXPECT_THAT(VerifySurvey(out).faults, testing::ElementsAre(fault));
-  const Ended refused = MakeSequence(directory.path(), "site.json", "made");
+  const Ended refused = MakeSurveyed(directory.path(), "site.json", "made");
   EXPECT_EQ(refused.status, 1);
   EXPECT_EQ(refused.said, fault + "\n");
   std::filesystem::remove(out / "survey.json");

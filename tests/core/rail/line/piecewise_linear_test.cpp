@@ -5,7 +5,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kSumRounding = 1e-12;
 
 // 1 up to chainage 10, a jump to 3, falling to 1 at 30, and constant to 40.
 PiecewiseLinear Example() {
@@ -55,7 +55,7 @@ TEST(SmoothJumps, CentresALinearChangeOnTheJump) {
 TEST(SmoothJumps, KeepsTheIntegralBetweenConstantPieces) {
   const PiecewiseLinear steps = Steps({{0.0, 1.0}, {30.0, -2.0}, {37.0, 5.0}, {80.0, 4.0}}, 100.0);
   const SmoothedFunction smooth = SmoothJumps(steps, 40.0);
-  EXPECT_NEAR(smooth.function.Integral(100.0), steps.Integral(100.0), 100.0 * kRounding);
+  EXPECT_NEAR(smooth.function.Integral(100.0), steps.Integral(100.0), 100.0 * kSumRounding);
 }
 
 TEST(SmoothJumps, SharesAShortPieceBetweenTwoChanges) {
@@ -81,7 +81,7 @@ TEST(SmoothJumps, LeavesNoJumpBesideSlopes) {
   EXPECT_EQ(smooth.jumps.size(), 2U);
   const std::vector<LinearPiece>& pieces = smooth.function.pieces();
   for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
-    EXPECT_NEAR(pieces[i].end_value, pieces[i + 1].begin_value, kRounding) << "at piece " << i;
+    EXPECT_NEAR(pieces[i].end_value, pieces[i + 1].begin_value, kSumRounding) << "at piece " << i;
   }
 }
 

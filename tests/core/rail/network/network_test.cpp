@@ -32,7 +32,7 @@ TrackCourse CourseOf(const WorldSpec& world, std::size_t track) {
   return MakeNetwork(world, 1000.0).courses[track];
 }
 
-std::vector<std::string> FaultsOf(const WorldSpec& world) {
+std::vector<std::string> NetworkFaults(const WorldSpec& world) {
   WorldFaults faults;
   static_cast<void>(DraftNetwork(world, 1000.0, faults));
   return faults.errors.lines();
@@ -163,7 +163,7 @@ TEST(Network, ReportsTurnoutsThatLeadNowhere) {
                                   {.name = "c", .offset_m = 13.5, .begin = On("d", 300.0)},
                                   {.name = "d", .offset_m = 18.0, .begin = On("c", 300.0)}});
   EXPECT_THAT(
-      FaultsOf(world),
+      NetworkFaults(world),
       ElementsAre(
           "/world/tracks/1/begin/track: must be one of \"main\", \"a\", \"b\", \"c\", \"d\" "
           "(got \"mian\")",
@@ -173,23 +173,25 @@ TEST(Network, ReportsTurnoutsThatLeadNowhere) {
 }
 
 TEST(Network, ReportsGeometryThatDoesNotFit) {
-  EXPECT_THAT(FaultsOf(StraightWith({{.name = "a", .offset_m = 3.5, .begin = On("main", 300.0)}})),
-              ElementsAre("/world/tracks/1/offset_m: must be 3.67 or more, where a turnout 1:9-300 "
-                          "from track \"main\" and the curve behind it lead at least (got 3.5)"));
   EXPECT_THAT(
-      FaultsOf(StraightWith(
+      NetworkFaults(StraightWith({{.name = "a", .offset_m = 3.5, .begin = On("main", 300.0)}})),
+      ElementsAre("/world/tracks/1/offset_m: must be 3.67 or more, where a turnout 1:9-300 "
+                  "from track \"main\" and the curve behind it lead at least (got 3.5)"));
+  EXPECT_THAT(
+      NetworkFaults(StraightWith(
           {{.name = "a", .offset_m = -4.5, .begin = On("main", 300.0), .end = On("main", 400.0)}})),
       ElementsAre("/world/tracks/1/end/s_m: must be at least 447.462, for the track to "
                   "become parallel to the alignment before it (got 400)"));
   EXPECT_THAT(
-      FaultsOf(StraightWith({{.name = "a", .offset_m = 4.5, .begin = On("main", 980.0)}})),
+      NetworkFaults(StraightWith({{.name = "a", .offset_m = 4.5, .begin = On("main", 980.0)}})),
       ElementsAre("/world/tracks/1/begin/s_m: must put the turnout on track \"main\", from 0 "
                   "to 1000 m (got from 980 to 1013.231 m)"));
   EXPECT_THAT(
-      FaultsOf(StraightWith({{.name = "second", .offset_m = 3.5},
-                             {.name = "x",
-                              .begin = On("main", 300.0),
-                              .end = TurnoutSpec{"second", {}, TurnoutType::k9_300, {}, {}}}})),
+      NetworkFaults(
+          StraightWith({{.name = "second", .offset_m = 3.5},
+                        {.name = "x",
+                         .begin = On("main", 300.0),
+                         .end = TurnoutSpec{"second", {}, TurnoutType::k9_300, {}, {}}}})),
       ElementsAre("/world/tracks/2: must join tracks that are at least 3.67 m apart, for both "
                   "turnouts to fit between them (got 3.5)"));
 }
@@ -264,20 +266,21 @@ TEST(Network, JoinsTracksThatAreNotParallelByTwoArcs) {
 TEST(Network, ReportsAnEndTurnoutBehindItsElements) {
   TurnoutSpec end = On("main", 300.0, TurnoutType::k9_190);
   end.side = TrackSide::kLeft;
-  EXPECT_THAT(FaultsOf(StraightWith({{.name = "a",
-                                      .offset_m = 10.0,
-                                      .elements = {{ElementType::kStraight, 200.0, std::nullopt}},
-                                      .start_s_m = 100.0,
-                                      .end = end}})),
-              ElementsAre("/world/tracks/1/end/s_m: must put the end of the turnout ahead of where "
-                          "the track leads to it, at 300 m (got 272.963 m)"));
+  EXPECT_THAT(
+      NetworkFaults(StraightWith({{.name = "a",
+                                   .offset_m = 10.0,
+                                   .elements = {{ElementType::kStraight, 200.0, std::nullopt}},
+                                   .start_s_m = 100.0,
+                                   .end = end}})),
+      ElementsAre("/world/tracks/1/end/s_m: must put the end of the turnout ahead of where "
+                  "the track leads to it, at 300 m (got 272.963 m)"));
 }
 
 TEST(Network, ReportsTurnoutsThatOverlap) {
   const WorldSpec world =
       StraightWith({{.name = "a", .offset_m = 4.5, .begin = On("main", 300.0)},
                     {.name = "b", .offset_m = -4.5, .begin = On("main", 320.0)}});
-  EXPECT_THAT(FaultsOf(world),
+  EXPECT_THAT(NetworkFaults(world),
               ElementsAre("/world/tracks/2/begin: must not overlap the turnout of track \"a\" on "
                           "track \"main\", from 300 to 333.231 m (got from 320 to 353.231 m)"));
 }
@@ -287,7 +290,7 @@ TEST(Network, ReportsKeysThatContradictEachOther) {
       {{.name = "a", .offset_m = 4.5, .offsets_m = {{0.0, 4.5}}},
        {.name = "b", .offset_m = 9.0, .heading_deg = 3.0, .begin = On("main", 300.0)}});
   world.tracks[2].begin->s_m.reset();
-  EXPECT_THAT(FaultsOf(world),
+  EXPECT_THAT(NetworkFaults(world),
               ElementsAre("/world/tracks/1/offsets_m: must not be given beside offset_m",
                           "/world/tracks/2/heading_deg: must be given for elements without a "
                           "turnout at their beginning only",

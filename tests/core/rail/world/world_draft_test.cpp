@@ -19,9 +19,9 @@ WorldSpec StraightKilometre() {
   return world;
 }
 
-std::vector<std::string> FaultsOf(const WorldSpec& world,
-                                  const VehicleSpec& vehicle = {},
-                                  const UnknownPlaces& unknown = {}) {
+std::vector<std::string> DraftFaults(const WorldSpec& world,
+                                     const VehicleSpec& vehicle = {},
+                                     const UnknownPlaces& unknown = {}) {
   WorldFaults faults{{}, unknown};
   static_cast<void>(DraftWorld({world, vehicle, RailLabels(), RailMaterials()}, faults));
   return faults.errors.lines();
@@ -45,7 +45,7 @@ TEST(DraftWorld, FindsFaultsOfEveryPart) {
   VehicleSpec vehicle;
   vehicle.start_s_m = 1001.0;
   EXPECT_THAT(
-      FaultsOf(world, vehicle),
+      DraftFaults(world, vehicle),
       ElementsAre("/world/alignment/gradients_permil/0/s_m: must be 0, the beginning of the line "
                   "(got 50)",
                   "/vehicle/start_s_m: must lie on track \"main\", from 0 to 1000 m (got 1001)",
@@ -63,7 +63,7 @@ TEST(DraftWorld, MakesNothingOfWhatIsUnknown) {
   unknown.Add("/world/alignment/course/elements/0/length_m");
   unknown.Add("/world/catenary/max_span_m");
   unknown.Add("/world/objects/0/type");
-  EXPECT_THAT(FaultsOf(world, {}, unknown), IsEmpty());
+  EXPECT_THAT(DraftFaults(world, {}, unknown), IsEmpty());
 }
 
 TEST(DraftWorld, NamesEachMissingLabelAndMaterialOnce) {
@@ -83,9 +83,9 @@ TEST(DraftWorld, HoldsTracksToTheGroundWhereTheyAre) {
                                                   {ElementType::kArc, 80.0, 50.0},
                                                   {ElementType::kStraight, 600.0, {}}}};
   world.tracks.push_back({.name = "beside", .offset_m = 60.0, .end_s_m = 400.0});
-  EXPECT_THAT(FaultsOf(world), IsEmpty());
+  EXPECT_THAT(DraftFaults(world), IsEmpty());
   world.tracks[1].end_s_m = 640.0;
-  EXPECT_THAT(FaultsOf(world),
+  EXPECT_THAT(DraftFaults(world),
               ElementsAre(testing::StartsWith(
                   "/world/tracks/1/offset_m: must leave 4.5 m to the edge of the ground, which "
                   "narrows to 40 m in a curve (got 60)")));
