@@ -4,20 +4,20 @@
 
 namespace railcast {
 
-void AddBrakingOptions(CLI::App& command, BrakingSpec& braking) {
+void AddBrakingOptions(ProgramOptions& command, BrakingSpec& braking) {
   command
-      .add_option("--reaction-s", braking.reaction_s, "Seconds from the detection to full braking")
-      ->check(Number({0.0, 60.0}))
-      ->capture_default_str();
+      .AddOption("--reaction-s", braking.reaction_s, "Seconds from the detection to full braking")
+      .Check(Number({0.0, 60.0}))
+      .ShowDefault();
   command
-      .add_option(
+      .AddOption(
           "--deceleration-mps2", braking.deceleration_mps2,
           "Braking deceleration on the level: 0.3 slow freight, 0.5 shunting, 1.0 multiple unit")
-      ->check(Number({0.01, 10.0}))
-      ->capture_default_str();
-  command.add_option("--margin-m", braking.margin_m, "Metres to be left before the object")
-      ->check(Number({0.0, 1000.0}))
-      ->capture_default_str();
+      .Check(Number({0.01, 10.0}))
+      .ShowDefault();
+  command.AddOption("--margin-m", braking.margin_m, "Metres to be left before the object")
+      .Check(Number({0.0, 1000.0}))
+      .ShowDefault();
 }
 
 }  // namespace railcast

@@ -59,21 +59,21 @@ int RunCard(const CardOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddCard(CLI::App& app, ProgramCommand& command) {
+void AddCard(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CardOptions>();
-  CLI::App* card = app.add_subcommand(
+  ProgramOptions card = app.AddCommand(
       "card",
       "Write the card of a data set: pictures, parts, classes, recipe, licence and limits, as "
       "README.md and page");
-  card->add_option("DATASET", options->dataset,
-                   "Folder that railcast-generate dataset or merge made, whole and finished")
-      ->required()
-      ->check(NonEmpty());
-  card->add_option("--licence", options->licence,
-                   "Licence under which the data set is given away, such as CC-BY-4.0")
-      ->check(NonEmpty());
-  AddReportOptions(*card, options->output);
-  card->callback([&command, options] {
+  card.AddOption("DATASET", options->dataset,
+                 "Folder that railcast-generate dataset or merge made, whole and finished")
+      .Required()
+      .Check(NonEmpty());
+  card.AddOption("--licence", options->licence,
+                 "Licence under which the data set is given away, such as CC-BY-4.0")
+      .Check(NonEmpty());
+  AddReportOptions(card, options->output);
+  card.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunCard(*options, line); };
   });
 }

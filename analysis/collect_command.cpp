@@ -141,32 +141,32 @@ int RunCollect(const CollectOptions& options) {
 
 }  // namespace
 
-void AddCollect(CLI::App& app, ProgramCommand& command) {
+void AddCollect(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CollectOptions>();
-  CLI::App* collect = app.add_subcommand(
+  ProgramOptions collect = app.AddCommand(
       "collect",
       "Listen to your object detector, which sends a datagram for each frame of a live stream, and "
       "write its detections as a file for evaluate; until Ctrl-C");
   collect
-      ->add_option("ADDRESS", options->at,
-                   "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
-                   "multicast group what is sent to it")
-      ->capture_default_str();
+      .AddOption("ADDRESS", options->at,
+                 "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
+                 "multicast group what is sent to it")
+      .ShowDefault();
   collect
-      ->add_option("--from", options->from,
-                   "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
-      ->check(NonEmpty());
+      .AddOption("--from", options->from,
+                 "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
+      .Check(NonEmpty());
   collect
-      ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")
-      ->check(Number({1e-3, 1e9}));
-  collect->add_option("--frames", options->num_frames, "Frames after which to end; default: no end")
-      ->transform(Whole({1}));
+      .AddOption("--duration", options->duration_s, "Seconds after which to end; default: no end")
+      .Check(Number({1e-3, 1e9}));
+  collect.AddOption("--frames", options->num_frames, "Frames after which to end; default: no end")
+      .Check(Whole({1}));
   collect
-      ->add_option("--out", options->out,
-                   "File to write: JSON lines (docs/evaluate.md); until the end FILE.part")
-      ->required()
-      ->check(NonEmpty());
-  collect->callback([&command, options] {
+      .AddOption("--out", options->out,
+                 "File to write: JSON lines (docs/evaluate.md); until the end FILE.part")
+      .Required()
+      .Check(NonEmpty());
+  collect.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunCollect(*options); };
   });
 }

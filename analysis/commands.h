@@ -2,7 +2,6 @@
 
 #include <tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <set>
@@ -21,33 +20,33 @@ namespace railcast {
 // names it.
 
 /// Reports dropout, density, noise, intensity and coverage of recordings, ours or foreign.
-void AddStats(CLI::App& app, ProgramCommand& command);
+void AddStats(ProgramOptions& app, ProgramCommand& command);
 /// Writes what a reader of a data set must know before using it.
-void AddCard(CLI::App& app, ProgramCommand& command);
+void AddCard(ProgramOptions& app, ProgramCommand& command);
 /// Measures how far two recordings are apart, or what each effect of a scenario changes.
-void AddCompare(CLI::App& app, ProgramCommand& command);
+void AddCompare(ProgramOptions& app, ProgramCommand& command);
 /// Compares the distance at which objects are detected with the distance a train needs to stop.
-void AddDetect(CLI::App& app, ProgramCommand& command);
+void AddDetect(ProgramOptions& app, ProgramCommand& command);
 /// Evaluates an object detector, the reference one or that of files, on sequences.
-void AddEvaluate(CLI::App& app, ProgramCommand& command);
+void AddEvaluate(ProgramOptions& app, ProgramCommand& command);
 /// Writes what an object detector reports live as a file for `evaluate`, until a signal ends it.
-void AddCollect(CLI::App& app, ProgramCommand& command);
+void AddCollect(ProgramOptions& app, ProgramCommand& command);
 /// Charts how far along its track a scenario's vehicle sees, beside its braking distance.
-void AddSight(CLI::App& app, ProgramCommand& command);
+void AddSight(ProgramOptions& app, ProgramCommand& command);
 /// Simulates the approaches of a recipe and reports probabilities of detection.
-void AddStudy(CLI::App& app, ProgramCommand& command);
+void AddStudy(ProgramOptions& app, ProgramCommand& command);
 /// Writes what an assessor files of a finished study.
-void AddDossier(CLI::App& app, ProgramCommand& command);
+void AddDossier(ProgramOptions& app, ProgramCommand& command);
 /// Estimates the sensor models' parameters from recordings.
-void AddFit(CLI::App& app, ProgramCommand& command);
+void AddFit(ProgramOptions& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.
-void AddFrontier(CLI::App& app, ProgramCommand& command);
+void AddFrontier(ProgramOptions& app, ProgramCommand& command);
 /// Compares a real sensor's recording with what a preset would have measured in its place.
-void AddPreset(CLI::App& app, ProgramCommand& command);
+void AddPreset(ProgramOptions& app, ProgramCommand& command);
 /// Compares a sequence directory with the hashes that it was written with.
-void AddVerify(CLI::App& app, ProgramCommand& command);
+void AddVerify(ProgramOptions& app, ProgramCommand& command);
 /// Counts, and on request records, a live stream in the railcast protocol until a signal ends it.
-void AddReceive(CLI::App& app, ProgramCommand& command);
+void AddReceive(ProgramOptions& app, ProgramCommand& command);
 
 // What several commands do with their options.
 

@@ -136,75 +136,74 @@ int RunCompare(const CompareOptions& options, const std::string& command_line) {
                                   : RunAblation(options, command_line);
 }
 
-void AddAblationOptions(CLI::App& compare, CompareOptions& options) {
-  CLI::Option* const ablate = compare
-                                  .add_option("--ablate", options.scenario,
-                                              "Scenario file, instead of two recordings: what each "
-                                              "of its effects changes, beam by beam")
-                                  ->check(NonEmpty());
+void AddAblationOptions(ProgramOptions& compare, CompareOptions& options) {
+  const Option ablate = compare
+                            .AddOption("--ablate", options.scenario,
+                                       "Scenario file, instead of two recordings: what each "
+                                       "of its effects changes, beam by beam")
+                            .Check(NonEmpty());
   compare
-      .add_option("--frames", options.num_frames,
-                  "Number of sample frames, spread over the run and where objects are")
-      ->transform(Whole({1, 1000}))
-      ->capture_default_str()
-      ->needs(ablate);
-  compare.add_option("--seed", options.seed, "Seed to use instead of the scenario's")
-      ->transform(Whole({}))
-      ->needs(ablate);
+      .AddOption("--frames", options.num_frames,
+                 "Number of sample frames, spread over the run and where objects are")
+      .Check(Whole({1, 1000}))
+      .ShowDefault()
+      .Needs(ablate);
+  compare.AddOption("--seed", options.seed, "Seed to use instead of the scenario's")
+      .Check(Whole({}))
+      .Needs(ablate);
   compare
-      .add_option("--sensor", options.sensor,
-                  "Name of the sensor; where the scenario has several, default: all, with a report "
-                  "for each in OUT/NAME")
-      ->needs(ablate);
+      .AddOption("--sensor", options.sensor,
+                 "Name of the sensor; where the scenario has several, default: all, with a report "
+                 "for each in OUT/NAME")
+      .Needs(ablate);
   compare
-      .add_flag(
-          "--all-effects", options.takes_all_effects,
-          "Study those, too, that do not go together with the scenario's effects, each on the "
-          "first rung that has it")
-      ->needs(ablate);
+      .AddFlag("--all-effects", options.takes_all_effects,
+               "Study those, too, that do not go together with the scenario's effects, each on the "
+               "first rung that has it")
+      .Needs(ablate);
 }
 
 }  // namespace
 
-void AddCompare(CLI::App& app, ProgramCommand& command) {
+void AddCompare(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* compare = app.add_subcommand(
+  ProgramOptions compare = app.AddCommand(
       "compare",
       "Measure how far two recordings are apart, or what each effect of a scenario changes");
-  compare->add_option(
+  compare.AddOption(
       "RECORDINGS", options->sources,
       "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
       ".ply file, a directory of such files, a .pcap capture or a bag of ROS 2");
-  AddTopic(*compare, options->topic);
+  AddTopic(compare, options->topic);
   compare
-      ->add_option_function<std::string>(
+      .AddText(
           "--pair",
           [options](const std::string& name) {
             options->pairing = name == "stamp" ? Pairing::kStamp : Pairing::kIndex;
           },
           "How to pair frames: by stamp (the nearest within half a period) or by index; default: "
           "by stamp where both recordings have stamps")
-      ->check(Named({"stamp", "index"}));
+      .Check(Named({"stamp", "index"}));
   compare
-      ->add_option("--distances", options->distances,
-                   "Distances in m, separated by commas, within which a point counts as found, "
-                   "for precision, recall and F-score")
-      ->capture_default_str();
-  compare->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddAblationOptions(*compare, *options);
-  AddReportOptions(*compare, options->output);
-  compare->callback([&command, options] {
+      .AddOption("--distances", options->distances,
+                 "Distances in m, separated by commas, within which a point counts as found, "
+                 "for precision, recall and F-score")
+      .ShowDefault();
+  compare.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddAblationOptions(compare, *options);
+  AddReportOptions(compare, options->output);
+  compare.WhenParsed([&command, options] {
     const bool is_ablation = !options->scenario.empty();
     if (options->sources.size() != (is_ablation ? 0 : 2)) {
-      throw CLI::ValidationError("compare", "takes two recordings, or --ablate SCENARIO");
+      FailUsage("compare", "takes two recordings, or --ablate SCENARIO");
     }
     if (is_ablation && !options->topic.empty()) {
-      throw CLI::ValidationError("--topic", "applies to two recordings only");
+      FailUsage("--topic", "applies to two recordings only");
     }
     if (is_ablation && options->pairing) {
-      throw CLI::ValidationError("--pair", "applies to two recordings only");
+      FailUsage("--pair", "applies to two recordings only");
     }
     command = [options](const std::string& line) { return RunCompare(*options, line); };
   });

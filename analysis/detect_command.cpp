@@ -99,25 +99,24 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddDetect(CLI::App& app, ProgramCommand& command) {
+void AddDetect(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DetectOptions>();
-  CLI::App* detect =
-      app.add_subcommand("detect",
-                         "Compare the distance at which objects in the way are detected "
-                         "with the distance that the train needs to stop");
+  ProgramOptions detect =
+      app.AddCommand("detect",
+                     "Compare the distance at which objects in the way are detected "
+                     "with the distance that the train needs to stop");
   detect
-      ->add_option(
-          "DIR", options->sources,
-          "Sequence directory; several of one scenario with different seeds give intervals")
-      ->required();
+      .AddOption("DIR", options->sources,
+                 "Sequence directory; several of one scenario with different seeds give intervals")
+      .Required();
   detect
-      ->add_option("--points", options->rule.spec.rule.min_points,
-                   "Least number of points on an object that is seen in a frame")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  AddRuleOptions(*detect, options->rule);
-  AddReportOptions(*detect, options->output);
-  detect->callback([&command, options] {
+      .AddOption("--points", options->rule.spec.rule.min_points,
+                 "Least number of points on an object that is seen in a frame")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  AddRuleOptions(detect, options->rule);
+  AddReportOptions(detect, options->output);
+  detect.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunDetect(*options, line); };
   });
 }

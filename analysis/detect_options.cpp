@@ -33,22 +33,22 @@ DetectSpec RuleOptions::Spec() const {
   return result;
 }
 
-void AddRuleOptions(CLI::App& command, RuleOptions& options) {
+void AddRuleOptions(ProgramOptions& command, RuleOptions& options) {
   const auto check = [](const std::string& text) {
     DetectionRule trial;
     return ReadFrames(text, trial) ? std::string()
                                    : "must be K/N with 1 <= K <= N (got " + text + ")";
   };
   command
-      .add_option("--frames", options.frames,
-                  "An object is detected when it is seen in K of N consecutive frames")
-      ->check(CLI::Validator(check, "K/N"))
-      ->capture_default_str();
+      .AddOption("--frames", options.frames,
+                 "An object is detected when it is seen in K of N consecutive frames")
+      .Check({check, "K/N"})
+      .ShowDefault();
   AddBrakingOptions(command, options.spec.braking);
   command
-      .add_option("--speed-kmph", options.speed_kmph,
-                  "Speed to brake from, instead of the vehicle's own at the detection")
-      ->check(Number({0.0, 500.0}));
+      .AddOption("--speed-kmph", options.speed_kmph,
+                 "Speed to brake from, instead of the vehicle's own at the detection")
+      .Check(Number({0.0, 500.0}));
 }
 
 }  // namespace railcast

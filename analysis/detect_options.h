@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
@@ -19,6 +18,6 @@ struct RuleOptions {
 };
 
 /// Adds --frames and those of braking.
-void AddRuleOptions(CLI::App& command, RuleOptions& options);
+void AddRuleOptions(ProgramOptions& command, RuleOptions& options);
 
 }  // namespace railcast

@@ -43,20 +43,20 @@ int RunDossierCommand(const DossierOptions& options, const std::string& command_
 
 }  // namespace
 
-void AddDossier(CLI::App& app, ProgramCommand& command) {
+void AddDossier(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DossierOptions>();
-  CLI::App* dossier = app.add_subcommand(
+  ProgramOptions dossier = app.AddCommand(
       "dossier",
       "Write what an assessor files of a study: its verdict, scope, the measured error of its "
       "model, limits and traceability, as PDF, page and JSON");
-  dossier->add_option("STUDY_DIR", options->study, "Folder of a finished study")
-      ->required()
-      ->check(NonEmpty());
-  AddReportOptions(*dossier, options->output);
-  dossier->add_option("--threads", options->num_threads, "0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  dossier->callback([&command, options] {
+  dossier.AddOption("STUDY_DIR", options->study, "Folder of a finished study")
+      .Required()
+      .Check(NonEmpty());
+  AddReportOptions(dossier, options->output);
+  dossier.AddOption("--threads", options->num_threads, "0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  dossier.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunDossierCommand(*options, line); };
   });
 }

@@ -126,71 +126,71 @@ int RunEvaluate(EvaluateOptions options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-void AddDetectorOptions(CLI::App& evaluate, EvaluateOptions& options) {
-  CLI::Option* const detections = evaluate.add_option(
+void AddDetectorOptions(ProgramOptions& evaluate, EvaluateOptions& options) {
+  const Option detections = evaluate.AddOption(
       "--detections", options.detections,
       "What your detector found in each run, in their order, instead of the reference detector: "
       "JSON lines or OpenLABEL (docs/evaluate.md)");
   evaluate
-      .add_option("--min-score", options.spec.min_score, "Detections of a file below are left out")
-      ->check(Number({0.0, 1.0}))
-      ->needs(detections)
-      ->capture_default_str();
+      .AddOption("--min-score", options.spec.min_score, "Detections of a file below are left out")
+      .Check(Number({0.0, 1.0}))
+      .Needs(detections)
+      .ShowDefault();
   evaluate
-      .add_option("--latency-ms", options.latency_ms,
-                  "From a frame's stamp until its detections are known, where a file does not say")
-      ->check(Number({0.0, 1e5}))
-      ->capture_default_str();
+      .AddOption("--latency-ms", options.latency_ms,
+                 "From a frame's stamp until its detections are known, where a file does not say")
+      .Check(Number({0.0, 1e5}))
+      .ShowDefault();
   ClusterDetectorSpec& clusters = options.spec.clusters;
   evaluate
-      .add_option("--min-height-m", clusters.min_height_m,
-                  "Reference detector: points lower over top of rail are track")
-      ->check(Number({0.0, 5.0}))
-      ->excludes(detections)
-      ->capture_default_str();
+      .AddOption("--min-height-m", clusters.min_height_m,
+                 "Reference detector: points lower over top of rail are track")
+      .Check(Number({0.0, 5.0}))
+      .Excludes(detections)
+      .ShowDefault();
   evaluate
-      .add_option("--min-distance-m", clusters.min_distance_m,
-                  "Reference detector: points nearer ahead of the sensor are rain and snow")
-      ->check(Number({0.0, 100.0}))
-      ->excludes(detections)
-      ->capture_default_str();
+      .AddOption("--min-distance-m", clusters.min_distance_m,
+                 "Reference detector: points nearer ahead of the sensor are rain and snow")
+      .Check(Number({0.0, 100.0}))
+      .Excludes(detections)
+      .ShowDefault();
   evaluate
-      .add_option("--cluster-distance-m", clusters.cluster_distance_m,
-                  "Reference detector: distance in plan up to which points are of one cluster")
-      ->check(Number({0.01, 10.0}))
-      ->excludes(detections)
-      ->capture_default_str();
+      .AddOption("--cluster-distance-m", clusters.cluster_distance_m,
+                 "Reference detector: distance in plan up to which points are of one cluster")
+      .Check(Number({0.01, 10.0}))
+      .Excludes(detections)
+      .ShowDefault();
   evaluate
-      .add_option("--cluster-points", clusters.min_points,
-                  "Reference detector: least number of points of a cluster")
-      ->transform(Whole({1, 1'000'000}))
-      ->excludes(detections)
-      ->capture_default_str();
+      .AddOption("--cluster-points", clusters.min_points,
+                 "Reference detector: least number of points of a cluster")
+      .Check(Whole({1, 1'000'000}))
+      .Excludes(detections)
+      .ShowDefault();
 }
 
 }  // namespace
 
-void AddEvaluate(CLI::App& app, ProgramCommand& command) {
+void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<EvaluateOptions>();
-  CLI::App* evaluate = app.add_subcommand(
+  ProgramOptions evaluate = app.AddCommand(
       "evaluate",
       "Evaluate an object detector, the reference one or yours: at which distances it detects what "
       "is in the way, and how many false alarms it gives per kilometre");
-  evaluate->add_option("RUN", options->sources, "Sequence directories, of any scenarios")
-      ->required();
-  AddDetectorOptions(*evaluate, *options);
-  CLI::Option* const width =
+  evaluate.AddOption("RUN", options->sources, "Sequence directories, of any scenarios").Required();
+  AddDetectorOptions(evaluate, *options);
+  const Option width =
       evaluate
-          ->add_option("--gauge-width-m", options->gauge_width_m,
-                       "Width of the train's own gauge, instead of the vehicle's outline")
-          ->check(Number({0.1, 10.0}));
-  evaluate->add_option("--gauge-height-m", options->gauge_height_m, "Its height over top of rail")
-      ->check(Number({0.1, 10.0}))
-      ->needs(width);
-  width->needs("--gauge-height-m");
-  AddRuleOptions(*evaluate, options->rule);
-  AddReportOptions(*evaluate, options->output);
-  evaluate->callback([&command, options] {
+          .AddOption("--gauge-width-m", options->gauge_width_m,
+                     "Width of the train's own gauge, instead of the vehicle's outline")
+          .Check(Number({0.1, 10.0}));
+  const Option height =
+      evaluate.AddOption("--gauge-height-m", options->gauge_height_m, "Its height over top of rail")
+          .Check(Number({0.1, 10.0}))
+          .Needs(width);
+  width.Needs(height);
+  AddRuleOptions(evaluate, options->rule);
+  AddReportOptions(evaluate, options->output);
+  evaluate.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunEvaluate(*options, line); };
   });
 }

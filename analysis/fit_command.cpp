@@ -152,46 +152,46 @@ int RunFit(const FitOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-void AddKnowledgeOptions(CLI::App& fit, FitOptions& options) {
-  fit.add_option("--scenario", options.scenario,
-                 "Scenario with the sensor of a recording that is no sequence, to be fitted: each "
-                 "value is replayed as by preset, worse ones are not written");
-  fit.add_option("--rung", options.rung,
-                 "Rung whose parameters to fit; default: the scenario's, else surface")
-      ->check(Named({"plausibility", "surface"}));
-  fit.add_option("--intensity", options.intensity,
-                 "What the intensities are: reflectance, or nothing known (none); auto: "
-                 "reflectance in sequences and captures, else none")
-      ->check(Named({"auto", "reflectance", "none"}))
-      ->capture_default_str();
-  fit.add_option("--range-at-10-percent-m", options.range_at_10_percent_m,
-                 "Range in m at 10 % reflectance, from the data sheet: with intensities that are "
-                 "reflectances it gives the signal, on which the noise of rung surface depends; "
-                 "default: the scenario's")
-      ->check(Number({0.1, 10'000.0}));
-  fit.add_option("--rain-rate-mmph", options.rain_rate_mmph,
-                 "Rate of the rain in the recording: tells the dropout by rain from the sensor's "
-                 "own, for rung plausibility")
-      ->check(Number({1e-3, 5000.0}));
+void AddKnowledgeOptions(ProgramOptions& fit, FitOptions& options) {
+  fit.AddOption("--scenario", options.scenario,
+                "Scenario with the sensor of a recording that is no sequence, to be fitted: each "
+                "value is replayed as by preset, worse ones are not written");
+  fit.AddOption("--rung", options.rung,
+                "Rung whose parameters to fit; default: the scenario's, else surface")
+      .Check(Named({"plausibility", "surface"}));
+  fit.AddOption("--intensity", options.intensity,
+                "What the intensities are: reflectance, or nothing known (none); auto: "
+                "reflectance in sequences and captures, else none")
+      .Check(Named({"auto", "reflectance", "none"}))
+      .ShowDefault();
+  fit.AddOption("--range-at-10-percent-m", options.range_at_10_percent_m,
+                "Range in m at 10 % reflectance, from the data sheet: with intensities that are "
+                "reflectances it gives the signal, on which the noise of rung surface depends; "
+                "default: the scenario's")
+      .Check(Number({0.1, 10'000.0}));
+  fit.AddOption("--rain-rate-mmph", options.rain_rate_mmph,
+                "Rate of the rain in the recording: tells the dropout by rain from the sensor's "
+                "own, for rung plausibility")
+      .Check(Number({1e-3, 5000.0}));
 }
 
 }  // namespace
 
-void AddFit(CLI::App& app, ProgramCommand& command) {
+void AddFit(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<FitOptions>();
-  CLI::App* fit =
-      app.add_subcommand("fit", "Estimate noise and losses of the sensor models from recordings");
-  fit->add_option("SOURCE", options->sources,
-                  "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture "
-                  "or bag of ROS 2; several are taken together")
-      ->required();
-  AddTopic(*fit, options->topic);
-  AddKnowledgeOptions(*fit, *options);
-  fit->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddReportOptions(*fit, options->output);
-  fit->callback([&command, options] {
+  ProgramOptions fit =
+      app.AddCommand("fit", "Estimate noise and losses of the sensor models from recordings");
+  fit.AddOption("SOURCE", options->sources,
+                "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture "
+                "or bag of ROS 2; several are taken together")
+      .Required();
+  AddTopic(fit, options->topic);
+  AddKnowledgeOptions(fit, *options);
+  fit.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddReportOptions(fit, options->output);
+  fit.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunFit(*options, line); };
   });
 }

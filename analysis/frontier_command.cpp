@@ -111,37 +111,36 @@ int RunFrontier(const FrontierOptions& options, const std::string& command_line)
 
 }  // namespace
 
-void AddFrontier(CLI::App& app, ProgramCommand& command) {
+void AddFrontier(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<FrontierOptions>();
-  CLI::App* frontier = app.add_subcommand("frontier",
-                                          "Chart time against accuracy: the rungs, brute force, "
-                                          "and the reference; run the same command "
-                                          "again to continue an interrupted run");
-  frontier->add_option("SCENARIO", options->scenario, "Scenario file")->required();
+  ProgramOptions frontier = app.AddCommand("frontier",
+                                           "Chart time against accuracy: the rungs, brute force, "
+                                           "and the reference; run the same command "
+                                           "again to continue an interrupted run");
+  frontier.AddOption("SCENARIO", options->scenario, "Scenario file").Required();
   frontier
-      ->add_option(
-          "--out", options->out,
-          "Directory for report.html, its charts and tables, and frontier.json, .csv, .svg, "
-          ".png")
-      ->required()
-      ->check(NonEmpty());
+      .AddOption("--out", options->out,
+                 "Directory for report.html, its charts and tables, and frontier.json, .csv, .svg, "
+                 ".png")
+      .Required()
+      .Check(NonEmpty());
   frontier
-      ->add_option("--frames", options->num_frames,
-                   "Number of sample frames, spread over the run and where objects are")
-      ->transform(Whole({1, 1000}))
-      ->capture_default_str();
+      .AddOption("--frames", options->num_frames,
+                 "Number of sample frames, spread over the run and where objects are")
+      .Check(Whole({1, 1000}))
+      .ShowDefault();
   frontier
-      ->add_option("--threads", options->num_threads,
-                   "Number of threads to measure times with; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  frontier->add_option("--sensor", options->sensor,
-                       "Name of the sensor, where the scenario has several");
+      .AddOption("--threads", options->num_threads,
+                 "Number of threads to measure times with; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  frontier.AddOption("--sensor", options->sensor,
+                     "Name of the sensor, where the scenario has several");
   frontier
-      ->add_option("--rows", options->rows,
-                   "Rows of the table to measure, separated by commas, or all")
-      ->capture_default_str();
-  frontier->callback([&command, options] {
+      .AddOption("--rows", options->rows,
+                 "Rows of the table to measure, separated by commas, or all")
+      .ShowDefault();
+  frontier.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunFrontier(*options, line); };
   });
 }

@@ -2,9 +2,8 @@
 
 namespace {
 
-void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
-  app.require_subcommand(1);
-  app.fallthrough();
+void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
+  app.RequireCommand();
   railcast::AddStats(app, command);
   railcast::AddCard(app, command);
   railcast::AddCompare(app, command);

@@ -42,30 +42,29 @@ int RunPreset(const PresetOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddPreset(CLI::App& app, ProgramCommand& command) {
+void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<PresetOptions>();
-  CLI::App* preset = app.add_subcommand(
+  ProgramOptions preset = app.AddCommand(
       "preset",
       "Compare a real sensor's recording with what a scenario's sensor measures on its planes");
   preset
-      ->add_option("SOURCE", options->source,
-                   "Capture or other recording of a sensor that stands, as grids")
-      ->required();
-  AddTopic(*preset, options->topic);
+      .AddOption("SOURCE", options->source,
+                 "Capture or other recording of a sensor that stands, as grids")
+      .Required();
+  AddTopic(preset, options->topic);
   preset
-      ->add_option("--scenario", options->scenario,
-                   "Scenario whose sensor, rung, weather and materials are compared")
-      ->required();
+      .AddOption("--scenario", options->scenario,
+                 "Scenario whose sensor, rung, weather and materials are compared")
+      .Required();
   preset
-      ->add_option("--sectors", options->sectors,
-                   "Which sectors of 30 deg take part: all, even, odd")
-      ->check(Named({"all", "even", "odd"}))
-      ->capture_default_str();
-  preset->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddReportOptions(*preset, options->output);
-  preset->callback([&command, options] {
+      .AddOption("--sectors", options->sectors, "Which sectors of 30 deg take part: all, even, odd")
+      .Check(Named({"all", "even", "odd"}))
+      .ShowDefault();
+  preset.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddReportOptions(preset, options->output);
+  preset.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunPreset(*options, line); };
   });
 }

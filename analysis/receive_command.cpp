@@ -146,28 +146,28 @@ int RunReceive(const ReceiveOptions& options) {
 
 }  // namespace
 
-void AddReceive(CLI::App& app, ProgramCommand& command) {
+void AddReceive(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReceiveOptions>();
-  CLI::App* receive = app.add_subcommand(
+  ProgramOptions receive = app.AddCommand(
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
   receive
-      ->add_option("ADDRESS", options->at,
-                   "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
-                   "multicast group what is sent to it")
-      ->capture_default_str();
+      .AddOption("ADDRESS", options->at,
+                 "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
+                 "multicast group what is sent to it")
+      .ShowDefault();
   receive
-      ->add_option("--from", options->from,
-                   "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
-      ->check(NonEmpty());
+      .AddOption("--from", options->from,
+                 "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
+      .Check(NonEmpty());
   receive
-      ->add_option("--duration", options->duration_s, "Seconds after which to end; default: no end")
-      ->check(Number({1e-3, 1e9}));
-  receive->add_option("--frames", options->num_frames, "Frames after which to end; default: no end")
-      ->transform(Whole({1}));
-  receive->add_option("--out", options->out, "Directory to record to: frames/*.pcd and frames.csv")
-      ->check(NonEmpty());
-  AddSummaryFile(*receive, options->summary);
-  receive->callback([&command, options] {
+      .AddOption("--duration", options->duration_s, "Seconds after which to end; default: no end")
+      .Check(Number({1e-3, 1e9}));
+  receive.AddOption("--frames", options->num_frames, "Frames after which to end; default: no end")
+      .Check(Whole({1}));
+  receive.AddOption("--out", options->out, "Directory to record to: frames/*.pcd and frames.csv")
+      .Check(NonEmpty());
+  AddSummaryFile(receive, options->summary);
+  receive.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunReceive(*options); };
   });
 }

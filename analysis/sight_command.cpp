@@ -49,41 +49,40 @@ int RunSight(const SightOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddSight(CLI::App& app, ProgramCommand& command) {
+void AddSight(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SightOptions>();
-  CLI::App* sight = app.add_subcommand(
+  ProgramOptions sight = app.AddCommand(
       "sight",
       "Chart how far ahead along its track a vehicle sees, before curve, cutting, trees or tunnel "
       "hide it, beside the distance that it needs to stop");
-  sight->add_option("SCENARIO", options->scenario, "Scenario file")->required();
+  sight.AddOption("SCENARIO", options->scenario, "Scenario file").Required();
   sight
-      ->add_option("--heights-m", options->spec.heights_m,
-                   "Heights of the targets on the track, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(Number({0.05, 5.0}))
-      ->capture_default_str();
+      .AddOption("--heights-m", options->spec.heights_m,
+                 "Heights of the targets on the track, separated by commas")
+      .SeparatedBy(',')
+      .TakesOneWord()
+      .Check(Number({0.05, 5.0}))
+      .ShowDefault();
   sight
-      ->add_option("--range-m", options->spec.range_m,
-                   "How far targets are sought; otherwise as far as the sensor's range")
-      ->check(Number({20.0, 5000.0}));
-  sight->add_option("--step-m", options->spec.step_m, "Way from one place to the next, at least")
-      ->check(Number({0.1, 1000.0}))
-      ->capture_default_str();
-  AddBrakingOptions(*sight, options->spec.braking);
+      .AddOption("--range-m", options->spec.range_m,
+                 "How far targets are sought; otherwise as far as the sensor's range")
+      .Check(Number({20.0, 5000.0}));
+  sight.AddOption("--step-m", options->spec.step_m, "Way from one place to the next, at least")
+      .Check(Number({0.1, 1000.0}))
+      .ShowDefault();
+  AddBrakingOptions(sight, options->spec.braking);
   sight
-      ->add_option(
-          "--speed-kmph", options->speed_kmph,
-          "Speed at which the vehicle runs from its start to the end of its route, instead "
-          "of its own")
-      ->check(Number({0.0, 500.0}));
-  sight->add_option("--sensor", options->sensor,
-                    "Name of the sensor, where the scenario has several");
-  sight->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddReportOptions(*sight, options->output);
-  sight->callback([&command, options] {
+      .AddOption("--speed-kmph", options->speed_kmph,
+                 "Speed at which the vehicle runs from its start to the end of its route, instead "
+                 "of its own")
+      .Check(Number({0.0, 500.0}));
+  sight.AddOption("--sensor", options->sensor,
+                  "Name of the sensor, where the scenario has several");
+  sight.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddReportOptions(sight, options->output);
+  sight.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunSight(*options, line); };
   });
 }

@@ -230,27 +230,27 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
 
 }  // namespace
 
-void AddStats(CLI::App& app, ProgramCommand& command) {
+void AddStats(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<StatsOptions>();
-  CLI::App* stats = app.add_subcommand(
+  ProgramOptions stats = app.AddCommand(
       "stats", "Dropout, density against range, noise, intensity and coverage of point clouds");
   stats
-      ->add_option(
+      .AddOption(
           "SOURCE", options->sources,
           "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture of " +
               ReadableSensorsText() +
               ", bag of ROS 2 (.mcap, .db3 or rosbag2's directory), or a folder of KITTI's layout "
               "or a data set; several are summed up")
-      ->required();
-  AddTopic(*stats, options->topic);
-  stats->add_option("--track", options->track,
-                    "Scenario whose vehicle is on the recording's track, in the world of the "
-                    "recording's poses: counts the points in the vehicle's outline along it");
-  stats->add_option("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddReportOptions(*stats, options->output);
-  stats->callback([&command, options] {
+      .Required();
+  AddTopic(stats, options->topic);
+  stats.AddOption("--track", options->track,
+                  "Scenario whose vehicle is on the recording's track, in the world of the "
+                  "recording's poses: counts the points in the vehicle's outline along it");
+  stats.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddReportOptions(stats, options->output);
+  stats.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunStats(*options, line); };
   });
 }

@@ -89,28 +89,28 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
 
 }  // namespace
 
-void AddStudy(CLI::App& app, ProgramCommand& command) {
+void AddStudy(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<StudyOptions>();
-  CLI::App* study = app.add_subcommand(
+  ProgramOptions study = app.AddCommand(
       "study",
       "Simulate the approaches that a recipe draws, and report with which probability objects in "
       "the way are detected at which distance");
-  study->add_option("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
-      ->required();
-  AddReportOptions(*study, options->output);
+  study.AddOption("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
+      .Required();
+  AddReportOptions(study, options->output);
+  const Option shard = study
+                           .AddOption("--shard", options->shard,
+                                      "Make every N-th approach only, the I-th of each N: I/N")
+                           .Check({ShardRule, ""});
   study
-      ->add_option("--shard", options->shard,
-                   "Make every N-th approach only, the I-th of each N: I/N")
-      ->check([](const std::string& text) { return ShardRule(text); });
-  study
-      ->add_option("--shards", options->choices.shards,
-                   "Folders of all shards, to report on them as one study")
-      ->excludes("--shard");
-  study->add_option("--threads", options->choices.num_threads, "0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  AddIsa(*study, options->choices.isa);
-  study->callback([&command, options] {
+      .AddOption("--shards", options->choices.shards,
+                 "Folders of all shards, to report on them as one study")
+      .Excludes(shard);
+  study.AddOption("--threads", options->choices.num_threads, "0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  AddIsa(study, options->choices.isa);
+  study.WhenParsed([&command, options] {
     if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
     command = [options](const std::string& line) { return RunStudyCommand(*options, line); };
   });

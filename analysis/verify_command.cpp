@@ -68,19 +68,19 @@ int RunVerifyAll(const std::filesystem::path& directory) {
 
 }  // namespace
 
-void AddVerify(CLI::App& app, ProgramCommand& command) {
+void AddVerify(ProgramOptions& app, ProgramCommand& command) {
   const auto directory = std::make_shared<std::filesystem::path>();
-  CLI::App* verify = app.add_subcommand("verify",
-                                        "Check that a sequence directory, a data set, a survey or "
-                                        "a recording with insertions is as it "
-                                        "was written: one line per fault");
+  ProgramOptions verify = app.AddCommand("verify",
+                                         "Check that a sequence directory, a data set, a survey or "
+                                         "a recording with insertions is as it "
+                                         "was written: one line per fault");
   verify
-      ->add_option(
+      .AddOption(
           "DIR", *directory,
           "Directory that railcast-generate sequence, dataset, survey or insert made, any --format")
-      ->required()
-      ->check(NonEmpty());
-  verify->callback([&command, directory] {
+      .Required()
+      .Check(NonEmpty());
+  verify.WhenParsed([&command, directory] {
     command = [directory](const std::string&) { return RunVerifyAll(*directory); };
   });
 }

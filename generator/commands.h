@@ -12,31 +12,31 @@ inline constexpr const char* kExitStatusText =
 // it, `command` becomes its work.
 
 /// Writes a sequence directory, or finishes an interrupted one.
-void AddSequence(CLI::App& app, ProgramCommand& command);
+void AddSequence(ProgramOptions& app, ProgramCommand& command);
 /// Puts objects and weather into a recording.
-void AddInsert(CLI::App& app, ProgramCommand& command);
+void AddInsert(ProgramOptions& app, ProgramCommand& command);
 /// Sends frames live, at the pace of real sensors, until stopped.
-void AddStream(CLI::App& app, ProgramCommand& command);
+void AddStream(ProgramOptions& app, ProgramCommand& command);
 /// Sends a recording at its own pace, faster, or step by step.
-void AddReplay(CLI::App& app, ProgramCommand& command);
+void AddReplay(ProgramOptions& app, ProgramCommand& command);
 /// Prints a report on a scenario and its scene, or the resolved scenario alone.
-void AddCheck(CLI::App& app, ProgramCommand& command);
+void AddCheck(ProgramOptions& app, ProgramCommand& command);
 /// Writes the scene as triangles: a stretch of the line, or the window of frame 0.
-void AddWorld(CLI::App& app, ProgramCommand& command);
+void AddWorld(ProgramOptions& app, ProgramCommand& command);
 /// Writes a data set of many scenarios that a recipe draws, or finishes an interrupted one.
-void AddDataset(CLI::App& app, ProgramCommand& command);
+void AddDataset(ProgramOptions& app, ProgramCommand& command);
 /// Makes one data set of its shards.
-void AddMerge(CLI::App& app, ProgramCommand& command);
+void AddMerge(ProgramOptions& app, ProgramCommand& command);
 inline constexpr const char* kImportDescription =
     "Fit the lines of a map and write them as alignments";
 /// Runs the program railcast-import, which stands beside railcast-generate, with what follows on
 /// the command line. It is there if railcast was built with GDAL and PROJ (RAILCAST_BUILD_IMPORT).
-void AddImportProgram(CLI::App& app, ProgramCommand& command);
+void AddImportProgram(ProgramOptions& app, ProgramCommand& command);
 /// Fits the lines of a map and writes them as alignments, in the program railcast-import.
-void AddImport(CLI::App& app, ProgramCommand& command);
+void AddImport(ProgramOptions& app, ProgramCommand& command);
 /// Makes the scene of a scenario from recordings or from survey clouds.
-void AddSurvey(CLI::App& app, ProgramCommand& command);
+void AddSurvey(ProgramOptions& app, ProgramCommand& command);
 /// Replays one firing and prints what each effect made of it.
-void AddTrace(CLI::App& app, ProgramCommand& command);
+void AddTrace(ProgramOptions& app, ProgramCommand& command);
 
 }  // namespace railcast

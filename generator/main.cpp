@@ -9,12 +9,11 @@ namespace {
 #ifdef RAILCAST_FIRST_STAGE
 
 /// The commands that are not built yet say how they come.
-void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
+void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   for (const std::string name : {"insert", "stream", "replay", "check", "world", "trace", "dataset",
                                  "merge", "survey", "import"}) {
-    CLI::App* const subcommand = app.add_subcommand(name, "Not built yet");
-    subcommand->prefix_command()->fallthrough(false)->set_help_flag();
-    subcommand->callback([&command, name] {
+    railcast::ProgramOptions subcommand = app.AddForeignCommand(name, "Not built yet");
+    subcommand.WhenParsed([&command, name] {
       command = [name](const std::string&) -> int {
         throw railcast::InputError("railcast-generate: " + name +
                                    " is not built yet: scripts/build.sh builds all commands");
@@ -25,7 +24,7 @@ void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
 
 #else
 
-void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
+void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   railcast::AddInsert(app, command);
   railcast::AddStream(app, command);
   railcast::AddReplay(app, command);
@@ -42,10 +41,9 @@ void AddOtherCommands(CLI::App& app, railcast::ProgramCommand& command) {
 
 #endif
 
-void AddCommands(CLI::App& app, railcast::ProgramCommand& command) {
-  app.require_subcommand(1);
-  app.fallthrough();
-  app.add_flag("-v,--verbose")->description("Print details of each step");
+void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
+  app.RequireCommand();
+  app.AddFlag("-v,--verbose", "Print details of each step");
   railcast::AddSequence(app, command);
   AddOtherCommands(app, command);
 }

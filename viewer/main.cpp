@@ -286,7 +286,7 @@ int RunView(const ViewOptions& options) {
   return kExitSuccess;
 }
 
-void AddView(CLI::App& app, ProgramCommand& command) {
+void AddView(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ViewOptions>();
   AddViewOptions(app, *options);
   command = [options](const std::string&) { return RunView(*options); };

@@ -48,7 +48,7 @@ constexpr auto kShowables = std::to_array<Showable>({
 constexpr std::string_view kEmptyBeams = "empty-beams";
 
 [[noreturn]] void Fail(const std::string& option, const std::string& rule) {
-  throw CLI::ValidationError(option, rule);
+  FailUsage(option, rule);
 }
 
 /// Parses two whole numbers; empty if `text` is not that, or if a number is out of its limits.
@@ -107,140 +107,135 @@ std::vector<std::string> BackgroundNames() {
   return names;
 }
 
-void AddSourceOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  app.add_option("source", options.source,
-                 "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
-                 "such files, a .pcap or .pcapng capture, a bag of ROS 2, a live stream, "
-                 "udp://HOST:PORT, or "
-                 "a scenario, SCENARIO.json, whose plan --screenshot draws")
-      ->required();
+void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) {
+  app.AddOption("source", options.source,
+                "What to show: a sequence directory, a .pcd, .ply or .bin file, a directory of "
+                "such files, a .pcap or .pcapng capture, a bag of ROS 2, a live stream, "
+                "udp://HOST:PORT, or "
+                "a scenario, SCENARIO.json, whose plan --screenshot draws")
+      .Required();
   AddTopic(app, options.topic);
-  app.add_option("--frame", options.frame, "Number of the frame to begin with; default: the first")
-      ->transform(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
-  app.add_option("--compare", options.compare,
-                 "A second source to compare the first with, frame by frame");
-  app.add_option("--layout", raw.layout,
-                 "How --compare shows two sources. beside: side by side; distance: one over the "
-                 "other, each point coloured by its distance to the nearest of the other source; "
-                 "changes: likewise, coloured by whether both have the point, or only one")
-      ->check(Named(Strings(kLayoutNames)))
-      ->capture_default_str();
-  app.add_option("--scenario", options.scenario,
-                 "Scenario that a stream or a file was made of: it gives the labels' names, the "
-                 "track and the surfaces");
-  app.add_option("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
-  app.add_option("--from", options.from,
-                 "HOST or HOST:PORT whose live frames are shown; default: the first sender heard");
-  app.add_option("--image-port", options.image_port,
-                 "UDP port of this machine to which a live source's camera images are sent; "
-                 "default: images are not received")
-      ->transform(Whole({1, 65535}));
-  app.add_option("--wait", options.wait_s,
-                 "Seconds to wait for the first whole frame of a live source")
-      ->check(Number({1e-3, 1e9}))
-      ->capture_default_str();
+  app.AddOption("--frame", options.frame, "Number of the frame to begin with; default: the first")
+      .Check(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
+  app.AddOption("--compare", options.compare,
+                "A second source to compare the first with, frame by frame");
+  app.AddOption("--layout", raw.layout,
+                "How --compare shows two sources. beside: side by side; distance: one over the "
+                "other, each point coloured by its distance to the nearest of the other source; "
+                "changes: likewise, coloured by whether both have the point, or only one")
+      .Check(Named(Strings(kLayoutNames)))
+      .ShowDefault();
+  app.AddOption("--scenario", options.scenario,
+                "Scenario that a stream or a file was made of: it gives the labels' names, the "
+                "track and the surfaces");
+  app.AddOption("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
+  app.AddOption("--from", options.from,
+                "HOST or HOST:PORT whose live frames are shown; default: the first sender heard");
+  app.AddOption("--image-port", options.image_port,
+                "UDP port of this machine to which a live source's camera images are sent; "
+                "default: images are not received")
+      .Check(Whole({1, 65535}));
+  app.AddOption("--wait", options.wait_s,
+                "Seconds to wait for the first whole frame of a live source")
+      .Check(Number({1e-3, 1e9}))
+      .ShowDefault();
 }
 
-void AddLookOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  app.add_option("--color-by", options.choices.color_by,
-                 "Field to colour the points by: a field of railcast or any other that the cloud "
-                 "has. Default: label where there is one, else height");
-  app.add_option("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
-      ->check(Named(Strings(kColorMapNames)));
-  app.add_option("--color-range", raw.color_range,
-                 "The two ends of the colour scale; default: the 1st and 99th percentile of the "
-                 "first frame")
-      ->expected(2)
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  app.add_option("--point-size", options.look.point_size_px,
-                 "Size of a point in pixels; default: by the height of the picture")
-      ->transform(Whole({1, kMaxPointSize_px}));
-  app.add_option("--background", raw.background)
-      ->check(Named(BackgroundNames()))
-      ->capture_default_str();
-  app.add_option("--accumulate", options.choices.num_accumulated,
-                 "How many frames to show at once, each where it was in the world")
-      ->transform(Whole({1, kMaxAccumulated}))
-      ->capture_default_str();
-  app.add_option("--show", raw.show, "What to draw over the points, separated by commas")
-      ->check(Named(ShowableNames()))
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
-  app.add_option("--image", raw.image,
-                 "The camera's image to show in the corner; default: color where there are images. "
-                 "Of a live source: color or off")
-      ->check(Named(Strings(kPictureKindNames)));
-  app.add_option("--select", options.select,
-                 "Labels to show, separated by commas; all others are faint")
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
+void AddLookOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) {
+  app.AddOption("--color-by", options.choices.color_by,
+                "Field to colour the points by: a field of railcast or any other that the cloud "
+                "has. Default: label where there is one, else height");
+  app.AddOption("--color-map", raw.color_map, "Colour map for amounts; default: viridis")
+      .Check(Named(Strings(kColorMapNames)));
+  app.AddOption("--color-range", raw.color_range,
+                "The two ends of the colour scale; default: the 1st and 99th percentile of the "
+                "first frame")
+      .NumValues(2)
+      .SeparatedBy(',')
+      .TakesOneWord();
+  app.AddOption("--point-size", options.look.point_size_px,
+                "Size of a point in pixels; default: by the height of the picture")
+      .Check(Whole({1, kMaxPointSize_px}));
+  app.AddOption("--background", raw.background).Check(Named(BackgroundNames())).ShowDefault();
+  app.AddOption("--accumulate", options.choices.num_accumulated,
+                "How many frames to show at once, each where it was in the world")
+      .Check(Whole({1, kMaxAccumulated}))
+      .ShowDefault();
+  app.AddOption("--show", raw.show, "What to draw over the points, separated by commas")
+      .Check(Named(ShowableNames()))
+      .SeparatedBy(',')
+      .NumValues(1)
+      .MayRepeat()
+      .TakesOneWord();
+  app.AddOption("--image", raw.image,
+                "The camera's image to show in the corner; default: color where there are images. "
+                "Of a live source: color or off")
+      .Check(Named(Strings(kPictureKindNames)));
+  app.AddOption("--select", options.select,
+                "Labels to show, separated by commas; all others are faint")
+      .SeparatedBy(',')
+      .NumValues(1)
+      .MayRepeat()
+      .TakesOneWord();
 }
 
-void AddCameraOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  const auto* const camera =
-      app.add_option(
-             "--camera", options.camera,
-             "Where to look from; default: chase for live sources and where the scenario is "
-             "known, else all")
-          ->check(Named(Strings(kCameraNames)));
-  auto* const eye =
-      app.add_option(
-             "--eye", raw.eye_m,
-             "Where to look from instead of --camera: X,Y,Z in the sensor's axes, in metres")
-          ->expected(3)
-          ->delimiter(',')
-          ->allow_extra_args(false);
-  auto* const target = app.add_option("--target", raw.target_m,
+void AddCameraOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) {
+  const Option camera =
+      app.AddOption("--camera", options.camera,
+                    "Where to look from; default: chase for live sources and where the scenario is "
+                    "known, else all")
+          .Check(Named(Strings(kCameraNames)));
+  const Option eye =
+      app.AddOption("--eye", raw.eye_m,
+                    "Where to look from instead of --camera: X,Y,Z in the sensor's axes, in metres")
+          .NumValues(3)
+          .SeparatedBy(',')
+          .TakesOneWord();
+  const Option target = app.AddOption("--target", raw.target_m,
                                       "Where --eye looks: X,Y,Z in the sensor's axes, in metres")
-                           ->expected(3)
-                           ->delimiter(',')
-                           ->allow_extra_args(false);
-  eye->needs(target)->excludes(const_cast<CLI::Option*>(camera));
-  target->needs(eye);
-  app.add_option("--size", raw.size, "Size of the window or picture in pixels, WIDTHxHEIGHT")
-      ->capture_default_str();
+                            .NumValues(3)
+                            .SeparatedBy(',')
+                            .TakesOneWord();
+  eye.Needs(target).Excludes(camera);
+  target.Needs(eye);
+  app.AddOption("--size", raw.size, "Size of the window or picture in pixels, WIDTHxHEIGHT")
+      .ShowDefault();
 }
 
-void AddPictureOptions(CLI::App& app, ViewOptions& options, RawOptions& raw) {
-  auto* const screenshot = app.add_option("--screenshot", options.screenshot,
+void AddPictureOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw) {
+  const Option screenshot = app.AddOption("--screenshot", options.screenshot,
                                           "PNG file to write instead of opening a window");
-  auto* const video =
-      app.add_option("--video", options.video,
-                     "Directory to write a PNG of each frame to: 000000.png, 000001.png, ...");
-  app.add_option("--frames", options.num_pictures,
-                 "Number of pictures of a video; default: to the recording's end")
-      ->transform(Whole({1}))
-      ->needs(video);
-  video->excludes(screenshot);
-  auto* const pick =
-      app.add_option(
+  const Option video =
+      app.AddOption("--video", options.video,
+                    "Directory to write a PNG of each frame to: 000000.png, 000001.png, ...");
+  app.AddOption("--frames", options.num_pictures,
+                "Number of pictures of a video; default: to the recording's end")
+      .Check(Whole({1}))
+      .Needs(video);
+  video.Excludes(screenshot);
+  const Option pick =
+      app.AddOption(
              "--pick", raw.picks,
              "Print all that is known of the point at X,Y of the picture, in pixels from its upper "
              "left corner. Given twice: measure from the first point to the second")
-          ->expected(1)
-          ->take_all()
-          ->allow_extra_args(false)
-          ->needs(screenshot);
-  app.add_flag("--trace", options.traces,
-               "Print what each effect made of the picked point's firing, too")
-      ->needs(pick);
+          .NumValues(1)
+          .MayRepeat()
+          .TakesOneWord()
+          .Needs(screenshot);
+  app.AddFlag("--trace", options.traces,
+              "Print what each effect made of the picked point's firing, too")
+      .Needs(pick);
 }
 
-void AddPlanOptions(CLI::App& app, RawOptions& raw) {
-  app.add_option(
-         "--stretch", raw.stretch_s_m,
-         "FROM TO: chainages in metres between which the plan of a scenario shows the line; "
-         "default: where its tracks branch, or the whole line")
-      ->expected(2)
-      ->allow_extra_args(false);
+void AddPlanOptions(ProgramOptions& app, RawOptions& raw) {
+  app.AddOption("--stretch", raw.stretch_s_m,
+                "FROM TO: chainages in metres between which the plan of a scenario shows the line; "
+                "default: where its tracks branch, or the whole line")
+      .NumValues(2)
+      .TakesOneWord();
 }
 
-void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
+void UseRaw(const RawOptions& raw, const ProgramOptions& app, ViewOptions& options) {
   options.size_px = ParseSize(raw.size);
   if (raw.picks.size() > 2) Fail("--pick", "must be given at most twice");
   for (const std::string& pick : raw.picks) {
@@ -248,7 +243,7 @@ void UseRaw(const RawOptions& raw, const CLI::App& app, ViewOptions& options) {
   }
   options.look.background = *std::ranges::find(kBackgrounds, raw.background, &Background::name);
   // At this size, neighbouring beams of a spinning sensor nearly touch.
-  if (app.count("--point-size") == 0) {
+  if (!app.is_given("--point-size")) {
     options.look.point_size_px =
         std::max(2, static_cast<int>(std::lround(options.size_px[1] / 300.0)));
   }
@@ -325,25 +320,25 @@ void CheckTogether(const ViewOptions& options) {
 }
 
 /// A plan shows no frames, so that few options apply.
-void CheckPlan(const CLI::App& app, const ViewOptions& options) {
+void CheckPlan(const ProgramOptions& app, const ViewOptions& options) {
   if (!options.is_plan()) {
     if (options.stretch_s_m) Fail("--stretch", "is for the plan of a scenario");
     return;
   }
   constexpr std::array<std::string_view, 5> kForPlans = {"source", "--screenshot", "--size",
                                                          "--background", "--stretch"};
-  for (const CLI::Option* const option : app.get_options()) {
-    if (option->count() == 0 || option->get_name() == "-v") continue;
-    if (std::ranges::find(kForPlans, option->get_name()) == kForPlans.end()) {
-      Fail(option->get_name(), "is not for the plan of a scenario");
+  for (const Option& option : app.options()) {
+    if (!option.is_given() || option.name() == "-v") continue;
+    if (std::ranges::find(kForPlans, option.name()) == kForPlans.end()) {
+      Fail(option.name(), "is not for the plan of a scenario");
     }
   }
   if (options.screenshot.empty()) Fail("--screenshot", "is needed for the plan of a scenario");
 }
 
-void CheckFiles(const CLI::App& app, const ViewOptions& options) {
+void CheckFiles(const ProgramOptions& app, const ViewOptions& options) {
   for (const char* const option : {"--screenshot", "--video", "--compare", "--scenario"}) {
-    if (app.count(option) > 0 && app.get_option(option)->as<std::string>().empty()) {
+    if (app.is_given(option) && app.TextOf(option).empty()) {
       Fail(option, "must not be empty");
     }
   }
@@ -358,15 +353,15 @@ bool ViewOptions::is_live() const {
   return source.string().starts_with(kLivePrefix);
 }
 
-void AddViewOptions(CLI::App& app, ViewOptions& options) {
+void AddViewOptions(ProgramOptions& app, ViewOptions& options) {
   const auto raw = std::make_shared<RawOptions>();
   AddSourceOptions(app, options, *raw);
   AddLookOptions(app, options, *raw);
   AddCameraOptions(app, options, *raw);
   AddPictureOptions(app, options, *raw);
   AddPlanOptions(app, *raw);
-  app.add_flag("-v", options.is_verbose, "Print what is shown");
-  app.final_callback([&app, &options, raw] {
+  app.AddFlag("-v", options.is_verbose, "Print what is shown");
+  app.CheckTogether([&app, &options, raw] {
     UseRaw(*raw, app, options);
     CheckPlan(app, options);
     CheckTogether(options);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -48,9 +47,9 @@ struct ViewOptions {
 
 inline constexpr std::string_view kLivePrefix = "udp://";
 
-/// Adds the options of railcast-view. Parsing fills `options`, and fails with a CLI::ParseError if
-/// options contradict each other.
+/// Adds the options of railcast-view. Parsing fills `options`; options that contradict each other
+/// are a usage error.
 /// @param options Must live as long as `app`.
-void AddViewOptions(CLI::App& app, ViewOptions& options);
+void AddViewOptions(ProgramOptions& app, ViewOptions& options);
 
 }  // namespace railcast

@@ -105,22 +105,21 @@ void WriteFiles(const Report& report,
 
 }  // namespace
 
-void AddReportOptions(CLI::App& command, ReportOutput& output) {
-  CLI::Option_group* const where = command.add_option_group("Report");
+void AddReportOptions(ProgramOptions& command, ReportOutput& output) {
+  ProgramOptions where = command.AddOneOf("Report");
   where
-      ->add_option("--out", output.out,
-                   "Directory for report.html, the same as JSON and CSV, and its charts")
-      ->check(NonEmpty());
+      .AddOption("--out", output.out,
+                 "Directory for report.html, the same as JSON and CSV, and its charts")
+      .Check(NonEmpty());
   where
-      ->add_option_function<std::string>(
+      .AddText(
           "--format",
           [&output](const std::string& format) {
             output.is_text = format == "text";
             output.is_json = format == "json";
           },
           "text: print the report on the terminal; json: print it as JSON")
-      ->check(Named({"text", "json"}));
-  where->require_option(1, 0);
+      .Check(Named({"text", "json"}));
 }
 
 void EmitReport(Report report,

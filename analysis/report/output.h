@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -17,7 +16,7 @@ struct ReportOutput {
 };
 
 /// Adds --out DIR and --format text or json, of which at least one must be given.
-void AddReportOptions(CLI::App& command, ReportOutput& output);
+void AddReportOptions(ProgramOptions& command, ReportOutput& output);
 
 /// Writes DIR/report.html, DIR/`name`.json, DIR/csv/TABLE.csv and DIR/charts/CHART.svg and .png,
 /// and prints the report or, without --format, its headlines and the paths of the files.

@@ -1,5 +1,6 @@
 #include "core/program/command_line.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <regex>
@@ -156,7 +157,7 @@ std::string NonEmptyRule(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
 }
 
-CLI::Validator Named(std::vector<std::string> names) {
+ValueRule Named(std::vector<std::string> names) {
   const std::string shown = CLI::IsMember(names).get_description();
   return {[rule = OneOf(std::move(names))](const std::string& text) {
             const std::optional<std::string> broken = Broken(rule, text);
@@ -165,12 +166,12 @@ CLI::Validator Named(std::vector<std::string> names) {
           shown};
 }
 
-void AddIsa(CLI::App& command, std::string& isa) {
+void AddIsa(ProgramOptions& command, std::string& isa) {
   command
-      .add_option("--isa", isa,
-                  "Instruction set for ray tracing, on which the last bits of ranges depend; "
-                  "default: the machine's best")
-      ->check(Named(IsaNames()));
+      .AddOption("--isa", isa,
+                 "Instruction set for ray tracing, on which the last bits of ranges depend; "
+                 "default: the machine's best")
+      .Check(Named(IsaNames()));
 }
 
 std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error) {

@@ -1,7 +1,6 @@
 #pragma once
 
 // Helpers that the command lines of all programs share.
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -9,6 +8,12 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/program/options.h"
+
+namespace CLI {
+class Error;
+}  // namespace CLI
 
 namespace railcast {
 
@@ -31,8 +36,8 @@ namespace railcast {
   return word;
 }
 
-// Rules for the values of command-line options, in the form of CLI11's validators: functions of the
-// option's text that return the broken rule, or an empty string if none is broken. All programs
+// Rules for the values of command-line options, in the form that Option::Check takes: functions of
+// the option's text that return the broken rule, or an empty string if none is broken. All programs
 // share them, so that every program reads a number the same way.
 
 /// Parses a whole number in its plain form: decimal digits and nothing else. Leading zeros are
@@ -40,7 +45,7 @@ namespace railcast {
 /// number or exceeds 64 bits.
 [[nodiscard]] std::optional<std::uint64_t> ParseWholeNumber(std::string_view text);
 
-/// For CLI::Option::transform. CLI11 itself reads 010 as octal and wraps -1 around, so the text is
+/// For Option::Check. CLI11 itself reads 010 as octal and wraps -1 around, so the text is
 /// replaced by the plain digits of its number.
 struct WholeNumberRule {
   std::uint64_t at_least = 0;
@@ -50,7 +55,7 @@ struct WholeNumberRule {
   [[nodiscard]] std::string Range() const;  ///< "1 to 65535".
 };
 
-/// For CLI::Option::check: a decimal number. CLI11 itself also accepts 0x10, and NaN in any range.
+/// For Option::Check: a decimal number. CLI11 itself also accepts 0x10, and NaN in any range.
 struct NumberRule {
   double at_least{};
   double at_most{};
@@ -62,42 +67,42 @@ struct NumberRule {
 /// For the name of a file or folder, which is empty where the shell expands an unset variable.
 [[nodiscard]] std::string NonEmptyRule(const std::string& text);
 
-/// Validator for an option that is a count or an index.
-[[nodiscard]] inline CLI::Validator Whole(const WholeNumberRule& rule) {
+/// For an option that is a count or an index.
+[[nodiscard]] inline ValueRule Whole(const WholeNumberRule& rule) {
   return {rule, rule.Range()};
 }
 
-/// Validator for an option that is a measured quantity.
-[[nodiscard]] inline CLI::Validator Number(const NumberRule& rule) {
+/// For an option that is a measured quantity.
+[[nodiscard]] inline ValueRule Number(const NumberRule& rule) {
   return {[rule](std::string& text) { return rule(text); }, rule.Range()};
 }
 
-/// Validator for an option that names a file or folder.
-[[nodiscard]] inline CLI::Validator NonEmpty() {
+/// For an option that names a file or folder.
+[[nodiscard]] inline ValueRule NonEmpty() {
   return {[](std::string& text) { return NonEmptyRule(text); }, ""};
 }
 
-/// Validator for an option that is one of these names.
-[[nodiscard]] CLI::Validator Named(std::vector<std::string> names);
+/// For an option that is one of these names.
+[[nodiscard]] ValueRule Named(std::vector<std::string> names);
 
 /// Adds the option --summary.
-inline void AddSummaryFile(CLI::App& command, std::optional<std::filesystem::path>& file) {
+inline void AddSummaryFile(ProgramOptions& command, std::optional<std::filesystem::path>& file) {
   command
-      .add_option("--summary", file,
-                  "File to write what the run did to when it has ended, as one line of JSON")
-      ->check(NonEmpty());
+      .AddOption("--summary", file,
+                 "File to write what the run did to when it has ended, as one line of JSON")
+      .Check(NonEmpty());
 }
 
 /// Adds the option --isa.
-void AddIsa(CLI::App& command, std::string& isa);
+void AddIsa(ProgramOptions& command, std::string& isa);
 
 /// Adds the option --topic, for WithTopic().
-inline void AddTopic(CLI::App& command, std::string& topic) {
+inline void AddTopic(ProgramOptions& command, std::string& topic) {
   command
-      .add_option("--topic", topic,
-                  "Topic to read of sources that are bags of ROS 2; needed only where a bag has "
-                  "several with points")
-      ->check(NonEmpty());
+      .AddOption("--topic", topic,
+                 "Topic to read of sources that are bags of ROS 2; needed only where a bag has "
+                 "several with points")
+      .Check(NonEmpty());
 }
 
 /// Returns the sources with those that are bags replaced by this topic of theirs.

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -105,7 +106,8 @@ int ParseAndRun(const ProgramSpec& spec, int argc, char** argv) {
   app.failure_message(SayWhatIsWrong);
   app.footer(spec.footer);
   ProgramCommand command;
-  spec.add(app, command);
+  ProgramOptions options(&app);
+  spec.add(options, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

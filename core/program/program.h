@@ -2,11 +2,12 @@
 
 #include <signal.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <iosfwd>
 #include <string>
 #include <vector>
+
+#include "core/program/options.h"
 
 namespace railcast {
 
@@ -56,7 +57,7 @@ struct ProgramSpec {
   std::string footer;       ///< The last lines of `--help`.
   /// Adds the program's options and commands. Once the line is parsed, `command` must hold the
   /// work.
-  std::function<void(CLI::App& app, ProgramCommand& command)> add;
+  std::function<void(ProgramOptions& app, ProgramCommand& command)> add;
 };
 
 /// The body of every program's `main`: parses the command line, explains what is wrong with it, or

@@ -151,19 +151,19 @@ int RunCheck(const CheckOptions& options) {
 
 }  // namespace
 
-void AddCheck(CLI::App& app, ProgramCommand& command) {
+void AddCheck(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CheckOptions>();
-  CLI::App* check = app.add_subcommand("check",
-                                       "Report every fault of a scenario or, if it has none, what "
-                                       "its scene contains and what the sensor sees");
-  check->add_option("SCENARIO", options->scenario, "Scenario file")->required()->check(NonEmpty());
+  ProgramOptions check = app.AddCommand("check",
+                                        "Report every fault of a scenario or, if it has none, what "
+                                        "its scene contains and what the sensor sees");
+  check.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
   check
-      ->add_option("--resolved", options->resolved,
-                   "File to write the scenario to, with all defaults and included files filled in; "
-                   "- is stdout, which then gets no other output")
-      ->check(NonEmpty());
-  check->callback([&app, &command, options] {
-    options->is_verbose = app.count("--verbose") > 0;
+      .AddOption("--resolved", options->resolved,
+                 "File to write the scenario to, with all defaults and included files filled in; "
+                 "- is stdout, which then gets no other output")
+      .Check(NonEmpty());
+  check.WhenParsed([&app, &command, options] {
+    options->is_verbose = app.is_given("--verbose");
     command = [options](const std::string&) { return RunCheck(*options); };
   });
 }

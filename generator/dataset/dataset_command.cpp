@@ -150,46 +150,46 @@ int RunMerge(const MergeOptions& options) {
 
 }  // namespace
 
-void AddDataset(CLI::App& app, ProgramCommand& command) {
+void AddDataset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DatasetOptions>();
-  CLI::App* dataset = app.add_subcommand(
+  ProgramOptions dataset = app.AddCommand(
       "dataset",
       "Write labelled frames of many scenarios, drawn as a recipe says; run the same command again "
       "to continue an interrupted run");
-  dataset->add_option("RECIPE", options->recipe, "Recipe file")->required()->check(NonEmpty());
-  dataset->add_option("--out", options->choices.directory, "Folder to write the data set to")
-      ->required()
-      ->check(NonEmpty());
+  dataset.AddOption("RECIPE", options->recipe, "Recipe file").Required().Check(NonEmpty());
+  dataset.AddOption("--out", options->choices.directory, "Folder to write the data set to")
+      .Required()
+      .Check(NonEmpty());
   dataset
-      ->add_option("--shard", options->shard,
-                   "I/N: make only every N-th scenario, beginning with the I-th")
-      ->check([](const std::string& text) { return ShardRule(text); });
-  dataset->add_flag("--scenarios-only", options->has_scenarios_only,
-                    "Write the scenarios without frames, to a new or an empty folder, and report "
-                    "their parts, bases, weathers, draws and objects");
-  AddRunChoices(*dataset, options->choices);
-  dataset->footer(
+      .AddOption("--shard", options->shard,
+                 "I/N: make only every N-th scenario, beginning with the I-th")
+      .Check({ShardRule, ""});
+  dataset.AddFlag("--scenarios-only", options->has_scenarios_only,
+                  "Write the scenarios without frames, to a new or an empty folder, and report "
+                  "their parts, bases, weathers, draws and objects");
+  AddRunChoices(dataset, options->choices);
+  dataset.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
-  dataset->callback([&command, options, dataset] {
+  dataset.WhenParsed([&command, options, dataset] {
     CheckFields(options->choices.fields);
     options->choices.shard = ParseShard(options->shard).value();
-    options->has_format = dataset->count("--format") > 0;
+    options->has_format = dataset.is_given("--format");
     command = [options](const std::string&) { return RunDatasetCommand(*options); };
   });
 }
 
-void AddMerge(CLI::App& app, ProgramCommand& command) {
+void AddMerge(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<MergeOptions>();
-  CLI::App* merge = app.add_subcommand(
-      "merge",
-      "Make one data set of the folders of all its shards, with the bytes of a run "
-      "without shards");
-  merge->add_option("SHARD", options->shards, "Folders that dataset --shard made, all of them")
-      ->required()
-      ->check(NonEmpty());
-  merge->add_option("--out", options->out, "Folder of the data set")->required()->check(NonEmpty());
-  merge->callback([&command, options] {
+  ProgramOptions merge =
+      app.AddCommand("merge",
+                     "Make one data set of the folders of all its shards, with the bytes of a run "
+                     "without shards");
+  merge.AddOption("SHARD", options->shards, "Folders that dataset --shard made, all of them")
+      .Required()
+      .Check(NonEmpty());
+  merge.AddOption("--out", options->out, "Folder of the data set").Required().Check(NonEmpty());
+  merge.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunMerge(*options); };
   });
 }

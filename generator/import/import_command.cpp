@@ -334,74 +334,73 @@ int RunImport(const ImportCommandOptions& options) {
   return kExitSuccess;
 }
 
-void AddHeightOptions(CLI::App& subcommand, const std::shared_ptr<ImportCommandOptions>& options) {
+void AddHeightOptions(ProgramOptions& subcommand,
+                      const std::shared_ptr<ImportCommandOptions>& options) {
   constexpr NumberRule kSigma{0.001, 100.0};  // In m.
-  CLI::Option* heights =
+  const Option heights =
       subcommand
-          .add_option(
-              "--heights", options->heights,
-              "Elevation model: GeoTIFF, ESRI ASCII grid or another raster that GDAL reads; "
-              "default: the heights of the map's points, where it has any")
-          ->check(NonEmpty());
+          .AddOption("--heights", options->heights,
+                     "Elevation model: GeoTIFF, ESRI ASCII grid or another raster that GDAL reads; "
+                     "default: the heights of the map's points, where it has any")
+          .Check(NonEmpty());
   subcommand
-      .add_option("--heights-crs", options->heights_crs,
-                  "Coordinate system of an elevation model that names none, such as EPSG:4326")
-      ->needs(heights);
+      .AddOption("--heights-crs", options->heights_crs,
+                 "Coordinate system of an elevation model that names none, such as EPSG:4326")
+      .Needs(heights);
   subcommand
-      .add_option("--height-sigma", options->fit.height_sigma_m,
-                  "Standard deviation of the heights, in m")
-      ->capture_default_str()
-      ->check(Number(kSigma));
-  subcommand.add_flag("--level", options->is_level, "Leave out the heights of the map's points")
-      ->excludes(heights);
+      .AddOption("--height-sigma", options->fit.height_sigma_m,
+                 "Standard deviation of the heights, in m")
+      .ShowDefault()
+      .Check(Number(kSigma));
+  subcommand.AddFlag("--level", options->is_level, "Leave out the heights of the map's points")
+      .Excludes(heights);
 }
 
 }  // namespace
 
-void AddImport(CLI::App& app, ProgramCommand& command) {
+void AddImport(ProgramOptions& app, ProgramCommand& command) {
   constexpr NumberRule kLength{1.0, 1e6};     // In m.
   constexpr NumberRule kSigma{0.001, 100.0};  // In m.
   constexpr NumberRule kSpeed{1.0, 1000.0};   // In km/h.
   constexpr NumberRule kDegrees{-180.0, 180.0};
   const auto options = std::make_shared<ImportCommandOptions>();
-  CLI::App* subcommand = app.add_subcommand("import", kImportDescription);
+  ProgramOptions subcommand = app.AddCommand("import", kImportDescription);
   subcommand
-      ->add_option("MAP", options->map,
-                   "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
-      ->required()
-      ->check(NonEmpty());
-  subcommand->add_option("--out", options->out, "New or empty folder to write to")
-      ->required()
-      ->check(NonEmpty());
+      .AddOption("MAP", options->map,
+                 "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")
+      .Required()
+      .Check(NonEmpty());
+  subcommand.AddOption("--out", options->out, "New or empty folder to write to")
+      .Required()
+      .Check(NonEmpty());
   subcommand
-      ->add_option("--within", options->within_deg,
-                   "Cut the map to a rectangle: LONGITUDE,LATITUDE of its south-western and of its "
-                   "north-eastern corner, in degrees")
-      ->expected(4)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(Number(kDegrees));
-  subcommand->add_option("--crs", options->crs,
-                         "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
-                         "transverse Mercator about the middle of the map, without scale");
+      .AddOption("--within", options->within_deg,
+                 "Cut the map to a rectangle: LONGITUDE,LATITUDE of its south-western and of its "
+                 "north-eastern corner, in degrees")
+      .NumValues(4)
+      .SeparatedBy(',')
+      .TakesOneWord()
+      .Check(Number(kDegrees));
+  subcommand.AddOption("--crs", options->crs,
+                       "Coordinate system in metres for PROJ, such as EPSG:31256; default: a "
+                       "transverse Mercator about the middle of the map, without scale");
   subcommand
-      ->add_option("--min-length", options->min_length_m, "Leave out lines shorter than this, in m")
-      ->capture_default_str()
-      ->check(Number(kLength));
+      .AddOption("--min-length", options->min_length_m, "Leave out lines shorter than this, in m")
+      .ShowDefault()
+      .Check(Number(kLength));
   subcommand
-      ->add_option("--sigma", options->fit.sigma_m,
-                   "Standard deviation of the map's points across the track, in m")
-      ->capture_default_str()
-      ->check(Number(kSigma));
+      .AddOption("--sigma", options->fit.sigma_m,
+                 "Standard deviation of the map's points across the track, in m")
+      .ShowDefault()
+      .Check(Number(kSigma));
   subcommand
-      ->add_option("--speed", options->fit.otherwise_kmph,
-                   "Speed limit in km/h of running tracks for which the map has none")
-      ->capture_default_str()
-      ->check(Number(kSpeed));
-  subcommand->add_flag("--main-only", options->is_main_only,
-                       "Leave out the tracks beside each line");
-  AddHeightOptions(*subcommand, options);
-  subcommand->callback([&command, options] {
+      .AddOption("--speed", options->fit.otherwise_kmph,
+                 "Speed limit in km/h of running tracks for which the map has none")
+      .ShowDefault()
+      .Check(Number(kSpeed));
+  subcommand.AddFlag("--main-only", options->is_main_only, "Leave out the tracks beside each line");
+  AddHeightOptions(subcommand, options);
+  subcommand.WhenParsed([&command, options] {
     command = [options](const std::string& /*all*/) { return RunImport(*options); };
   });
 }

@@ -4,9 +4,8 @@
 
 namespace {
 
-void AddCommand(CLI::App& app, railcast::ProgramCommand& command) {
-  app.require_subcommand(1);
-  app.fallthrough();
+void AddCommand(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
+  app.RequireCommand();
   railcast::AddImport(app, command);
 }
 

@@ -36,13 +36,12 @@ int RunImportProgram(std::vector<std::string> arguments) {
 
 }  // namespace
 
-void AddImportProgram(CLI::App& app, ProgramCommand& command) {
-  CLI::App* subcommand = app.add_subcommand("import", kImportDescription);
+void AddImportProgram(ProgramOptions& app, ProgramCommand& command) {
+  ProgramOptions subcommand = app.AddForeignCommand("import", kImportDescription);
   // All that follows is for the other program, also what asks for help.
-  subcommand->prefix_command()->fallthrough(false)->set_help_flag();
-  subcommand->callback([&command, subcommand] {
+  subcommand.WhenParsed([&command, subcommand] {
     command = [subcommand](const std::string& /*all*/) {
-      return RunImportProgram(subcommand->remaining());
+      return RunImportProgram(subcommand.Remaining());
     };
   });
 }

@@ -29,31 +29,31 @@ std::uint32_t DomainOfEnvironment() {
 
 }  // namespace
 
-void AddCommandOptions(CLI::App& command, CommandOptions& options) {
+void AddCommandOptions(ProgramOptions& command, CommandOptions& options) {
   command
-      .add_option("--commands-port", options.commands_port,
-                  "UDP port on which to receive commands as lines of JSON; default: none")
-      ->transform(Whole({1, 65535}));
-  command.add_option("--commands-from", options.commands_from,
-                     "HOST or HOST:PORT whose commands are accepted; default: this machine only");
-  command.add_flag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
+      .AddOption("--commands-port", options.commands_port,
+                 "UDP port on which to receive commands as lines of JSON; default: none")
+      .Check(Whole({1, 65535}));
+  command.AddOption("--commands-from", options.commands_from,
+                    "HOST or HOST:PORT whose commands are accepted; default: this machine only");
+  command.AddFlag("--lockstep", options.lockstep, "Wait for the command `step` before each frame");
 }
 
-void AddRosOptions(CLI::App& command, RosOptions& options) {
+void AddRosOptions(ProgramOptions& command, RosOptions& options) {
   command
-      .add_option("--domain", options.domain,
-                  "With protocol ros2: domain to publish in; default: the scenario's, else "
-                  "ROS_DOMAIN_ID, else 0")
-      ->transform(Whole({0, 232}));
-  command.add_option("--interface", options.interface,
-                     "With protocol ros2: name or address of the network interface to publish "
-                     "through; default: the scenario's, else loopback");
+      .AddOption("--domain", options.domain,
+                 "With protocol ros2: domain to publish in; default: the scenario's, else "
+                 "ROS_DOMAIN_ID, else 0")
+      .Check(Whole({0, 232}));
+  command.AddOption("--interface", options.interface,
+                    "With protocol ros2: name or address of the network interface to publish "
+                    "through; default: the scenario's, else loopback");
   command
-      .add_option("--receive-buffers", options.receive_buffers,
-                  "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
-                  "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
-                  "default: the scenario's")
-      ->check(Named(NamesOf<ReceiveBuffers>()));
+      .AddOption("--receive-buffers", options.receive_buffers,
+                 "With protocol ros2, buffers of the readers' sockets: usual, Linux's default of "
+                 "208 KiB; or large, 1 MiB or more in each reader, which gives the least latency; "
+                 "default: the scenario's")
+      .Check(Named(NamesOf<ReceiveBuffers>()));
 }
 
 std::unique_ptr<CommandChannel> OpenChannel(const CommandOptions& options,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -30,10 +29,10 @@ struct RosOptions {
 };
 
 /// Adds the options `--commands-port`, `--commands-from` and `--lockstep`.
-void AddCommandOptions(CLI::App& command, CommandOptions& options);
+void AddCommandOptions(ProgramOptions& command, CommandOptions& options);
 
 /// Adds the options `--domain`, `--interface` and `--receive-buffers`.
-void AddRosOptions(CLI::App& command, RosOptions& options);
+void AddRosOptions(ProgramOptions& command, RosOptions& options);
 
 /// Opens the port of the commands; null if there is none.
 /// @param models As CommandChannel takes them.

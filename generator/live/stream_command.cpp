@@ -387,12 +387,12 @@ int RunStream(const StreamOptions& options) {
 
 }  // namespace
 
-void AddStream(CLI::App& app, ProgramCommand& command) {
+void AddStream(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<StreamOptions>();
-  CLI::App* stream =
-      app.add_subcommand("stream", "Send frames over UDP at the pace of real sensors until Ctrl-C");
-  AddStreamOptions(*stream, *options);
-  stream->callback([&command, options] {
+  ProgramOptions stream =
+      app.AddCommand("stream", "Send frames over UDP at the pace of real sensors until Ctrl-C");
+  AddStreamOptions(stream, *options);
+  stream.WhenParsed([&command, options] {
     if (options->fields && !IsForRos(*options->fields)) CheckFields(*options->fields);
     command = [options](const std::string&) { return RunStream(*options); };
   });

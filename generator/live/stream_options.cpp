@@ -10,103 +10,101 @@
 
 namespace railcast {
 
-void AddStreamOptions(CLI::App& stream, StreamOptions& options) {
-  stream.add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  stream.add_option(
+void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
+  stream.AddOption("SCENARIO", options.scenario, "Scenario file").Required().Check(NonEmpty());
+  stream.AddOption(
       "--sensor", options.sensor,
       "Name of the sensor to stream, where the scenario has several; default: all of them");
   stream
-      .add_option("--to", options.to,
-                  "HOST:PORT of a receiver, [HOST]:PORT where HOST is an IPv6 address; repeat the "
-                  "option for several, or use 255.255.255.255 to broadcast to the local network; "
-                  "default: the scenario's receivers or, if it has none, this machine")
-      ->allow_extra_args(false);
-  stream.add_option("--protocol", options.protocol, "Protocol to use instead of the scenario's")
-      ->check(Named(NamesOf<Protocol>()));
-  stream.add_option(
+      .AddOption("--to", options.to,
+                 "HOST:PORT of a receiver, [HOST]:PORT where HOST is an IPv6 address; repeat the "
+                 "option for several, or use 255.255.255.255 to broadcast to the local network; "
+                 "default: the scenario's receivers or, if it has none, this machine")
+      .TakesOneWord();
+  stream.AddOption("--protocol", options.protocol, "Protocol to use instead of the scenario's")
+      .Check(Named(NamesOf<Protocol>()));
+  stream.AddOption(
       "--fields", options.fields,
       "With protocols railcast and ros2: fields to send, separated by commas, or all; "
       "default: x,y,z,intensity,ring,time_ns,label,instance, and radial_velocity_mps where it is "
       "measured. With ros2 also the names of sensors' drivers, whose fields are sent then: "
       "velodyne, ouster, hesai, livox, aeva");
-  stream.add_flag("--all-slots", options.has_all_slots,
-                  "With protocol railcast: also send firings without a return");
+  stream.AddFlag("--all-slots", options.has_all_slots,
+                 "With protocol railcast: also send firings without a return");
   stream
-      .add_option(
-          "--pacing", options.pacing,
-          "spread: each datagram leaves one period after its last firing, as from a sensor; "
-          "burst: all datagrams of a frame leave at once")
-      ->check(Named({"spread", "burst"}))
-      ->capture_default_str();
-  stream.add_flag(
+      .AddOption("--pacing", options.pacing,
+                 "spread: each datagram leaves one period after its last firing, as from a sensor; "
+                 "burst: all datagrams of a frame leave at once")
+      .Check(Named({"spread", "burst"}))
+      .ShowDefault();
+  stream.AddFlag(
       "--drop-late", options.drops_late,
       "Leave out whole frames that would be late; default: send all frames, even if late");
-  stream.add_flag("--fail-late", options.fails_late,
-                  "End with exit status 1 if a frame was late or dropped; the run goes on until "
-                  "its end");
-  stream.add_flag(
-      "--no-offload", options.sends_singly,
-      "Send datagrams one by one, without UDP segmentation offload, so that captures on "
-      "this machine hold single datagrams");
+  stream.AddFlag("--fail-late", options.fails_late,
+                 "End with exit status 1 if a frame was late or dropped; the run goes on until "
+                 "its end");
+  stream.AddFlag("--no-offload", options.sends_singly,
+                 "Send datagrams one by one, without UDP segmentation offload, so that captures on "
+                 "this machine hold single datagrams");
   // Linux keeps datagrams of 0 hops on this machine only where a program on it has joined the
   // group; where none has, they go out.
   stream
-      .add_option("--multicast-hops", options.multicast_hops,
-                  "Networks on which what is sent to multicast groups may be: 1 = no router passes "
-                  "it on. What shall not leave this machine is sent by its interface lo")
-      ->transform(Whole({1, 255}))
-      ->capture_default_str();
+      .AddOption("--multicast-hops", options.multicast_hops,
+                 "Networks on which what is sent to multicast groups may be: 1 = no router passes "
+                 "it on. What shall not leave this machine is sent by its interface lo")
+      .Check(Whole({1, 255}))
+      .ShowDefault();
   stream
-      .add_option("--clock", options.clock,
-                  "What packets of real sensors and messages of ROS 2 state. simulated: simulation "
-                  "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
-                  "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
-                  "which is 37 s ahead")
-      ->check(Named(NamesOf<StampClock>()))
-      ->capture_default_str();
+      .AddOption("--clock", options.clock,
+                 "What packets of real sensors and messages of ROS 2 state. simulated: simulation "
+                 "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
+                 "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
+                 "which is 37 s ahead")
+      .Check(Named(NamesOf<StampClock>()))
+      .ShowDefault();
   stream
-      .add_option("--pcap", options.pcap,
-                  "Capture file to write; without --to, nothing is sent and the file is written as "
-                  "fast as the machine can compute it")
-      ->check(NonEmpty());
+      .AddOption("--pcap", options.pcap,
+                 "Capture file to write; without --to, nothing is sent and the file is written as "
+                 "fast as the machine can compute it")
+      .Check(NonEmpty());
   stream
-      .add_option("--calibration", options.calibration,
-                  "With protocol hdl64e: file to write the calibration to, which receivers need")
-      ->check(NonEmpty());
+      .AddOption("--calibration", options.calibration,
+                 "With protocol hdl64e: file to write the calibration to, which receivers need")
+      .Check(NonEmpty());
   stream
-      .add_option("--http", options.http,
-                  "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
-                  "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
-      ->check(NonEmpty());
+      .AddOption("--http", options.http,
+                 "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
+                 "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
+      .Check(NonEmpty());
   stream
-      .add_option("--health-port", options.health_port,
-                  "TCP port of 127.0.0.1 at which to answer GET /health and GET /metrics; default: "
-                  "none")
-      ->transform(Whole({1, 65535}));
+      .AddOption("--health-port", options.health_port,
+                 "TCP port of 127.0.0.1 at which to answer GET /health and GET /metrics; default: "
+                 "none")
+      .Check(Whole({1, 65535}));
   AddCommandOptions(stream, options);
   stream
-      .add_option("--commands-log", options.commands_log,
-                  "File to log the commands to, which `sequence --commands` can replay")
-      ->check(NonEmpty());
+      .AddOption("--commands-log", options.commands_log,
+                 "File to log the commands to, which `sequence --commands` can replay")
+      .Check(NonEmpty());
   AddRosOptions(stream, options);
-  stream.add_option("--commands-topic", options.commands_topic,
-                    "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
-                    "receive commands, such as /brake; default: none");
-  stream.add_option("--step-topic", options.step_topic,
-                    "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
-                    "which to receive the stamp of each frame that is done with, such as /step; "
-                    "the next frame waits for it");
+  stream.AddOption("--commands-topic", options.commands_topic,
+                   "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
+                   "receive commands, such as /brake; default: none");
+  stream.AddOption("--step-topic", options.step_topic,
+                   "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
+                   "which to receive the stamp of each frame that is done with, such as /step; "
+                   "the next frame waits for it");
   stream
-      .add_option("--duration", options.duration_s,
-                  "Seconds of simulation time after which to end; default: run until stopped")
-      ->check(Number({1e-3, 1e9}));
-  stream.add_option("--seed", options.seed, "Seed to use instead of the scenario's")
-      ->transform(Whole({}));
-  stream.add_option("--threads", options.num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  stream.add_option("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
-      ->check(Named(NamesOf<Fidelity>()));
+      .AddOption("--duration", options.duration_s,
+                 "Seconds of simulation time after which to end; default: run until stopped")
+      .Check(Number({1e-3, 1e9}));
+  stream.AddOption("--seed", options.seed, "Seed to use instead of the scenario's")
+      .Check(Whole({}));
+  stream.AddOption("--threads", options.num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  stream.AddOption("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
+      .Check(Named(NamesOf<Fidelity>()));
   AddSummaryFile(stream, options.summary);
   AddIsa(stream, options.isa);
 }

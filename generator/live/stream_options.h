@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -45,7 +44,7 @@ struct StreamOptions : CommandOptions, RosOptions {
 };
 
 /// Adds the options of the command `stream`.
-void AddStreamOptions(CLI::App& stream, StreamOptions& options);
+void AddStreamOptions(ProgramOptions& stream, StreamOptions& options);
 
 /// Whether there are no receivers, so that frames need not wait for their time.
 [[nodiscard]] bool IsOffline(const StreamOptions& options);

@@ -181,12 +181,12 @@ int RunReplayCommand(const ReplayOptions& options) {
 
 }  // namespace
 
-void AddReplay(CLI::App& app, ProgramCommand& command) {
+void AddReplay(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App* replay =
-      app.add_subcommand("replay", "Send a recording at its own pace, faster, or step by step");
-  AddReplayOptions(*replay, *options);
-  replay->callback([&command, options] {
+  ProgramOptions replay =
+      app.AddCommand("replay", "Send a recording at its own pace, faster, or step by step");
+  AddReplayOptions(replay, *options);
+  replay.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunReplayCommand(*options); };
   });
 }

@@ -82,59 +82,59 @@ void CheckFitsKind(const ReplayOptions& options, ReplayKind kind) {
 
 }  // namespace
 
-void AddReplayOptions(CLI::App& replay, ReplayOptions& options) {
+void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
   replay
-      .add_option("RECORDING", options.recording,
-                  "What to replay: a capture, a bag of ROS 2, a sequence, or clouds")
-      ->required()
-      ->check(NonEmpty());
+      .AddOption("RECORDING", options.recording,
+                 "What to replay: a capture, a bag of ROS 2, a sequence, or clouds")
+      .Required()
+      .Check(NonEmpty());
   AddTopic(replay, options.topic);
-  replay.add_option("--sensor", options.sensor,
-                    "Address of the sensor whose packets to send, where a capture has several; "
-                    "default: all of them");
+  replay.AddOption("--sensor", options.sensor,
+                   "Address of the sensor whose packets to send, where a capture has several; "
+                   "default: all of them");
   replay
-      .add_option("--to", options.to,
-                  "HOST or HOST:PORT of a receiver; repeat the option for several, or use "
-                  "255.255.255.255 to broadcast to the local network; default: this machine. "
-                  "Recorded packets go to the ports to which they were sent; PORT replaces that "
-                  "of the first sensor's packets")
-      ->allow_extra_args(false);
+      .AddOption("--to", options.to,
+                 "HOST or HOST:PORT of a receiver; repeat the option for several, or use "
+                 "255.255.255.255 to broadcast to the local network; default: this machine. "
+                 "Recorded packets go to the ports to which they were sent; PORT replaces that "
+                 "of the first sensor's packets")
+      .TakesOneWord();
   replay
-      .add_option("--protocol", options.protocol,
-                  "packets: a sensor's packets as recorded; ros2: a bag's messages as recorded, or "
-                  "frames; railcast or a sensor's: frames; default: packets for captures, ros2 for "
-                  "bags, otherwise railcast")
-      ->check(Named(ProtocolNames()));
-  replay.add_option("--fields", options.fields,
-                    "Of frames with protocols railcast and ros2: fields to send, separated by "
-                    "commas; default: those of `stream` that the recording has. With ros2 also "
-                    "velodyne, ouster, hesai, livox");
+      .AddOption("--protocol", options.protocol,
+                 "packets: a sensor's packets as recorded; ros2: a bag's messages as recorded, or "
+                 "frames; railcast or a sensor's: frames; default: packets for captures, ros2 for "
+                 "bags, otherwise railcast")
+      .Check(Named(ProtocolNames()));
+  replay.AddOption("--fields", options.fields,
+                   "Of frames with protocols railcast and ros2: fields to send, separated by "
+                   "commas; default: those of `stream` that the recording has. With ros2 also "
+                   "velodyne, ouster, hesai, livox");
   replay
-      .add_option("--pacing", options.pacing,
-                  "spread: each datagram leaves when it was recorded or fired; burst: all "
-                  "datagrams of a frame leave when it begins")
-      ->check(Named({"spread", "burst"}))
-      ->capture_default_str();
+      .AddOption("--pacing", options.pacing,
+                 "spread: each datagram leaves when it was recorded or fired; burst: all "
+                 "datagrams of a frame leave when it begins")
+      .Check(Named({"spread", "burst"}))
+      .ShowDefault();
   replay
-      .add_option("--insert", options.insert,
-                  "Plan of objects and weather to put into the recording (docs/insert.md)")
-      ->type_name("PLAN.json");
-  replay.add_option("--rate", options.pace, "How many times faster than recorded to send")
-      ->check(Number({1e-3, 1e6}))
-      ->capture_default_str();
+      .AddOption("--insert", options.insert,
+                 "Plan of objects and weather to put into the recording (docs/insert.md)")
+      .ShowType("PLAN.json");
+  replay.AddOption("--rate", options.pace, "How many times faster than recorded to send")
+      .Check(Number({1e-3, 1e6}))
+      .ShowDefault();
   replay
-      .add_option("--rate-hz", options.rate_hz,
-                  "Frames a second of a recording, instead of their stamps")
-      ->check(Number({1e-3, 1e6}));
-  replay.add_option("--start-frame", options.frames.start, "Frames to leave out before the first")
-      ->transform(Whole({}));
-  replay.add_option("--frames", options.frames.count, "Number of frames to send; default: all")
-      ->transform(Whole({1}));
+      .AddOption("--rate-hz", options.rate_hz,
+                 "Frames a second of a recording, instead of their stamps")
+      .Check(Number({1e-3, 1e6}));
+  replay.AddOption("--start-frame", options.frames.start, "Frames to leave out before the first")
+      .Check(Whole({}));
+  replay.AddOption("--frames", options.frames.count, "Number of frames to send; default: all")
+      .Check(Whole({1}));
   replay
-      .add_option("--clock", options.clock,
-                  "What stamps of frames state: the recorded times, or the time of day (utc)")
-      ->check(Named({"recorded", "utc"}))
-      ->capture_default_str();
+      .AddOption("--clock", options.clock,
+                 "What stamps of frames state: the recorded times, or the time of day (utc)")
+      .Check(Named({"recorded", "utc"}))
+      .ShowDefault();
   AddCommandOptions(replay, options);
   AddRosOptions(replay, options);
   AddSummaryFile(replay, options.summary);

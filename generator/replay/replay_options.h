@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -35,7 +34,7 @@ struct ReplayOptions : CommandOptions, RosOptions {
 };
 
 /// Adds the options of the command `replay`.
-void AddReplayOptions(CLI::App& replay, ReplayOptions& options);
+void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options);
 
 /// How a recording is sent.
 enum class ReplayKind {

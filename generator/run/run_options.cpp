@@ -10,26 +10,26 @@
 
 namespace railcast {
 
-void AddRunChoices(CLI::App& command, RunChoices& choices) {
+void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
   std::vector<std::string> formats;
   for (const FrameFormat& format : FrameFormats()) formats.emplace_back(format.name);
-  command.add_option("--format", choices.format, "File format of the frames")
-      ->check(Named(formats))
-      ->capture_default_str();
+  command.AddOption("--format", choices.format, "File format of the frames")
+      .Check(Named(formats))
+      .ShowDefault();
   command
-      .add_option(
+      .AddOption(
           "--fields", choices.fields,
           "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
           "of points: railcast, velodyne, ouster, hesai, livox or aeva; those of the track, such "
           "as "
           "in_gauge, are not among all")
-      ->capture_default_str();
-  command.add_flag("--merged", choices.is_merged,
-                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
-                   "the field sensor_index");
-  command.add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
+      .ShowDefault();
+  command.AddFlag("--merged", choices.is_merged,
+                  "Also write the clouds of all sensors together, in the vehicle's axes, with "
+                  "the field sensor_index");
+  command.AddOption("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
   AddIsa(command, choices.isa);
 }
 
@@ -38,7 +38,7 @@ void CheckFields(const std::string& fields) {
   try {
     static_cast<void>(FieldSelection(fields, true, true));
   } catch (const InputError& error) {
-    throw CLI::ValidationError(error.what());
+    FailUsage(error.what());
   }
 }
 

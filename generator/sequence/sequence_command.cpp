@@ -165,56 +165,54 @@ int RunSequenceCommand(const SequenceOptions& options) {
 
 }  // namespace
 
-void AddSequence(CLI::App& app, ProgramCommand& command) {
+void AddSequence(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SequenceOptions>();
-  CLI::App* sequence = app.add_subcommand(
+  ProgramOptions sequence = app.AddCommand(
       "sequence",
       "Write labelled frames to files; run the same command again to continue an interrupted run");
-  sequence->add_option("SCENARIO", options->scenario, "Scenario file")
-      ->required()
-      ->check(NonEmpty());
-  sequence->add_option("--out", options->made.directory, "Directory to write the frames to")
-      ->required()
-      ->check(NonEmpty());
+  sequence.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
+  sequence.AddOption("--out", options->made.directory, "Directory to write the frames to")
+      .Required()
+      .Check(NonEmpty());
   sequence
-      ->add_option(
+      .AddOption(
           "--frames", options->made.num_frames,
           "Number of frames to make; other sensors than the first make those of the same time")
-      ->transform(Whole({1, kMaxFrame}))
-      ->capture_default_str();
-  sequence->add_option("--start-frame", options->made.start_frame, "Number of the first frame")
-      ->transform(Whole({0, kMaxFrame}))
-      ->capture_default_str();
+      .Check(Whole({1, kMaxFrame}))
+      .ShowDefault();
+  sequence.AddOption("--start-frame", options->made.start_frame, "Number of the first frame")
+      .Check(Whole({0, kMaxFrame}))
+      .ShowDefault();
   sequence
-      ->add_option("--stride", options->made.stride,
-                   "Every how many-th of the scenario's frames to make; 1 = all")
-      ->transform(Whole({1, kMaxFrame}))
-      ->capture_default_str();
-  AddRunChoices(*sequence, options->made);
-  sequence->add_option("--seed", options->seed, "Seed to use instead of the scenario's")
-      ->transform(Whole({}));
-  sequence->add_option("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
-      ->check(Named(NamesOf<Fidelity>()));
-  sequence->add_option(
+      .AddOption("--stride", options->made.stride,
+                 "Every how many-th of the scenario's frames to make; 1 = all")
+      .Check(Whole({1, kMaxFrame}))
+      .ShowDefault();
+  AddRunChoices(sequence, options->made);
+  sequence.AddOption("--seed", options->seed, "Seed to use instead of the scenario's")
+      .Check(Whole({}));
+  sequence.AddOption("--fidelity", options->fidelity, "Fidelity to use instead of the scenario's")
+      .Check(Named(NamesOf<Fidelity>()));
+  sequence.AddOption(
       "--sensor", options->sensor,
       "Name of the only sensor to simulate; without it, each of several sensors gets a "
       "folder of its name in --out");
   sequence
-      ->add_option(
+      .AddOption(
           "--commands", options->commands,
           "Command log of a live run to replay; with that run's scenario it reproduces its frames")
-      ->check(NonEmpty());
-  AddSummaryFile(*sequence, options->summary);
+      .Check(NonEmpty());
+  AddSummaryFile(sequence, options->summary);
   sequence
-      ->add_option("--picture", options->picture,
-                   "PNG file to draw the last frame into: its points in the colours of their "
-                   "labels, over what the scenario's camera sees, or one in the sensor's place")
-      ->check(NonEmpty());
-  sequence->footer(
+      .AddOption("--picture", options->picture,
+                 "PNG file to draw the last frame into: its points in the colours of their "
+                 "labels, over what the scenario's camera sees, or one in the sensor's place")
+      .Check(NonEmpty());
+  sequence.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
-  sequence->callback([&app, &command, options] {
-    options->is_verbose = app.count("--verbose") > 0;
+  sequence.WhenParsed([&app, &command, options] {
+    options->is_verbose = app.is_given("--verbose");
     CheckFields(options->made.fields);
     command = [options](const std::string&) { return RunSequenceCommand(*options); };
   });

@@ -158,82 +158,80 @@ int RunSurvey(const SurveyCommandOptions& options) {
   return kExitSuccess;
 }
 
-void AddSourceOptions(CLI::App& command, SurveySource& source) {
+void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
   constexpr std::uint32_t kMostFrames = 1'000'000'000;
   constexpr NumberRule kRange{1.0, 1000.0};  // In m.
   command
-      .add_option("RECORDING", source.recordings, "Recordings or clouds in one frame of reference")
-      ->required()
-      ->check(NonEmpty());
-  command.add_option("--start-frame", source.first_frame, "First frame of each recording")
-      ->transform(Whole({0, kMostFrames}))
-      ->capture_default_str();
-  command.add_option("--frames", source.num_frames, "Number of frames; default: all")
-      ->transform(Whole({1, kMostFrames}));
-  command.add_option("--stride", source.stride, "Every how many-th frame to take; 1 = all")
-      ->transform(Whole({1, kMostFrames}))
-      ->capture_default_str();
-  CLI::Option* standing =
-      command.add_flag("--standing", source.is_standing,
-                       "Frames without a pose were all taken from one place, the world's origin");
-  CLI::Option* world_axes = command
-                                .add_flag("--world-axes", source.is_in_world,
-                                          "Frames without a pose have points in the world's axes")
-                                ->excludes(standing);
+      .AddOption("RECORDING", source.recordings, "Recordings or clouds in one frame of reference")
+      .Required()
+      .Check(NonEmpty());
+  command.AddOption("--start-frame", source.first_frame, "First frame of each recording")
+      .Check(Whole({0, kMostFrames}))
+      .ShowDefault();
+  command.AddOption("--frames", source.num_frames, "Number of frames; default: all")
+      .Check(Whole({1, kMostFrames}));
+  command.AddOption("--stride", source.stride, "Every how many-th frame to take; 1 = all")
+      .Check(Whole({1, kMostFrames}))
+      .ShowDefault();
+  const Option standing =
+      command.AddFlag("--standing", source.is_standing,
+                      "Frames without a pose were all taken from one place, the world's origin");
+  const Option world_axes = command
+                                .AddFlag("--world-axes", source.is_in_world,
+                                         "Frames without a pose have points in the world's axes")
+                                .Excludes(standing);
   command
-      .add_option("--poses", source.poses,
-                  "Poses of the sensor in the world, one for each frame: lines of KITTI's, .csv as "
-                  "railcast's poses.csv, or .json of OpenLABEL with the sensor \"lidar\"")
-      ->excludes(standing)
-      ->excludes(world_axes)
-      ->check(NonEmpty());
+      .AddOption("--poses", source.poses,
+                 "Poses of the sensor in the world, one for each frame: lines of KITTI's, .csv as "
+                 "railcast's poses.csv, or .json of OpenLABEL with the sensor \"lidar\"")
+      .Excludes(standing)
+      .Excludes(world_axes)
+      .Check(NonEmpty());
+  command.AddOption("--range", source.range_max_m, "Leave out points farther from the sensor, in m")
+      .ShowDefault()
+      .Check(Number(kRange));
   command
-      .add_option("--range", source.range_max_m, "Leave out points farther from the sensor, in m")
-      ->capture_default_str()
-      ->check(Number(kRange));
-  command
-      .add_option(
-          "--white", source.white_intensity,
-          "Recorded intensity of a white surface; default: 1, or 255 in foreign clouds with "
-          "more than 1")
-      ->check(Number({1e-6, 1e6}));
+      .AddOption("--white", source.white_intensity,
+                 "Recorded intensity of a white surface; default: 1, or 255 in foreign clouds with "
+                 "more than 1")
+      .Check(Number({1e-6, 1e6}));
 }
 
 }  // namespace
 
-void AddSurvey(CLI::App& app, ProgramCommand& command) {
+void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
-  CLI::App* survey = app.add_subcommand(
+  ProgramOptions survey = app.AddCommand(
       "survey", "Make the scene of a scenario from recordings with poses or from survey clouds");
-  AddSourceOptions(*survey, options->source);
-  survey->add_option("--out", options->out, "New or empty folder to write to")
-      ->required()
-      ->check(NonEmpty());
+  AddSourceOptions(survey, options->source);
+  survey.AddOption("--out", options->out, "New or empty folder to write to")
+      .Required()
+      .Check(NonEmpty());
   survey
-      ->add_option("--voxel", options->made.voxel_m,
-                   "Edge of the cubes of which each keeps one point, in m")
-      ->capture_default_str()
-      ->check(Number({0.005, 1.0}));
+      .AddOption("--voxel", options->made.voxel_m,
+                 "Edge of the cubes of which each keeps one point, in m")
+      .ShowDefault()
+      .Check(Number({0.005, 1.0}));
   survey
-      ->add_option("--max-gap", options->made.surfels.max_gap_m,
-                   "Points farther apart than this, in m, have nothing between them")
-      ->capture_default_str()
-      ->check(Number({0.02, 5.0}));
+      .AddOption("--max-gap", options->made.surfels.max_gap_m,
+                 "Points farther apart than this, in m, have nothing between them")
+      .ShowDefault()
+      .Check(Number({0.02, 5.0}));
   survey
-      ->add_option("--surfel-size", options->made.surfels.size_factor,
-                   "Size of surfels as a multiple of what reaches half way to their neighbours")
-      ->capture_default_str()
-      ->check(Number({0.2, 4.0}));
-  survey->add_flag("--keep-moving", options->made.keeps_moving,
-                   "Leave in what other frames' beams have passed through");
+      .AddOption("--surfel-size", options->made.surfels.size_factor,
+                 "Size of surfels as a multiple of what reaches half way to their neighbours")
+      .ShowDefault()
+      .Check(Number({0.2, 4.0}));
+  survey.AddFlag("--keep-moving", options->made.keeps_moving,
+                 "Leave in what other frames' beams have passed through");
   survey
-      ->add_option(
+      .AddOption(
           "--sensor-height", options->made.sensor_height_m,
           "Height of the sensor above top of rail, in m; default: that of the mount in "
           "railcast's own recordings, else above the ground below the way, which must have been "
           "seen")
-      ->check(Number({-100.0, 100.0}));
-  survey->callback([&command, options] {
+      .Check(Number({-100.0, 100.0}));
+  survey.WhenParsed([&command, options] {
     command = [options](const std::string& /*all*/) { return RunSurvey(*options); };
   });
 }

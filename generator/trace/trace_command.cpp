@@ -41,23 +41,23 @@ int RunTrace(const TraceOptions& options) {
 
 }  // namespace
 
-void AddTrace(CLI::App& app, ProgramCommand& command) {
+void AddTrace(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<TraceOptions>();
-  CLI::App* trace =
-      app.add_subcommand("trace", "Replay one firing and print what each effect makes of it");
-  trace->add_option("SCENARIO", options->scenario, "Scenario file")->required()->check(NonEmpty());
-  trace->add_option("--sensor", options->sensor,
-                    "Name of the sensor to trace, where the scenario has several");
-  trace->add_option("--frame", options->frame, "Number of the frame, from 0")
-      ->transform(Whole({0, kMaxFrame}))
-      ->capture_default_str();
+  ProgramOptions trace =
+      app.AddCommand("trace", "Replay one firing and print what each effect makes of it");
+  trace.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
+  trace.AddOption("--sensor", options->sensor,
+                  "Name of the sensor to trace, where the scenario has several");
+  trace.AddOption("--frame", options->frame, "Number of the frame, from 0")
+      .Check(Whole({0, kMaxFrame}))
+      .ShowDefault();
   trace
-      ->add_option("--firing", options->firing,
-                   "Number of the firing in its frame, from 0, in order of time")
-      ->required()
-      ->transform(Whole({0, kMaxFrame}));
-  AddIsa(*trace, options->isa);
-  trace->callback([&command, options] {
+      .AddOption("--firing", options->firing,
+                 "Number of the firing in its frame, from 0, in order of time")
+      .Required()
+      .Check(Whole({0, kMaxFrame}));
+  AddIsa(trace, options->isa);
+  trace.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunTrace(*options); };
   });
 }

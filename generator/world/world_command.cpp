@@ -153,29 +153,28 @@ int RunWorld(const WorldOptions& options) {
 
 }  // namespace
 
-void AddWorld(CLI::App& app, ProgramCommand& command) {
+void AddWorld(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<WorldOptions>();
-  CLI::App* world = app.add_subcommand("world", "Write the scene as a mesh of triangles");
-  world->add_option("SCENARIO", options->scenario, "Scenario file")->required()->check(NonEmpty());
-  world->add_option("--out", options->out, "File to write, whose name ends in .ply, .glb or .obj")
-      ->required()
-      ->check(NonEmpty());
+  ProgramOptions world = app.AddCommand("world", "Write the scene as a mesh of triangles");
+  world.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
+  world.AddOption("--out", options->out, "File to write, whose name ends in .ply, .glb or .obj")
+      .Required()
+      .Check(NonEmpty());
   world
-      ->add_option("--from-s", options->from_s_m,
-                   "Chainage in m at which to begin, together with --to-s; default: all that frame "
-                   "0 can see")
-      ->check(Number(kChainage));
+      .AddOption("--from-s", options->from_s_m,
+                 "Chainage in m at which to begin, together with --to-s; default: all that frame "
+                 "0 can see")
+      .Check(Number(kChainage));
   world
-      ->add_option("--to-s", options->to_s_m,
-                   "Chainage in m at which to end, together with --from-s")
-      ->check(Number(kChainage));
+      .AddOption("--to-s", options->to_s_m, "Chainage in m at which to end, together with --from-s")
+      .Check(Number(kChainage));
   world
-      ->add_option("--max-mb", options->max_size_mb,
-                   "Most MB that the file may have; a larger one is refused before it is written")
-      ->capture_default_str()
-      ->transform(Whole({1, 1'000'000}));
-  world->callback([&app, &command, options] {
-    options->is_verbose = app.count("--verbose") > 0;
+      .AddOption("--max-mb", options->max_size_mb,
+                 "Most MB that the file may have; a larger one is refused before it is written")
+      .ShowDefault()
+      .Check(Whole({1, 1'000'000}));
+  world.WhenParsed([&app, &command, options] {
+    options->is_verbose = app.is_given("--verbose");
     command = [options](const std::string&) { return RunWorld(*options); };
   });
 }

@@ -1,7 +1,6 @@
 // railcast-detail: compares a scene that is coarser far away with full detail, echoes by range and
 // times.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "core/fidelity/echoes_by_range.h"
+#include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "railcast/scenario.h"
 #include "tests/bench/mean_surface.h"
@@ -192,33 +192,37 @@ void CompareTimes(const Options& options) {
             << Median(ratios[4]) << ", without plants " << Median(ratios[5]) << "\n";
 }
 
-int Run(int argc, char** argv) {
-  CLI::App app(
-      "Compares a scene that is coarser far away with full detail: the echoes of plants, ground "
-      "and track by range in percent, or with --turns the times");
-  Options options;
-  const std::map<std::string, Fidelity> rungs = {{"plausibility", Fidelity::kPlausibility},
-                                                 {"surface", Fidelity::kSurface},
-                                                 {"footprint", Fidelity::kFootprint}};
-  app.add_option("SCENARIO", options.scenario, "Scenario with one sensor")->required();
-  app.add_option("--rung", options.rung, "surface or another")
-      ->transform(CLI::CheckedTransformer(rungs));
-  app.add_option("--frames", options.num_frames, "Frames, each at another place");
-  app.add_option("--step", options.step_m, "Metres between them");
-  app.add_option("--turns", options.num_turns, "Turns in which times are measured");
-  CLI11_PARSE(app, argc, argv);
-  if (options.num_turns > 0) {
-    CompareTimes(options);
-  } else {
-    CompareEchoes(options);
-  }
-  return kExitSuccess;
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<Options>();
+  static const std::map<std::string, Fidelity> rungs = {{"plausibility", Fidelity::kPlausibility},
+                                                        {"surface", Fidelity::kSurface},
+                                                        {"footprint", Fidelity::kFootprint}};
+  app.AddOption("SCENARIO", options->scenario, "Scenario with one sensor").Required();
+  app.AddText(
+         "--rung", [options](const std::string& name) { options->rung = rungs.at(name); },
+         "surface or another")
+      .Check(Named({"plausibility", "surface", "footprint"}));
+  app.AddOption("--frames", options->num_frames, "Frames, each at another place");
+  app.AddOption("--step", options->step_m, "Metres between them");
+  app.AddOption("--turns", options->num_turns, "Turns in which times are measured");
+  command = [options](const std::string&) {
+    if (options->num_turns > 0) {
+      CompareTimes(*options);
+    } else {
+      CompareEchoes(*options);
+    }
+    return kExitSuccess;
+  };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-detail", [&] { return railcast::Run(argc, argv); }, std::cerr);
+  return railcast::ProgramMain({"railcast-detail",
+                                "Compares a scene that is coarser far away with full detail: the "
+                                "echoes of plants, ground and track by range in "
+                                "percent, or with --turns the times",
+                                "", railcast::Add},
+                               argc, argv);
 }

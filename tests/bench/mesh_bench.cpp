@@ -13,7 +13,6 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -233,26 +232,27 @@ void MeasureFile(const std::string& file, const MeshBenchOptions& options) {
   }
 }
 
-int Main(int argc, char** argv) {
-  CLI::App app("Measures what simplifying meshes costs and gains.");
-  MeshBenchOptions options;
-  app.add_option("FILE", options.files, "Mesh files")->required()->check(NonEmpty());
-  app.add_option("--up", options.up, "Upward axis: y or z")->capture_default_str();
-  app.add_option("--unit", options.unit_m, "Metres per file unit")->capture_default_str();
-  app.add_option("--normals", options.normal_deg, "Deviation of normals")->capture_default_str();
-  app.add_option("--subdivide", options.num_times, "Cut each triangle in four so many times");
-  app.add_option("--noise", options.noise_mm, "Of the vertices along their normals, in mm");
-  app.add_option("--tolerances", options.tolerances_mm, "In mm; 0 = as the file is")
-      ->delimiter(',');
-  CLI11_PARSE(app, argc, argv);
-  for (const std::string& file : options.files) MeasureFile(file, options);
-  return kExitSuccess;
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<MeshBenchOptions>();
+  app.AddOption("FILE", options->files, "Mesh files").Required().Check(NonEmpty());
+  app.AddOption("--up", options->up, "Upward axis: y or z").ShowDefault();
+  app.AddOption("--unit", options->unit_m, "Metres per file unit").ShowDefault();
+  app.AddOption("--normals", options->normal_deg, "Deviation of normals").ShowDefault();
+  app.AddOption("--subdivide", options->num_times, "Cut each triangle in four so many times");
+  app.AddOption("--noise", options->noise_mm, "Of the vertices along their normals, in mm");
+  app.AddOption("--tolerances", options->tolerances_mm, "In mm; 0 = as the file is")
+      .SeparatedBy(',');
+  command = [options](const std::string&) {
+    for (const std::string& file : options->files) MeasureFile(file, *options);
+    return kExitSuccess;
+  };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-meshes", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-meshes", "Measures what simplifying meshes costs and gains.", "", railcast::Add},
+      argc, argv);
 }

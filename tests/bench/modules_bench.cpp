@@ -6,7 +6,6 @@
 // Fails if modules 1, 2 and 3 do not give the same points, bit for bit.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -14,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -138,26 +138,26 @@ int RunModules(const ModulesOptions& options) {
   return kExitSuccess;
 }
 
-int Main(int argc, char** argv) {
-  ModulesOptions options;
-  CLI::App app("Measures the four modules of the published evaluation.");
-  app.add_option("SCENARIO", options.scenario, "Scenario file; default: the demo")
-      ->check(NonEmpty());
-  app.add_option("--scans", options.num_scans,
-                 "Scans of each module; mean, deviation, minimum and maximum are of the first 20")
-      ->transform(Whole({2, 1'000'000}))
-      ->capture_default_str();
-  app.add_option("--threads", options.num_threads, "Threads of modules 2 to 4; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  return RunModules(options);
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<ModulesOptions>();
+  app.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
+      .Check(NonEmpty());
+  app.AddOption("--scans", options->num_scans,
+                "Scans of each module; mean, deviation, minimum and maximum are of the first 20")
+      .Check(Whole({2, 1'000'000}))
+      .ShowDefault();
+  app.AddOption("--threads", options->num_threads, "Threads of modules 2 to 4; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  command = [options](const std::string&) { return RunModules(*options); };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-modules", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-modules", "Measures the four modules of the published evaluation.", "",
+       railcast::Add},
+      argc, argv);
 }

@@ -8,7 +8,6 @@
 // the others in time by the clock.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -142,26 +141,25 @@ int RunPeers(PeersOptions options) {
   return kExitSuccess;
 }
 
-int Main(int argc, char** argv) {
-  PeersOptions options;
-  CLI::App app("Times other ways of tracing rays beside railcast's.");
-  app.add_option("SCENARIO", options.scenario, "Scenario file; default: the demo")
-      ->check(NonEmpty());
-  app.add_flag("--plants", options.has_plants, "Keep trees and grass, all leaves as triangles");
-  app.add_option("--turns", options.num_turns, "Turns that each peer takes")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  app.add_option("--threads", options.num_threads, "Threads of the second rows; 0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  return RunPeers(options);
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<PeersOptions>();
+  app.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
+      .Check(NonEmpty());
+  app.AddFlag("--plants", options->has_plants, "Keep trees and grass, all leaves as triangles");
+  app.AddOption("--turns", options->num_turns, "Turns that each peer takes")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  app.AddOption("--threads", options->num_threads, "Threads of the second rows; 0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  command = [options](const std::string&) { return RunPeers(*options); };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-peers", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-peers", "Times other ways of tracing rays beside railcast's.", "", railcast::Add},
+      argc, argv);
 }

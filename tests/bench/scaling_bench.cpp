@@ -8,7 +8,6 @@
 // turns is printed, which other programs on the machine disturb least, and also the least time that
 // the processor spent on it. Times of a scenario with several sensors are those of all of them.
 // Build time and memory come from a process of their own for each line.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -91,25 +90,25 @@ int RunScaling(const ScalingOptions& options) {
   return kExitSuccess;
 }
 
-int Main(int argc, char** argv) {
-  ScalingOptions options;
-  CLI::App app("Measures what a frame of each of several scenarios costs.");
-  app.add_option("SCENARIO", options.scenarios, "Scenario files")->required()->check(NonEmpty());
-  app.add_option("--turns", options.num_turns, "Turns that each line takes")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  app.add_option("--threads", options.num_threads,
-                 "Numbers of threads, separated by commas; 0 = all cores")
-      ->delimiter(',')
-      ->transform(Whole({0, 1024}));
-  CLI11_PARSE(app, argc, argv);
-  return RunScaling(options);
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<ScalingOptions>();
+  app.AddOption("SCENARIO", options->scenarios, "Scenario files").Required().Check(NonEmpty());
+  app.AddOption("--turns", options->num_turns, "Turns that each line takes")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  app.AddOption("--threads", options->num_threads,
+                "Numbers of threads, separated by commas; 0 = all cores")
+      .SeparatedBy(',')
+      .Check(Whole({0, 1024}));
+  command = [options](const std::string&) { return RunScaling(*options); };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-scaling", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-scaling", "Measures what a frame of each of several scenarios costs.", "",
+       railcast::Add},
+      argc, argv);
 }

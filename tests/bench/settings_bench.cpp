@@ -7,7 +7,6 @@
 // settings take turns in one process: each makes one frame to warm the caches and three that count.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -113,25 +112,25 @@ int RunSettings(SettingsOptions options) {
   return kExitSuccess;
 }
 
-int Main(int argc, char** argv) {
-  SettingsOptions options;
-  CLI::App app("Measures the scene settings of the published evaluation.");
-  app.add_option("SCENARIO", options.scenario, "Scenario file; default: the demo")
-      ->check(NonEmpty());
-  app.add_option("--turns", options.num_turns, "Turns that each setting takes")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  app.add_option("--threads", options.num_threads, "0 = all cores")
-      ->transform(Whole({0, 1024}))
-      ->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  return RunSettings(options);
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<SettingsOptions>();
+  app.AddOption("SCENARIO", options->scenario, "Scenario file; default: the demo")
+      .Check(NonEmpty());
+  app.AddOption("--turns", options->num_turns, "Turns that each setting takes")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  app.AddOption("--threads", options->num_threads, "0 = all cores")
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
+  command = [options](const std::string&) { return RunSettings(*options); };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-settings", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-settings", "Measures the scene settings of the published evaluation.", "",
+       railcast::Add},
+      argc, argv);
 }

@@ -4,11 +4,11 @@
 //   railcast-stages SCENARIO [--frames N] [--format FORMAT] [--out DIRECTORY]
 //
 // Each frame takes all stages in turn, and the raw trace before them.
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,25 +99,25 @@ int RunStages(const StagesOptions& options) {
   return kExitSuccess;
 }
 
-int Main(int argc, char** argv) {
-  StagesOptions options;
-  CLI::App app("Measures what the stages of a frame of a sequence cost, on one thread.");
-  app.add_option("SCENARIO", options.scenario, "Scenario file")->required()->check(NonEmpty());
-  app.add_option("--frames", options.num_frames, "Number of frames")
-      ->transform(Whole({1, 1'000'000}))
-      ->capture_default_str();
-  app.add_option("--format", options.format, "File format of the frames")
-      ->check(CLI::IsMember(FrameFormatNames()))
-      ->capture_default_str();
-  app.add_option("--out", options.out, "Directory to write to")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-  return RunStages(options);
+void Add(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<StagesOptions>();
+  app.AddOption("SCENARIO", options->scenario, "Scenario file").Required().Check(NonEmpty());
+  app.AddOption("--frames", options->num_frames, "Number of frames")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  app.AddOption("--format", options->format, "File format of the frames")
+      .Check(Named(FrameFormatNames()))
+      .ShowDefault();
+  app.AddOption("--out", options->out, "Directory to write to").ShowDefault();
+  command = [options](const std::string&) { return RunStages(*options); };
 }
 
 }  // namespace
 }  // namespace railcast
 
 int main(int argc, char** argv) {
-  return railcast::RunProgram(
-      "railcast-stages", [&] { return railcast::Main(argc, argv); }, std::cerr);
+  return railcast::ProgramMain(
+      {"railcast-stages", "Measures what the stages of a frame of a sequence cost, on one thread.",
+       "", railcast::Add},
+      argc, argv);
 }

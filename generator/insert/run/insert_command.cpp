@@ -82,47 +82,47 @@ int RunInsertCommand(InsertOptions options) {
 
 }  // namespace
 
-void AddInsert(CLI::App& app, ProgramCommand& command) {
+void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<InsertOptions>();
   InsertChoices& choices = options->choices;
-  CLI::App* insert = app.add_subcommand(
+  ProgramOptions insert = app.AddCommand(
       "insert",
       "Put objects and weather into a recording; run the same command again to continue an "
       "interrupted run");
-  insert->add_option("RECORDING", choices.recording, "What railcast-analyze reads")
-      ->required()
-      ->check(NonEmpty());
-  insert->add_option("PLAN", choices.plan, "Scenario whose world is a recording")
-      ->required()
-      ->check(NonEmpty());
-  insert->add_option("--out", choices.directory, "Directory to write to")->check(NonEmpty());
-  insert->add_option("--frames", options->frames,
-                     "First and last frame, counted from 0: 12..30; default: all");
+  insert.AddOption("RECORDING", choices.recording, "What railcast-analyze reads")
+      .Required()
+      .Check(NonEmpty());
+  insert.AddOption("PLAN", choices.plan, "Scenario whose world is a recording")
+      .Required()
+      .Check(NonEmpty());
+  insert.AddOption("--out", choices.directory, "Directory to write to").Check(NonEmpty());
+  insert.AddOption("--frames", options->frames,
+                   "First and last frame, counted from 0: 12..30; default: all");
   std::vector<std::string> formats = {"same"};
   for (const FrameFormat& format : FrameFormats()) {
     if (!format.files.empty()) formats.emplace_back(format.name);
   }
-  CLI::Option* const format = insert
-                                  ->add_option("--format", choices.format,
-                                               "The recording's own format, or one of railcast's")
-                                  ->check(Named(formats))
-                                  ->capture_default_str();
-  CLI::Option* const points_alone =
-      insert->add_flag("--points-alone", choices.may_use_points_alone,
-                       "Take frames point by point where their firings cannot be found");
-  CLI::Option* const threads =
-      insert->add_option("--threads", choices.num_threads, "Number of threads; 0 = all cores")
-          ->transform(Whole({0, 1024}))
-          ->capture_default_str();
-  CLI::Option* const check =
-      insert->add_flag("--check", options->is_check,
-                       "Print what the objects meet in the recording, and write nothing");
-  for (CLI::Option* const other : {format, points_alone, threads}) check->excludes(other);
-  AddTopic(*insert, options->topic);
-  insert->footer(
+  const Option format =
+      insert
+          .AddOption("--format", choices.format, "The recording's own format, or one of railcast's")
+          .Check(Named(formats))
+          .ShowDefault();
+  const Option points_alone =
+      insert.AddFlag("--points-alone", choices.may_use_points_alone,
+                     "Take frames point by point where their firings cannot be found");
+  const Option threads =
+      insert.AddOption("--threads", choices.num_threads, "Number of threads; 0 = all cores")
+          .Check(Whole({0, 1024}))
+          .ShowDefault();
+  const Option check =
+      insert.AddFlag("--check", options->is_check,
+                     "Print what the objects meet in the recording, and write nothing");
+  for (const Option other : {format, points_alone, threads}) check.Excludes(other);
+  AddTopic(insert, options->topic);
+  insert.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
-  insert->callback([&command, options] {
+  insert.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunInsertCommand(*options); };
   });
 }
