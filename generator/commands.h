@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 
@@ -7,6 +9,32 @@ namespace railcast {
 
 inline constexpr const char* kExitStatusText =
     "Exit status: 0 success, 1 bad input or failed run, 2 usage.";
+
+/// A command that is a program of its own, so that the others need not load what it is linked with.
+struct OwnProgram {
+  std::string command;
+  std::string description;
+  std::string program;  ///< Stands beside railcast-generate.
+  std::string package;  ///< Of Debian.
+};
+
+inline constexpr const char* kImportDescription =
+    "Fit the lines of a map and write them as alignments";
+inline constexpr const char* kInsertDescription =
+    "Put objects and weather into a recording; run the same command again to continue an "
+    "interrupted run";
+inline constexpr const char* kReplayDescription =
+    "Send a recording at its own pace, faster, or step by step";
+inline constexpr const char* kDatasetDescription =
+    "Write labelled frames of many scenarios, drawn as a recipe says; run the same command again "
+    "to continue an interrupted run";
+inline constexpr const char* kMergeDescription =
+    "Make one data set of the folders of all its shards, with the bytes of a run without shards";
+inline constexpr const char* kSurveyDescription =
+    "Make the scene of a scenario from recordings with poses or from survey clouds";
+
+/// Runs the program with what follows on the command line.
+void AddOwnProgram(const OwnProgram& own, ProgramOptions& app, ProgramCommand& command);
 
 // Each function adds one command with its options to railcast-generate. If the command line names
 // it, `command` becomes its work.
@@ -27,11 +55,6 @@ void AddWorld(ProgramOptions& app, ProgramCommand& command);
 void AddDataset(ProgramOptions& app, ProgramCommand& command);
 /// Makes one data set of its shards.
 void AddMerge(ProgramOptions& app, ProgramCommand& command);
-inline constexpr const char* kImportDescription =
-    "Fit the lines of a map and write them as alignments";
-/// Runs the program railcast-import, which stands beside railcast-generate, with what follows on
-/// the command line. It is there if railcast was built with GDAL and PROJ (RAILCAST_BUILD_IMPORT).
-void AddImportProgram(ProgramOptions& app, ProgramCommand& command);
 /// Fits the lines of a map and writes them as alignments, in the program railcast-import.
 void AddImport(ProgramOptions& app, ProgramCommand& command);
 /// Makes the scene of a scenario from recordings or from survey clouds.

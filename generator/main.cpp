@@ -25,17 +25,23 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
 #else
 
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  railcast::AddInsert(app, command);
+  // What works on recordings has more to load.
+  const auto add_of_recordings = [&](const std::string& name, const std::string& description) {
+    railcast::AddOwnProgram({name, description, "railcast-recordings", "railcast"}, app, command);
+  };
+  add_of_recordings("insert", railcast::kInsertDescription);
   railcast::AddStream(app, command);
-  railcast::AddReplay(app, command);
+  add_of_recordings("replay", railcast::kReplayDescription);
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
-  railcast::AddDataset(app, command);
-  railcast::AddMerge(app, command);
-  railcast::AddSurvey(app, command);
+  add_of_recordings("dataset", railcast::kDatasetDescription);
+  add_of_recordings("merge", railcast::kMergeDescription);
+  add_of_recordings("survey", railcast::kSurveyDescription);
 #ifdef RAILCAST_HAS_IMPORT
-  railcast::AddImportProgram(app, command);
+  // GDAL, with all that it can read, takes a tenth of a second to load.
+  railcast::AddOwnProgram(
+      {"import", railcast::kImportDescription, "railcast-import", "railcast-import"}, app, command);
 #endif
 }
 

@@ -152,10 +152,7 @@ int RunMerge(const MergeOptions& options) {
 
 void AddDataset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DatasetOptions>();
-  ProgramOptions dataset = app.AddCommand(
-      "dataset",
-      "Write labelled frames of many scenarios, drawn as a recipe says; run the same command again "
-      "to continue an interrupted run");
+  ProgramOptions dataset = app.AddCommand("dataset", kDatasetDescription);
   dataset.AddOption("RECIPE", options->recipe, "Recipe file").Required().Check(NonEmpty());
   dataset.AddOption("--out", options->choices.directory, "Folder to write the data set to")
       .Required()
@@ -181,10 +178,7 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
 
 void AddMerge(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<MergeOptions>();
-  ProgramOptions merge =
-      app.AddCommand("merge",
-                     "Make one data set of the folders of all its shards, with the bytes of a run "
-                     "without shards");
+  ProgramOptions merge = app.AddCommand("merge", kMergeDescription);
   merge.AddOption("SHARD", options->shards, "Folders that dataset --shard made, all of them")
       .Required()
       .Check(NonEmpty());

@@ -1,5 +1,4 @@
-// The program that `railcast-generate import` runs: GDAL, with all that it can read, would take
-// each command of railcast-generate a tenth of a second to load.
+// The program that `railcast-generate import` runs.
 #include "generator/commands.h"
 
 namespace {

@@ -26,6 +26,7 @@ import wheel_libraries
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS = ("railcast-generate", "railcast-analyze")
+RUN_BY_PROGRAMS = ("railcast-recordings",)  # Found beside them.
 # The manual pages are installed with the programs.
 TARGETS = ("railcast_python", *PROGRAMS, "railcast_manuals")
 CONFIGURATION = {
@@ -130,6 +131,8 @@ def gather(build_folder, tree):
     binaries = list(package.glob("*.so"))
     for name in PROGRAMS:
         binaries.append(pathlib.Path(shutil.move(prefix / "bin" / name, package / "bin" / name)))
+    for name in RUN_BY_PROGRAMS:
+        binaries.append(pathlib.Path(shutil.move(prefix / "libexec" / "railcast" / name, package / "bin" / name)))
     shutil.rmtree(prefix)
     libraries = tree / "railcast.libs"
     licences = wheel_libraries.bundle(binaries, libraries)

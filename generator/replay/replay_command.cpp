@@ -183,8 +183,7 @@ int RunReplayCommand(const ReplayOptions& options) {
 
 void AddReplay(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  ProgramOptions replay =
-      app.AddCommand("replay", "Send a recording at its own pace, faster, or step by step");
+  ProgramOptions replay = app.AddCommand("replay", kReplayDescription);
   AddReplayOptions(replay, *options);
   replay.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunReplayCommand(*options); };

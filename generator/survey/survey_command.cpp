@@ -201,8 +201,7 @@ void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
 
 void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
-  ProgramOptions survey = app.AddCommand(
-      "survey", "Make the scene of a scenario from recordings with poses or from survey clouds");
+  ProgramOptions survey = app.AddCommand("survey", kSurveyDescription);
   AddSourceOptions(survey, options->source);
   survey.AddOption("--out", options->out, "New or empty folder to write to")
       .Required()

@@ -60,6 +60,7 @@ class Wheel(unittest.TestCase):
         scenario = run(self.python, "-c", "import railcast; print(railcast.SCENARIOS / 'minimal.json')").strip()
         run(self.environment / "bin" / "railcast-generate", "sequence", scenario, "--out", out, "--frames", 1)
         self.assertIn("whole", run(self.environment / "bin" / "railcast-analyze", "verify", out))
+        self.assertIn("Usage: ", run(self.environment / "bin" / "railcast-generate", "insert", "--help"))
 
     def test_its_libraries_are_inside(self):
         package, = self.environment.glob("lib/python3*/site-packages/railcast")

@@ -85,10 +85,7 @@ int RunInsertCommand(InsertOptions options) {
 void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<InsertOptions>();
   InsertChoices& choices = options->choices;
-  ProgramOptions insert = app.AddCommand(
-      "insert",
-      "Put objects and weather into a recording; run the same command again to continue an "
-      "interrupted run");
+  ProgramOptions insert = app.AddCommand("insert", kInsertDescription);
   insert.AddOption("RECORDING", choices.recording, "What railcast-analyze reads")
       .Required()
       .Check(NonEmpty());
