@@ -25,7 +25,7 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
 #else
 
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  // What works on recordings has more to load.
+  // What works on recordings is linked with PCL.
   const auto add_of_recordings = [&](const std::string& name, const std::string& description) {
     railcast::AddOwnProgram({name, description, "railcast-recordings", "railcast"}, app, command);
   };

@@ -13,7 +13,6 @@ first_packages=(
   libjpeg-dev
   liblz4-dev
   liblzf-dev
-  libnanoflann-dev
   libpcap-dev
   libpng-dev
   librandom123-dev

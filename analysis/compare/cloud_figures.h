@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/estimate/streams.h"
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {

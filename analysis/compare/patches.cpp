@@ -1,7 +1,6 @@
 #include "analysis/compare/patches.h"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <tuple>
 
 #include "analysis/estimate/streams.h"
+#include "core/points/point_spread.h"
 
 namespace railcast {
 namespace {
@@ -48,43 +48,23 @@ std::vector<PointInCube> SortedByCube(const Frame& frame) {
   return points;
 }
 
-// Sums over points from which their covariance follows.
-struct Spread {
-  std::uint32_t num{};
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+// Relative to the cube's corner.
+using PointsInCube = std::vector<Eigen::Vector3f>;
 
-  void Add(const Eigen::Vector3d& point_m) {
-    ++num;
-    sum += point_m;
-    squares += point_m * point_m.transpose();
-  }
-  [[nodiscard]] Eigen::Matrix3d Covariance() const {
-    const Eigen::Vector3d mean_m = sum / num;
-    return squares / num - mean_m * mean_m.transpose();
-  }
-};
-
-// Standard deviations along the principal axes, the least first.
-Eigen::Vector3d DeviationsOf(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& axes) {
-  return axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-}
-
-std::size_t CellOfPoint(const Eigen::Vector3d& in_cube_m) {
+std::size_t CellOfPoint(const Eigen::Vector3f& in_cube_m) {
   std::size_t cell = 0;
-  for (const double coordinate_m : in_cube_m) {
+  for (const double coordinate_m : in_cube_m.cast<double>()) {
     const auto at = static_cast<int>(coordinate_m * kCellsAnEdge / kPatchEdge_m);
     cell = cell * kCellsAnEdge + static_cast<std::size_t>(std::clamp(at, 0, kCellsAnEdge - 1));
   }
   return cell;
 }
 
-float RoughnessOf_m(std::span<const Spread> cells) {
+float RoughnessOf_m(std::span<const PointsInCube> cells) {
   std::vector<double> deviations_m;
-  for (const Spread& cell : cells) {
-    if (cell.num < kMinCellPoints) continue;
-    deviations_m.push_back(DeviationsOf(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-        cell.Covariance(), Eigen::EigenvaluesOnly))[0]);
+  for (const PointsInCube& cell : cells) {
+    if (cell.size() < kMinCellPoints) continue;
+    deviations_m.push_back(std::sqrt(SpreadOf(cell).variances_m2[0]));
   }
   if (deviations_m.empty()) return kUnknown;
   const auto middle = deviations_m.begin() + static_cast<std::ptrdiff_t>(deviations_m.size() / 2);
@@ -93,15 +73,15 @@ float RoughnessOf_m(std::span<const Spread> cells) {
 }
 
 // The features that follow from the positions alone, in their order.
-std::vector<double> ShapeFeatures(const Spread& points,
-                                  std::span<const Spread> cells,
+std::vector<double> ShapeFeatures(const PointSpread& spread,
+                                  std::size_t num_points,
+                                  std::span<const PointsInCube> cells,
                                   double range_m) {
-  const Eigen::Matrix3d covariance = points.Covariance();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-  const Eigen::Vector3d deviations_m = DeviationsOf(axes);
+  // Along the principal axes, the least first.
+  const Eigen::Vector3d deviations_m = spread.variances_m2.cwiseSqrt();
   const double largest_m = std::max(deviations_m[2], std::numeric_limits<double>::min());
-  const double upright = std::min(std::abs(axes.eigenvectors().col(0).z()), 1.0);
-  const auto num_filled = std::ranges::count_if(cells, [](const Spread& c) { return c.num > 0; });
+  const double upright = std::min(std::abs(spread.axes.col(0).z()), 1.0);
+  const auto num_empty = std::ranges::count_if(cells, &PointsInCube::empty);
   // The solid angle of a square of the cube's edge that faces the sensor.
   const double solid_angle_sr = kPatchEdge_m * kPatchEdge_m / (range_m * range_m);
   return {(deviations_m[2] - deviations_m[1]) / largest_m,
@@ -110,9 +90,9 @@ std::vector<double> ShapeFeatures(const Spread& points,
           deviations_m[0],
           static_cast<double>(RoughnessOf_m(cells)),
           std::acos(upright) * 180.0 / std::numbers::pi,
-          std::sqrt(std::max(covariance(2, 2), 0.0)),
-          points.num / solid_angle_sr,
-          kWhole_percent * static_cast<double>(num_filled) / kNumCells};
+          std::sqrt(spread.covariance_m2(2, 2)),
+          static_cast<double>(num_points) / solid_angle_sr,
+          kWhole_percent * static_cast<double>(std::ssize(cells) - num_empty) / kNumCells};
 }
 
 float ShareWithOthers_percent(const RecordedFrame& recorded, std::span<const PointInCube> points) {
@@ -127,22 +107,23 @@ float ShareWithOthers_percent(const RecordedFrame& recorded, std::span<const Poi
 Patch MakePatch(const RecordedFrame& recorded, std::span<const PointInCube> points) {
   const auto [x, y, z] = points.front().cube;
   const Eigen::Vector3d corner_m = kPatchEdge_m * Eigen::Vector3d(x, y, z);
-  Spread all;
-  std::array<Spread, kNumCells> cells;
+  PointsInCube all;
+  std::array<PointsInCube, kNumCells> cells;
   Moments intensities;
   for (const auto& [cube, slot] : points) {
     const Frame& frame = recorded.frame;
-    const Eigen::Vector3d in_cube_m =
-        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>() - corner_m;
-    all.Add(in_cube_m);
-    cells.at(CellOfPoint(in_cube_m)).Add(in_cube_m);
+    const Eigen::Vector3f in_cube_m =
+        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]) - corner_m.cast<float>();
+    all.push_back(in_cube_m);
+    cells.at(CellOfPoint(in_cube_m)).push_back(in_cube_m);
     if (recorded.Has("intensity")) intensities.Add(static_cast<double>(frame.intensity[slot]));
   }
-  const double range_m = (corner_m + all.sum / all.num).norm();
+  const PointSpread spread = SpreadOf(all);
+  const double range_m = (corner_m + spread.mean_m).norm();
   Patch patch;
   patch.range_m = static_cast<float>(range_m);
   auto next = patch.features.begin();
-  for (const double feature : ShapeFeatures(all, cells, range_m)) {
+  for (const double feature : ShapeFeatures(spread, all.size(), cells, range_m)) {
     *next++ = static_cast<float>(feature);
   }
   *next++ = ShareWithOthers_percent(recorded, points);

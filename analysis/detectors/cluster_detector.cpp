@@ -1,11 +1,10 @@
 #include "analysis/detectors/cluster_detector.h"
 
-#include "core/io/quiet_pcl.h"
-
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/segmentation/extract_clusters.h>
+#include <pcl/segmentation/impl/extract_clusters.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,11 +6,10 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Eigenvalues>
-
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
 #include "core/io/recording/scan_table.h"
+#include "core/points/point_spread.h"
 #include "railcast/frame.h"
 #include "railcast/transform.h"
 
@@ -140,25 +139,13 @@ bool IsOf(const SeenPlane& plane, const GridPoint& point) {
 
 // Least squares through the points on the plane.
 SeenPlane Refitted(const SeenPlane& plane, const std::vector<GridPoint>& points) {
-  SeenPlane fitted;
-  Vector3 sum = Vector3::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Vector3f> places_m;
   for (const GridPoint& point : points) {
-    if (!IsOf(plane, point)) continue;
-    const Vector3 from_middle = point.position_m - plane.middle_m;
-    // Weighted by range, since the tolerance grows and far points are few.
-    sum += from_middle;
-    squares += from_middle * from_middle.transpose();
-    ++fitted.num_points;
+    if (IsOf(plane, point)) places_m.emplace_back(point.position_m.cast<float>());
   }
-  if (fitted.num_points < 3) return plane;
-  const auto num = static_cast<double>(fitted.num_points);
-  const Vector3 mean = sum / num;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(squares / num - mean * mean.transpose());
-  fitted.middle_m = plane.middle_m + mean;
-  fitted.normal = solver.eigenvectors().col(0);
-  return fitted;
+  if (places_m.size() < 3) return plane;
+  const PointSpread spread = SpreadOf(places_m);
+  return {.middle_m = spread.mean_m, .normal = spread.axes.col(0), .num_points = places_m.size()};
 }
 
 // The plane with most points among many tries, those through the surfaces about points that are

@@ -1,13 +1,10 @@
 #include "analysis/stats/plane_patches.h"
 
-#include "core/io/quiet_pcl.h"
-
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_plane.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,7 +13,9 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/estimate/streams.h"
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
+#include "core/points/point_alignment.h"
+#include "core/points/point_spread.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -41,18 +40,10 @@ struct Plane {
 
 // Least squares: the normal is the direction in which the points vary least.
 Plane FitPlane(const Points& points) {
-  Plane plane;
-  for (const PatchPoint& point : points) plane.middle += point.position_m;
-  plane.middle /= static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const PatchPoint& point : points) {
-    const Vector3 from_middle = point.position_m - plane.middle;
-    spread += from_middle * from_middle.transpose();
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(spread);
-  plane.normal = solver.eigenvectors().col(0);
-  return plane;
+  std::vector<Eigen::Vector3f> places_m;
+  for (const PatchPoint& point : points) places_m.emplace_back(point.position_m.cast<float>());
+  const PointSpread spread = SpreadOf(places_m);
+  return {.middle = spread.mean_m, .normal = spread.axes.col(0)};
 }
 
 // The plane that most points agree on. Coordinates are relative to their middle, since PCL computes
@@ -71,6 +62,7 @@ std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
     const Eigen::Vector3f near = (point.position_m - plane.middle).cast<float>();
     cloud->emplace_back(near.x(), near.y(), near.z());
   }
+  DropPclMessages();
   const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud);
   pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(model, threshold_m);
   consensus.setMaxIterations(kMaxTries);

@@ -1,7 +1,7 @@
 # Finds the libraries that railcast::io is linked with. Both the build and the installed package
 # include this file.
 #
-# Of PCL, headers suffice; its own package file would also require VTK.
+# PCL's own package file would also require VTK.
 find_package(TBB REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
@@ -10,6 +10,7 @@ find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)
 if(NOT RAILCAST_FIRST_STAGE)
   find_path(PCL_INCLUDE_DIR pcl/PCLPointCloud2.h PATH_SUFFIXES pcl-1.12 pcl-1.13 pcl-1.14 pcl-1.15 REQUIRED)
+  find_library(PCL_common_LIBRARY pcl_common REQUIRED)
 endif()
 find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
@@ -29,6 +30,12 @@ endfunction()
 if(PCL_INCLUDE_DIR AND NOT TARGET railcast::pcl_headers)
   add_library(railcast::pcl_headers INTERFACE IMPORTED GLOBAL)
   set_target_properties(railcast::pcl_headers PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${PCL_INCLUDE_DIR})
+  # Only programs with a UdpGrabber load it. As one word, which CMake does not take apart.
+  add_library(railcast::pcl_common INTERFACE IMPORTED GLOBAL)
+  set_target_properties(
+    railcast::pcl_common
+    PROPERTIES INTERFACE_LINK_LIBRARIES
+               "railcast::pcl_headers;-Wl,--push-state,--as-needed,${PCL_common_LIBRARY},--pop-state")
 endif()
 railcast_import(pcap ${PCAP_LIBRARY})
 railcast_import(lz4 ${LZ4_LIBRARY})

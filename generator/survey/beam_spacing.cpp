@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
 
 namespace railcast {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,7 +9,8 @@
 #include <map>
 #include <utility>
 
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
+#include "core/points/point_spread.h"
 
 namespace railcast {
 namespace {
@@ -66,17 +66,13 @@ class TilePoints {
     search_.FindNearest(At(i), num, found);
   }
   [[nodiscard]] Spread SpreadOf(const Indices& indices) const {
-    Eigen::Matrix3Xf points_m(3, std::ssize(indices));
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      points_m.col(static_cast<Eigen::Index>(i)) = At(indices[i]);
-    }
-    const Eigen::Vector3f mean_m = points_m.rowwise().mean();
-    points_m.colwise() -= mean_m;
-    const Eigen::Matrix3f covariance_m2 =
-        points_m * points_m.transpose() / static_cast<float>(indices.size());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver(covariance_m2);
+    std::vector<Eigen::Vector3f> points_m;
+    points_m.reserve(indices.size());
+    for (const std::uint32_t index : indices) points_m.push_back(At(index));
+    const PointSpread spread = ::railcast::SpreadOf(points_m);
     constexpr float kLeast_m2 = 1e-10F;
-    return {mean_m, solver.eigenvectors(), solver.eigenvalues().cwiseMax(kLeast_m2)};
+    return {spread.mean_m.cast<float>(), spread.axes.cast<float>(),
+            spread.variances_m2.cast<float>().cwiseMax(kLeast_m2)};
   }
 
  private:

@@ -1,6 +1,6 @@
 #include "generator/survey/wire_finder.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
+#include "core/points/point_spread.h"
 
 namespace railcast {
 namespace {
@@ -120,13 +121,12 @@ Chain ChainOf(const std::vector<MadeSurfel>& surfels, const std::vector<std::siz
   Chain chain;
   for (const std::size_t i : members) chain.origin_m += surfels[i].center_m;
   chain.origin_m /= static_cast<double>(members.size());
-  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+  std::vector<Eigen::Vector3f> in_plan_m;
   for (const std::size_t i : members) {
-    const Eigen::Vector2d offset_m = (surfels[i].center_m - chain.origin_m).head<2>();
-    covariance_m2 += offset_m * offset_m.transpose();
+    in_plan_m.emplace_back((surfels[i].center_m - chain.origin_m).cast<float>());
+    in_plan_m.back().z() = 0.0F;
   }
-  const Eigen::Vector2d along =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance_m2).eigenvectors().col(1);
+  const Vector3 along = SpreadOf(in_plan_m).axes.col(2);
   chain.world_from_chain << along.x(), -along.y(), 0.0, along.y(), along.x(), 0.0, 0.0, 0.0, 1.0;
   for (const std::size_t i : members) {
     chain.points_m.push_back(chain.world_from_chain.transpose() *

@@ -12,7 +12,7 @@ import re
 import sys
 
 # A folder of core may include only itself and the folders before it.
-CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity c io recipe program".split()
+CORE_ORDER = "base frame scene mesh rail scan trace detect simulate camera motion scenario fidelity c io points recipe program".split()
 # The rooms of a folder: each includes only itself and those before it. Files on the top of the folder come where "."
 # stands; without it there may be none.
 ROOM_ORDERS = {
@@ -49,8 +49,7 @@ LIBRARY_OWNERS = {
     "nlohmann": (r"nlohmann/",
                  ("core/mesh", "core/scenario", "core/fidelity", "core/io", "core/recipe", "generator",
                   "analysis")),
-    "PCL": (r"pcl/", ("core/io", "core/include/railcast/io", "generator", "analysis")),
-    "nanoflann": (r"nanoflann", ("core/io",)),
+    "PCL": (r"pcl/", ("core/io", "core/points", "core/include/railcast/io", "generator", "analysis")),
     "libpcap": (r"pcap/", ("core/io",)),
     "yaml-cpp": (r"yaml-cpp/", ("core/io",)),
     "Boost.Asio": (r"boost/(?:asio|beast)/", ("core/io/net",)),
@@ -88,7 +87,7 @@ TYPE_DEFINITION = re.compile(
     r"|using\s+(\w+)\s*=)", re.MULTILINE)
 
 # Sources compiled as one library; release builds compile several of them in one translation unit.
-LIBRARIES = ("core/c", "core/io", "core/recipe", "core/program", "core", *PROGRAMS)
+LIBRARIES = ("core/c", "core/io", "core/points", "core/recipe", "core/program", "core", *PROGRAMS)
 ANONYMOUS_FUNCTION = re.compile(
     r"^(?!using|return|template|TEST|struct|class|enum)(?:\[\[\w+\]\] )?[\w:<>,&*][\w:<>,&* ]*?[ *&](\w+)\(",
     re.MULTILINE)

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/frame.h"

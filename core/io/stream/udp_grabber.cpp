@@ -1,7 +1,5 @@
 #include "railcast/io/udp_grabber.h"
 
-#include "core/io/quiet_pcl.h"
-
 #include <pcl/conversions.h>
 
 #include <algorithm>

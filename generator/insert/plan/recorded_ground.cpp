@@ -1,17 +1,16 @@
 #include "generator/insert/plan/recorded_ground.h"
 
-#include "core/io/quiet_pcl.h"
-
 #include <pcl/sample_consensus/mlesac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "core/base/units.h"
+#include "core/points/point_alignment.h"
+#include "core/points/point_spread.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -91,19 +90,10 @@ void AddPoints(const RecordedFrame& recorded,
 /// which many planes go, and which may as well be on a wall.
 bool CoverArea(const LocalCloud& cloud, double radius_m) {
   constexpr double kLeastShare = 0.1;
-  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d mean_m = Eigen::Vector2d::Zero();
-  for (const pcl::PointXYZ& point : cloud) {
-    const Eigen::Vector2d place_m = point.getVector3fMap().head<2>().cast<double>();
-    mean_m += place_m;
-    sum += place_m * place_m.transpose();
-  }
-  const auto num_points = static_cast<double>(cloud.size());
-  mean_m /= num_points;
-  const Eigen::Matrix2d covariance = sum / num_points - mean_m * mean_m.transpose();
-  const double least_m2 =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance).eigenvalues()[0];
-  return least_m2 >= std::pow(kLeastShare * radius_m, 2);
+  std::vector<Eigen::Vector3f> in_plan_m;
+  for (const pcl::PointXYZ& point : cloud) in_plan_m.emplace_back(point.x, point.y, 0.0F);
+  // They do not vary along the vertical, which comes first.
+  return SpreadOf(in_plan_m).variances_m2[1] >= std::pow(kLeastShare * radius_m, 2);
 }
 
 /// The plane through most of the points, if it goes through enough of them.
@@ -114,6 +104,7 @@ RecordedGround FitPlane(const LocalCloud::Ptr& cloud, double radius_m) {
   constexpr int kMostSteps = 500;
   // As pcl::SACSegmentation does it, which brings models of all shapes.
   using PlaneModel = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
+  DropPclMessages();
   const PlaneModel::Ptr model(new PlaneModel(cloud));
   model->setAxis(Eigen::Vector3f::UnitZ());
   model->setEpsAngle(kMostSlope_rad);

@@ -14,7 +14,7 @@ struct NearestPoints {
   std::vector<std::uint32_t> index;  ///< Index of the nearest point in the other cloud.
 };
 
-/// Finds the exact nearest points of a cloud with nanoflann's kd-tree. Several threads may search
+/// Finds the exact nearest points of a cloud with PCL's kd-tree (FLANN). Several threads may search
 /// one cloud at a time.
 ///
 /// @code

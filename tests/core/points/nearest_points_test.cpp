@@ -1,4 +1,4 @@
-#include "core/io/cloud/nearest_points.h"
+#include "core/points/nearest_points.h"
 
 #include <gtest/gtest.h>
 #include <pcl/search/brute_force.h>
