@@ -97,6 +97,21 @@ if(WITH_IO)
   if(NOT said MATCHES "frame.pcd: [1-9][0-9]* points in [0-9]+ rows, with labels")
     message(FATAL_ERROR "read_recording: ${said}")
   endif()
+  # The same pipeline of PCL on a frame, on the file of it, and on a stream.
+  set(approach ${SOURCE_DIR}/scenarios/st_gallen_approach.json)
+  run(${BUILD_DIR}/generator/railcast-generate sequence ${approach} --frames 1 --out ${WORK_DIR}/sequence)
+  run_for(in_frame ${examples}/find_things_cpp ${approach})
+  run_for(in_file ${examples}/find_things_cpp ${WORK_DIR}/sequence/frames/000000.pcd)
+  if(NOT in_frame STREQUAL in_file OR NOT in_frame MATCHES "cells of label [1-9][0-9]* in a box of")
+    message(FATAL_ERROR "find_things: ${in_frame} in the frame, ${in_file} in its file")
+  endif()
+  execute_process(
+    COMMAND ${BUILD_DIR}/generator/railcast-generate stream ${approach} --to 127.0.0.1:27498 --duration 8
+    COMMAND ${examples}/find_things_cpp 127.0.0.1:27498
+    OUTPUT_VARIABLE said TIMEOUT 60)
+  if(NOT said MATCHES "cells of label [1-9][0-9]* in a box of")
+    message(FATAL_ERROR "find_things in a stream: ${said}")
+  endif()
   # The commands of one call run at the same time.
   execute_process(
     COMMAND ${BUILD_DIR}/generator/railcast-generate stream ${minimal} --to 127.0.0.1:27499 --duration 3

@@ -1,9 +1,9 @@
 #include "railcast/io/udp_grabber.h"
 
+#include <pcl/common/io.h>
 #include <pcl/conversions.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <utility>
 
@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/io/cloud/cloud.h"
 #include "core/io/stream/stream_clouds.h"
+#include "railcast/io/point_types.h"
 
 namespace railcast {
 namespace {
@@ -23,9 +24,13 @@ using CloudSignal = void(const std::shared_ptr<const pcl::PCLPointCloud2>&);
 template <typename Point>
 using PointSignal = void(const typename pcl::PointCloud<Point>::ConstPtr&);
 
-bool Sends(const StreamHeader& header, std::string_view name, StreamType type) {
-  const StreamField* const field = header.Find(name);
-  return field != nullptr && field->type == type;
+/// Whether a stream has every field of a type of points, with its type.
+template <typename Point>
+bool SendsFieldsOf(const StreamHeader& header) {
+  return std::ranges::all_of(pcl::getFields<Point>(), [&](const pcl::PCLPointField& wanted) {
+    const StreamField* const field = header.Find(wanted.name);
+    return field != nullptr && static_cast<std::uint8_t>(field->type) == wanted.datatype;
+  });
 }
 
 }  // namespace
@@ -45,6 +50,8 @@ UdpGrabber::UdpGrabber(const Endpoint& at, const WantedStream& wanted)
   createSignal<PointSignal<pcl::PointXYZ>>();
   createSignal<PointSignal<pcl::PointXYZI>>();
   createSignal<PointSignal<pcl::PointXYZL>>();
+  createSignal<PointSignal<LabelledPoint>>();
+  createSignal<PointSignal<FramePoint>>();
   thread_ = StartThread("starting a grabber", [this] { Work(); });
 }
 
@@ -128,10 +135,13 @@ void UdpGrabber::NoteArrival() {
 }
 
 template <typename Point>
-void UdpGrabber::EmitPoints(const pcl::PCLPointCloud2& cloud, const Transform& world_from_sensor) {
-  if (num_slots<PointSignal<Point>>() == 0) return;
+void UdpGrabber::EmitPoints(const pcl::PCLPointCloud2& cloud, const StreamHeader& header) {
+  if (num_slots<PointSignal<Point>>() == 0 || !SendsFieldsOf<Point>(header)) return;
   const auto points = std::make_shared<pcl::PointCloud<Point>>();
   pcl::fromPCLPointCloud2(cloud, *points);
+  // The pose is known only where the points are in the sensor's own axes.
+  const bool has_pose = header.axes == StreamAxes::kSensor && !header.is_left_handed;
+  const Transform world_from_sensor = has_pose ? header.world_from_sensor : Transform::Identity();
   const Eigen::Vector3f origin_m = world_from_sensor.translation().cast<float>();
   points->sensor_origin_ = Eigen::Vector4f(origin_m.x(), origin_m.y(), origin_m.z(), 0.0F);
   points->sensor_orientation_ = Eigen::Quaterniond(world_from_sensor.linear()).cast<float>();
@@ -142,22 +152,11 @@ void UdpGrabber::Emit(const std::shared_ptr<const ReceivedFrame>& frame) {
   (*find_signal<FrameSignal>())(frame);
   const auto cloud = std::make_shared<const pcl::PCLPointCloud2>(MakePclCloud(*frame));
   (*find_signal<CloudSignal>())(cloud);
-  const StreamHeader& header = frame->header;
-  const std::array<std::string_view, 3> axes = {"x", "y", "z"};
-  if (!std::ranges::all_of(
-          axes, [&](std::string_view axis) { return Sends(header, axis, StreamType::kF32); })) {
-    return;
-  }
-  // The pose is known only where the points are in the sensor's own axes.
-  const bool has_pose = header.axes == StreamAxes::kSensor && !header.is_left_handed;
-  const Transform pose = has_pose ? header.world_from_sensor : Transform::Identity();
-  EmitPoints<pcl::PointXYZ>(*cloud, pose);
-  if (Sends(header, "intensity", StreamType::kF32)) {
-    EmitPoints<pcl::PointXYZI>(*cloud, pose);
-  }
-  if (Sends(header, "label", StreamType::kU32)) {
-    EmitPoints<pcl::PointXYZL>(*cloud, pose);
-  }
+  EmitPoints<pcl::PointXYZ>(*cloud, frame->header);
+  EmitPoints<pcl::PointXYZI>(*cloud, frame->header);
+  EmitPoints<pcl::PointXYZL>(*cloud, frame->header);
+  EmitPoints<LabelledPoint>(*cloud, frame->header);
+  EmitPoints<FramePoint>(*cloud, frame->header);
 }
 
 }  // namespace railcast

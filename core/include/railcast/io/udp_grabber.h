@@ -21,8 +21,9 @@ namespace railcast {
 /// Signals, each emitted once per frame from one thread owned by the grabber:
 /// - `void(const std::shared_ptr<const ReceivedFrame>&)`
 /// - `void(const std::shared_ptr<const pcl::PCLPointCloud2>&)`: every field that was sent
-/// - `void(const pcl::PointCloud<P>::ConstPtr&)`, P = PointXYZ and, if the stream has intensity or
-///   label, PointXYZI, PointXYZL
+/// - `void(const pcl::PointCloud<P>::ConstPtr&)`, P = PointXYZ, PointXYZI, PointXYZL and those of
+///   railcast/io/point_types.h, if the stream has all fields of P. Usual streams have those of
+///   LabelledPoint.
 ///
 /// Clouds hold the points that arrived, even if the frame is incomplete. header.stamp is in
 /// microseconds and header.seq is the frame number. sensor_origin_ and sensor_orientation_ are the
@@ -67,7 +68,7 @@ class UdpGrabber : public pcl::Grabber {
   void Emit(const std::shared_ptr<const ReceivedFrame>& frame);
   void NoteArrival();
   template <typename Point>
-  void EmitPoints(const pcl::PCLPointCloud2& cloud, const Transform& world_from_sensor);
+  void EmitPoints(const pcl::PCLPointCloud2& cloud, const StreamHeader& header);
 
   const Endpoint listens_at_;
   const WantedStream wanted_;

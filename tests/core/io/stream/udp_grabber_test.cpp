@@ -6,6 +6,7 @@
 #include <future>
 #include <mutex>
 
+#include "railcast/io/point_types.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/live_stream.h"
 
@@ -15,6 +16,7 @@ namespace {
 using Xyz = pcl::PointCloud<pcl::PointXYZ>;
 using Xyzi = pcl::PointCloud<pcl::PointXYZI>;
 using Xyzl = pcl::PointCloud<pcl::PointXYZL>;
+using Labelled = pcl::PointCloud<LabelledPoint>;
 
 /// A client that knows only the interface pcl::Grabber and keeps the last cloud of each kind.
 template <typename Cloud>
@@ -63,6 +65,7 @@ TEST(UdpGrabber, ServesAnyClientOfPcl) {
   Client<Xyz> xyz(grabber);
   Client<Xyzi> xyzi(grabber);
   Client<Xyzl> xyzl(grabber);
+  Client<Labelled> all_usual(grabber);
   Client<pcl::PCLPointCloud2> fields(grabber);
   Client<ReceivedFrame> frames(grabber);
   EXPECT_EQ(grabber.getName(), "railcast::UdpGrabber");
@@ -75,6 +78,7 @@ TEST(UdpGrabber, ServesAnyClientOfPcl) {
   const auto points = xyz.WaitFor(1);
   const auto bright = xyzi.WaitFor(1);
   const auto labelled = xyzl.WaitFor(1);
+  const auto usual = all_usual.WaitFor(1);
   EXPECT_EQ(fields.WaitFor(1)->width, expected.num_points());
   EXPECT_EQ(frame->points, expected.points);
   EXPECT_EQ(points->header.seq, 9U);
@@ -84,6 +88,8 @@ TEST(UdpGrabber, ServesAnyClientOfPcl) {
     EXPECT_EQ((*points)[i].x, expected.At<float>(*expected.header.Find("x"), i));
     EXPECT_EQ((*bright)[i].intensity, expected.At<float>(*expected.header.Find("intensity"), i));
     EXPECT_EQ((*labelled)[i].label, expected.At<std::uint32_t>(*expected.header.Find("label"), i));
+    EXPECT_EQ((*usual)[i].label, (*labelled)[i].label);
+    EXPECT_EQ((*usual)[i].ring, expected.At<std::uint16_t>(*expected.header.Find("ring"), i));
   }
   const Transform pose = StreamFrame(9).world_from_sensor;
   EXPECT_EQ(points->sensor_origin_.head<3>(), pose.translation().cast<float>());
