@@ -29,6 +29,7 @@ struct CompareOptions {
   std::string topic;
   std::optional<Pairing> pairing;
   std::string distances = "0.05,0.1,0.2,0.5";
+  bool registers = false;
   int num_threads = 0;
   ReportOutput output;
   // Options of an ablation.
@@ -56,7 +57,7 @@ std::vector<double> ParseDistances(std::string_view text) {
 }
 
 int RunPairs(const CompareOptions& options, const std::string& command_line) {
-  Comparison comparison(ParseDistances(options.distances));
+  Comparison comparison(ParseDistances(options.distances), options.registers);
   const auto sources = WithTopic(options.sources, options.topic);
   const auto a = OpenRecording(sources[0]);
   const auto b = OpenRecording(sources[1]);
@@ -189,6 +190,9 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
                  "Distances in m, separated by commas, within which a point counts as found, "
                  "for precision, recall and F-score")
       .ShowDefault();
+  compare.AddFlag("--register", options->registers,
+                  "Lay each cloud of the second recording on its partner first, from where it is, "
+                  "and say how far it moved and what remains");
   compare.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
       .Check(Whole({0, 1024}))
       .ShowDefault();
@@ -204,6 +208,9 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
     }
     if (is_ablation && options->pairing) {
       FailUsage("--pair", "applies to two recordings only");
+    }
+    if (is_ablation && options->registers) {
+      FailUsage("--register", "applies to two recordings only");
     }
     command = [options](const std::string& line) { return RunCompare(*options, line); };
   });

@@ -117,6 +117,12 @@ Section DistancesSection(const Comparison& comparison) {
   section.key = "distances";
   section.title = "How far the clouds are apart";
   section.paragraphs = MetricsInWords();
+  if (comparison.registers()) {
+    section.paragraphs.emplace_back(
+        "Each cloud of B was first laid on its partner: iterative closest points, from points to "
+        "planes (Chen and Medioni 1992), by PCL, on clouds thinned to cubes of 0.4 m. The residual "
+        "is the root mean square of the distances of nearest points up to 2 m that remains.");
+  }
   section.charts.push_back(
       {"distances_by_pair",
        "Distances from pair to pair",
@@ -351,6 +357,10 @@ Report MakeCompareReport(const Comparison& comparison,
         "jsd_intensity", "jsd_occupancy", "mape_intensity_percent"}) {
     const PairMetric& metric = comparison.metrics()[IndexOf(comparison, key)];
     report.headlines.push_back({metric.title, metric.unit, MeanOverPairs(comparison, key)});
+  }
+  if (comparison.registers()) {
+    report.headlines.push_back({"Residual of the registration", "m",
+                                MeanOverPairs(comparison, "registration_residual_m")});
   }
   report.sections = {DistancesSection(comparison), DistributionsSection(comparison),
                      BinsSection(comparison)};

@@ -11,7 +11,10 @@
 
 #include "analysis/compare/cloud_figures.h"
 #include "analysis/report/cell_text.h"
+#include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/points/point_alignment.h"
 
 namespace railcast {
 namespace {
@@ -38,6 +41,24 @@ std::vector<double> ValuesOf(const std::optional<CloudDistances>& distances,
     }
   }
   return values;
+}
+
+/// Lays B's cloud on A's.
+LaidCloud LayOnOther(const ComparedCloud& a, const std::string& name_b, ComparedCloud& b) {
+  const ThinnedCloud onto(a.points_m), cloud(b.points_m);
+  const std::size_t num_points = std::min(onto.size(), cloud.size());
+  if (num_points < kFewestLaid) {
+    throw InputError(name_b + ": must have, like its partner, at least " + NumberText(kFewestLaid) +
+                     " points in cells of 0.4 m to be registered" + Got(num_points));
+  }
+  const auto laid = LayOn(onto, cloud, Transform::Identity());
+  if (!laid) throw InputError(name_b + ": must come to rest on its partner (got no convergence)");
+  const Eigen::Isometry3f a_from_b = laid->onto_from_cloud.cast<float>();
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    b.points_m[i] = a_from_b * b.points_m[i];
+    b.range_m[i] = b.points_m[i].norm();
+  }
+  return *laid;
 }
 
 }  // namespace
@@ -127,7 +148,7 @@ std::string PairingName(Pairing pairing) {
   return pairing == Pairing::kIndex ? "index" : "stamp";
 }
 
-std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m) {
+std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m, bool registers) {
   std::vector<PairMetric> metrics = {
       {"chamfer_m", "Chamfer distance", "m"},
       {"chamfer_squares_m2", "Chamfer distance of squares", "m²"},
@@ -153,6 +174,10 @@ std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m) {
   metrics.push_back({"mape_points_percent", "MAPE of points", "%"});
   metrics.push_back({"mape_intensity_percent", "MAPE of mean intensity", "%"});
   metrics.push_back({"velocity_error_mps", "Mean absolute error of mean velocity", "m/s"});
+  if (!registers) return metrics;
+  metrics.push_back({"registration_residual_m", "Residual of the registration", "m"});
+  metrics.push_back({"registration_shift_m", "Shift by the registration", "m"});
+  metrics.push_back({"registration_turn_deg", "Turn by the registration", "deg"});
   return metrics;
 }
 
@@ -161,13 +186,16 @@ double Comparison::Summary::Mean() const {
                             : sum / static_cast<double>(moments.num());
 }
 
-Comparison::Comparison(std::vector<double> distances_m)
+Comparison::Comparison(std::vector<double> distances_m, bool registers)
     : distances_m_(std::move(distances_m)),
-      metrics_(PairMetrics(distances_m_)),
+      registers_(registers),
+      metrics_(PairMetrics(distances_m_, registers)),
       summaries_(metrics_.size()) {}
 
 Comparison::Part Comparison::Compare(const RecordedFrame& a, const RecordedFrame& b) const {
-  const ComparedCloud cloud_a = CloudOf(a), cloud_b = CloudOf(b);
+  const ComparedCloud cloud_a = CloudOf(a);
+  ComparedCloud cloud_b = CloudOf(b);
+  const auto laid = registers_ ? std::optional(LayOnOther(cloud_a, b.name, cloud_b)) : std::nullopt;
   Part part{{a.frame.index, b.frame.index, a.frame.stamp_ns, b.frame.stamp_ns, cloud_a.size(),
              cloud_b.size(), ValuesOf(DistancesOf(cloud_a, cloud_b, distances_m_), distances_m_)},
             HistogramsOf(cloud_a),
@@ -184,6 +212,11 @@ Comparison::Part Comparison::Compare(const RecordedFrame& a, const RecordedFrame
                                JensenShannonDivergence(in_a.velocity, in_b.velocity),
                                JensenShannonDivergence(in_a.occupancy, in_b.occupancy),
                                errors.points, errors.intensity, errors.velocity_mps});
+  if (laid) {
+    const Eigen::AngleAxisd turn(laid->onto_from_cloud.linear());
+    values.insert(values.end(), {laid->residual_m, laid->onto_from_cloud.translation().norm(),
+                                 DegFromRad(turn.angle())});
+  }
   return part;
 }
 

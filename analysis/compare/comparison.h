@@ -73,7 +73,9 @@ struct PairMetric {
 };
 
 /// All metrics, in the order of PairFigures::values.
-[[nodiscard]] std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m);
+/// @param registers Whether the clouds were registered, of which the last ones are.
+[[nodiscard]] std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m,
+                                                  bool registers = false);
 
 /// The figures of one pair of frames.
 struct PairFigures {
@@ -86,7 +88,8 @@ struct PairFigures {
 /// Compares two recordings pair by pair. Its size hardly grows with their length.
 class Comparison {
  public:
-  explicit Comparison(std::vector<double> distances_m);
+  /// @param registers Whether each cloud of B is first laid on that of A, from where it is.
+  explicit Comparison(std::vector<double> distances_m, bool registers = false);
 
   /// The input of Add(), which can be computed on any thread.
   struct Part {
@@ -94,11 +97,13 @@ class Comparison {
     CloudHistograms histograms_a, histograms_b;
     BinnedCloud bins_a, bins_b;
   };
+  /// @throws InputError if B's cloud cannot be laid on A's.
   [[nodiscard]] Part Compare(const RecordedFrame& a, const RecordedFrame& b) const;
   void Add(const Part& part);
 
   [[nodiscard]] const std::vector<PairMetric>& metrics() const { return metrics_; }
   [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
+  [[nodiscard]] bool registers() const { return registers_; }
   [[nodiscard]] std::uint64_t num_pairs() const { return num_pairs_; }
 
   /// One metric over all pairs.
@@ -120,6 +125,7 @@ class Comparison {
 
  private:
   std::vector<double> distances_m_;
+  bool registers_;
   std::vector<PairMetric> metrics_;
   std::vector<Summary> summaries_;
   std::vector<PairFigures> pairs_;

@@ -6,6 +6,7 @@
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/plane_patches.h"
+#include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
@@ -49,6 +50,35 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
   return table;
 }
 
+Table PclTable(const std::vector<Noise::Planes>& planes) {
+  Table table = {"noise_by_pcl",
+                 "The same planes by PCL's own estimators",
+                 "Medians over patches, from the same points: PCL's plane by RANSAC, refined; its "
+                 "normals from "
+                 "12 points each. Of one plane its normals spread by noise alone.",
+                 {{"range_m", "Range", "m"},
+                  {"plane_sigma_mm", "Square to the plane, PCL", "mm"},
+                  {"robust_plane_sigma_mm", "Square to the plane, as above", "mm"},
+                  {"turn_deg", "Between both planes", "deg"},
+                  {"normals_deg", "Spread of normals, PCL", "deg"},
+                  {"pcl_outliers_percent", "Outliers, PCL", "%"},
+                  {"outliers_percent", "Outliers, as above", "%"}},
+                 {}};
+  constexpr double kMm = 1e3;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Noise::Planes& bin = planes[i];
+    const std::uint64_t num_points = bin.num_points + bin.num_outliers;
+    if (bin.pcl_sigmas_m.num() == 0) continue;
+    table.rows.push_back({RangeBins().span(i), Scaled(bin.pcl_sigmas_m.Median(), kMm),
+                          Scaled(bin.RobustPlaneSigma_m(), kMm),
+                          Scaled(bin.pcl_turns_rad.Median(), DegFromRad(1.0)),
+                          Scaled(bin.pcl_normals_rad.Median(), DegFromRad(1.0)),
+                          PercentProportion(bin.num_pcl_outliers, num_points),
+                          PercentProportion(bin.num_outliers, num_points)});
+  }
+  return table;
+}
+
 Table TruthTable(const std::vector<Noise::Truth>& truth) {
   Table table = {"noise_from_truth",
                  "Measured less true range",
@@ -79,6 +109,10 @@ void Noise::Planes::Add(const Planes& other) {
   num_outliers += other.num_outliers;
   range_sigmas_m.Add(other.range_sigmas_m);
   plane_sigmas_m.Add(other.plane_sigmas_m);
+  pcl_sigmas_m.Add(other.pcl_sigmas_m);
+  pcl_turns_rad.Add(other.pcl_turns_rad);
+  pcl_normals_rad.Add(other.pcl_normals_rad);
+  num_pcl_outliers += other.num_pcl_outliers;
 }
 
 Estimate Noise::Planes::RangeSigma_m() const {
@@ -109,6 +143,11 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     planes.num_outliers += patch.num_outliers;
     planes.range_sigmas_m.Add(correction * std::sqrt(patch.range_squares_m2 / degrees));
     planes.plane_sigmas_m.Add(correction * std::sqrt(patch.plane_squares_m2 / degrees));
+    planes.pcl_sigmas_m.Add(patch.by_pcl.sigma_m);
+    planes.num_pcl_outliers += patch.by_pcl.num_outliers;
+    if (std::isnan(patch.by_pcl.sigma_m)) continue;
+    planes.pcl_turns_rad.Add(patch.by_pcl.turn_rad);
+    planes.pcl_normals_rad.Add(patch.by_pcl.normals_rad);
   }
   if (!recorded.Has("true_range_m")) return;
   truth_.resize(RangeBins().size());
@@ -157,6 +196,7 @@ Section Noise::MakeSection() const {
     section.paragraphs.emplace_back("Frames hold the truth: measured less true range is exact.");
   }
   section.tables.push_back(planes);
+  section.tables.push_back(PclTable(planes_));
   section.charts.push_back(std::move(chart));
   return section;
 }

@@ -33,6 +33,9 @@ class Noise {
     /// Standard deviations of the patches, each corrected for its few degrees of freedom.
     LogHistogram range_sigmas_m;
     LogHistogram plane_sigmas_m;
+    /// Of the same patches by PCL's own estimators (PclPlane).
+    LogHistogram pcl_sigmas_m, pcl_turns_rad, pcl_normals_rad;
+    std::uint64_t num_pcl_outliers{};
 
     void Add(const Planes& other);
     /// Pooled over the patches; not enough below kMinSamples patches.

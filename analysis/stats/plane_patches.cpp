@@ -1,9 +1,11 @@
 #include "analysis/stats/plane_patches.h"
 
+#include <pcl/features/normal_3d.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_plane.h>
+#include <pcl/features/impl/normal_3d.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -46,25 +48,36 @@ Plane FitPlane(const Points& points) {
   return {.middle = spread.mean_m, .normal = spread.axes.col(0)};
 }
 
-// The plane that most points agree on. Coordinates are relative to their middle, since PCL computes
-// in float32.
+using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
+
+// Coordinates are relative to the middle, since PCL computes in float32.
+PclCloud::Ptr CloudAbout(const Points& points, const Vector3& middle) {
+  const auto cloud = std::make_shared<PclCloud>();
+  for (const PatchPoint& point : points) {
+    const Eigen::Vector3f near = (point.position_m - middle).cast<float>();
+    cloud->emplace_back(near.x(), near.y(), near.z());
+  }
+  return cloud;
+}
+
+// If four points in five agree, half of all triples are free of outliers: 20 tries all fail once in
+// a million times.
+constexpr int kMaxTries = 20;
+
+// Wide enough for the noise of any known sensor; the next step is stricter.
+double AgreementThreshold_m(double range_m) {
+  return 0.05 + 5e-4 * range_m;
+}
+
+// The plane that most points agree on.
 std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
-  // Wide enough for the noise of any known sensor; the next step is stricter.
-  const double threshold_m = 0.05 + 5e-4 * range_m;
-  // If four points in five agree, half of all triples are free of outliers: 20 tries all fail once
-  // in a million times.
-  constexpr int kMaxTries = 20;
   Plane plane;
   for (const PatchPoint& point : points) plane.middle += point.position_m;
   plane.middle /= static_cast<double>(points.size());
-  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (const PatchPoint& point : points) {
-    const Eigen::Vector3f near = (point.position_m - plane.middle).cast<float>();
-    cloud->emplace_back(near.x(), near.y(), near.z());
-  }
   DropPclMessages();
-  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud);
-  pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(model, threshold_m);
+  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(
+      CloudAbout(points, plane.middle));
+  pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(model, AgreementThreshold_m(range_m));
   consensus.setMaxIterations(kMaxTries);
   if (!consensus.computeModel()) return std::nullopt;
   Eigen::VectorXf found;
@@ -72,6 +85,48 @@ std::optional<Plane> AgreedPlane(const Points& points, double range_m) {
   plane.normal = found.head<3>().cast<double>().normalized();
   plane.middle -= plane.normal * static_cast<double>(found[3]);
   return plane;
+}
+
+// Of a normal and an axis, neither of which has a sign.
+double AngleBetween_rad(const Vector3& normal, const Vector3& other) {
+  return std::atan2(normal.cross(other).norm(), std::abs(normal.dot(other)));
+}
+
+double NormalsSpread_rad(const PclCloud::Ptr& cloud, const Vector3& normal) {
+  constexpr int kNeighbours = 12;
+  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setInputCloud(cloud);
+  estimation.setKSearch(kNeighbours);
+  pcl::PointCloud<pcl::Normal> normals;
+  estimation.compute(normals);
+  double squares = 0.0;
+  for (const pcl::Normal& its : normals) {
+    squares += std::pow(AngleBetween_rad(its.getNormalVector3fMap().cast<double>(), normal), 2);
+  }
+  return std::sqrt(squares / static_cast<double>(normals.size()));
+}
+
+PclPlane PclPlaneOf(const Points& points, const Plane& ours) {
+  constexpr double kMostDeviations = 5.0;
+  const PclCloud::Ptr cloud = CloudAbout(points, ours.middle);
+  const auto model = std::make_shared<pcl::SampleConsensusModelPlane<pcl::PointXYZ>>(cloud);
+  pcl::RandomSampleConsensus<pcl::PointXYZ> consensus(model,
+                                                      AgreementThreshold_m(ours.middle.norm()));
+  consensus.setMaxIterations(kMaxTries);
+  PclPlane found;
+  if (!consensus.computeModel() || !consensus.refineModel(kMostDeviations)) return found;
+  pcl::Indices inliers;
+  Eigen::VectorXf plane;
+  consensus.getInliers(inliers);
+  consensus.getModelCoefficients(plane);
+  if (inliers.size() < kLeastPoints) return found;
+  const auto num = static_cast<double>(inliers.size());
+  const Vector3 normal = plane.head<3>().cast<double>().normalized();
+  found.sigma_m = std::sqrt(model->computeVariance() * num / (num - 3.0));
+  found.num_outliers = points.size() - inliers.size();
+  found.turn_rad = AngleBetween_rad(normal, ours.normal);
+  found.normals_rad = NormalsSpread_rad(std::make_shared<PclCloud>(*cloud, inliers), normal);
+  return found;
 }
 
 // The points within 5 robust standard deviations of the plane.
@@ -128,6 +183,7 @@ std::optional<FlatPiece> MakePiece(const Points& points) {
   patch.range_m = plane.middle.norm();
   patch.num_points = kept.size();
   patch.num_outliers = points.size() - kept.size();
+  patch.by_pcl = PclPlaneOf(points, plane);
   Moments intensities;
   for (const PatchPoint& point : kept) {
     const double square_m = plane.normal.dot(point.position_m - plane.middle);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "core/io/recording/scan_table.h"
@@ -20,6 +21,18 @@ namespace railcast {
   return !recorded.Has("outcome") || frame.outcome[slot] == Outcome::kReturned;
 }
 
+/// What PCL alone makes of the points in which a piece was found: the plane of RANSAC, refined to
+/// the points within 5 standard deviations (pcl::SampleConsensus::refineModel), and normals, each
+/// from 12 points on it (pcl::NormalEstimation). It computes in float32.
+struct PclPlane {
+  /// Standard deviation square to the plane, from the median of squares, which hardly depends on
+  /// outliers; corrected for the plane's 3 degrees of freedom. NaN if PCL finds no plane.
+  double sigma_m = std::numeric_limits<double>::quiet_NaN();
+  std::size_t num_outliers{};
+  double turn_rad{};     ///< Between its plane and ours.
+  double normals_rad{};  ///< Root mean square of the angles between the normals and its plane's.
+};
+
 /// A small piece of surface that is flat within the noise.
 struct PlanePatch {
   double range_m{};          ///< Mean range of its points.
@@ -31,6 +44,7 @@ struct PlanePatch {
   /// the beams, and perpendicular to the plane.
   double range_squares_m2{};
   double plane_squares_m2{};
+  PclPlane by_pcl;
 
   [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
 };

@@ -6,8 +6,11 @@
 
 #include "analysis/compare/compare_report.h"
 #include "analysis/report/formats.h"
+#include "core/base/units.h"
+#include "core/points/point_alignment.h"
 #include "tests/analysis/compare/made_clouds.h"
 #include "tests/analysis/held_recording.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 namespace {
@@ -130,6 +133,62 @@ TEST(Comparison, FindsNoDifferenceBetweenTheSame) {
         << comparison.metrics()[i].key;
     EXPECT_EQ(comparison.summaries()[i].moments.Mean().num, 12U) << comparison.metrics()[i].key;
   }
+}
+
+/// Points on a floor and two walls, 0.25 m apart: a corner, which no motion leaves unchanged.
+std::vector<MadePoint> MadeCorner() {
+  std::vector<MadePoint> points;
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 40; ++j) {
+      const float u_m = 0.25F * static_cast<float>(i), v_m = 0.25F * static_cast<float>(j);
+      points.push_back({u_m, v_m, 0.0F});
+      points.push_back({10.0F, u_m, v_m});
+      points.push_back({u_m, 10.0F, v_m});
+    }
+  }
+  return points;
+}
+
+std::vector<MadePoint> Moved(std::vector<MadePoint> points, const Transform& motion) {
+  for (MadePoint& point : points) {
+    const Vector3 place_m = motion * Vector3(point.x, point.y, point.z);
+    point.x = static_cast<float>(place_m.x());
+    point.y = static_cast<float>(place_m.y());
+    point.z = static_cast<float>(place_m.z());
+  }
+  return points;
+}
+
+double ValueOf(const Comparison& comparison, const std::vector<double>& values, const char* key) {
+  const auto at = std::ranges::find(comparison.metrics(), key, &PairMetric::key);
+  return values.at(static_cast<std::size_t>(at - comparison.metrics().begin()));
+}
+
+TEST(Comparison, RegistersCloudsThatAreTheSameButForAMotion) {
+  const Comparison comparison({0.1}, true);
+  const Vector3 shift_m(0.3, -0.2, 0.1);
+  const double turn_rad = 0.02;
+  const Transform motion =
+      MakeTransform(Eigen::AngleAxisd(turn_rad, Vector3::UnitZ()).toRotationMatrix(), shift_m);
+  const auto part = comparison.Compare(FrameOf(MadeCorner()), FrameOf(Moved(MadeCorner(), motion)));
+  ASSERT_EQ(part.figures.values.size(), comparison.metrics().size());
+  const auto value = [&](const char* key) { return ValueOf(comparison, part.figures.values, key); };
+  // The cells of thinned clouds hold other points after the motion: places on planes are right to
+  // less than a millimetre, nearest points to half a cell.
+  constexpr double kTolerance_m = 0.005;
+  EXPECT_NEAR(value("registration_shift_m"), shift_m.norm(), kTolerance_m);
+  EXPECT_NEAR(value("registration_turn_deg"), DegFromRad(turn_rad),
+              DegFromRad(kTolerance_m / 10.0));
+  EXPECT_LT(value("registration_residual_m"), 0.5 * ThinnedCloud::kCell_m);
+  EXPECT_LT(value("chamfer_m"), kTolerance_m);
+}
+
+TEST(Comparison, RefusesToRegisterCloudsOfTooFewPoints) {
+  RecordedFrame few = FrameOf({{1, 0, 0}});
+  few.name = "few.pcd";
+  EXPECT_EQ(MessageOf([&] { (void)Comparison({0.1}, true).Compare(FrameOf(MadeCorner()), few); }),
+            "few.pcd: must have, like its partner, at least 100 points in cells of 0.4 m to be "
+            "registered (got 0)");
 }
 
 TEST(Comparison, KeepsEveryMetricInItsPlace) {
