@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs missing packages, builds everything, compiles every public header on its own and runs all
 # tests: test.sh [CTEST OPTION...]. RAILCAST_PRESET names the preset, default release. At the end it names the
-# tests that were skipped, with their reasons, and the slowest.
+# tests that were skipped, with their reasons, the slowest, and those over their budget of time.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
@@ -21,7 +21,12 @@ if command -v npm >/dev/null; then
   export NODE_PATH="$readers/node_modules"
 fi
 rm -rf "$results"
+costs="build/$preset/Testing/Temporary/CTestCostData.txt"
+if [[ ! -e "$costs" ]]; then
+  mkdir -p "$(dirname "$costs")"
+  scripts/dev/summarize_tests.py --costs >"$costs"
+fi
 status=0
-ctest --preset "$preset" --parallel "$(nproc)" "$@" || status=$?
+ctest --preset "$preset" --parallel "$(nproc)" --output-junit "$(dirname "$results")/ctest.xml" "$@" || status=$?
 scripts/dev/summarize_tests.py "$results"
 exit "$status"

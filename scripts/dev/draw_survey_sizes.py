@@ -3,7 +3,7 @@
 
     scripts/dev/draw_survey_sizes.py BUILD PICTURE
 
-Accuracy is that of tests/generator/survey_test, which makes the scenes; cost are the instructions a
+Accuracy is that of tests/generator/generator_tests, which makes the scenes; cost are the instructions a
 firing of `Simulator::Scan` on them, counted by callgrind, relative to the same frame of
 scenarios/station.json as it is built. Both are the same on a busy machine. Prints the table, too.
 """
@@ -23,7 +23,7 @@ FRAME = "3"
 
 def made_sizes(build, folder):
     """[(cube and size, surfels, hit %, median error on ground in cm, within 0.3 m %)], with scenes in the folder."""
-    run = subprocess.run([build.resolve() / "tests/generator/survey_test", "--gtest_filter=SurfelSize.*"],
+    run = subprocess.run([build.resolve() / "tests/generator/generator_tests", "--gtest_filter=SurfelSize.*"],
                          env=os.environ | {"RAILCAST_SURVEY_SIZES": str(folder)},
                          check=True, capture_output=True, text=True)
     rows = [line.split("\t") for line in run.stdout.splitlines() if "\t" in line]

@@ -42,6 +42,8 @@ for package in railcast railcast-import railcast-viewer python3-railcast railcas
   compgen -G "$build/packages/${package}_*.deb" >/dev/null || fail "there is no package $package"
 done
 
+# The folder is thrown away: dpkg need not wait until each file is on the disk.
+export DPKG_FORCE=unsafe-io
 debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$work/debootstrap.log" 2>&1 ||
   skip "debootstrap: $(tail -1 "$work/debootstrap.log")"
 tar -C "$root" --exclude='./var/cache/apt/archives/*' -cf "$work/debian.tar" .  # For container_test.sh.
@@ -50,7 +52,7 @@ mount -t proc proc "$root/proc" && mount --bind /dev "$root/dev" && mount --bind
 mkdir "$root/packages"
 cp "${packages[@]}" "$root/packages"
 inside() {
-  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"
+  chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive DPKG_FORCE=unsafe-io "$@"
 }
 inside apt-get update -q >"$work/apt.log" || skip "apt-get update: $(tail -1 "$work/apt.log")"
 # The programs alone: no library of VTK or GDAL comes with them, and of PCL those without VTK.

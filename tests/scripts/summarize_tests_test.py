@@ -38,6 +38,17 @@ class SummarizeTests(unittest.TestCase):
             (folder / "rails_test.xml").write_text(RESULTS, encoding="utf-8")
             self.assertEqual(summarize_tests.summary_of(summarize_tests.read_tests(folder)), SUMMARY)
 
+    def test_names_entries_that_take_more_than_their_part(self):
+        # A machine of half the pace: 40 s are allowed 1.5 times 80, and 10 s without a budget are 20.
+        budget = {"rails_test": 40, "wires_test": 100}
+        entries = {"rails_test": 81.0, "wires_test": 199.0, "new_test": 19.0}
+        self.assertEqual(summarize_tests.over_budget(entries, budget), [])
+        entries = {"rails_test": 140.0, "wires_test": 140.0, "new_test": 21.0}
+        self.assertEqual(summarize_tests.over_budget(entries, budget),
+                         ["  new_test: 21 s, 20 are allowed at this machine's pace",
+                          "  rails_test: 140 s, 120 are allowed at this machine's pace"])
+        self.assertEqual(summarize_tests.over_budget({"a": 50.0}, {}), [])
+
 
 if __name__ == "__main__":
     unittest.main()

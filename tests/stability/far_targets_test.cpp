@@ -141,8 +141,13 @@ class FarTargetsOn : public testing::TestWithParam<std::string> {
         {MakeFloor(0.0F, 600.0F), materials_.Index("soil"), labels_.Id("ground")}};
     const double half_m = 0.9 * range_m * std::tan(RadFromDeg(kHalfAzimuth_deg));
     for (double y_m = -half_m; y_m < half_m; y_m += kApart_m) AddPerson({range_m, y_m, 0.0}, world);
-    const double low_deg = -60.0 * kSensorHeight_m / range_m - 3.0;
-    return CountTilted(world, kSensorHeight_m, {kHalfAzimuth_deg, low_deg, 1.5},
+    // Where the persons stand, tilted by a degree to either side: beams beside it cost as much.
+    constexpr double kBesides_deg = 1.5;
+    constexpr double kHead_m = 2.0;
+    const double low_deg = DegFromRad(std::atan(-kSensorHeight_m / range_m)) - kBesides_deg;
+    const double high_deg =
+        DegFromRad(std::atan((kHead_m - kSensorHeight_m) / range_m)) + kBesides_deg;
+    return CountTilted(world, kSensorHeight_m, {kHalfAzimuth_deg, low_deg, high_deg},
                        labels_.Id("person"));
   }
 
