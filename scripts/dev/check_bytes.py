@@ -1,27 +1,38 @@
 #!/usr/bin/env python3
-"""Tells whether a change of the code leaves every byte of the shipped scenarios as it was.
+"""Tells whether a change of the code leaves every byte as it was that railcast writes and prints.
 
-Usage: check_bytes.py BUILD --save FILE       before the change: write the hash of every file that railcast makes
-       check_bytes.py BUILD --against FILE    after it: name the files whose hashes differ, exit 1 if there are any
+Usage: check_bytes.py BUILD --save FOLDER       before the change: keep all that railcast makes
+       check_bytes.py BUILD --against FOLDER    after it: name each file that differs, and where; exit 1 if there is any
 
-Of each scenario under scenarios/ two frames are made at its own fidelity and one with `footprint`, with cameras, and
-what `check` and `world` print and write; of each recipe a shard of four scenarios. The program's own version does not count.
+Of each scenario under scenarios/ two frames are made at its own fidelity and one with `footprint`, with cameras, what
+`check` prints, the scenario with all defaults, and 4 m of its world; of each recipe a shard. To these come the runs of
+small_runs.py: every command and report, every rung, format, protocol and layout of points, insertions into recordings of
+each kind, a data set with shards, a study, an import. Real recordings and maps are taken where ../shared/data has them.
 """
 
 import argparse
-import hashlib
+import concurrent.futures
 import json
+import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Of the program, and hashes of what holds it.
-VERSION = re.compile(rb'"(version|program|(manifest|report|line|files)_xxh3|(run|dataset)\.json|scenarios\.jsonl)": ?"[^"]+"')
-# Of measured time, in what commands print.
-TIME = re.compile(rb"in [0-9.]+ (s|ms)|\([0-9.]+ frames/s\)|[0-9.]+ ms")
+import byte_differences
+import small_runs
+from small_runs import ROOT
+
+SHARED = ROOT.parent / "shared" / "data"
+AHEAD_M = 20  # Of the vehicle, where the stretch of its world begins.
+STRETCH_M = 4
+# (arguments of railcast-generate, what it reads of SHARED)
+REAL = (
+    ("insert @ plan.json --frames 0..1 --out out", "lidar_hesai_more/qt64.db3"),
+    ("insert @ plan.json --frames 0..1 --out out", "lidar_packets_nebula/vlp16_dual.pcap"),
+    ("insert @ plan.json --out out", "lidar_ouster/OS-1-128_767798045_1024x10_20230712_120049.pcap"),
+    ("import @ --within 15.61,48.195,15.64,48.215 --min-length 1500 --out out", "osm_sankt_poelten/sankt_poelten.json"),
+)
 
 
 def shipped_scenarios():
@@ -30,42 +41,72 @@ def shipped_scenarios():
             continue
         content = json.loads(path.read_text())
         if isinstance(content, dict) and str(content.get("$schema")).endswith("scenario.schema.json"):
-            yield path
+            yield path.relative_to(ROOT)
 
 
-def commands_of(program, scenario):
-    """(name, arguments) of what is made of a scenario; "@" stands for the place of the output."""
-    yield "own", [program, "sequence", scenario, "--out", "@", "--frames", "2", "--stride", "7"]
-    yield "footprint", [program, "sequence", scenario, "--out", "@", "--frames", "1", "--start-frame", "5",
-                        "--fidelity", "footprint", "--format", "ply"]
-    yield "check", [program, "check", scenario]
-    yield "world", [program, "world", scenario, "--max-mb", "100000", "--out", "@/world.ply"]
+def run(program, arguments, folder, name, keeps_text=True):
+    """Runs a command in a folder and keeps there what it prints, if asked or if it fails."""
+    said, status = small_runs.run_words([program, *arguments], folder)
+    if keeps_text or status:
+        (folder / f"{name}.txt").write_text(f"{said.replace(str(folder), '@')}\nexit status {status}\n")
 
 
-def hashes_of(name, arguments):
-    """(file, hash) of everything that a command writes and prints."""
-    with tempfile.TemporaryDirectory() as temporary:
-        out = pathlib.Path(temporary) / "out"
-        if str(arguments[-1]).startswith("@/"):
-            out.mkdir()
-        ran = subprocess.run([str(a).replace("@", str(out)) for a in arguments], cwd=ROOT, capture_output=True)
-        printed = ran.stdout + ran.stderr if name.endswith("check") or ran.returncode else b""
-        printed = TIME.sub(b"", printed.replace(str(out).encode(), b"@")) + str(ran.returncode).encode()
-        yield f"{name}: printed", hashlib.sha256(printed).hexdigest()
-        for path in sorted(out.glob("**/*")):
-            if path.is_file():
-                yield f"{name}/{path.relative_to(out)}", hashlib.sha256(VERSION.sub(b"", path.read_bytes())).hexdigest()
+def make_scenario(program, scenario, folder):
+    """Makes what is made of a shipped scenario."""
+    folder.mkdir(parents=True)
+    (folder / "scenarios").symlink_to(ROOT / "scenarios")
+    run(program, ["check", scenario, "--resolved", "resolved.json"], folder, "check")
+    run(program, ["sequence", scenario, "--out", "own", "--frames", "2", "--stride", "7"], folder, "own", False)
+    run(program, ["sequence", scenario, "--out", "footprint", "--frames", "1", "--start-frame", "6", "--format", "ply",
+                  "--fidelity", "footprint"], folder, "footprint", False)
+    if (folder / "resolved.json").exists():
+        vehicle = json.loads((folder / "resolved.json").read_text()).get("vehicle", {})
+        from_m = vehicle.get("start_s_m", 0) + AHEAD_M
+        run(program, ["world", scenario, "--from-s", str(from_m), "--to-s", str(from_m + STRETCH_M), "--max-mb", "100000",
+                      "--out", "world.ply"], folder, "world", False)
 
 
-def all_hashes(build):
+def make_small(build, folder):
+    """Runs small_runs.py's rows, and keeps the text of those that do not depend on a clock."""
+    folder.mkdir(parents=True)
+    small_runs.make_inputs(build, folder)
+    (folder / "printed").mkdir()
+    for row in small_runs.all_rows(build):
+        said, status = small_runs.run_row(row, build, folder)
+        if status or not (row[3] or f"{small_runs.LIVE}/" in row[1]):
+            name = "_".join(f"{row[0]} {row[1]}".replace("/", " ").split())
+            (folder / "printed" / f"{name[:200]}.txt").write_text(f"{said}\nexit status {status}\n")
+
+
+def make_real(program, arguments, source, folder):
+    """Runs a command on what was recorded or mapped elsewhere, if it is there."""
+    folder.mkdir(parents=True)
+    (folder / "scenarios").symlink_to(ROOT / "scenarios")
+    (folder / "plan.json").write_text(json.dumps(small_runs.INPUTS["plan_standing.json"]))
+    if (SHARED / source).exists():
+        run(program, [word.replace("@", str(SHARED / source)) for word in arguments.split()], folder, "out")
+    else:
+        print(f"left out: {SHARED / source} is not there", flush=True)
+
+
+def make_recipe(program, recipe, shard, folder):
+    folder.mkdir(parents=True)
+    (folder / "scenarios").symlink_to(ROOT / "scenarios")
+    run(program, ["dataset", f"scenarios/recipes/{recipe}", "--out", "out", "--shard", shard], folder, "out", False)
+
+
+def make_all(build, folder):
     program = build / "generator" / "railcast-generate"
-    for scenario in shipped_scenarios():
-        name = scenario.relative_to(ROOT / "scenarios")
-        for kind, arguments in commands_of(program, scenario.relative_to(ROOT)):
-            yield from hashes_of(f"{name} {kind}", arguments)
-    for recipe, shard in (("small.json", "1/3"), ("factory.json", "3/250")):
-        yield from hashes_of(f"recipes/{recipe}", [program, "dataset", f"scenarios/recipes/{recipe}", "--out", "@",
-                                                   "--shard", shard])
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        jobs = [pool.submit(make_small, build, folder / "small")]
+        jobs += [pool.submit(make_recipe, program, recipe, shard, folder / "recipes" / recipe)
+                 for recipe, shard in (("small.json", "1/3"), ("factory.json", "3/250"))]
+        jobs += [pool.submit(make_real, program, arguments, source, folder / "real" / str(number))
+                 for number, (arguments, source) in enumerate(REAL)]
+        jobs += [pool.submit(make_scenario, program, scenario, folder / "shipped" / scenario.relative_to("scenarios"))
+                 for scenario in shipped_scenarios()]
+        for job in jobs:
+            job.result()
 
 
 def main():
@@ -75,16 +116,20 @@ def main():
     group.add_argument("--save", type=pathlib.Path)
     group.add_argument("--against", type=pathlib.Path)
     arguments = parser.parse_args()
-    now = dict(all_hashes(arguments.build.resolve()))
+    build = arguments.build.resolve()
     if arguments.save:
-        arguments.save.write_text(json.dumps(now, indent=1) + "\n")
-        print(f"{len(now)} hashes in {arguments.save}")
+        arguments.save.mkdir(parents=True)
+        make_all(build, arguments.save.resolve())
+        print(f"{len(byte_differences.files_in(arguments.save))} files in {arguments.save}")
         return 0
-    before = json.loads(arguments.against.read_text())
-    different = [name for name in sorted(before.keys() | now.keys()) if before.get(name) != now.get(name)]
-    for name in different:
-        print(f"{name}: {'new' if name not in before else 'gone' if name not in now else 'differs'}")
-    print(f"{len(different)} of {len(now)} differ")
+    with tempfile.TemporaryDirectory() as temporary:
+        now = pathlib.Path(temporary).resolve()
+        make_all(build, now)
+        different = list(byte_differences.differences(arguments.against, now))
+        num_files = len(byte_differences.files_in(now))
+    for name, what in different:
+        print(f"{name}: {what}")
+    print(f"{len(different)} of {num_files} files differ")
     return 1 if different else 0
 
 
