@@ -84,6 +84,47 @@ Option ProgramOptions::AddOption(const std::string& names,
   return Option(app_->add_option(names, value, description));
 }
 
+// The values that options have.
+template Option ProgramOptions::AddOption(const std::string&, int&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&, double&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&, std::uint16_t&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&, std::uint32_t&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&, std::uint64_t&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&, std::string&, const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::filesystem::path&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<double>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<std::uint16_t>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<std::uint32_t>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<std::uint64_t>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<std::string>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::optional<std::filesystem::path>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::vector<double>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::vector<int>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::vector<std::string>&,
+                                          const std::string&);
+template Option ProgramOptions::AddOption(const std::string&,
+                                          std::vector<std::filesystem::path>&,
+                                          const std::string&);
+
 Option ProgramOptions::AddText(const std::string& names,
                                const std::function<void(const std::string& text)>& use,
                                const std::string& description) {
