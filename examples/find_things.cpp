@@ -92,7 +92,7 @@ int PrintThings(const Cloud::Ptr& cloud) {
   std::vector<pcl::PointIndices> clusters;
   pcl::EuclideanClusterExtraction<pcl::PointXYZL> extraction;
   extraction.setClusterTolerance(0.6);
-  extraction.setMinClusterSize(10);
+  extraction.setMinClusterSize(40);
   extraction.setInputCloud(cloud);
   extraction.extract(clusters);
   for (const pcl::PointIndices& cluster : clusters) {

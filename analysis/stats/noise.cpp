@@ -53,7 +53,7 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
 Table PclTable(const std::vector<Noise::Planes>& planes) {
   Table table = {"noise_by_pcl",
                  "The same planes by PCL's own estimators",
-                 "Medians over patches, from the same points: PCL's plane by RANSAC, refined; its "
+                 "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its "
                  "normals from "
                  "12 points each. Of one plane its normals spread by noise alone.",
                  {{"range_m", "Range", "m"},

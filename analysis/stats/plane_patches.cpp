@@ -114,15 +114,25 @@ PclPlane PclPlaneOf(const Points& points, const Plane& ours) {
                                                       AgreementThreshold_m(ours.middle.norm()));
   consensus.setMaxIterations(kMaxTries);
   PclPlane found;
-  if (!consensus.computeModel() || !consensus.refineModel(kMostDeviations)) return found;
+  if (!consensus.computeModel()) return found;
   pcl::Indices inliers;
   Eigen::VectorXf plane;
   consensus.getInliers(inliers);
   consensus.getModelCoefficients(plane);
-  if (inliers.size() < kLeastPoints) return found;
-  const auto num = static_cast<double>(inliers.size());
+  // Not by refineModel(), which takes distances from planes for their squares.
+  double variance_m2 = 0.0;
+  for (int pass = 0; pass < 2; ++pass) {
+    model->optimizeModelCoefficients(inliers, Eigen::VectorXf(plane), plane);
+    std::vector<double> squares_m2;
+    model->getDistancesToModel(plane, squares_m2);
+    for (double& square_m2 : squares_m2) square_m2 *= square_m2;
+    variance_m2 = model->computeVariance(squares_m2);
+    model->selectWithinDistance(plane, kMostDeviations * std::sqrt(variance_m2), inliers);
+    if (inliers.size() < kLeastPoints) return found;
+  }
+  const auto num = static_cast<double>(points.size());
   const Vector3 normal = plane.head<3>().cast<double>().normalized();
-  found.sigma_m = std::sqrt(model->computeVariance() * num / (num - 3.0));
+  found.sigma_m = std::sqrt(variance_m2 * num / (num - 3.0));
   found.num_outliers = points.size() - inliers.size();
   found.turn_rad = AngleBetween_rad(normal, ours.normal);
   found.normals_rad = NormalsSpread_rad(std::make_shared<PclCloud>(*cloud, inliers), normal);

@@ -21,9 +21,9 @@ namespace railcast {
   return !recorded.Has("outcome") || frame.outcome[slot] == Outcome::kReturned;
 }
 
-/// What PCL alone makes of the points in which a piece was found: the plane of RANSAC, refined to
-/// the points within 5 standard deviations (pcl::SampleConsensus::refineModel), and normals, each
-/// from 12 points on it (pcl::NormalEstimation). It computes in float32.
+/// What PCL alone makes of the points in which a piece was found: the plane of RANSAC, fitted in
+/// two passes to the points within 5 standard deviations, and normals, each from 12 points on it
+/// (pcl::NormalEstimation). It computes in float32.
 struct PclPlane {
   /// Standard deviation square to the plane, from the median of squares, which hardly depends on
   /// outliers; corrected for the plane's 3 degrees of freedom. NaN if PCL finds no plane.

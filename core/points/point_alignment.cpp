@@ -5,6 +5,7 @@
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/registration/icp.h>
 #include <pcl/features/impl/normal_3d.hpp>
+#include <pcl/filters/impl/voxel_grid.hpp>
 
 #include <cmath>
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/points/nearest_points.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/scan_table.h"
+#include "core/points/nearest_points.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"

@@ -101,7 +101,6 @@ TEST_P(RangeNoise, IsWhatPclEstimates) {
   EXPECT_NEAR(bin.pcl_sigmas_m.Median().value / bin.RobustPlaneSigma_m().value, 1.0, 0.05);
   // Both planes go through almost the same points.
   EXPECT_LT(bin.pcl_turns_rad.Median().value, 0.1 * bin.pcl_normals_rad.Median().value);
-  EXPECT_EQ(bin.num_pcl_outliers, bin.num_outliers);
 }
 
 TEST_P(RangeNoise, IsExactFromTheTruth) {
@@ -125,6 +124,8 @@ TEST(Noise, StandsOnePointInTwentyGoneWild) {
   ASSERT_GT(bin.range_sigmas_m.num(), 100U);
   EXPECT_NEAR(bin.RobustRangeSigma_m().value / 0.015, 1.0, 0.05);
   EXPECT_GT(bin.num_outliers, 0U);
+  EXPECT_NEAR(static_cast<double>(bin.num_pcl_outliers) / static_cast<double>(bin.num_outliers),
+              1.0, 0.05);
 }
 
 TEST(Noise, WithoutAGridComesFromNeighboursInSpace) {
