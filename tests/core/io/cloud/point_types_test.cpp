@@ -52,7 +52,7 @@ TEST(PointTypes, AreWhatPclReadsFromOurFiles) {
   const Frame frame = ExampleFrame(3);
   std::string bytes;
   EncodePcd(frame, FieldSelection(), PcdEncoding::kBinaryCompressed, bytes);
-  WriteFile(file, bytes);
+  WriteFileWhole(file, bytes);
   pcl::PointCloud<FramePoint> read;
   ASSERT_EQ(pcl::io::loadPCDFile(file.string(), read), 0);
   ASSERT_EQ(read.size(), frame.num_slots());
