@@ -148,7 +148,8 @@ void PrintCurve(const std::string& what,
 }
 
 /// Prints the tables of docs/survey.md:
-///   RAILCAST_PRINT_SURVEY=1 build/release/tests/generator/generator_tests --gtest_filter=SurveyProof.*
+///   RAILCAST_PRINT_SURVEY=1 build/release/tests/generator/generator_tests
+///   --gtest_filter=SurveyProof.*
 void PrintTables(const Prediction& made) {
   const std::vector<ProvenBeam>& beams = made.beams;
   std::puts(
