@@ -104,7 +104,7 @@ TEST_F(SceneImport, PutsASkinWhereItsBonesAre) {
 }
 
 /// A part of a 3DS file: its kind, its length and what it holds.
-std::string Chunk(std::uint16_t kind, const std::string& content) {
+std::string ChunkOf3ds(std::uint16_t kind, const std::string& content) {
   std::string bytes(sizeof(kind), '\0');
   std::memcpy(bytes.data(), &kind, sizeof(kind));
   return bytes + Number(sizeof(kind) + 4 + content.size()) + content;
@@ -115,9 +115,11 @@ TEST_F(SceneImport, ScalesAndTurns3dsAsTold) {
   using std::string_literals::operator""s;
   const std::string vertices = "\3\0"s + BytesOfFloats({10, 20, 30, 11, 20, 30, 10, 22, 30});
   const std::string faces = "\1\0\0\0\1\0\2\0\7\0"s;
-  const std::string bytes = Chunk(
-      0x4D4D, Chunk(0x3D3D, Chunk(0x4000, "it\0"s + Chunk(0x4100, Chunk(0x4110, vertices) +
-                                                                      Chunk(0x4120, faces)))));
+  const std::string bytes = ChunkOf3ds(
+      0x4D4D,
+      ChunkOf3ds(0x3D3D,
+                 ChunkOf3ds(0x4000, "it\0"s + ChunkOf3ds(0x4100, ChunkOf3ds(0x4110, vertices) +
+                                                                     ChunkOf3ds(0x4120, faces)))));
   const ImportedMesh plain = ParseMesh(bytes, "a.3ds");
   EXPECT_TRUE(BoxOf(plain).isApprox(Box(Vector3(10, 20, 30), Vector3(11, 22, 30)), 1e-6));
   EXPECT_FALSE(plain.has_own_up);
