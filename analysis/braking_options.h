@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/detectability/object_detection.h"
+#include "core/program/options.h"
 
 namespace railcast {
 

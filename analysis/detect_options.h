@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analysis/detectability/object_detection.h"
+#include "core/program/options.h"
 
 namespace railcast {
 

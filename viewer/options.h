@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program/options.h"
 #include "viewer/composition/compose.h"
 #include "viewer/draw/cameras.h"
 #include "viewer/draw/look.h"

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "analysis/report/report.h"
+#include "core/program/options.h"
 
 namespace railcast {
 

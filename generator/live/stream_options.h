@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program/options.h"
 #include "generator/live/live_options.h"
 
 namespace railcast {

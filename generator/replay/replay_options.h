@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/program/options.h"
 #include "generator/live/live_options.h"
 #include "generator/replay/replay_feed.h"
 #include "railcast/scenario.h"

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/program/options.h"
 #include "generator/run/run_plan.h"
 
 namespace railcast {

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::MatchesRegex;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 TEST(CardCommand, ShowsWhatADataSetHoldsAndWhatItWasMadeOf) {
   const TemporaryFolder folder;
@@ -32,7 +32,7 @@ TEST(CardCommand, ShowsWhatADataSetHoldsAndWhatItWasMadeOf) {
   EXPECT_THAT(card, HasSubstr("--format mcap --fields x,y,z,label --isa "));
   EXPECT_THAT(card, HasSubstr("## What is not modelled\n"));
   // Classes with the numbers of the data set's own report.
-  const Json report = Json::parse(ReadFileWhole(set / "report.json"));
+  const PlainJson report = PlainJson::parse(ReadFileWhole(set / "report.json"));
   ASSERT_GT(report["labels"].size(), 1U);
   for (const auto& [label, counts] : report["labels"].items()) {
     const std::string points = std::to_string(counts["points"].get<int>());
@@ -145,11 +145,11 @@ TEST(CardCommand, SaysWhatTheRecipeSays) {
   const Ended run = Analyze("card " + set.string() + " --format json");
   ASSERT_EQ(run.status, 0) << run.said;
   std::string rows;
-  const Json card = Json::parse(run.said);
-  for (const Json& section : card["sections"]) {
-    for (const Json& table : section["tables"]) {
+  const PlainJson card = PlainJson::parse(run.said);
+  for (const PlainJson& section : card["sections"]) {
+    for (const PlainJson& table : section["tables"]) {
       if (table["key"] != "recipe") continue;
-      for (const Json& row : table["rows"]) {
+      for (const PlainJson& row : table["rows"]) {
         rows += row["key"].get<std::string>() + " = " + row["value"].get<std::string>() + "\n";
       }
     }

@@ -12,7 +12,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 Ended Compare(const std::string& arguments) {
   return Analyze("compare " + arguments);
@@ -42,7 +42,7 @@ TEST(RailcastAnalyzeCompare, ComparesTwoClouds) {
   const auto out = a.parent_path() / "out";
   const Ended run = Compare(a.string() + " " + b.string() + " --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  const Json json = Json::parse(ReadFileWhole(out / "compare.json"));
+  const PlainJson json = PlainJson::parse(ReadFileWhole(out / "compare.json"));
   EXPECT_EQ(json["facts"]["Pairs"], "1, by index");
   EXPECT_EQ(json["headlines"][0]["title"], "Density-aware Chamfer distance");
   // 1 - exp(-alpha d), of points that have a nearest point each.
@@ -65,9 +65,9 @@ TEST(RailcastAnalyzeCompare, StudiesEffects) {
   const Ended run =
       Compare("--ablate " + scenario.string() + " --frames 2 --seed 7 --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  const Json json = Json::parse(ReadFileWhole(out / "ablation.json"));
+  const PlainJson json = PlainJson::parse(ReadFileWhole(out / "ablation.json"));
   EXPECT_EQ(json["facts"]["Seed"], "7");
-  const Json& rows = json["sections"][0]["tables"][0]["rows"];
+  const PlainJson& rows = json["sections"][0]["tables"][0]["rows"];
   ASSERT_EQ(rows.size(), 5U);
   EXPECT_EQ(rows[1]["effect"], "rain");
   EXPECT_GT(rows[1]["points_taken"], 0);
@@ -88,7 +88,8 @@ TEST(RailcastAnalyzeCompare, CannotTellTwoSeedsOfASceneApart) {
   const std::string a = run("1"), b = run("2");
   const Ended compared = Compare(a + " " + b + " --out " + a + "_out");
   ASSERT_EQ(compared.status, 0) << compared.said;
-  const Json area = Json::parse(ReadFileWhole(a + "_out/compare.json"))["headlines"].back();
+  const PlainJson area =
+      PlainJson::parse(ReadFileWhole(a + "_out/compare.json"))["headlines"].back();
   ASSERT_EQ(area["title"], "Told apart, AUC");
   EXPECT_LT(area["value"]["low"], 0.5);
   EXPECT_GT(area["value"]["high"], 0.5);

@@ -15,7 +15,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr const char* kVehicle =
     R"("world": {"alignment": {"course": {"type": "elements", "elements": [)"
@@ -53,12 +53,12 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
   const Ended ended =
       Analyze("detect " + run.string() + " --points 20 --frames 2/3 --out " + out.string());
   ASSERT_EQ(ended.status, 0) << ended.said;
-  const Json report = Json::parse(ReadFileWhole(out / "detect.json"));
+  const PlainJson report = PlainJson::parse(ReadFileWhole(out / "detect.json"));
   // Evaluate objects.jsonl independently: find the second of three frames with 20 points.
   std::istringstream lines(ReadFileWhole(run / "objects.jsonl"));
   std::vector<int> points;
   for (std::string line; std::getline(lines, line);) {
-    points.push_back(Json::parse(line).at("objects").at(0).at("points"));
+    points.push_back(PlainJson::parse(line).at("objects").at(0).at("points"));
   }
   std::size_t expected = 0;
   int in_last_three = 0;
@@ -68,10 +68,10 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
     expected = i;
   }
   ASSERT_GT(expected, 2U);
-  for (const Json& section : report.at("sections")) {
-    for (const Json& table : section.at("tables")) {
+  for (const PlainJson& section : report.at("sections")) {
+    for (const PlainJson& table : section.at("tables")) {
       if (table.at("key") != "runs") continue;
-      const Json& row = table.at("rows").at(0);
+      const PlainJson& row = table.at("rows").at(0);
       // The box's face is 79 m away at first and 1 m nearer in each frame.
       EXPECT_NEAR(row.at("detected_at_m").get<double>(), 79.0 - static_cast<double>(expected),
                   0.01);
@@ -81,10 +81,10 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
     }
   }
   // The person stands 2.5 m beside the axis and is no reason to brake.
-  const Json& verdicts = report.at("sections").at(0).at("tables").at(0).at("rows");
+  const PlainJson& verdicts = report.at("sections").at(0).at("tables").at(0).at("rows");
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts.at(0).at("object"), "box");
-  const Json& beside = report.at("sections").at(2).at("tables").at(0).at("rows");
+  const PlainJson& beside = report.at("sections").at(2).at("tables").at(0).at("rows");
   ASSERT_EQ(beside.size(), 1U);
   EXPECT_EQ(beside.at(0).at("object"), "man");
   EXPECT_THAT(ended.said, HasSubstr("Beside the track, not judged      man\n"));
@@ -102,9 +102,9 @@ TEST(DetectCommand, ShowsWhatWasSeenOfABox) {
   const auto seen = DecodePngRgb(ReadFileWhole(out / "charts" / "seen_box.png"));
   ASSERT_EQ(seen.size.width_px, 3U * 480U);
   ASSERT_EQ(seen.size.height_px, 320U);
-  const Json labels = Json::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
+  const PlainJson labels = PlainJson::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
   std::array<int, 3> object{};
-  for (const Json& label : labels["labels"]) {
+  for (const PlainJson& label : labels["labels"]) {
     if (label["name"] == "object") object = label["rgb"].get<std::array<int, 3>>();
   }
   const auto count = [&](std::size_t place, const std::array<int, 3>& rgb) {

@@ -19,7 +19,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// 30 frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first, past
 /// one beside the track.
@@ -63,63 +63,63 @@ class EvaluateCommand : public testing::Test {
   /// Writes detections, one line for each frame of the run, and returns the file.
   /// @param axes That the lines say; none if empty.
   static std::string Detections(const std::string& name,
-                                const std::function<Json(const Json& objects)>& of_frame,
+                                const std::function<PlainJson(const PlainJson& objects)>& of_frame,
                                 const std::string& axes = "") {
     std::istringstream lines(ReadFileWhole(run_ / "objects.jsonl"));
     std::string text;
     for (std::string line; std::getline(lines, line);) {
-      const Json frame = Json::parse(line);
-      Json reported = {{"frame", frame.at("frame")},
-                       {"compensate", "sensor"},
-                       {"detections", of_frame(frame.at("objects"))}};
+      const PlainJson frame = PlainJson::parse(line);
+      PlainJson reported = {{"frame", frame.at("frame")},
+                            {"compensate", "sensor"},
+                            {"detections", of_frame(frame.at("objects"))}};
       if (!axes.empty()) reported["axes"] = axes;
       text += reported.dump() + "\n";
     }
     return folder_->Write(name, text).string();
   }
 
-  static Json Evaluate(const std::string& options) { return EvaluateRun(run_, options); }
+  static PlainJson Evaluate(const std::string& options) { return EvaluateRun(run_, options); }
 
-  static Json EvaluateRun(const std::filesystem::path& run, const std::string& options) {
+  static PlainJson EvaluateRun(const std::filesystem::path& run, const std::string& options) {
     const auto out = run.parent_path() / "report";
     const Ended ended =
         Analyze("evaluate " + run.string() + " " + options + " --out " + out.string());
     if (ended.status != 0) throw std::runtime_error(ended.said);
-    return Json::parse(ReadFileWhole(out / "evaluate.json"));
+    return PlainJson::parse(ReadFileWhole(out / "evaluate.json"));
   }
 
-  static Json Rows(const Json& report, const std::string& key) {
-    for (const Json& section : report.at("sections")) {
-      for (const Json& table : section.at("tables")) {
+  static PlainJson Rows(const PlainJson& report, const std::string& key) {
+    for (const PlainJson& section : report.at("sections")) {
+      for (const PlainJson& table : section.at("tables")) {
         if (table.at("key") == key) return table.at("rows");
       }
     }
-    return Json::array();
+    return PlainJson::array();
   }
 
   static inline TemporaryFolder* folder_ = nullptr;
   static inline std::filesystem::path run_;
 };
 
-Json TrueBoxes(const Json& objects) {
-  Json detections = Json::array();
-  for (const Json& object : objects) detections.push_back(object.at("output"));
+PlainJson TrueBoxes(const PlainJson& objects) {
+  PlainJson detections = PlainJson::array();
+  for (const PlainJson& object : objects) detections.push_back(object.at("output"));
   return detections;
 }
 
 TEST_F(EvaluateCommand, FindsWhatTheReferenceDetectorDetects) {
-  const Json report = Evaluate("");
-  const Json runs = Rows(report, "runs");
+  const PlainJson report = Evaluate("");
+  const PlainJson runs = Rows(report, "runs");
   ASSERT_EQ(runs.size(), 1U);
   EXPECT_EQ(runs[0].at("object"), "box");
   EXPECT_EQ(runs[0].at("outcome"), "not known: begun too near");
   EXPECT_NEAR(runs[0].at("detected_at_m").get<double>(), 77.0, 0.1);
   EXPECT_NEAR(runs[0].at("needed_m").get<double>(), 135.0, 0.01);
   EXPECT_NEAR(runs[0].at("driven_m").get<double>(), 29.0, 1e-6);
-  const Json alarms = Rows(report, "false_alarms");
+  const PlainJson alarms = Rows(report, "false_alarms");
   EXPECT_EQ(alarms.back().at("at"), "all");
   EXPECT_EQ(alarms.back().at("alarms"), 0U);
-  const Json beside = Rows(report, "no_alarm");
+  const PlainJson beside = Rows(report, "no_alarm");
   ASSERT_EQ(beside.size(), 1U);
   EXPECT_EQ(beside[0].at("object"), "beside");
   EXPECT_EQ(beside[0].at("verdict"), "no alarm");
@@ -130,9 +130,10 @@ TEST_F(EvaluateCommand, TakesWhatADetectorReported) {
   const std::string truth = Detections("truth.jsonl", TrueBoxes);
   EXPECT_NEAR(Rows(Evaluate("--detections " + truth), "runs")[0].at("detected_at_m").get<double>(),
               77.0, 0.1);
-  const Json late = Evaluate("--latency-ms 1000 --detections " + truth);
+  const PlainJson late = Evaluate("--latency-ms 1000 --detections " + truth);
   EXPECT_NEAR(Rows(late, "runs")[0].at("detected_at_m").get<double>(), 67.0, 0.1);
-  const std::string none = Detections("none.jsonl", [](const Json&) { return Json::array(); });
+  const std::string none =
+      Detections("none.jsonl", [](const PlainJson&) { return PlainJson::array(); });
   EXPECT_EQ(Rows(Evaluate("--detections " + none), "runs")[0].at("outcome"), "not detected");
 }
 
@@ -172,7 +173,7 @@ TEST_F(EvaluateCommand, TakesWhatTheExampleDetectsInAStream) {
       " --commands " + commands + " --to " + EndpointText(program.at()) + "; wait");
   EXPECT_EQ(program.Rest(), "frames: 30, from 0 to 29, 0 missing between; 0 repeated datagrams\n")
       << ended.said;
-  const Json row = Rows(EvaluateRun(run, "--detections " + file), "runs").at(0);
+  const PlainJson row = Rows(EvaluateRun(run, "--detections " + file), "runs").at(0);
   EXPECT_EQ(row.at("object"), "box");
   // As the reference detector's, less what the train runs during the scan of 0.1 s and while the
   // client computes.
@@ -190,15 +191,15 @@ TEST_F(EvaluateCommand, WantsToKnowTheAxesWherePointsAreInThoseOfTheVehicle) {
   const Ended ended = Analyze("evaluate " + run.string() + " --format text --detections " + unsaid);
   EXPECT_EQ(ended.status, 1);
   EXPECT_THAT(ended.said, HasSubstr("unsaid.jsonl:1: /axes: missing, must be \"sensor\""));
-  const Json said =
+  const PlainJson said =
       EvaluateRun(run, "--detections " + Detections("said.jsonl", TrueBoxes, "sensor"));
   EXPECT_NEAR(Rows(said, "runs").at(0).at("detected_at_m").get<double>(), 77.0, 0.1);
 }
 
 TEST_F(EvaluateCommand, CountsBoxesAndWarnsWhereNoneReachesIntoTheGauge) {
   const std::string truth = Detections("counted.jsonl", TrueBoxes);
-  const Json report = Evaluate("--detections " + truth);
-  const Json counts = Rows(report, "boxes").at(0);
+  const PlainJson report = Evaluate("--detections " + truth);
+  const PlainJson counts = Rows(report, "boxes").at(0);
   // Both objects in each of 30 frames, of which one is beside the track.
   EXPECT_EQ(counts.at("read"), 60U);
   EXPECT_EQ(counts.at("in_gauge"), 30U);
@@ -217,24 +218,25 @@ TEST_F(EvaluateCommand, CountsBoxesAndWarnsWhereNoneReachesIntoTheGauge) {
   // In the vehicle's axes the boxes are lower by the sensor's height of 2.5 m, of their own 3 m.
   EXPECT_EQ(warning(Detections("lower.jsonl", TrueBoxes, "vehicle")),
             run + ": of 30 boxes in the gauge none is of an object" + question);
-  const std::string below = Detections("below.jsonl", [](const Json&) {
-    return Json::array({{{"center_m", {40, 0, -6}}, {"size_m", {1, 1, 1}}}});
+  const std::string below = Detections("below.jsonl", [](const PlainJson&) {
+    return PlainJson::array({{{"center_m", {40, 0, -6}}, {"size_m", {1, 1, 1}}}});
   });
   EXPECT_EQ(warning(below), run + ": of 30 boxes none reaches into the gauge" + question);
-  const std::string none = Detections("empty.jsonl", [](const Json&) { return Json::array(); });
+  const std::string none =
+      Detections("empty.jsonl", [](const PlainJson&) { return PlainJson::array(); });
   EXPECT_EQ(warning(none), run + ": no box was read\n");
 }
 
 TEST_F(EvaluateCommand, CountsAlarmsAtWhatIsBesideAndAtNothing) {
-  const std::string wrong = Detections("wrong.jsonl", [](const Json& objects) {
-    Json detections = TrueBoxes(objects);
+  const std::string wrong = Detections("wrong.jsonl", [](const PlainJson& objects) {
+    PlainJson detections = TrueBoxes(objects);
     // Wide enough to reach into the gauge.
-    for (Json& box : detections) box["size_m"][1] = 4;
+    for (PlainJson& box : detections) box["size_m"][1] = 4;
     detections.push_back({{"center_m", {40, 0, 0}}, {"size_m", {1, 1, 1}}, {"class", "ghost"}});
     return detections;
   });
-  const Json report = Evaluate("--detections " + wrong);
-  const Json list = Rows(report, "each_false_alarm");
+  const PlainJson report = Evaluate("--detections " + wrong);
+  const PlainJson list = Rows(report, "each_false_alarm");
   ASSERT_EQ(list.size(), 2U);
   EXPECT_EQ(list[0].at("frame"), 2U);
   EXPECT_EQ(list[0].at("at"), "no object");

@@ -13,7 +13,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 const std::string kVlp16 = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vlp16_dual.pcap";
 
@@ -27,11 +27,11 @@ std::filesystem::path MakeFitSequence(const TemporaryFolder& folder) {
   return out;
 }
 
-Json RowOf(const Json& report, const std::string& table_key, const std::string& title) {
-  for (const Json& section : report.at("sections")) {
-    for (const Json& table : section.at("tables")) {
+PlainJson RowOf(const PlainJson& report, const std::string& table_key, const std::string& title) {
+  for (const PlainJson& section : report.at("sections")) {
+    for (const PlainJson& table : section.at("tables")) {
       if (table.at("key") != table_key) continue;
-      for (const Json& row : table.at("rows")) {
+      for (const PlainJson& row : table.at("rows")) {
         if (row.front() == title || row.value("parameter", "") == title) return row;
       }
     }
@@ -47,14 +47,14 @@ TEST(FitCommand, WritesAScenarioOfWhatItFound) {
       Analyze("fit " + sequence.string() + " --rain-rate-mmph 40 --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
 
-  const Json fitted = Json::parse(ReadFileWhole(out / "fitted.json"));
+  const PlainJson fitted = PlainJson::parse(ReadFileWhole(out / "fitted.json"));
   // With 11,000 firings the interval reaches about 10 % to either side.
   const double k_per_m = fitted.at("weather").at("rain_dropout_per_m");
   EXPECT_NEAR(k_per_m, 3.65e-4, 5e-5);
   EXPECT_EQ(fitted.at("lidar").at("plausibility").count("dropout_probability"), 1U);
   // The few beams only meet ballast at grazing incidence: the noise stays that of the scenario.
   EXPECT_EQ(fitted.at("lidar").at("plausibility").at("noise_shape"), "isotropic");
-  const Json scenario = Json::parse(ReadFileWhole(out / "fitted_scenario.json"));
+  const PlainJson scenario = PlainJson::parse(ReadFileWhole(out / "fitted_scenario.json"));
   EXPECT_EQ(scenario.at("weather").at("rain_dropout_per_m"), k_per_m);
   const Ended check =
       RunCommand(RAILCAST_GENERATE " check " + (out / "fitted_scenario.json").string());
@@ -112,14 +112,14 @@ TEST(FitCommand, FindsNoiseAndDropoutOfARealSensor) {
   const auto out = folder.Write("none", "").parent_path() / "out";
   const Ended run = Analyze("fit " + kVlp16 + " --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  const Json report = Json::parse(ReadFileWhole(out / "fit.json"));
+  const PlainJson report = PlainJson::parse(ReadFileWhole(out / "fit.json"));
   // The data sheet states 3 cm at most; published measurements on walls found about 1 cm.
-  const Json floor = RowOf(report, "parameters", "Range noise at high signal");
+  const PlainJson floor = RowOf(report, "parameters", "Range noise at high signal");
   EXPECT_GT(floor.at("value").at("value").get<double>(), 0.003);
   EXPECT_LT(floor.at("value").at("value").get<double>(), 0.02);
-  const Json dropout = RowOf(report, "parameters", "Dropout probability");
+  const PlainJson dropout = RowOf(report, "parameters", "Dropout probability");
   EXPECT_NEAR(dropout.at("value").at("value").get<double>(), 0.013, 0.005);
-  const Json scale = RowOf(report, "parameters", "Range noise scale");
+  const PlainJson scale = RowOf(report, "parameters", "Range noise scale");
   EXPECT_TRUE(scale.at("value").at("value").is_null());
   EXPECT_THAT(scale.at("remark").get<std::string>(), HasSubstr("the signal is not known"));
   EXPECT_TRUE(std::filesystem::exists(out / "charts" / "noise.svg"));
@@ -134,14 +134,15 @@ TEST(FitCommand, ReplaysWhatItFoundInACaptureAndSaysWhatIsWorse) {
   const auto out = std::filesystem::path(scenario).parent_path() / "out";
   const Ended run = Analyze("fit " + kVlp16 + " --scenario " + scenario + " --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  const Json report = Json::parse(ReadFileWhole(out / "fit.json"));
-  const Json fitted = Json::parse(ReadFileWhole(out / "fitted_scenario.json"));
+  const PlainJson report = PlainJson::parse(ReadFileWhole(out / "fit.json"));
+  const PlainJson fitted = PlainJson::parse(ReadFileWhole(out / "fitted_scenario.json"));
   int num_judged = 0;
-  for (const Json& row : report.at("sections").at(0).at("tables").at(0).at("rows")) {
+  for (const PlainJson& row : report.at("sections").at(0).at("tables").at(0).at("rows")) {
     const std::string verdict = row.at("verdict");
     if (verdict.empty()) continue;
     ++num_judged;
-    const Json& written = fitted.at(Json::json_pointer("/" + row.at("key").get<std::string>()));
+    const PlainJson& written =
+        fitted.at(PlainJson::json_pointer("/" + row.at("key").get<std::string>()));
     EXPECT_EQ(written == row.at("scenario"), verdict == "worse: not written") << row;
   }
   EXPECT_GE(num_judged, 2);

@@ -14,7 +14,7 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 std::vector<RowResult> Results() {
   RowResult footprint = MadeResult("footprint", RowGroup::kLadder, 4.0, 5);
@@ -192,8 +192,9 @@ TEST(DetectionDistance, IsUnknownIfTheFirstFrameHasEnoughPointsAndZeroIfNoneHas)
 }
 
 TEST(FrontierJson, HoldsWhatHappensAtEdges) {
-  const Json json = Json::parse(FrontierJson({}, Circumstances(), Labels(), {RowAtEdges()}));
-  const Json& errors = json["rows"][0]["errors"];
+  const PlainJson json =
+      PlainJson::parse(FrontierJson({}, Circumstances(), Labels(), {RowAtEdges()}));
+  const PlainJson& errors = json["rows"][0]["errors"];
   EXPECT_EQ(errors["range_p99_m"], 0.02);
   EXPECT_EQ(errors["step_missed_share"], 0.25);
   EXPECT_EQ(errors["step_range_median_m"], 0.01);
@@ -209,25 +210,25 @@ TEST(FrontierJson, HoldsNumbersAndCircumstances) {
   FrontierPlan plan;
   plan.frames = {0, 10};
   const FrontierCircumstances circumstances = Circumstances();
-  const Json json = Json::parse(FrontierJson(plan, circumstances, Labels(), Results()));
+  const PlainJson json = PlainJson::parse(FrontierJson(plan, circumstances, Labels(), Results()));
   EXPECT_EQ(json["version"], "1.2.3");
   EXPECT_EQ(json["scenario"], "a.json");
   EXPECT_EQ(json["seed"], 7);
   EXPECT_EQ(json["date"], "2023-11-14 22:13 UTC");
   EXPECT_EQ(json["scenario_xxh3"], "5ce0a410");
   EXPECT_EQ(json["weather"], "clear");
-  EXPECT_EQ(json["frames"], (Json{0, 10}));
+  EXPECT_EQ(json["frames"], (PlainJson{0, 10}));
   EXPECT_EQ(json["matching"]["match_distance_m"], 0.375);
   EXPECT_EQ(json["fidelity_auto"]["a"], 1);
-  const Json& row = json["rows"][1];
+  const PlainJson& row = json["rows"][1];
   EXPECT_EQ(row["p50_ms"], 40.0);
   EXPECT_EQ(row["p99_ms"], 90.0);
   EXPECT_EQ(row["ratio_to_raw_trace"], 4.0);
-  EXPECT_EQ(row["effects"], Json{"footprint"});
+  EXPECT_EQ(row["effects"], PlainJson{"footprint"});
   EXPECT_NEAR(row["errors"]["missed_share"].get<double>(), 0.05, 1e-12);
   EXPECT_TRUE(row["errors"]["range_median_m"].is_null());
   EXPECT_EQ(row["errors"]["recall_per_label"]["ground"]["num_matched"], 9);
-  EXPECT_EQ(json["pareto_front"]["missed_share"], Json{"footprint"});
+  EXPECT_EQ(json["pareto_front"]["missed_share"], PlainJson{"footprint"});
   EXPECT_FALSE(json["rows"][0].contains("errors"));
 }
 
@@ -274,11 +275,12 @@ TEST(FrontierReport, TellsWhatSceneDetailChangesApartFromMatchedErrors) {
 }
 
 TEST(FrontierJson, HoldsStatisticalDifferencesInPlaceOfErrors) {
-  const Json json = Json::parse(FrontierJson({}, Circumstances(), Labels(), {RowInAutoDetail()}));
-  const Json& row = json["rows"][0];
+  const PlainJson json =
+      PlainJson::parse(FrontierJson({}, Circumstances(), Labels(), {RowInAutoDetail()}));
+  const PlainJson& row = json["rows"][0];
   EXPECT_EQ(row["detail"], "auto");
   EXPECT_FALSE(row.contains("errors"));
-  const Json& difference = row["statistical_differences_from_full_detail"][0];
+  const PlainJson& difference = row["statistical_differences_from_full_detail"][0];
   EXPECT_EQ(difference["class"], "ground");
   EXPECT_EQ(difference["to_m"], 100.0);
   EXPECT_NEAR(difference["first_echoes"]["value"].get<double>(), 0.02, 1e-9);

@@ -11,7 +11,7 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// 2,001 frames of a few beams, on the way to a box: more than reports keep of what they list, and
 /// more than any other test has.
@@ -19,12 +19,12 @@ class LongRecording : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder();
-    Json sensor = Json::parse(ReadFileWhole(ScenariosDir() / "sensors" / "vlp16.json"));
+    PlainJson sensor = PlainJson::parse(ReadFileWhole(ScenariosDir() / "sensors" / "vlp16.json"));
     sensor.erase("version");
     sensor["scan"]["pattern"]["azimuth_window_deg"] = {359, 1};
     sensor["mount"] = {{"position_m", {2.2, 0, 2.5}}};
     const std::string scenarios = ScenariosDir().string();
-    const Json scenario = {
+    const PlainJson scenario = {
         {"version", 1},
         {"fidelity", "geometry"},
         {"lidar", sensor},

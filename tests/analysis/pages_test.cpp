@@ -17,7 +17,7 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// The reports of the commands that write one, on scenarios and a study of the project, each made
 /// when it is first asked for. Only their sensor is a coarse one, and the study is small. That of
@@ -40,9 +40,9 @@ class CommandPages : public testing::Test {
     return FolderOf(name) / "report.html";
   }
 
-  static Json JsonOf(const std::string& name) {
+  static PlainJson JsonOf(const std::string& name) {
     const std::string file = name == "study" ? "report" : name;
-    return Json::parse(ReadFileWhole(FolderOf(name) / (file + ".json")));
+    return PlainJson::parse(ReadFileWhole(FolderOf(name) / (file + ".json")));
   }
 
   static constexpr std::array<const char*, 11> kNames = {
@@ -61,18 +61,18 @@ class CommandPages : public testing::Test {
 
   /// An approach to a person in rain.
   static std::string Scenario(const std::string& resolution_deg) {
-    const Json scenario = {{"version", 1},
-                           {"file", (ScenariosDir() / "brake_person.json").string()},
-                           {"weather", {{"rain_rate_mmph", 40}}},
-                           {"lidar",
-                            {{"mount", {{"position_m", {2.2, 0, 2.5}}}},
-                             {"scan",
-                              {{"rate_hz", 10},
-                               {"pattern",
-                                {{"type", "raster"},
-                                 {"horizontal_fov_deg", 20},
-                                 {"vertical_fov_deg", 40},
-                                 {"angular_resolution_deg", std::stod(resolution_deg)}}}}}}}};
+    const PlainJson scenario = {{"version", 1},
+                                {"file", (ScenariosDir() / "brake_person.json").string()},
+                                {"weather", {{"rain_rate_mmph", 40}}},
+                                {"lidar",
+                                 {{"mount", {{"position_m", {2.2, 0, 2.5}}}},
+                                  {"scan",
+                                   {{"rate_hz", 10},
+                                    {"pattern",
+                                     {{"type", "raster"},
+                                      {"horizontal_fov_deg", 20},
+                                      {"vertical_fov_deg", 40},
+                                      {"angular_resolution_deg", std::stod(resolution_deg)}}}}}}}};
     return folder_->Write("scenario_" + resolution_deg + ".json", scenario.dump()).string() + " ";
   }
 
@@ -86,7 +86,7 @@ class CommandPages : public testing::Test {
 
   static std::string StudyFile() {
     const std::filesystem::path studies = ScenariosDir() / "studies";
-    Json recipe = Json::parse(ReadFileWhole(studies / "person_recipe.json"));
+    PlainJson recipe = PlainJson::parse(ReadFileWhole(studies / "person_recipe.json"));
     recipe["num_scenarios"] = 10;
     recipe["num_frames"] = 40;
     recipe["bases"] = {{{"file", (ScenariosDir() / "brake_person.json").string()}}};
@@ -126,18 +126,18 @@ class CommandPages : public testing::Test {
 TEST_F(CommandPages, AreWrittenByEveryCommand) {
   for (const char* const name : kNames) {
     SCOPED_TRACE(name);
-    const Json report = JsonOf(name);
+    const PlainJson report = JsonOf(name);
     EXPECT_FALSE(report.at("sections").empty());
     // What a reader sees is what a program reads.
     const std::string page = ReadFileWhole(PageOf(name));
-    for (const Json& section : report.at("sections")) {
+    for (const PlainJson& section : report.at("sections")) {
       EXPECT_THAT(page, testing::HasSubstr("<section id=\"section-" +
                                            section.at("key").get<std::string>() + "\">"));
-      for (const Json& chart : section.at("charts")) {
+      for (const PlainJson& chart : section.at("charts")) {
         EXPECT_TRUE(
             exists(FolderOf(name) / "charts" / (chart.at("key").get<std::string>() + ".svg")));
       }
-      for (const Json& table : section.at("tables")) {
+      for (const PlainJson& table : section.at("tables")) {
         EXPECT_TRUE(exists(FolderOf(name) / "csv" / (table.at("key").get<std::string>() + ".csv")));
       }
     }
@@ -147,8 +147,8 @@ TEST_F(CommandPages, AreWrittenByEveryCommand) {
 TEST_F(CommandPages, FitTheirWidth) {
   if (!IsInstalled("chromium")) GTEST_SKIP() << "chromium is not installed";
   for (const char* const name : kNames) {
-    const Json none = Json::array();
-    EXPECT_EQ(OverflowOf(PageOf(name)), (Json{{"390", none}, {"1300", none}, {"703", none}}))
+    const PlainJson none = PlainJson::array();
+    EXPECT_EQ(OverflowOf(PageOf(name)), (PlainJson{{"390", none}, {"1300", none}, {"703", none}}))
         << name;
   }
 }
@@ -169,15 +169,15 @@ TEST_F(CommandPages, FitOnTenPagesOfPaper) {
 }
 
 // The axes of all charts, the columns of all tables and the headlines.
-void ForEachQuantity(const Json& report, const std::function<void(const Json&)>& visit) {
-  for (const Json& headline : report.at("headlines")) visit(headline);
-  for (const Json& section : report.at("sections")) {
-    for (const Json& chart : section.at("charts")) {
+void ForEachQuantity(const PlainJson& report, const std::function<void(const PlainJson&)>& visit) {
+  for (const PlainJson& headline : report.at("headlines")) visit(headline);
+  for (const PlainJson& section : report.at("sections")) {
+    for (const PlainJson& chart : section.at("charts")) {
       visit(chart.at("x"));
       visit(chart.at("y"));
     }
-    for (const Json& table : section.at("tables")) {
-      for (const Json& column : table.at("columns")) visit(column);
+    for (const PlainJson& table : section.at("tables")) {
+      for (const PlainJson& column : table.at("columns")) visit(column);
     }
   }
 }
@@ -188,7 +188,7 @@ TEST_F(CommandPages, HaveOneUnitForAQuantity) {
                                        "x raw", "km", "1/km", "km/h", "permil", "MB"};
   for (const char* const name : kNames) {
     SCOPED_TRACE(name);
-    ForEachQuantity(JsonOf(name), [&](const Json& quantity) {
+    ForEachQuantity(JsonOf(name), [&](const PlainJson& quantity) {
       const std::string title = quantity.at("title"), unit = quantity.at("unit");
       EXPECT_TRUE(units.contains(unit)) << title << " in " << unit;
       if (title.find("deviation") != std::string::npos || title.starts_with("Range error") ||

@@ -11,7 +11,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 TEST(RailcastAnalyze, KnowsItsVersionAndItsUse) {
   EXPECT_THAT(Analyze("--version").said, testing::StartsWith("railcast " RAILCAST_VERSION));
@@ -64,7 +64,7 @@ TEST(RailcastAnalyze, ChartsAScenario) {
                             " --frames 1 --rows footprint,brute_force_4");
   ASSERT_EQ(run.status, 0) << run.said;
   EXPECT_THAT(run.said, HasSubstr("fidelity auto uses "));
-  const Json json = Json::parse(ReadFileWhole(out / "frontier.json"));
+  const PlainJson json = PlainJson::parse(ReadFileWhole(out / "frontier.json"));
   ASSERT_EQ(json["rows"].size(), 3U);
   // Brute force with 4 rays misses more wires than the closed forms do.
   EXPECT_GT(json["rows"][2]["errors"]["thin_recall"]["num"], 0);
@@ -72,7 +72,7 @@ TEST(RailcastAnalyze, ChartsAScenario) {
             json["rows"][2]["errors"]["thin_recall"]["share"]);
   ASSERT_EQ(json["sections"][0]["charts"].size(), 4U);
   // Only rows that were run stand in the legend.
-  const Json& series = json["sections"][0]["charts"][0]["series"];
+  const PlainJson& series = json["sections"][0]["charts"][0]["series"];
   ASSERT_EQ(series.size(), 2U);
   EXPECT_EQ(series[0]["title"], "railcast");
   EXPECT_EQ(series[1]["title"], "brute force, rays a beam");

@@ -20,7 +20,7 @@ namespace railcast {
 namespace {
 
 using testing::HasSubstr;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 const std::string kCaptures = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/";
 
@@ -33,9 +33,9 @@ std::filesystem::path MakeSequence(const TemporaryFolder& folder, const std::str
   return out;
 }
 
-const Json& JsonTableOf(const Json& stats, const std::string& key) {
-  for (const Json& section : stats.at("sections")) {
-    for (const Json& table : section.at("tables")) {
+const PlainJson& JsonTableOf(const PlainJson& stats, const std::string& key) {
+  for (const PlainJson& section : stats.at("sections")) {
+    for (const PlainJson& table : section.at("tables")) {
       if (table.at("key") == key) return table;
     }
   }
@@ -51,15 +51,15 @@ TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
   std::map<std::string, std::uint64_t> expected;
   std::ifstream lines(sequence / "frames.jsonl");
   for (std::string line; std::getline(lines, line);) {
-    const Json record = Json::parse(line);
+    const PlainJson record = PlainJson::parse(line);
     for (const auto& [outcome, num] : record["outcomes"].items()) {
       if (num > 0) expected[outcome] += num.get<std::uint64_t>();
     }
   }
   ASSERT_GT(expected["rain_absorbed"], 100U);
-  const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+  const PlainJson stats = PlainJson::parse(ReadFileWhole(out / "stats.json"));
   std::map<std::string, std::uint64_t> found;
-  for (const Json& row : JsonTableOf(stats, "outcomes")["rows"]) {
+  for (const PlainJson& row : JsonTableOf(stats, "outcomes")["rows"]) {
     std::string outcome = row["outcome"];
     std::replace(outcome.begin(), outcome.end(), ' ', '_');
     found[outcome] = row["firings"];
@@ -95,7 +95,7 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(
       folder, R"("camera": {"width_px": 64, "height_px": 48, "horizontal_fov_deg": 60},)");
-  Json both = Json::parse(ReadFileWhole(scenario));
+  PlainJson both = PlainJson::parse(ReadFileWhole(scenario));
   both["lidars"] = {both["lidar"], both["lidar"]};
   both["lidars"][0]["name"] = "front";
   both["lidars"][1]["name"] = "roof";
@@ -112,9 +112,9 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
   const auto sheet = DecodePngRgb(png);
   EXPECT_EQ(sheet.size.width_px, 2U * 480U);
   ASSERT_EQ(sheet.size.height_px, 3U * 320U);
-  const Json labels = Json::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
+  const PlainJson labels = PlainJson::parse(ReadFileWhole(ScenariosDir() / "labels.json"));
   std::array<int, 3> ballast{};
-  for (const Json& label : labels["labels"]) {
+  for (const PlainJson& label : labels["labels"]) {
     if (label["name"] == "ballast") ballast = label["rgb"].get<std::array<int, 3>>();
   }
   const auto is_ballast = [&](const auto& rgb) { return rgb == ballast; };
@@ -133,7 +133,7 @@ TEST(StatsCommand, ShowsFramesOfEverySensorAndCamera) {
 TEST(StatsCommand, ShowsWideScansInLowRows) {
   const TemporaryFolder folder;
   const auto scenario = WriteScenario(folder);
-  Json wide = Json::parse(ReadFileWhole(scenario));
+  PlainJson wide = PlainJson::parse(ReadFileWhole(scenario));
   wide["lidar"]["scan"]["pattern"]["horizontal_fov_deg"] = 60;
   wide["lidar"]["scan"]["pattern"]["vertical_fov_deg"] = 15;
   wide["lidar"]["mount"]["pitch_deg"] = 10;
@@ -167,7 +167,7 @@ TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
     const Ended run =
         Analyze("stats " + sequence.string() + " --out " + out.string() + " --threads " + threads);
     EXPECT_EQ(run.status, 0) << run.said;
-    Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+    PlainJson stats = PlainJson::parse(ReadFileWhole(out / "stats.json"));
     stats.erase("command");  // The command line contains the number of threads.
     return stats.dump();
   };
@@ -242,12 +242,12 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
   const auto points_of = [&](const std::string& sources, const std::string& name) {
     const Ended ended = Analyze("stats " + sources + " --out " + (out / name).string());
     EXPECT_EQ(ended.status, 0) << ended.said;
-    return Json::parse(ReadFileWhole(out / name / "stats.json"));
+    return PlainJson::parse(ReadFileWhole(out / name / "stats.json"));
   };
-  const Json front = points_of((run / "front").string(), "of_front");
-  const Json roof = points_of((run / "roof").string(), "of_roof");
-  const Json both = points_of(run.string(), "of_both");
-  const auto fact = [](const Json& stats, const std::string& name) {
+  const PlainJson front = points_of((run / "front").string(), "of_front");
+  const PlainJson roof = points_of((run / "roof").string(), "of_roof");
+  const PlainJson both = points_of(run.string(), "of_both");
+  const auto fact = [](const PlainJson& stats, const std::string& name) {
     return std::stoul(stats.at("facts").at(name).get<std::string>());
   };
   EXPECT_EQ(fact(both, "Points"), fact(front, "Points") + fact(roof, "Points"));
@@ -258,30 +258,30 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
   }
 }
 
-Json StatsOf(const std::filesystem::path& source, const std::filesystem::path& out) {
+PlainJson StatsOf(const std::filesystem::path& source, const std::filesystem::path& out) {
   const Ended run = Analyze("stats " + source.string() + " --out " + out.string());
   EXPECT_EQ(run.status, 0) << run.said;
-  return Json::parse(ReadFileWhole(out / "stats.json"));
+  return PlainJson::parse(ReadFileWhole(out / "stats.json"));
 }
 
 TEST(StatsCommand, SumsUpADataSetAndShowsItsReportFirst) {
   const TemporaryFolder folder;
   const auto set = MakeSmallDataset(folder, "");
-  const Json stats = StatsOf(set, set.parent_path() / "out");
+  const PlainJson stats = StatsOf(set, set.parent_path() / "out");
   EXPECT_EQ(stats["title"], "Statistics of set");
   EXPECT_EQ(stats["facts"]["Frames"], "6");
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (data set)");
-  const Json manifest = Json::parse(ReadFileWhole(set / "manifest.json"));
+  const PlainJson manifest = PlainJson::parse(ReadFileWhole(set / "manifest.json"));
   EXPECT_EQ(stats["facts"]["Data hash"], manifest["data_xxh3"]);
   EXPECT_EQ(stats["sections"][0]["key"], "sheet");
   EXPECT_EQ(stats["sections"][1]["key"], "dataset");
   EXPECT_EQ(stats["sections"][2]["key"], "classes");
   // The clouds hold what the generator counted.
   std::map<std::string, std::uint64_t> counted, found;
-  for (const Json& row : JsonTableOf(stats, "points_by_label")["rows"]) {
+  for (const PlainJson& row : JsonTableOf(stats, "points_by_label")["rows"]) {
     found[row["label"]] = row["points"];
   }
-  for (const Json& row : JsonTableOf(stats, "dataset_classes")["rows"]) {
+  for (const PlainJson& row : JsonTableOf(stats, "dataset_classes")["rows"]) {
     counted[row["label"]] = row["points"];
   }
   EXPECT_EQ(found, counted);
@@ -302,7 +302,7 @@ TEST(StatsCommand, RefusesAnUnfinishedDataSetInOneLine) {
 TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
   const TemporaryFolder folder;
   const auto set = MakeSmallDataset(folder, "--shard 1/2");
-  const Json stats = StatsOf(set, set.parent_path() / "out");
+  const PlainJson stats = StatsOf(set, set.parent_path() / "out");
   EXPECT_EQ(stats["facts"]["Frames"], "4");
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (shard 1/2 of a data set)");
   EXPECT_EQ(stats["sections"][0]["key"], "sheet");
@@ -313,7 +313,7 @@ TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
 TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   const TemporaryFolder folder;
   const auto run = MakeSequence(folder, "--format kitti");
-  const Json one = StatsOf(run, run.parent_path() / "of_one");
+  const PlainJson one = StatsOf(run, run.parent_path() / "of_one");
   const auto other = run.parent_path() / "other";
   std::filesystem::copy(run, other, std::filesystem::copy_options::recursive);
   const auto joined = run.parent_path() / "joined";
@@ -321,11 +321,11 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
       RunCommand("/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/join_semantic_kitti.py " +
                  joined.string() + " --train " + run.string() + " --test " + other.string());
   ASSERT_EQ(join.status, 0) << join.said;
-  const Json both = StatsOf(joined, run.parent_path() / "of_both");
+  const PlainJson both = StatsOf(joined, run.parent_path() / "of_both");
   EXPECT_EQ(both["facts"]["Source"], joined.string() + " (KITTI data set of 2 sequences)");
   EXPECT_EQ(both["facts"]["Frames"], "22");
-  const Json& rows = JsonTableOf(one, "points_by_label")["rows"];
-  const Json& sums = JsonTableOf(both, "points_by_label")["rows"];
+  const PlainJson& rows = JsonTableOf(one, "points_by_label")["rows"];
+  const PlainJson& sums = JsonTableOf(both, "points_by_label")["rows"];
   ASSERT_EQ(rows.size(), sums.size());
   std::set<std::string> names;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -335,9 +335,9 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   }
   EXPECT_TRUE(names.contains("rail"));
   std::filesystem::remove(joined / "semantic-kitti-railcast.yaml");
-  const Json numbers = StatsOf(joined, run.parent_path() / "of_numbers");
+  const PlainJson numbers = StatsOf(joined, run.parent_path() / "of_numbers");
   EXPECT_EQ(JsonTableOf(numbers, "points_by_label")["rows"].size(), rows.size());
-  for (const Json& row : JsonTableOf(numbers, "points_by_label")["rows"]) {
+  for (const PlainJson& row : JsonTableOf(numbers, "points_by_label")["rows"]) {
     EXPECT_FALSE(names.contains(row["label"].get<std::string>()));
   }
 }
@@ -350,9 +350,9 @@ TEST(StatsCommand, FindsWhatBelongsToAKittiCloudThatIsNamedFromItsOwnFolder) {
     const Ended run = RunCommand("cd " + clouds.string() + " && " RAILCAST_ANALYZE " stats " +
                                  source + " --format json");
     EXPECT_EQ(run.status, 0) << run.said;
-    return JsonTableOf(Json::parse(run.said), "points_by_label")["rows"];
+    return JsonTableOf(PlainJson::parse(run.said), "points_by_label")["rows"];
   };
-  const Json expected = rows_of((clouds / "000003.bin").string());
+  const PlainJson expected = rows_of((clouds / "000003.bin").string());
   EXPECT_EQ(rows_of("000003.bin"), expected);
   EXPECT_EQ(rows_of("./000003.bin"), expected);
   EXPECT_EQ(rows_of("."), rows_of(clouds.string()));
@@ -384,17 +384,17 @@ TEST_P(StatsOfCapture, ArePlausible) {
   const auto out = folder.Write("x", "").parent_path() / "out";
   const Ended run = Analyze("stats " + kCaptures + GetParam() + ".pcap --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  const Json stats = Json::parse(ReadFileWhole(out / "stats.json"));
+  const PlainJson stats = PlainJson::parse(ReadFileWhole(out / "stats.json"));
   int num_bins = 0;
-  for (const Json& row : JsonTableOf(stats, "temporal_noise")["rows"]) {
-    const Json& sigma_mm = row["robust_sigma_mm"];
+  for (const PlainJson& row : JsonTableOf(stats, "temporal_noise")["rows"]) {
+    const PlainJson& sigma_mm = row["robust_sigma_mm"];
     if (sigma_mm["value"].is_null() || sigma_mm["samples"] < 1000) continue;
     EXPECT_GT(sigma_mm["value"], 2.0);
     EXPECT_LT(sigma_mm["value"], 30.0);
     ++num_bins;
   }
   EXPECT_GT(num_bins, 1);
-  const Json& holes = JsonTableOf(stats, "grid")["rows"][1]["share_percent"];
+  const PlainJson& holes = JsonTableOf(stats, "grid")["rows"][1]["share_percent"];
   EXPECT_LT(holes["high"], 5.0);
   EXPECT_GT(holes["samples"], 10000);
   EXPECT_TRUE(JsonTableOf(stats, "frames")["rows"][0]["mean"]["value"].is_null());

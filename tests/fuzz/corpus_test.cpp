@@ -45,8 +45,8 @@ std::vector<std::string> NamesOfTargets() {
 INSTANTIATE_TEST_SUITE_P(Readers,
                          FuzzCorpus,
                          testing::ValuesIn(NamesOfTargets()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           return info.param;
+                         [](const testing::TestParamInfo<std::string>& target) {
+                           return target.param;
                          });
 
 // The targets register themselves, the corpora are folders: neither is left out.

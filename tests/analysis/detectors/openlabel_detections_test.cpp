@@ -11,11 +11,11 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 /// One person, 20 m before a sensor that is turned by half a turn, 2 m before the vehicle's origin.
-Json SceneOfAPerson() {
-  return Json::parse(R"({"openlabel": {
+PlainJson SceneOfAPerson() {
+  return PlainJson::parse(R"({"openlabel": {
     "metadata": {"schema_version": "1.0.0"},
     "coordinate_systems": {
       "base": {"type": "local", "parent": "", "children": ["lidar"]},
@@ -30,11 +30,11 @@ Json SceneOfAPerson() {
   }})");
 }
 
-ReportedRun ReadScene(const Json& scene, const Transform& vehicle_from_sensor) {
+ReportedRun ReadScene(const PlainJson& scene, const Transform& vehicle_from_sensor) {
   return ReadOpenLabelRun(scene.dump(), "s.json", vehicle_from_sensor);
 }
 
-std::string SceneFault(const Json& scene) {
+std::string SceneFault(const PlainJson& scene) {
   return MessageOf([&] { (void)ReadScene(scene, Transform::Identity()); });
 }
 
@@ -61,8 +61,8 @@ TEST(OpenLabelDetections, AreCuboidsInTheSensorsAxes) {
 }
 
 TEST(OpenLabelDetections, AreReadStrictly) {
-  const Json::json_pointer cuboid("/openlabel/frames/9/objects/a/object_data/cuboid/0");
-  Json scene = SceneOfAPerson();
+  const PlainJson::json_pointer cuboid("/openlabel/frames/9/objects/a/object_data/cuboid/0");
+  PlainJson scene = SceneOfAPerson();
   scene[cuboid]["val"].erase(0);
   EXPECT_EQ(SceneFault(scene),
             "s.json: /openlabel/frames/9/objects/a/object_data/cuboid/0/val: must be 10 numbers");
@@ -86,10 +86,10 @@ TEST(OpenLabelDetections, AreReadStrictly) {
   EXPECT_EQ(SceneFault(scene),
             "s.json: /openlabel/coordinate_systems/lidar: must not be above itself");
   scene = SceneOfAPerson();
-  scene["openlabel"]["frames"]["first"] = Json::object();
+  scene["openlabel"]["frames"]["first"] = PlainJson::object();
   EXPECT_EQ(SceneFault(scene), "s.json: /openlabel/frames/first: must be named by its number");
   scene = SceneOfAPerson();
-  scene["openlabel"]["frames"]["009"] = Json::object();
+  scene["openlabel"]["frames"]["009"] = PlainJson::object();
   EXPECT_EQ(SceneFault(scene), "s.json: /openlabel/frames/9: must be named once");
   EXPECT_EQ(MessageOf([] { (void)ReadOpenLabelRun("{", "s.json", Transform::Identity()); }),
             "s.json: must be a file of OpenLABEL");
@@ -101,13 +101,13 @@ TEST(OpenLabelDetections, OfAPublishedSceneAreItsCuboids) {
                                      "osdar23_openlabel" / "1_calibration_1.1_labels.json";
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const ReportedRun run = ReadReportedRun(file, Transform::Identity());
-  const Json frames = Json::parse(ReadFileWhole(file)).at("openlabel").at("frames");
+  const PlainJson frames = PlainJson::parse(ReadFileWhole(file)).at("openlabel").at("frames");
   ASSERT_EQ(run.size(), frames.size());
   std::size_t num = 0;
   for (const ReportedFrame& frame : run) {
     std::size_t expected = 0;
-    for (const Json& object : frames.at(std::to_string(frame.frame)).at("objects")) {
-      expected += object.at("object_data").value("cuboid", Json::array()).size();
+    for (const PlainJson& object : frames.at(std::to_string(frame.frame)).at("objects")) {
+      expected += object.at("object_data").value("cuboid", PlainJson::array()).size();
     }
     EXPECT_EQ(frame.detections.size(), expected);
     num += expected;

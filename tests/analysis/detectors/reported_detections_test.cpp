@@ -15,7 +15,7 @@ std::string FaultOf(const std::string& text) {
   return MessageOf([&] { (void)ReadDetectionLines(text, "d.jsonl"); });
 }
 
-std::string LineOf(const std::string& detection) {
+std::string ReportedLine(const std::string& detection) {
   return R"({"frame": 12, "detections": [)" + detection + "]}\n";
 }
 
@@ -44,24 +44,24 @@ TEST(DetectionLines, ReadBoxesAndClusters) {
 }
 
 TEST(DetectionLines, AreReadStrictly) {
-  EXPECT_EQ(FaultOf(LineOf(R"({"points": [1], "size_m": [1, 1, 1]})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"points": [1], "size_m": [1, 1, 1]})")),
             "d.jsonl:1: /detections/0: must have either center_m and size_m, or points");
-  EXPECT_EQ(FaultOf(LineOf(R"({"center_m": [1, 1, 1]})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"center_m": [1, 1, 1]})")),
             "d.jsonl:1: /detections/0: must have either center_m and size_m, or points");
-  EXPECT_EQ(FaultOf(LineOf(R"({"points": []})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"points": []})")),
             "d.jsonl:1: /detections/0/points: must not be empty (got [])");
   EXPECT_EQ(
-      FaultOf(LineOf(R"({"points": [1, -2]})")),
+      FaultOf(ReportedLine(R"({"points": [1, -2]})")),
       "d.jsonl:1: /detections/0/points/1: must be a whole number from 0 to 4294967295 (got -2)");
-  EXPECT_EQ(FaultOf(LineOf(R"({"center_m": [1, 1], "size_m": [1, 1, 1]})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"center_m": [1, 1], "size_m": [1, 1, 1]})")),
             "d.jsonl:1: /detections/0/center_m: must be a list of 3 values (got [1,1])");
-  EXPECT_EQ(FaultOf(LineOf(R"({"center_m": [1, 1, 1], "size_m": [1, 0, 1]})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"center_m": [1, 1, 1], "size_m": [1, 0, 1]})")),
             "d.jsonl:1: /detections/0/size_m/1: must be > 0 and <= 1000 (got 0)");
   EXPECT_EQ(
-      FaultOf(LineOf(
+      FaultOf(ReportedLine(
           R"({"center_m": [1, 1, 1], "size_m": [1, 1, 1], "quaternion_xyzw": [0, 0, 1, 1]})")),
       "d.jsonl:1: /detections/0/quaternion_xyzw: must have length 1 (got [0,0,1,1])");
-  EXPECT_EQ(FaultOf(LineOf(R"({"points": [1], "scores": 1})")),
+  EXPECT_EQ(FaultOf(ReportedLine(R"({"points": [1], "scores": 1})")),
             "d.jsonl:1: /detections/0/scores: unknown key, the nearest is \"score\"");
   EXPECT_EQ(FaultOf("{\"frame\": 1}\n"), "d.jsonl:1: /detections: missing");
 }
@@ -113,7 +113,7 @@ const std::string kBoxAhead = R"({"center_m": [49, 0.5, -1], "size_m": [0.5, 0.4
 // Points measured 0.05 s after the stamp were 1 m farther away at the stamp, at 20 m/s.
 TEST(Detections, OfPointsAsMeasuredAreMovedToTheStamp) {
   const RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 50'000'000);
-  const DetectedBox box = PlacedBox(LineOf(kBoxAhead), recorded);
+  const DetectedBox box = PlacedBox(ReportedLine(kBoxAhead), recorded);
   EXPECT_TRUE(box.box.world_from_box.translation().isApprox(Vector3(550.0, 0.5, 1.0), 1e-9));
   EXPECT_EQ(box.box.size_m, Vector3(0.5, 0.4, 0.3));
   EXPECT_EQ(box.label, 5U);
@@ -170,13 +170,15 @@ TEST(Detections, MustSayTheirAxesWhereThePointsAreInOthers) {
             "d.jsonl:1: /handedness: missing, must be \"right\" or \"left\", as the boxes are: the "
             "points of the run's files are \"left\"");
   // Points say where they are by themselves.
-  EXPECT_EQ(
-      PlacedBox(LineOf(R"({"points": [0, 1]})"), recorded, RunOf(OutputFrame::kVehicle)).label, 5U);
+  EXPECT_EQ(PlacedBox(ReportedLine(R"({"points": [0, 1]})"), recorded, RunOf(OutputFrame::kVehicle))
+                .label,
+            5U);
 }
 
 TEST(Detections, OfPointsAreTheirBox) {
   const RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 50'000'000);
-  const DetectedBox box = PlacedBox(LineOf(R"({"points": [0, 1, 2, 3, 4, 5, 6, 7]})"), recorded);
+  const DetectedBox box =
+      PlacedBox(ReportedLine(R"({"points": [0, 1, 2, 3, 4, 5, 6, 7]})"), recorded);
   EXPECT_TRUE(box.box.world_from_box.translation().isApprox(Vector3(550.0, 0.5, 1.0), 1e-6));
   EXPECT_TRUE(box.box.size_m.isApprox(Vector3(0.2, 0.2, 0.2), 1e-4));
   EXPECT_EQ(box.label, 5U);
@@ -186,7 +188,8 @@ TEST(Detections, NamePointsThatAreThere) {
   RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 0);
   recorded.frame.x[3] = std::numeric_limits<float>::quiet_NaN();
   const auto fault = [&](const std::string& points) {
-    return MessageOf([&] { (void)PlacedBox(LineOf("{\"points\": " + points + "}"), recorded); });
+    return MessageOf(
+        [&] { (void)PlacedBox(ReportedLine("{\"points\": " + points + "}"), recorded); });
   };
   EXPECT_EQ(fault("[0, 8]"),
             "d.jsonl:1: /detections/0/points/1: must be < 8, the number of points of frame.pcd "
@@ -198,8 +201,9 @@ TEST(Detections, NamePointsThatAreThere) {
 TEST(Detections, BelowAScoreAreLeftOut) {
   const RecordedFrame recorded = FrameWithPoints({49.0, 0.5, -1.0}, 0);
   const ReportedFrame reported =
-      ReadDetectionLines(LineOf(R"({"points": [0], "score": 0.4}, {"points": [1], "score": 0.5})"),
-                         "d.jsonl")
+      ReadDetectionLines(
+          ReportedLine(R"({"points": [0], "score": 0.4}, {"points": [1], "score": 0.5})"),
+          "d.jsonl")
           .at(0);
   EXPECT_EQ(DetectionsOf(reported, recorded, {}, StraightTrack(), 0.5).size(), 1U);
 }

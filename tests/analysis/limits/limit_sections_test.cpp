@@ -11,27 +11,27 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 ScenarioSpec OnRung(const std::string& fidelity) {
-  const Json json = {{"version", 1},
-                     {"file", RAILCAST_SOURCE_DIR "/scenarios/minimal.json"},
-                     {"fidelity", fidelity}};
+  const PlainJson json = {{"version", 1},
+                          {"file", RAILCAST_SOURCE_DIR "/scenarios/minimal.json"},
+                          {"fidelity", fidelity}};
   return ReadScenarioText(json.dump(), "scenario.json");
 }
 
 // A scenario with a shipped sensor.
 // @param name Of the sensor, as several sensors of one train have; empty for the preset's own.
 ScenarioSpec WithPreset(const std::string& preset, const std::string& name) {
-  Json lidar = {{"file", RAILCAST_SOURCE_DIR "/scenarios/sensors/" + preset},
-                {"mount", {{"position_m", {1.0, 0.0, 3.0}}}}};
+  PlainJson lidar = {{"file", RAILCAST_SOURCE_DIR "/scenarios/sensors/" + preset},
+                     {"mount", {{"position_m", {1.0, 0.0, 3.0}}}}};
   if (!name.empty()) lidar["name"] = name;
-  const Json json = {
+  const PlainJson json = {
       {"version", 1}, {"file", RAILCAST_SOURCE_DIR "/scenarios/minimal.json"}, {"lidar", lidar}};
   return ReadScenarioText(json.dump(), "scenario.json");
 }
 
-const std::string& Text(const Cell& cell) {
+const std::string& TextIn(const Cell& cell) {
   return std::get<std::string>(cell);
 }
 
@@ -43,7 +43,7 @@ std::vector<std::vector<Cell>> SensorRows(const std::vector<ScenarioSpec>& sampl
 std::vector<std::string> LimitsOf(const std::vector<ScenarioSpec>& sample, bool has_detector) {
   const Section section = LimitsSection(sample, has_detector);
   std::vector<std::string> texts;
-  for (const auto& row : section.tables.at(0).rows) texts.push_back(Text(row.at(0)));
+  for (const auto& row : section.tables.at(0).rows) texts.push_back(TextIn(row.at(0)));
   return texts;
 }
 
@@ -54,7 +54,7 @@ bool Has(const std::vector<std::string>& texts, const std::string& text) {
 TEST(SensorSection, CallsASensorWithoutRecordingNotValidated) {
   const auto rows = SensorRows({OnRung("surface")});
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(Text(rows[0].at(1)), "not validated: not compared with recordings");
+  EXPECT_EQ(TextIn(rows[0].at(1)), "not validated: not compared with recordings");
   EXPECT_TRUE(std::isnan(std::get<double>(rows[0].at(2))));
 }
 
@@ -62,13 +62,13 @@ TEST(SensorSection, TakesAPresetForValidatedOnlyAsItWasCompared) {
   ScenarioSpec scenario = WithPreset("vls128.json", "");
   const auto rows = SensorRows({scenario});
   ASSERT_EQ(rows.size(), 1U);
-  EXPECT_EQ(Text(rows[0].at(0)), "VLS-128");
-  EXPECT_EQ(Text(rows[0].at(1)), "preset compared with a recording");
+  EXPECT_EQ(TextIn(rows[0].at(0)), "VLS-128");
+  EXPECT_EQ(TextIn(rows[0].at(1)), "preset compared with a recording");
   EXPECT_EQ(std::get<double>(rows[0].at(2)), 0.008);
   scenario.lidar.receiver.range_noise_floor_m += 0.001;
   const auto changed = SensorRows({scenario});
   ASSERT_EQ(changed.size(), 1U);
-  EXPECT_EQ(Text(changed[0].at(1)), "not validated: changed from the preset");
+  EXPECT_EQ(TextIn(changed[0].at(1)), "not validated: changed from the preset");
   EXPECT_TRUE(std::isnan(std::get<double>(changed[0].at(2))));
 }
 
@@ -76,10 +76,10 @@ TEST(SensorSection, NamesThePresetOfEachOfSeveralSensors) {
   const ScenarioSpec left = WithPreset("vls128.json", "left");
   const auto rows = SensorRows({left, WithPreset("vls128.json", "right"), left});
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(Text(rows[0].at(0)), "left (VLS-128)");
-  EXPECT_EQ(Text(rows[1].at(0)), "right (VLS-128)");
+  EXPECT_EQ(TextIn(rows[0].at(0)), "left (VLS-128)");
+  EXPECT_EQ(TextIn(rows[1].at(0)), "right (VLS-128)");
   for (const auto& row : rows) {
-    EXPECT_EQ(Text(row.at(1)), "preset compared with a recording");
+    EXPECT_EQ(TextIn(row.at(1)), "preset compared with a recording");
     EXPECT_EQ(std::get<double>(row.at(2)), 0.008);
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 class ReportInBrowser : public testing::Test {
  protected:
@@ -42,9 +42,9 @@ TEST_F(ReportInBrowser, SaysNothingToTheConsole) {
 }
 
 TEST_F(ReportInBrowser, ShowsEveryChartInLightAndDark) {
-  const Json light = Probe("--window-size=1400,1000", page());
-  const Json dark = Probe("--window-size=1400,1000" + std::string(kDarkScheme), page());
-  for (const Json& look : {light, dark}) {
+  const PlainJson light = Probe("--window-size=1400,1000", page());
+  const PlainJson dark = Probe("--window-size=1400,1000" + std::string(kDarkScheme), page());
+  for (const PlainJson& look : {light, dark}) {
     ASSERT_EQ(look["charts"].size(), MadeCharts().size());
     for (std::size_t i = 0; i < MadeCharts().size(); ++i) {
       EXPECT_GT(look["charts"][i][2], 400) << i;
@@ -52,8 +52,8 @@ TEST_F(ReportInBrowser, ShowsEveryChartInLightAndDark) {
       EXPECT_GT(look["drawn"][i], 300) << i;
       EXPECT_TRUE(look["texts"][i]) << "chart " << i << " cuts its text off";
     }
-    EXPECT_EQ(look["pictures"], Json::array({200}));
-    EXPECT_EQ(look["requests"], Json::array());
+    EXPECT_EQ(look["pictures"], PlainJson::array({200}));
+    EXPECT_EQ(look["requests"], PlainJson::array());
   }
   EXPECT_NE(light["ground"], dark["ground"]);
   EXPECT_NE(light["ink"], dark["ink"]);
@@ -62,8 +62,8 @@ TEST_F(ReportInBrowser, ShowsEveryChartInLightAndDark) {
 }
 
 TEST_F(ReportInBrowser, FitsEveryWidth) {
-  const Json none = Json::array();
-  EXPECT_EQ(OverflowOf(page()), (Json{{"390", none}, {"1300", none}, {"703", none}}));
+  const PlainJson none = PlainJson::array();
+  EXPECT_EQ(OverflowOf(page()), (PlainJson{{"390", none}, {"1300", none}, {"703", none}}));
 }
 
 TEST_F(ReportInBrowser, IsReadableInLightAndDark) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 TEST(TableCsv, GivesEstimatesFourColumnsAndQuotesText) {
   EXPECT_EQ(TableCsv(MadeTable()),
@@ -35,11 +35,11 @@ TEST(TableCsv, IsAHeaderWhereThereAreNoRows) {
 }
 
 TEST(ReportJson, HoldsEveryKindOfCell) {
-  const Json json = Json::parse(ReportJson(MadeReport()));
+  const PlainJson json = PlainJson::parse(ReportJson(MadeReport()));
   EXPECT_EQ(json["facts"]["Frames"], "50");
   EXPECT_EQ(json["headlines"][0]["value"]["samples"], 4512);
   EXPECT_TRUE(json["headlines"][2]["value"]["value"].is_null());
-  const Json& rows = json["sections"][0]["tables"][0]["rows"];
+  const PlainJson& rows = json["sections"][0]["tables"][0]["rows"];
   EXPECT_EQ(rows[0]["cause"], "no \"surface\", <b>bold</b>");
   EXPECT_EQ(rows[0]["beams"], 1234567);
   EXPECT_EQ(rows[0]["dropout"]["low"], 11.9);
@@ -50,7 +50,7 @@ TEST(ReportJson, HoldsEveryKindOfCell) {
 }
 
 TEST(ReportJson, HoldsWhatChartsShow) {
-  const Json charts = Json::parse(ReportJson(MadeReport()))["sections"][0]["charts"];
+  const PlainJson charts = PlainJson::parse(ReportJson(MadeReport()))["sections"][0]["charts"];
   EXPECT_EQ(charts[1]["y"]["unit"], "1/m²");
   EXPECT_EQ(charts[2]["x"]["categories"][2], "snow");
   EXPECT_TRUE(charts[0]["series"][0]["points"][4]["y"].is_null());
@@ -65,7 +65,7 @@ TEST(ReportJson, LeavesTheLayoutToThePage) {
 }
 
 TEST(ReportJson, HasTheDetailsBesideTheReport) {
-  const Json json = Json::parse(ReportJson(MadeReport(), R"({"seed": 7})"));
+  const PlainJson json = PlainJson::parse(ReportJson(MadeReport(), R"({"seed": 7})"));
   EXPECT_EQ(json["seed"], 7);
   EXPECT_EQ(json["facts"]["Frames"], "50");
 }
@@ -75,7 +75,7 @@ TEST(ReportFormats, CallABinByItsEnds) {
   report.sections = {
       {"s", "S", {}, {}, {{"t", "T", "", {{"range_m", "Range", "m"}}, {{Span{2.5, 5}}}}}}};
   EXPECT_EQ(TableCsv(report.sections[0].tables[0]), "range_m\n2.5 to 5\n");
-  const Json row = Json::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0];
+  const PlainJson row = PlainJson::parse(ReportJson(report))["sections"][0]["tables"][0]["rows"][0];
   EXPECT_EQ(row["range_m"]["low"], 2.5);
   EXPECT_EQ(row["range_m"]["high"], 5.0);
   EXPECT_THAT(ReportText(report), HasSubstr("  Range (m)\n  2.5 to 5\n"));
@@ -90,7 +90,7 @@ TEST(ReportJson, KeepsTheOrderOfColumns) {
 TEST(ReportJson, SurvivesNamesThatAreNoUtf8) {
   Report report;
   report.title = "out/\xff";
-  EXPECT_FALSE(Json::parse(ReportJson(report))["title"].get<std::string>().empty());
+  EXPECT_FALSE(PlainJson::parse(ReportJson(report))["title"].get<std::string>().empty());
 }
 
 TEST(ReportText, LinesUpColumns) {

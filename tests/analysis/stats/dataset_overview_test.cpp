@@ -20,7 +20,7 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// A data set of two scenarios, made once.
 class DatasetOverviewTest : public testing::Test {
@@ -37,16 +37,17 @@ class DatasetOverviewTest : public testing::Test {
   /// Writes report.json, and its hash to manifest.json.
   void ReplaceReport(const std::string& report) const {
     WriteFileWhole(Path("report.json"), report);
-    Json manifest = Json::parse(ReadFileWhole(Path("manifest.json")));
+    OrderedJson manifest = OrderedJson::parse(ReadFileWhole(Path("manifest.json")));
     manifest["files_xxh3"]["report.json"] = ContentHash(report);
     manifest.erase("manifest_xxh3");
     WriteFileWhole(Path("manifest.json"), WithManifestHash(manifest.dump(2) + "\n"));
   }
   /// The message about a report with another value at a pointer, from "is damaged" on.
-  [[nodiscard]] std::string MessageWith(const std::string& pointer, const Json& value) const {
+  [[nodiscard]] std::string MessageWith(const std::string& pointer,
+                                        const OrderedJson& value) const {
     const std::string original = ReadFileWhole(Path("report.json"));
-    Json report = Json::parse(original);
-    report[Json::json_pointer(pointer)] = value;
+    OrderedJson report = OrderedJson::parse(original);
+    report[OrderedJson::json_pointer(pointer)] = value;
     ReplaceReport(report.dump());
     const std::string message = MessageOf([&] { (void)ReadDatasetOverview(Path()); });
     ReplaceReport(original);
@@ -64,10 +65,10 @@ TEST_F(DatasetOverviewTest, AgreesWithTheIndex) {
   std::set<std::string> persons;
   std::ifstream lines(Path("index.jsonl"));
   for (std::string text; std::getline(lines, text); ++frames) {
-    const Json line = Json::parse(text);
+    const OrderedJson line = OrderedJson::parse(text);
     points += line["points"].get<std::uint64_t>();
     bool has_points = false;
-    for (const Json& object : line["objects"]) {
+    for (const OrderedJson& object : line["objects"]) {
       has_points = has_points || object["points"] > 0;
       if (object["type"] != "person") continue;
       ++in_frames;
@@ -109,7 +110,7 @@ TEST_F(DatasetOverviewTest, RefusesNumbersThatDoNotFit) {
   EXPECT_EQ(MessageWith("/duplicate_frames", 7), "/duplicate_frames: must be <= 6 (got 7)");
   EXPECT_EQ(MessageWith("/splits/train/frames", 5), "/splits: must sum up to 6 (got 8)");
   EXPECT_EQ(MessageWith("/num_frames", 5), "/num_frames: must be 6, as manifest.json says (got 5)");
-  EXPECT_EQ(MessageWith("/weathers", Json::object()), "/weathers: must sum up to 2 (got 0)");
+  EXPECT_EQ(MessageWith("/weathers", OrderedJson::object()), "/weathers: must sum up to 2 (got 0)");
   EXPECT_EQ(MessageWith("/objects/person/by_occlusion/far", 0),
             "/objects/person/by_occlusion: must have 6 bins");
   EXPECT_THAT(MessageWith("/objects/person/with_points", 100),
