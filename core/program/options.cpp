@@ -160,6 +160,7 @@ ProgramOptions ProgramOptions::AddForeignCommand(const std::string& name,
 
 void ProgramOptions::RequireCommand() {
   app_->require_subcommand(1);
+  app_->fallthrough();
 }
 
 void ProgramOptions::WhenParsed(const std::function<void()>& use) {
