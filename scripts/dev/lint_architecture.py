@@ -58,7 +58,7 @@ LIBRARY_OWNERS = {
     "libjpeg": (r"jpeglib\.h$", ("core/io",)),
     "OpenSSL": (r"openssl/", ("core/io",)),
     "VTK": (r"vtk[A-Z]\w+\.h$", ("viewer",)),
-    "CLI11": (r"CLI/", ("core/program", *PROGRAMS)),
+    "CLI11": (r"CLI/", ("core/program",)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
     "Cyclone DDS": (r"dds/", ("core/io/dds",)),
