@@ -136,7 +136,7 @@ TEST(RecordedWay, EstimatesPosesByLayingCloudsOnEachOther) {
       ReadRecordedWay(folder.path() / "run", {.poses = PoseSource::kRegistered}, lidar, remarks);
   ASSERT_EQ(remarks.size(), 1U);
   EXPECT_EQ(remarks[0].substr(0, 25), "the poses are an estimate");
-  const auto way_m = [](const RecordedWay& way) {
+  const auto way_m = [](const RecordedWay& way) -> Vector3 {
     return (way.at_frames[0].inverse() * way.at_frames[3]).translation();
   };
   EXPECT_LT((way_m(estimated) - way_m(recorded)).norm(), 0.3);
