@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/scene/polygon.h"
+#include "core/scene/rotation_between.h"
 
 namespace railcast {
 namespace {
@@ -44,8 +45,7 @@ Vector3 NewellNormal(const std::vector<Vector3>& points, const FaceCorners& face
 std::vector<Eigen::Vector2d> Projected(const std::vector<Vector3>& points,
                                        const FaceCorners& face,
                                        const Vector3& normal) {
-  const Eigen::Quaterniond plan_from_file =
-      Eigen::Quaterniond::FromTwoVectors(normal, Vector3::UnitZ());
+  const Eigen::Quaterniond plan_from_file = RotationBetween(normal, Vector3::UnitZ());
   std::vector<Eigen::Vector2d> outline;
   for (const std::uint32_t corner : face) {
     const Vector3 offset = plan_from_file * (points[corner] - points[face[0]]);

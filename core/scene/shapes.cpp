@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/scene/polygon.h"
+#include "core/scene/rotation_between.h"
 
 namespace railcast {
 namespace {
@@ -105,7 +106,7 @@ Mesh MakeTube(std::span<const Vector3> centreline, std::span<const double> radii
     if (point > 0) AddWall(previous, ring, mesh);
     if (last) AddCap(ring, true, mesh);
     previous = ring;
-    u = Eigen::Quaterniond::FromTwoVectors(direction, next_direction) * u;
+    u = RotationBetween(direction, next_direction) * u;
     u = (u - next_direction * u.dot(next_direction)).normalized();
     direction = next_direction;
   }

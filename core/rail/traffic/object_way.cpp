@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/rail/objects/object_models.h"
+#include "core/scene/rotation_between.h"
 
 namespace railcast {
 namespace {
@@ -45,8 +46,7 @@ ObjectStance WalkingStance(const ObjectWay& way,
   if (way.follow == Follow::kTrack) {
     // Upright on the plane of the rails, and facing where it did.
     const Vector3 up = alignment.WorldFromTrack(place.s_m, place.d_m).linear().col(2);
-    world_from_object =
-        Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), up) * world_from_object;
+    world_from_object = RotationBetween(Vector3::UnitZ(), up) * world_from_object;
   }
   const Vector3 position_m(place.position_m.x(), place.position_m.y(),
                            place.rail_height_m + path.pose().h_m);

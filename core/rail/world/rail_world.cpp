@@ -38,6 +38,7 @@
 #include "core/rail/world/coarser_surfaces.h"
 #include "core/rail/world/world_check.h"
 #include "core/rail/world/world_draft.h"
+#include "core/scene/rotation_between.h"
 
 namespace railcast {
 namespace {
@@ -475,7 +476,7 @@ Transform RailWorld::WorldFromObject(std::size_t object, std::int64_t time_ns) c
   }
   const SlopeBelow slope = SlopeBelowObject(context, stance.place);
   world_from_object.translation().z() = slope.height_m;
-  return world_from_object * Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), slope.up);
+  return world_from_object * RotationBetween(Vector3::UnitZ(), slope.up);
 }
 
 std::vector<Transform> RailWorld::WorldFromPieces(std::size_t object, std::int64_t time_ns) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/scene/rotation_between.h"
+
 namespace railcast {
 namespace {
 
@@ -65,7 +67,7 @@ Transform RecordedWorld::WorldFromObject(std::size_t object, std::int64_t time_n
   // The world of objects has it upright.
   const Eigen::Matrix3d upright = world_from_object.linear();
   world_from_object.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), ground.up).toRotationMatrix() * upright;
+      RotationBetween(Vector3::UnitZ(), ground.up).toRotationMatrix() * upright;
   return world_from_object;
 }
 
