@@ -6,6 +6,7 @@
 #include "analysis/preset/preset_comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "core/io/recording/with_topic.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"

@@ -17,6 +17,7 @@
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/recording/with_topic.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"

@@ -15,6 +15,6 @@ if command -v ccache >/dev/null; then
   launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 fi
-# Everything, though a first stage may have been configured here (scripts/demo.sh).
-cmake --preset "$preset" -D RAILCAST_FIRST_STAGE=OFF "${launcher[@]}"
+# Everything, though a stage may have been configured here (scripts/demo.sh).
+cmake --preset "$preset" -D RAILCAST_STAGE= "${launcher[@]}"
 cmake --build --preset "$preset" --target "${@:-all}"

@@ -2,9 +2,10 @@
 # In two stages, from a bare Debian 12: demo.sh [--first]
 #   1. installs what `railcast-generate sequence` needs, builds it, simulates 50 frames of an on-sight approach on the
 #      St.Gallen - Wil line into out/demo and draws the last of them (out/first.png);
-#   2. installs and builds everything else, draws a frame with the viewer (out/demo.png) and analyses all of them
-#      (out/stats).
-# --first ends after the first stage. What a stage has made stays if the next one is interrupted.
+#   2. installs what `railcast-analyze` and `railcast-view` need, builds them, draws a frame (out/demo.png) and analyses
+#      all of them (out/stats).
+# --first ends after the first stage. What a stage has made stays if the next one is interrupted. All other commands are
+# built by scripts/build.sh.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/packages.sh
@@ -15,6 +16,18 @@ if (($# > 1)) || [[ "${1:-}" != "" && "$1" != --first ]]; then
 fi
 build=build/release
 
+# build_stage NUMBER TARGET...: builds with what the stage needs, or with more if more has been configured here.
+build_stage() {
+  local configured
+  configured=$(sed -n 's/^RAILCAST_STAGE:STRING=//p' "$build/CMakeCache.txt" 2>/dev/null || echo "$1")
+  if [[ -z "$configured" ]]; then
+    scripts/build.sh "${@:2}"
+    return
+  fi
+  cmake --preset release -D RAILCAST_STAGE=$((configured > $1 ? configured : $1))
+  cmake --build --preset release --target "${@:2}"
+}
+
 # end_stage NUMBER: says how long the stage took.
 end_stage() {
   printf '\nStage %d took %d:%02d minutes.\n' "$1" $((SECONDS / 60)) $((SECONDS % 60))
@@ -22,13 +35,8 @@ end_stage() {
 }
 
 SECONDS=0
-if grep -qs '^RAILCAST_FIRST_STAGE:BOOL=OFF$' "$build/CMakeCache.txt"; then
-  scripts/build.sh railcast-generate  # Everything has been configured here before.
-else
-  install_packages "${first_packages[@]}"
-  cmake --preset release -D RAILCAST_FIRST_STAGE=ON
-  cmake --build --preset release --target railcast-generate
-fi
+install_packages "${first_packages[@]}"
+build_stage 1 railcast-generate
 rm -rf out/demo out/demo.png out/first.png out/stats
 mkdir -p out
 "$build/generator/railcast-generate" sequence scenarios/st_gallen_approach.json --out out/demo --frames 50 \
@@ -48,8 +56,8 @@ if [[ "${1:-}" == --first ]]; then
 fi
 
 printf '\nNext, the analysis and the viewer are built; Ctrl-C leaves all of the above as it is.\n\n'
-install_packages "${build_packages[@]}" "${display_packages[@]}" "${python_packages[@]}"
-scripts/build.sh installed
+install_packages "${second_packages[@]}" "${display_packages[@]}"
+build_stage 2 railcast-analyze railcast-view
 xvfb-run --auto-servernum --server-args="-noreset -screen 0 1920x1080x24" \
   "$build/viewer/railcast-view" out/demo --frame 36 --camera driver --color-by label \
   --screenshot out/demo.png
@@ -59,4 +67,5 @@ cat <<TEXT
 Look at
   $PWD/out/demo.png              frame 36: wagons and a person, points coloured by label
   $PWD/out/stats/report.html     dropout, density, noise, intensity: open it in a browser
+scripts/build.sh builds all other commands.
 TEXT

@@ -1,19 +1,17 @@
 # The Debian 12 packages that railcast needs, in one place. To be sourced by bash.
 # shellcheck shell=bash disable=SC2034  # The lists are for the scripts that source this.
 
-# For railcast-generate with its command sequence alone (RAILCAST_FIRST_STAGE).
+# For railcast-generate with its command sequence alone (RAILCAST_STAGE=1).
 first_packages=(
   cmake
   g++
   git  # The version string contains the commit.
-  libboost-dev
   libcli11-dev
   libeigen3-dev
   libembree-dev
   libjpeg-dev
   liblz4-dev
   liblzf-dev
-  libpcap-dev
   libpng-dev
   librandom123-dev
   libsqlite3-dev
@@ -25,6 +23,18 @@ first_packages=(
   ninja-build
   nlohmann-json3-dev
   zlib1g-dev
+)
+
+# Besides those, for railcast-analyze and railcast-view (RAILCAST_STAGE=2); libpcl-dev and libvtk9-dev are nine tenths of the
+# download.
+second_packages=(
+  libboost-dev
+  libkainjow-mustache-dev
+  libnlopt-cxx-dev
+  libpcap-dev
+  libpcl-dev
+  libvtk9-dev
+  libx11-dev
 )
 
 # The libraries of the core and of its tests.
@@ -39,10 +49,10 @@ core_packages=(
   nlohmann-json3-dev
 )
 
-# For configuring and building every target. The tests' libraries are included because the presets
-# build the tests; libpcl-dev and libvtk9-dev are nine tenths of the download.
+# For configuring and building every target. The tests' libraries are included because the presets build the tests.
 build_packages=(
   "${first_packages[@]}"
+  "${second_packages[@]}"
   "${core_packages[@]}"
   cyclonedds-dev
   libassimp-dev
@@ -51,14 +61,9 @@ build_packages=(
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
-  libkainjow-mustache-dev
-  libnlopt-cxx-dev
-  libpcl-dev
   libproj-dev
   libprotobuf-dev
   libsystemd-dev  # Says to systemd that a stream is ready.
-  libvtk9-dev
-  libx11-dev
   pkg-config
   protobuf-compiler
   pybind11-dev

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/recording/with_topic.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"

@@ -1,4 +1,4 @@
-# Finds the libraries that railcast::io is linked with. Both the build and the installed package
+# Finds the libraries that railcast::files and railcast::io are linked with. Both the build and the installed package
 # include this file.
 #
 # PCL's own package file would also require VTK.
@@ -8,14 +8,14 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)
-if(NOT RAILCAST_FIRST_STAGE)
+if(NOT RAILCAST_STAGE EQUAL 1)
   find_path(PCL_INCLUDE_DIR pcl/PCLPointCloud2.h PATH_SUFFIXES pcl-1.12 pcl-1.13 pcl-1.14 pcl-1.15 REQUIRED)
   find_library(PCL_common_LIBRARY pcl_common REQUIRED)
+  find_library(PCAP_LIBRARY pcap REQUIRED)
 endif()
 find_library(LZ4_LIBRARY lz4 REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_library(ZSTD_LIBRARY zstd REQUIRED)
-find_library(PCAP_LIBRARY pcap REQUIRED)
 find_library(YAML_CPP_LIBRARY yaml-cpp REQUIRED)
 
 # railcast_import(NAME LIBRARY [INCLUDE_DIR]): imports the library as the target railcast::NAME.
@@ -37,7 +37,9 @@ if(PCL_INCLUDE_DIR AND NOT TARGET railcast::pcl_headers)
     PROPERTIES INTERFACE_LINK_LIBRARIES
                "railcast::pcl_headers;-Wl,--push-state,--as-needed,${PCL_common_LIBRARY},--pop-state")
 endif()
-railcast_import(pcap ${PCAP_LIBRARY})
+if(PCAP_LIBRARY)
+  railcast_import(pcap ${PCAP_LIBRARY})
+endif()
 railcast_import(lz4 ${LZ4_LIBRARY})
 railcast_import(zstd ${ZSTD_LIBRARY})
 railcast_import(xxhash ${XXHASH_LIBRARY})

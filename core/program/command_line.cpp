@@ -11,7 +11,6 @@
 #include "core/base/text.h"
 #include "core/scenario/json_rules.h"
 #include "core/trace/trace_program.h"
-#include "railcast/io/recording.h"
 
 namespace railcast {
 namespace {
@@ -99,21 +98,6 @@ std::string Unconverted(const CLI::App* app, std::string_view said) {
 }
 
 }  // namespace
-
-std::vector<std::filesystem::path> WithTopic(std::vector<std::filesystem::path> sources,
-                                             const std::string& topic) {
-  if (topic.empty()) return sources;
-  std::size_t num_bags = 0;
-  for (std::filesystem::path& source : sources) {
-    if (!IsBagOfTopics(source)) continue;
-    source = TopicOfBag(source, topic);
-    ++num_bags;
-  }
-  if (num_bags > 0) return sources;
-  throw InputError(
-      "--topic: must come with a bag of ROS 2, .mcap, .db3 or a directory of them (got " +
-      ShownPath(sources.front()) + ")");
-}
 
 std::optional<std::uint64_t> ParseWholeNumber(std::string_view text) {
   std::uint64_t number = 0;

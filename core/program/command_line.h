@@ -105,12 +105,6 @@ inline void AddTopic(ProgramOptions& command, std::string& topic) {
       .Check(NonEmpty());
 }
 
-/// Returns the sources with those that are bags replaced by this topic of theirs.
-/// @param topic Empty: the sources as they are.
-/// @throws InputError if a topic is given and no source is a bag.
-[[nodiscard]] std::vector<std::filesystem::path> WithTopic(
-    std::vector<std::filesystem::path> sources, const std::string& topic);
-
 /// For CLI::App::failure_message: what is wrong, in the form of all messages, with the nearest name
 /// where a command or an option is unknown. Arguments are shown as ShownLines() shows them.
 [[nodiscard]] std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Holds README's commands, and what the demo says at its end, against what scripts/demo.sh builds and makes.
+"""Holds README's commands, and what the demo says at its end, against what scripts/demo.sh and README build and make.
 
 Usage: check_readme.py [--run] [BUILD]        BUILD: the build's folder, default build/release
 
-Without --run, names a fault for each program, file and option of README's commands that is not there after the demo,
-and for each file that cmake --install installs and the demo does not build. It needs a configured build; nothing is
-built.
+Without --run, names a fault for each program, file and option of README's commands that is not there after the demo and
+the commands before it, and for each file that cmake --install installs and they do not build. It needs a configured
+build; nothing is built.
 
 With --run, runs all commands on the tree of the demo, which has been run before: in a temporary folder, into which
 build, scenarios and out/demo are linked. Frontiers, of one frame, are ended after a minute if they take longer; the
@@ -29,6 +29,7 @@ PLACE = "build/release"  # The build's folder in README and in the scripts.
 BUILD_SCRIPT = "scripts/build.sh"
 # What the demo says of a file at its end.
 CLAIM = re.compile(r"^  \$PWD/(\S+) +(.*)$", re.MULTILINE)
+STAGE = re.compile(r"^build_stage \d+ .+$", re.MULTILINE)  # What the demo builds.
 PYTHONPATH = f"{PLACE}/python"
 WINDOW_S = 15
 FRONTIER_S = 60
@@ -62,10 +63,12 @@ def outputs_of(build, targets):
     return named | set(ninja(build, "inputs", *targets))
 
 
-def targets_of(script):
-    """What a shell script, or a line of it, has scripts/build.sh build."""
-    return [target for line in script.splitlines() if line.strip().startswith(BUILD_SCRIPT)
-            for target in shlex.split(line, comments=True)[1:]]
+def targets_of(command):
+    """What a line of shell has scripts/build.sh or a stage of the demo build."""
+    words = shlex.split(command, comments=True)
+    if words[:1] == [BUILD_SCRIPT]:
+        return words[1:]
+    return words[2:] if words[:1] == ["build_stage"] else []
 
 
 def installed_files(build):
@@ -80,7 +83,7 @@ def install_faults(build, built):
     targets = {line.split(":", maxsplit=1)[0] for line in ninja(build, "targets", "all")}
     for file in sorted(set(installed_files(build))):
         if file in targets and file not in built:
-            yield f"cmake --install: needs {file}, which scripts/demo.sh does not build"
+            yield f"cmake --install: needs {file}, which neither scripts/demo.sh nor README builds"
 
 
 def options_faults(words, build):
@@ -139,22 +142,20 @@ def claimed_files_faults():
 
 def faults(text, build):
     demo = (ROOT / "scripts" / "demo.sh").read_text("utf-8")
-    built = outputs_of(build, targets_of(demo))
+    built = outputs_of(build, [target for line in STAGE.findall(demo) for target in targets_of(line)])
     made = set(re.findall(r"(?:--out|--picture|--screenshot) (out/[\w./]+)", demo.replace("\\\n ", "")))
     yield from demo_faults(demo, made)
-    yield from install_faults(build, built)
-    module = [file for file in built if re.fullmatch(r"python/railcast/_railcast\..*so", file)]
-    if PYTHONPATH in text and not module:
-        yield f"PYTHONPATH={PYTHONPATH}: the module is not built"
     for kind, block in BLOCK.findall(text):
-        here = set(built)
         for command in commands_of(block) if kind == "sh" else ():
             if command.startswith(BUILD_SCRIPT):
-                here |= outputs_of(build, targets_of(command))
-            yield from command_faults(command, build, here, made)
+                built |= outputs_of(build, targets_of(command))
+            yield from command_faults(command, build, built, made)
         for path in re.findall(r'"(out/[^"]*|scenarios/[^"]*)"', block) if kind == "python" else ():
             if not (ROOT / path).exists() and not any(path.startswith(f"{each}/") for each in made):
                 yield f"python: nothing makes {path}"
+    yield from install_faults(build, built)
+    if PYTHONPATH in text and not any(re.fullmatch(r"python/railcast/_railcast\..*so", file) for file in built):
+        yield f"PYTHONPATH={PYTHONPATH}: the module is not built"
 
 
 def shell_of(block):
