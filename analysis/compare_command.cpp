@@ -194,9 +194,7 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
   compare.AddFlag("--register", options->registers,
                   "Lay each cloud of the second recording on its partner first, from where it is, "
                   "and say how far it moved and what remains");
-  compare.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(compare, options->num_threads);
   AddAblationOptions(compare, *options);
   AddReportOptions(compare, options->output);
   compare.WhenParsed([&command, options] {

@@ -53,9 +53,7 @@ void AddDossier(ProgramOptions& app, ProgramCommand& command) {
       .Required()
       .Check(NonEmpty());
   AddReportOptions(dossier, options->output);
-  dossier.AddOption("--threads", options->num_threads, "0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(dossier, options->num_threads);
   dossier.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunDossierCommand(*options, line); };
   });

@@ -188,9 +188,7 @@ void AddFit(ProgramOptions& app, ProgramCommand& command) {
       .Required();
   AddTopic(fit, options->topic);
   AddKnowledgeOptions(fit, *options);
-  fit.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(fit, options->num_threads);
   AddReportOptions(fit, options->output);
   fit.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunFit(*options, line); };

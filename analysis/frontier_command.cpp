@@ -129,11 +129,8 @@ void AddFrontier(ProgramOptions& app, ProgramCommand& command) {
                  "Number of sample frames, spread over the run and where objects are")
       .Check(Whole({1, 1000}))
       .ShowDefault();
-  frontier
-      .AddOption("--threads", options->num_threads,
-                 "Number of threads to measure times with; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(frontier, options->num_threads,
+             "Number of threads to measure times with; 0 = all cores");
   frontier.AddOption("--sensor", options->sensor,
                      "Name of the sensor, where the scenario has several");
   frontier

@@ -61,9 +61,7 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("--sectors", options->sectors, "Which sectors of 30 deg take part: all, even, odd")
       .Check(Named({"all", "even", "odd"}))
       .ShowDefault();
-  preset.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(preset, options->num_threads);
   AddReportOptions(preset, options->output);
   preset.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunPreset(*options, line); };

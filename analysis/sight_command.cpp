@@ -78,9 +78,7 @@ void AddSight(ProgramOptions& app, ProgramCommand& command) {
       .Check(Number({0.0, 500.0}));
   sight.AddOption("--sensor", options->sensor,
                   "Name of the sensor, where the scenario has several");
-  sight.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(sight, options->num_threads);
   AddReportOptions(sight, options->output);
   sight.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunSight(*options, line); };

@@ -247,9 +247,7 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
   stats.AddOption("--track", options->track,
                   "Scenario whose vehicle is on the recording's track, in the world of the "
                   "recording's poses: counts the points in the vehicle's outline along it");
-  stats.AddOption("--threads", options->num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(stats, options->num_threads);
   AddReportOptions(stats, options->output);
   stats.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunStats(*options, line); };

@@ -106,9 +106,7 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("--shards", options->choices.shards,
                  "Folders of all shards, to report on them as one study")
       .Excludes(shard);
-  study.AddOption("--threads", options->choices.num_threads, "0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(study, options->choices.num_threads);
   AddIsa(study, options->choices.isa);
   study.WhenParsed([&command, options] {
     if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();

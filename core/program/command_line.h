@@ -93,6 +93,13 @@ inline void AddSummaryFile(ProgramOptions& command, std::optional<std::filesyste
       .Check(NonEmpty());
 }
 
+/// Adds the option --threads.
+inline void AddThreads(ProgramOptions& command,
+                       int& num_threads,
+                       const std::string& description = "Number of threads; 0 = all cores") {
+  command.AddOption("--threads", num_threads, description).Check(Whole({0, 1024})).ShowDefault();
+}
+
 /// Adds the option --isa.
 void AddIsa(ProgramOptions& command, std::string& isa);
 

@@ -1,7 +1,6 @@
 #include "core/program/options.h"
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>

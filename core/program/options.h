@@ -50,10 +50,9 @@ class Option {
 /// valid as long as the program parses or runs. Only one source includes CLI11, whose templates are
 /// most of what a command would compile.
 ///
-///     ProgramOptions world = program.AddCommand("world", "Write the scene as a mesh of
-///     triangles"); world.AddOption("--out", options->out, "File to
-///     write").Required().Check(NonEmpty()); world.WhenParsed([&command, options] { command = ...;
-///     });
+///     ProgramOptions world = program.AddCommand("world", "Write the scene as a mesh");
+///     world.AddOption("--out", options->out, "File to write").Required().Check(NonEmpty());
+///     world.WhenParsed([&command, options] { command = ...; });
 class ProgramOptions {
  public:
   explicit ProgramOptions(CLI::App* app) : app_(app) {}

@@ -100,9 +100,7 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
       .Check(Number({1e-3, 1e9}));
   stream.AddOption("--seed", options.seed, "Seed to use instead of the scenario's")
       .Check(Whole({}));
-  stream.AddOption("--threads", options.num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(stream, options.num_threads);
   stream.AddOption("--fidelity", options.fidelity, "Fidelity to use instead of the scenario's")
       .Check(Named(NamesOf<Fidelity>()));
   AddSummaryFile(stream, options.summary);

@@ -27,9 +27,7 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
   command.AddFlag("--merged", choices.is_merged,
                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
                   "the field sensor_index");
-  command.AddOption("--threads", choices.num_threads, "Number of threads; 0 = all cores")
-      .Check(Whole({0, 1024}))
-      .ShowDefault();
+  AddThreads(command, choices.num_threads);
   AddIsa(command, choices.isa);
 }
 

@@ -108,10 +108,7 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const Option points_alone =
       insert.AddFlag("--points-alone", choices.may_use_points_alone,
                      "Take frames point by point where their firings cannot be found");
-  const Option threads =
-      insert.AddOption("--threads", choices.num_threads, "Number of threads; 0 = all cores")
-          .Check(Whole({0, 1024}))
-          .ShowDefault();
+  const Option threads = AddThreads(insert, choices.num_threads);
   const Option check =
       insert.AddFlag("--check", options->is_check,
                      "Print what the objects meet in the recording, and write nothing");
