@@ -6,7 +6,7 @@
 
 namespace {
 
-#ifdef RAILCAST_FIRST_STAGE
+#ifdef RAILCAST_SEQUENCE_ALONE
 
 /// The commands that are not built yet say how they come.
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {

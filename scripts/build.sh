@@ -15,6 +15,5 @@ if command -v ccache >/dev/null; then
   launcher=(-D CMAKE_C_COMPILER_LAUNCHER=ccache -D CMAKE_CXX_COMPILER_LAUNCHER=ccache
     -D CMAKE_DISABLE_PRECOMPILE_HEADERS=ON)
 fi
-# Everything, though a stage may have been configured here (scripts/demo.sh).
-cmake --preset "$preset" -D RAILCAST_STAGE= "${launcher[@]}"
+cmake --preset "$preset" "${launcher[@]}"
 cmake --build --preset "$preset" --target "${@:-all}"

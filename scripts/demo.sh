@@ -19,12 +19,12 @@ build=build/release
 # build_stage NUMBER TARGET...: builds with what the stage needs, or with more if more has been configured here.
 build_stage() {
   local configured
-  configured=$(sed -n 's/^RAILCAST_STAGE:STRING=//p' "$build/CMakeCache.txt" 2>/dev/null || echo "$1")
+  configured=$(sed -n 's/^RAILCAST_STAGE:[A-Z]*=//p' "$build/CMakeCache.txt" 2>/dev/null || echo "$1")
   if [[ -z "$configured" ]]; then
     scripts/build.sh "${@:2}"
     return
   fi
-  cmake --preset release -D RAILCAST_STAGE=$((configured > $1 ? configured : $1))
+  cmake --preset release -D RAILCAST_STAGE:STRING=$((configured > $1 ? configured : $1))
   cmake --build --preset release --target "${@:2}"
 }
 

@@ -7,9 +7,10 @@ Without --run, names a fault for each program, file and option of README's comma
 the commands before it, and for each file that cmake --install installs and they do not build. It needs a configured
 build; nothing is built.
 
-With --run, runs all commands on the tree of the demo, which has been run before: in a temporary folder, into which
-build, scenarios and out/demo are linked. Frontiers, of one frame, are ended after a minute if they take longer; the
-window of the viewer is closed after some seconds; what builds, and the benchmark, are left out. Takes some minutes.
+With --run, runs all commands on the tree of the demo, which has been run before, and scripts/build.sh installed after
+it: in a temporary folder, into which build, scenarios and out/demo are linked. Frontiers, of one frame, are ended
+after a minute if they take longer; the window of the viewer is closed after some seconds; what builds, and the
+benchmark, are left out. Takes some minutes.
 
 Exit status: 0 if nothing is wrong, else 1.
 """
@@ -145,10 +146,14 @@ def faults(text, build):
     built = outputs_of(build, [target for line in STAGE.findall(demo) for target in targets_of(line)])
     made = set(re.findall(r"(?:--out|--picture|--screenshot) (out/[\w./]+)", demo.replace("\\\n ", "")))
     yield from demo_faults(demo, made)
+    is_all_built = False
     for kind, block in BLOCK.findall(text):
         for command in commands_of(block) if kind == "sh" else ():
             if command.startswith(BUILD_SCRIPT):
                 built |= outputs_of(build, targets_of(command))
+                is_all_built = True
+            if "railcast-generate" in command and "railcast-generate sequence" not in command and not is_all_built:
+                yield f"{command}: the demo builds railcast-generate with its command sequence alone"
             yield from command_faults(command, build, built, made)
         for path in re.findall(r'"(out/[^"]*|scenarios/[^"]*)"', block) if kind == "python" else ():
             if not (ROOT / path).exists() and not any(path.startswith(f"{each}/") for each in made):
