@@ -94,10 +94,12 @@ inline void AddSummaryFile(ProgramOptions& command, std::optional<std::filesyste
 }
 
 /// Adds the option --threads.
-inline void AddThreads(ProgramOptions& command,
-                       int& num_threads,
-                       const std::string& description = "Number of threads; 0 = all cores") {
-  command.AddOption("--threads", num_threads, description).Check(Whole({0, 1024})).ShowDefault();
+inline Option AddThreads(ProgramOptions& command,
+                         int& num_threads,
+                         const std::string& description = "Number of threads; 0 = all cores") {
+  return command.AddOption("--threads", num_threads, description)
+      .Check(Whole({0, 1024}))
+      .ShowDefault();
 }
 
 /// Adds the option --isa.
