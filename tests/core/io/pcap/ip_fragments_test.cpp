@@ -52,7 +52,7 @@ TEST(IpFragments, ArePutTogetherInWhateverOrderTheyCome) {
   const std::string payload = Counted(3000, 3);
   const std::string udp = Udp(payload);
   std::vector<CapturedFrame> frames = {
-      {Piece(udp, 0, 1480)}, {Piece(udp, 1480, 1480)}, {Piece(udp, 2960, 1480)}};
+      {FragmentOf(udp, 0, 1480)}, {FragmentOf(udp, 1480, 1480)}, {FragmentOf(udp, 2960, 1480)}};
   std::vector<int> order = {0, 1, 2};
   do {
     const ReadCapture read = ReadFragments({frames[static_cast<std::size_t>(order[0])],
@@ -72,7 +72,7 @@ TEST(IpFragments, OfIpv6ArePutTogetherInWhateverOrderTheyCome) {
   const ReadCapture read = ReadFragments({{PieceOfIpv6(udp, 2880, 1440)},
                                           {PieceOfIpv6(other, 0, 64, 8)},
                                           {PieceOfIpv6(udp, 0, 1440)},
-                                          {Piece(other, 0, 64)},
+                                          {FragmentOf(other, 0, 64)},
                                           {PieceOfIpv6(udp, 1440, 1440)},
                                           {PieceOfIpv6(other, 64, 64, 8)}});
   EXPECT_THAT(read.payloads, testing::ElementsAre(payload, Counted(100, 1)));
@@ -83,20 +83,20 @@ TEST(IpFragments, OfIpv6ArePutTogetherInWhateverOrderTheyCome) {
 TEST(IpFragments, OfSeveralDatagramsMayAlternateAndBeCapturedTwice) {
   const std::string a = Udp(Counted(100, 1));
   const std::string b = Udp(Counted(90, 2));
-  const ReadCapture read = ReadFragments({{Piece(a, 0, 64, 1)},
-                                          {Piece(b, 0, 56, 2)},
-                                          {Piece(a, 0, 64, 1)},
-                                          {Piece(b, 56, 64, 2)},
-                                          {Piece(Udp("whole"), 0, 64, 3)},
-                                          {Piece(a, 64, 64, 1)}});
+  const ReadCapture read = ReadFragments({{FragmentOf(a, 0, 64, 1)},
+                                          {FragmentOf(b, 0, 56, 2)},
+                                          {FragmentOf(a, 0, 64, 1)},
+                                          {FragmentOf(b, 56, 64, 2)},
+                                          {FragmentOf(Udp("whole"), 0, 64, 3)},
+                                          {FragmentOf(a, 64, 64, 1)}});
   EXPECT_THAT(read.payloads, testing::ElementsAre(Counted(90, 2), "whole", Counted(100, 1)));
   EXPECT_EQ(read.num_torn, 0U);
 }
 
 TEST(IpFragments, LoseTheirDatagramWhereOneIsMissing) {
   const std::string udp = Udp(Counted(100, 1));
-  const ReadCapture read =
-      ReadFragments({{Piece(udp, 0, 32)}, {Piece(udp, 64, 64)}, {Piece(Udp("whole"), 0, 64, 8)}});
+  const ReadCapture read = ReadFragments(
+      {{FragmentOf(udp, 0, 32)}, {FragmentOf(udp, 64, 64)}, {FragmentOf(Udp("whole"), 0, 64, 8)}});
   EXPECT_THAT(read.payloads, testing::ElementsAre("whole"));
   EXPECT_EQ(read.num_torn, 1U);
 }
@@ -106,11 +106,12 @@ TEST(IpFragments, AreNotJoinedOverMoreThanASecond) {
   const std::string old = Udp(Counted(100, 1));
   const std::string udp = Udp(Counted(100, 2));
   const ReadCapture apart =
-      ReadFragments({{Piece(old, 0, 64), 0}, {Piece(old, 64, 64), 1'000'001}});
+      ReadFragments({{FragmentOf(old, 0, 64), 0}, {FragmentOf(old, 64, 64), 1'000'001}});
   EXPECT_THAT(apart.payloads, testing::IsEmpty());
   EXPECT_EQ(apart.num_torn, 2U);
-  const ReadCapture near = ReadFragments(
-      {{Piece(old, 0, 64), 0}, {Piece(udp, 0, 64), 1'000'001}, {Piece(udp, 64, 64), 2'000'001}});
+  const ReadCapture near = ReadFragments({{FragmentOf(old, 0, 64), 0},
+                                          {FragmentOf(udp, 0, 64), 1'000'001},
+                                          {FragmentOf(udp, 64, 64), 2'000'001}});
   EXPECT_THAT(near.payloads, testing::ElementsAre(Counted(100, 2)));
   EXPECT_EQ(near.num_torn, 1U);
 }
@@ -118,9 +119,9 @@ TEST(IpFragments, AreNotJoinedOverMoreThanASecond) {
 TEST(IpFragments, OfMoreThan64UnfinishedDatagramsGiveUpTheOldest) {
   const std::string udp = Udp(Counted(100, 1));
   std::vector<CapturedFrame> frames;
-  for (std::size_t i = 0; i < 65; ++i) frames.push_back({Piece(udp, 0, 64, i)});
-  frames.push_back({Piece(udp, 64, 64, 0)});
-  frames.push_back({Piece(udp, 64, 64, 64)});
+  for (std::size_t i = 0; i < 65; ++i) frames.push_back({FragmentOf(udp, 0, 64, i)});
+  frames.push_back({FragmentOf(udp, 64, 64, 0)});
+  frames.push_back({FragmentOf(udp, 64, 64, 64)});
   const ReadCapture read = ReadFragments(frames);
   EXPECT_THAT(read.packets, testing::ElementsAre(66U));
   // All that were begun but the last, and the rest of the first, which begins another one.
@@ -142,18 +143,18 @@ TEST(IpFragments, ThatContradictEachOtherAreRefused) {
     EXPECT_TRUE(message.starts_with(file.string() + ": packet 1: ")) << message;
     return message.substr(message.find("an IP"));
   };
-  EXPECT_EQ(said({Piece(udp, 0, 64), Piece(udp, 32, 64)}),
+  EXPECT_EQ(said({FragmentOf(udp, 0, 64), FragmentOf(udp, 32, 64)}),
             "an IP fragment must not overlap another (got bytes 32 to 96 beside 0 to 64)");
-  EXPECT_EQ(said({Piece(udp, 0, 64), Piece(Udp(Counted(100, 2)), 0, 64)}),
+  EXPECT_EQ(said({FragmentOf(udp, 0, 64), FragmentOf(Udp(Counted(100, 2)), 0, 64)}),
             "an IP fragment must not overlap another (got bytes 0 to 64 beside 0 to 64)");
-  EXPECT_EQ(said({Piece(udp, 64, 64), Piece(Udp(Counted(200, 1)), 104, 8)}),
+  EXPECT_EQ(said({FragmentOf(udp, 64, 64), FragmentOf(Udp(Counted(200, 1)), 104, 8)}),
             "an IP fragment must lie before the end of its packet (got bytes 104 to 112, the end "
             "at 108)");
-  EXPECT_EQ(said({Piece(Udp(Counted(200, 1)), 104, 8), Piece(udp, 64, 64)}),
+  EXPECT_EQ(said({FragmentOf(Udp(Counted(200, 1)), 104, 8), FragmentOf(udp, 64, 64)}),
             "an IP fragment must lie before the end of its packet (got bytes 64 to 108, the end "
             "at 108)");
   const std::string too_long(70'000, 'a');
-  EXPECT_EQ(said({Piece(udp, 0, 64), Piece(too_long, 65'528, 64)}),
+  EXPECT_EQ(said({FragmentOf(udp, 0, 64), FragmentOf(too_long, 65'528, 64)}),
             "an IP fragment must end within 65535 bytes (got 65592)");
 }
 
@@ -164,7 +165,7 @@ TEST(IpFragments, GiveWhatTsharkPutsTogether) {
     const std::string udp = Udp(Counted(500 + 777 * i, static_cast<int>(i)));
     std::vector<CapturedFrame> pieces;
     for (std::size_t begin = 0; begin < udp.size(); begin += 1480) {
-      pieces.push_back({Piece(udp, begin, 1480, i), 100 * i});
+      pieces.push_back({FragmentOf(udp, begin, 1480, i), 100 * i});
     }
     if (i % 3 == 1) std::ranges::reverse(pieces);
     if (i == 11) pieces.erase(pieces.begin() + 2);
@@ -199,9 +200,9 @@ TEST(IpFragments, OfASensorsPacketsGiveItsFrames) {
   for (const Datagrams::Item& item : datagrams.items) {
     const std::span<const char> payload = datagrams.BytesOf(item);
     const std::string udp = Udp({payload.begin(), payload.end()});
-    whole.push_back({Piece(udp, 0, udp.size(), whole.size())});
+    whole.push_back({FragmentOf(udp, 0, udp.size(), whole.size())});
     for (std::size_t begin = 0; begin < udp.size(); begin += 560) {
-      torn.push_back({Piece(udp, begin, 560, whole.size())});
+      torn.push_back({FragmentOf(udp, begin, 560, whole.size())});
     }
   }
   const TemporaryDirectory directory;
@@ -219,7 +220,7 @@ TEST(IpFragments, OfWhichOnlyTheFirstWereCapturedAreNamed) {
   const std::string udp = Udp(Counted(2000, 1));
   const TemporaryDirectory directory;
   const auto file = WriteCapture(directory.path() / "a.pcap",
-                                 {{Piece(udp, 0, 1480, 1)}, {Piece(udp, 0, 1480, 2)}});
+                                 {{FragmentOf(udp, 0, 1480, 1)}, {FragmentOf(udp, 0, 1480, 2)}});
   EXPECT_THAT(MessageOf([&] { (void)OpenRecording(file); }),
               testing::EndsWith("(got no whole UDP datagram, and 2 that lack IP fragments)"));
 }

@@ -24,10 +24,10 @@ inline std::string Udp(const std::string& payload) {
 }
 
 /// An Ethernet frame with a piece of a datagram, after RFC 791.
-inline std::string Piece(const std::string& udp,
-                         std::size_t begin,
-                         std::size_t size,
-                         std::size_t identification = 7) {
+inline std::string FragmentOf(const std::string& udp,
+                              std::size_t begin,
+                              std::size_t size,
+                              std::size_t identification = 7) {
   const bool is_last = begin + size >= udp.size();
   const std::string bytes = begin < udp.size() ? udp.substr(begin, size) : std::string();
   const std::string header = std::string("\x45\0", 2) + Big16(20 + bytes.size()) +

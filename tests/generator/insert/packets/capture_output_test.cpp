@@ -213,7 +213,8 @@ TEST(CaptureOutput, FindsWhatWasSentInIpFragments) {
   for (std::size_t i = 0; i + 1 < payloads.size(); i += 2) {
     for (const std::size_t begin : {std::size_t{608}, std::size_t{0}}) {
       for (const std::size_t k : {i, i + 1}) {
-        frames.push_back({Piece(Udp(payloads[k]), begin, begin == 0 ? 608 : 606, k), 1000 * i});
+        frames.push_back(
+            {FragmentOf(Udp(payloads[k]), begin, begin == 0 ? 608 : 606, k), 1000 * i});
       }
     }
   }
@@ -255,7 +256,7 @@ TEST(CaptureOutput, EditsPcapngInBothByteOrders) {
   std::vector<std::string> frames;
   for (const std::string& payload :
        PayloadsIn(Captured(VelodynePackets("vlp16"), folder.path() / "sent.pcap"))) {
-    frames.push_back(Piece(Udp(payload), 0, payload.size() + 8));
+    frames.push_back(FragmentOf(Udp(payload), 0, payload.size() + 8));
   }
   for (const bool is_big : {false, true}) {
     const fs::path file = folder.path() / (is_big ? "big.pcapng" : "little.pcapng");
@@ -271,7 +272,7 @@ TEST(CaptureOutput, EditsMergedPacketsAmongOthers) {
                                       folder.path() / "sent.pcap"));
   std::vector<CapturedFrame> frames;
   const auto add = [&](const std::string& payload) {
-    frames.push_back({Piece(Udp(payload), 0, payload.size() + 8), frames.size()});
+    frames.push_back({FragmentOf(Udp(payload), 0, payload.size() + 8), frames.size()});
   };
   for (std::size_t i = 0; i + 2 < payloads.size(); i += 3) {
     add(payloads[i] + payloads[i + 1]);
@@ -322,7 +323,7 @@ TEST(CaptureOutput, OfDamagedCapturesIsMadeOrRefusedWithALine) {
   std::vector<CapturedFrame> frames;
   for (const std::string& payload :
        PayloadsIn(Captured(VelodynePackets("vlp16-dual"), folder.path() / "sent.pcap"))) {
-    if (frames.size() < 40) frames.push_back({Piece(Udp(payload), 0, payload.size() + 8), 0});
+    if (frames.size() < 40) frames.push_back({FragmentOf(Udp(payload), 0, payload.size() + 8), 0});
   }
   const std::string whole = ReadFileWhole(WriteCapture(folder.path() / "whole.pcap", frames));
   std::size_t num_copied = 0;
