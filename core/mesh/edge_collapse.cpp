@@ -143,8 +143,8 @@ class NearbyT : public OpenMesh::Decimater::ModBaseT<MeshT> {
 class CollapsingMesh {
  public:
   CollapsingMesh(const Mesh& mesh, const std::vector<bool>& is_held) {
-    // What OpenMesh cannot hold it would print.
-    omerr().disable();
+    // What OpenMesh cannot hold it would print. No two threads may make the first call at once.
+    [[maybe_unused]] static const bool is_silent = (omerr().disable(), true);
     edges_.request_vertex_status();
     edges_.request_edge_status();
     edges_.request_halfedge_status();
