@@ -69,12 +69,12 @@ TEST(IpFragments, OfIpv6ArePutTogetherInWhateverOrderTheyCome) {
   const std::string udp = Udp(payload);
   // Those of another packet of the same addresses, and of IPv4, between them.
   const std::string other = Udp(Counted(100, 1));
-  const ReadCapture read = ReadFragments({{PieceOfIpv6(udp, 2880, 1440)},
-                                          {PieceOfIpv6(other, 0, 64, 8)},
-                                          {PieceOfIpv6(udp, 0, 1440)},
+  const ReadCapture read = ReadFragments({{FragmentOfIpv6(udp, 2880, 1440)},
+                                          {FragmentOfIpv6(other, 0, 64, 8)},
+                                          {FragmentOfIpv6(udp, 0, 1440)},
                                           {FragmentOf(other, 0, 64)},
-                                          {PieceOfIpv6(udp, 1440, 1440)},
-                                          {PieceOfIpv6(other, 64, 64, 8)}});
+                                          {FragmentOfIpv6(udp, 1440, 1440)},
+                                          {FragmentOfIpv6(other, 64, 64, 8)}});
   EXPECT_THAT(read.payloads, testing::ElementsAre(payload, Counted(100, 1)));
   EXPECT_THAT(read.packets, testing::ElementsAre(4U, 5U));
   EXPECT_EQ(read.num_torn, 1U);

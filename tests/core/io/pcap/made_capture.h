@@ -23,7 +23,7 @@ inline std::string Udp(const std::string& payload) {
   return Big16(2368) + Big16(2368) + Big16(payload.size() + 8) + Big16(0) + payload;
 }
 
-/// An Ethernet frame with a piece of a datagram, after RFC 791.
+/// An Ethernet frame with a fragment of a datagram, after RFC 791.
 inline std::string FragmentOf(const std::string& udp,
                               std::size_t begin,
                               std::size_t size,
@@ -37,10 +37,10 @@ inline std::string FragmentOf(const std::string& udp,
 }
 
 /// The same after RFC 8200 (4.5), with options that are in every piece before the fragment header.
-inline std::string PieceOfIpv6(const std::string& udp,
-                               std::size_t begin,
-                               std::size_t size,
-                               std::size_t identification = 7) {
+inline std::string FragmentOfIpv6(const std::string& udp,
+                                  std::size_t begin,
+                                  std::size_t size,
+                                  std::size_t identification = 7) {
   const bool is_last = begin + size >= udp.size();
   const std::string bytes = begin < udp.size() ? udp.substr(begin, size) : std::string();
   const std::string headers = std::string("\x2C\0\1\4\0\0\0\0\x11\0", 10) +
