@@ -19,6 +19,7 @@
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/with_topic.h"
 #include "core/io/run/scenario_identity.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/program/progress_line.h"

@@ -9,6 +9,7 @@
 
 #include "analysis/commands.h"
 #include "core/base/text.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/insertion_verification.h"

@@ -1,22 +1,21 @@
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "analysis/card/dataset_card.h"
 #include "analysis/stats/dataset_overview.h"
 #include "core/base/text.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/record/read_record.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/strict_json.h"
+#include "core/io/run/dataset_record.h"
 #include "core/recipe/recipe.h"
 
 namespace railcast {
 namespace {
 
 // Words as they are, and lists of words and numbers without brackets: "0, 40, 80".
-std::string ValueText(const StrictOrderedJson& value) {
+std::string ValueText(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_array()) return value.dump();
   std::string text;
@@ -28,7 +27,7 @@ std::string ValueText(const StrictOrderedJson& value) {
 }
 
 /// A value for a scenario, a distribution, or an object to place: "uniform, min 5, max 25".
-std::string DrawText(const StrictOrderedJson& typed) {
+std::string DrawText(const Json& typed) {
   if (!typed.is_object() || !typed.contains("type")) return ValueText(typed);
   std::string text = ValueText(typed["type"]);
   for (const auto& [key, value] : typed.items()) {
@@ -37,13 +36,13 @@ std::string DrawText(const StrictOrderedJson& typed) {
   return text;
 }
 
-void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Table& table);
+void AddRecipeRows(const Json& value, const std::string& path, Table& table);
 
 // An entry of a list, such as a group or a base, by its name or its file.
-void AddEntryRows(const StrictOrderedJson& entry, const std::string& path, Table& table) {
+void AddEntryRows(const Json& entry, const std::string& path, Table& table) {
   const char* const title = entry.contains("name") ? "name" : "file";
   if (!entry.contains(title)) return AddRecipeRows(entry, path, table);
-  StrictOrderedJson rest = entry;
+  Json rest = entry;
   const std::string name = ValueText(entry.at(title));
   rest.erase(title);
   if (rest.empty()) {
@@ -54,7 +53,7 @@ void AddEntryRows(const StrictOrderedJson& entry, const std::string& path, Table
 }
 
 // A row for each value of the recipe.
-void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Table& table) {
+void AddRecipeRows(const Json& value, const std::string& path, Table& table) {
   if (value.is_object() && !value.contains("type")) {
     for (const auto& [key, member] : value.items()) {
       const std::string at = path.empty() ? key : path + ": " + key;
@@ -72,13 +71,13 @@ void AddRecipeRows(const StrictOrderedJson& value, const std::string& path, Tabl
   }
 }
 
-Table RecipeTable(const StrictOrderedJson& recipe) {
+Table RecipeTable(const Json& recipe) {
   Table table = {.key = "recipe",
                  .title = "What the recipe says",
                  .note = "docs/dataset.md of railcast has the meanings of the keys.",
                  .columns = {{"key", "Key", ""}, {"value", "Value", ""}},
                  .is_open = true};
-  StrictOrderedJson shown = recipe;
+  Json shown = recipe;
   shown.erase("$schema");
   shown.erase("version");
   AddRecipeRows(shown, "", table);
@@ -91,25 +90,24 @@ struct RecipeFacts {
   bool has_recordings{};  ///< Whether bases are plans for recordings, which choose the fields.
 };
 
-RecipeFacts FactsOfRecipe(const StrictOrderedJson& recipe) {
+RecipeFacts FactsOfRecipe(const Json& recipe) {
   RecipeFacts facts{.seed = recipe.value("seed", Recipe{}.seed)};
-  for (const auto& base : recipe.at("bases")) {
+  for (const auto& base : recipe.value("bases", Json::array())) {
     facts.has_recordings = facts.has_recordings || base.contains("recordings");
   }
   return facts;
 }
 
-std::string CommandText(const RecipeFacts& recipe, const StrictJson& identity) {
-  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
+std::string CommandText(const RecipeFacts& recipe, const DatasetRecord& identity) {
   std::string command = "railcast-generate dataset RECIPE --out DIR";
   const bool has_recordings = recipe.has_recordings;
-  if (!has_recordings || text("format") != "same") command += " --format " + text("format");
-  if (!has_recordings) command += " --fields " + text("fields") + " --isa " + text("isa");
-  if (!has_recordings && identity.at("merged").get<bool>()) command += " --merged";
+  if (!has_recordings || identity.format != "same") command += " --format " + identity.format;
+  if (!has_recordings) command += " --fields " + identity.fields + " --isa " + identity.isa;
+  if (!has_recordings && identity.is_merged) command += " --merged";
   return command + ", with the recipe where its names of files lead to the bases";
 }
 
-Table OriginTable(const RecipeFacts& recipe, const StrictJson& identity) {
+Table OriginTable(const RecipeFacts& recipe, const DatasetRecord& identity) {
   Table table = {.key = "made_of",
                  .title = "What the bytes depend on",
                  .columns = {{"what", "What", ""}, {"value", "Value", ""}},
@@ -117,10 +115,10 @@ Table OriginTable(const RecipeFacts& recipe, const StrictJson& identity) {
   const auto add = [&](const char* what, std::string value) {
     table.rows.push_back({std::string(what), std::move(value)});
   };
-  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
   add("Seed", NumberText(recipe.seed));
-  add("Recipe", "recipe.json in the data set, hash " + text("recipe_xxh3"));
-  add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
+  add("Recipe", "recipe.json in the data set, hash " + identity.recipe_hash);
+  add("Made by",
+      "railcast " + identity.version + ", Embree " + identity.embree + ", " + identity.isa);
   add("To make it again", CommandText(recipe, identity));
   return table;
 }
@@ -128,16 +126,13 @@ Table OriginTable(const RecipeFacts& recipe, const StrictJson& identity) {
 }  // namespace
 
 Section MadeOfSection(const std::filesystem::path& dataset) {
-  const auto read_recipe = [](const StrictOrderedJson& recipe) {
-    return std::pair(FactsOfRecipe(recipe), RecipeTable(recipe));
-  };
-  auto recipe = ReadRecordedJson<StrictOrderedJson>(ReadDatasetFile(dataset, kRecipeFile),
-                                                    ShownPath(dataset / kRecipeFile), read_recipe);
-  const auto read_identity = [&](const StrictJson& run) { return OriginTable(recipe.first, run); };
-  Table origin = ReadRecordedJson<StrictJson>(ReadDatasetFile(dataset, kDatasetFile),
-                                              ShownPath(dataset / kDatasetFile), read_identity);
-  return {
-      .key = "recipe", .title = "Recipe", .tables = {std::move(recipe.second), std::move(origin)}};
+  const Json recipe =
+      ReadRecordedJson(ReadDatasetFile(dataset, kRecipeFile), ShownPath(dataset / kRecipeFile));
+  const auto identity = ReadRecord<DatasetRecord>(ReadDatasetFile(dataset, kDatasetFile),
+                                                  ShownPath(dataset / kDatasetFile));
+  return {.key = "recipe",
+          .title = "Recipe",
+          .tables = {RecipeTable(recipe), OriginTable(FactsOfRecipe(recipe), identity)}};
 }
 
 }  // namespace railcast

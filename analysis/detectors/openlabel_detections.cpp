@@ -15,16 +15,14 @@ namespace {
 constexpr std::size_t kNumbersOfCuboid = 10;
 
 // The way up from a coordinate system to the one without a parent.
-Transform TopFromSystem(const StrictJson& systems,
-                        const std::string& name,
-                        const OpenLabelPlace& place) {
+Transform TopFromSystem(const Json& systems, const std::string& name, const OpenLabelPlace& place) {
   Transform top_from_system = Transform::Identity();
   std::set<std::string> passed;
   std::string here = name;
   while (true) {
     const OpenLabelPlace own = place / here;
     if (!passed.insert(here).second) own.Fail("must not be above itself");
-    const StrictJson& system = OpenLabelMember(systems, here, place);
+    const Json& system = OpenLabelMember(systems, here, place);
     const std::string parent = OpenLabelText(system, "parent", own);
     if (parent.empty()) return top_from_system;
     top_from_system = OpenLabelTransform(OpenLabelMember(system, "pose_wrt_parent", own),
@@ -36,24 +34,24 @@ Transform TopFromSystem(const StrictJson& systems,
 
 class Cuboids {
  public:
-  Cuboids(const StrictJson& openlabel, OpenLabelPlace place, const Transform& vehicle_from_sensor)
+  Cuboids(const Json& openlabel, OpenLabelPlace place, const Transform& vehicle_from_sensor)
       : openlabel_(openlabel),
         place_(std::move(place)),
         sensor_from_top_(vehicle_from_sensor.inverse()) {}
 
-  [[nodiscard]] std::vector<ReportedDetection> InFrame(const StrictJson& frame,
+  [[nodiscard]] std::vector<ReportedDetection> InFrame(const Json& frame,
                                                        const OpenLabelPlace& place) {
     std::vector<ReportedDetection> detections;
     if (!frame.is_object()) place.Fail("must be an object");
     if (!frame.contains("objects")) return detections;
-    const StrictJson& objects = frame.at("objects");
+    const Json& objects = frame.at("objects");
     if (!objects.is_object()) (place / "objects").Fail("must be an object");
     for (const auto& [uid, object] : objects.items()) {
       const OpenLabelPlace own = place / "objects" / uid / "object_data";
-      const StrictJson& data = OpenLabelMember(object, "object_data", place / "objects" / uid);
+      const Json& data = OpenLabelMember(object, "object_data", place / "objects" / uid);
       if (!data.is_object()) own.Fail("must be an object");
       if (!data.contains("cuboid")) continue;
-      const StrictJson& cuboids = data.at("cuboid");
+      const Json& cuboids = data.at("cuboid");
       if (!cuboids.is_array()) (own / "cuboid").Fail("must be a list");
       for (std::size_t i = 0; i < cuboids.size(); ++i) {
         detections.push_back(DetectionOf(cuboids[i], own / "cuboid" / NumberText(i)));
@@ -64,8 +62,7 @@ class Cuboids {
   }
 
  private:
-  [[nodiscard]] ReportedDetection DetectionOf(const StrictJson& cuboid,
-                                              const OpenLabelPlace& place) {
+  [[nodiscard]] ReportedDetection DetectionOf(const Json& cuboid, const OpenLabelPlace& place) {
     const std::vector<double> numbers =
         OpenLabelNumbers(OpenLabelMember(cuboid, "val", place), kNumbersOfCuboid, place / "val");
     const Eigen::Map<const Eigen::Array3d> middle_m(numbers.data());
@@ -102,7 +99,7 @@ class Cuboids {
         place / uid);
   }
 
-  const StrictJson& openlabel_;
+  const Json& openlabel_;
   OpenLabelPlace place_;
   Transform sensor_from_top_;
   std::map<std::string, Transform> sensor_from_;  ///< By coordinate system.
@@ -113,11 +110,11 @@ class Cuboids {
 ReportedRun ReadOpenLabelRun(const std::string& text,
                              const std::string& shown,
                              const Transform& vehicle_from_sensor) {
-  const StrictJson json = ParseOpenLabel(text, shown);
+  const Json json = ParseOpenLabel(text, shown);
   const OpenLabelPlace place = OpenLabelPlace{shown, ""} / "openlabel";
-  const StrictJson& openlabel = OpenLabelMember(json, "openlabel", {shown, ""});
+  const Json& openlabel = OpenLabelMember(json, "openlabel", {shown, ""});
   const OpenLabelPlace frames_place = place / "frames";
-  const StrictJson& frames = OpenLabelMember(openlabel, "frames", place);
+  const Json& frames = OpenLabelMember(openlabel, "frames", place);
   if (!frames.is_object()) frames_place.Fail("must be an object");
   Cuboids cuboids(openlabel, place, vehicle_from_sensor);
   ReportedRun run;

@@ -8,8 +8,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
-#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
@@ -171,7 +171,7 @@ class Placing {
 ReportedRun ReadReportedRun(const std::filesystem::path& file,
                             const Transform& vehicle_from_sensor) {
   const std::string text = ReadFileWhole(file);
-  const StrictJson whole = StrictJson::parse(text, nullptr, false);
+  const Json whole = Json::parse(text, nullptr, false);
   return whole.is_object() && whole.contains("openlabel")
              ? ReadOpenLabelRun(text, ShownPath(file), vehicle_from_sensor)
              : ReadDetectionLines(text, ShownPath(file));

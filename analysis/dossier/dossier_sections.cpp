@@ -43,22 +43,22 @@ Section TraceabilitySection(const FinishedStudy& study) {
   const auto add = [&](const std::string& what, const std::string& value) {
     table.rows.push_back({what, value});
   };
-  const Json& identity = study.result.identity;
-  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
-  add("Made by", "railcast " + text("version") + ", Embree " + text("embree") + ", " + text("isa"));
+  const StudyRecord& identity = study.result.identity;
+  add("Made by",
+      "railcast " + identity.version + ", Embree " + identity.embree + ", " + identity.isa);
   add("Machine", ProcessorName() +
                      ", for the measured errors and this dossier; approaches have the same bytes "
                      "on every processor with " +
-                     text("isa"));
-  add("Study", text("study_xxh3"));
+                     identity.isa);
+  add("Study", identity.study_hash);
   add("Asked about", study.spec.ObjectsText());
-  add("Recipe", text("recipe_xxh3"));
+  add("Recipe", identity.recipe_hash);
   std::string bases;
-  for (const Json& hash : identity.at("bases_xxh3")) {
-    bases += (bases.empty() ? "" : ", ") + hash.get<std::string>();
+  for (const std::string& hash : identity.base_hashes) {
+    bases += (bases.empty() ? "" : ", ") + hash;
   }
   add("Bases", bases);
-  const std::string files = text("files_xxh3");
+  const std::string& files = identity.files_hash;
   add("Other files", files.empty() ? "none" : files);
   const auto& approaches = study.result.approaches;
   const auto seeds = std::ranges::minmax(approaches, {}, &ApproachRecord::seed);
@@ -67,7 +67,7 @@ Section TraceabilitySection(const FinishedStudy& study) {
                         "; each line of approaches.jsonl has "
                         "its own");
   add("To make it again",
-      "railcast-analyze study STUDY.json --out DIR --isa " + text("isa") +
+      "railcast-analyze study STUDY.json --out DIR --isa " + identity.isa +
           ", with the study and the recipe of the hashes above (inputs/ has copies); "
           "approaches.jsonl then has the same bytes");
   return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};

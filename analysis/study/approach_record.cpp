@@ -3,25 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/scenario/archive.h"
 
 namespace railcast {
-namespace {
-
-std::map<std::string, Json> ToMap(const Json& object) {
-  std::map<std::string, Json> map;
-  for (const auto& [key, value] : object.items()) map.emplace(key, value);
-  return map;
-}
-
-double NumberOrNaN(const Json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-}  // namespace
 
 std::string TargetOf(const std::string& name) {
   const std::size_t slash = name.rfind('/');
@@ -41,15 +30,18 @@ ApproachRecord RecordOf(const DrawnScenario& drawn,
                         const RunCourses& courses,
                         const std::vector<std::uint32_t>& frames,
                         const DetectSpec& spec) {
-  const Json& said = drawn.record;
-  ApproachRecord record{.scenario = said.at("scenario").get<std::uint32_t>(),
-                        .seed = said.at("seed").get<std::uint64_t>(),
-                        .base = said.at("base").get<std::string>(),
-                        .drawn = ToMap(said.at("drawn")),
-                        .objects = {}};
-  std::map<std::string, Json> placed;
-  for (const Json& object : said.at("placed")) {
-    placed.emplace(object.at("name").get<std::string>(), object.at("drawn"));
+  const ScenarioRecord& said = drawn.record;
+  ApproachRecord record{.scenario = said.scenario,
+                        .seed = said.seed,
+                        .base = said.base,
+                        .drawn = {said.drawn.begin(), said.drawn.end()}};
+  std::map<std::string, std::map<std::string, Json>> placed;
+  for (const Json& object : said.placed) {
+    auto& of_object = placed[object.value("name", "")];
+    const Json drawn_of_object = object.value("drawn", Json::object());
+    for (const auto& [key, value] : drawn_of_object.items()) {
+      of_object.emplace(key, value);
+    }
   }
   for (const auto& [name, course] : courses.objects) {
     const ObjectCourse& of_object = course;
@@ -71,7 +63,7 @@ ApproachRecord RecordOf(const DrawnScenario& drawn,
          .farthest_m = std::ranges::max(approach, {}, &Sighting::distance_m).distance_m,
          .speed_mps = detection.speed_mps,
          .needed_m = detection.needed_m,
-         .drawn = found == placed.end() ? std::map<std::string, Json>() : ToMap(found->second)});
+         .drawn = found == placed.end() ? std::map<std::string, Json>() : found->second});
   }
   return record;
 }
@@ -80,72 +72,51 @@ ApproachAlarms AlarmsOf(const EvaluatedRun& run) {
   return {.driven_m = run.driven_m, .beside = run.ObjectsBeside(), .alarms = run.alarms};
 }
 
-Json ToJson(const ApproachRecord& record) {
-  Json objects = Json::array();
-  for (const StudiedObject& object : record.objects) {
-    objects.push_back({{"name", object.name},
-                       {"type", object.type},
-                       {"detected", object.is_detected},
-                       {"distance_m", object.distance_m},
-                       {"frame", object.frame},
-                       {"from_start", object.is_from_start},
-                       {"nearest_m", object.nearest_m},
-                       {"farthest_m", object.farthest_m},
-                       {"speed_mps", object.speed_mps},
-                       {"needed_m", object.needed_m},
-                       {"drawn", Json(object.drawn)}});
-  }
-  Json json = {{"scenario", record.scenario},
-               {"seed", record.seed},
-               {"base", record.base},
-               {"drawn", Json(record.drawn)},
-               {"objects", std::move(objects)}};
-  if (!record.alarms) return json;
-  Json alarms = Json::array();
-  for (const FalseAlarm& alarm : record.alarms->alarms) {
-    alarms.push_back({{"frame", alarm.frame},
-                      {"s_m", alarm.s_m},
-                      {"distance_m", alarm.distance_m},
-                      {"object", alarm.object},
-                      {"cause", alarm.cause}});
-  }
-  json["driven_m"] = record.alarms->driven_m;
-  json["beside"] = record.alarms->beside;
-  json["false_alarms"] = std::move(alarms);
-  return json;
+void Describe(Archive& a, StudiedObject& s) {
+  a.Required("name", s.name, "");
+  a.Required("type", s.type, "");
+  a.Required("detected", s.is_detected, "");
+  std::optional<double> distance_m;
+  if (!std::isnan(s.distance_m)) distance_m = s.distance_m;
+  a.Nullable("distance_m", distance_m, "Of the detection.");
+  s.distance_m = distance_m.value_or(std::numeric_limits<double>::quiet_NaN());
+  a.Required("frame", s.frame, "That completes the rule, or of the closest point.");
+  a.Required("from_start", s.is_from_start, "Whether the first frames complete the rule.");
+  a.Required("nearest_m", s.nearest_m, "Distances of the approach.");
+  a.Required("farthest_m", s.farthest_m, "");
+  a.Required("speed_mps", s.speed_mps, "At the detection, or where it was first in range.");
+  a.Required("needed_m", s.needed_m, "To stop, with the margin.");
+  a.Required("drawn", s.drawn, "Of the object itself, by JSON pointer.");
 }
 
-ApproachRecord ApproachFromJson(const Json& json) {
-  ApproachRecord record{.scenario = json.at("scenario").get<std::uint32_t>(),
-                        .seed = json.at("seed").get<std::uint64_t>(),
-                        .base = json.at("base").get<std::string>(),
-                        .drawn = ToMap(json.at("drawn")),
-                        .objects = {}};
-  for (const Json& object : json.at("objects")) {
-    record.objects.push_back({.name = object.at("name").get<std::string>(),
-                              .type = object.at("type").get<std::string>(),
-                              .is_detected = object.at("detected").get<bool>(),
-                              .distance_m = NumberOrNaN(object.at("distance_m")),
-                              .frame = object.at("frame").get<std::uint32_t>(),
-                              .is_from_start = object.at("from_start").get<bool>(),
-                              .nearest_m = object.at("nearest_m").get<double>(),
-                              .farthest_m = object.at("farthest_m").get<double>(),
-                              .speed_mps = object.at("speed_mps").get<double>(),
-                              .needed_m = object.at("needed_m").get<double>(),
-                              .drawn = ToMap(object.at("drawn"))});
+void Describe(Archive& a, FalseAlarm& s) {
+  a.Required("frame", s.frame, "That completes the rule.");
+  a.Required("s_m", s.s_m, "Chainage of the nearest box.");
+  a.Required("distance_m", s.distance_m, "Of that box.");
+  a.Required("object", s.object, "That is not in the way; empty where there is none.");
+  a.Required("cause", s.cause, "Label of most of the box's points, or the detector's word.");
+}
+
+void Describe(Archive& a, ApproachRecord& s) {
+  a.Required("scenario", s.scenario, "Its number.");
+  a.Required("seed", s.seed, "");
+  a.Required("base", s.base, "Name of its file.");
+  a.Required("drawn", s.drawn, "Values by their names or JSON pointers.");
+  a.Required("objects", s.objects, "Those in the way that are approached.");
+  std::optional<double> driven_m;
+  std::optional<std::vector<std::string>> beside;
+  std::optional<std::vector<FalseAlarm>> alarms;
+  if (s.alarms) {
+    driven_m = s.alarms->driven_m;
+    beside = s.alarms->beside;
+    alarms = s.alarms->alarms;
   }
-  if (!json.contains("false_alarms")) return record;
-  record.alarms = {.driven_m = json.at("driven_m").get<double>(),
-                   .beside = json.at("beside").get<std::vector<std::string>>(),
-                   .alarms = {}};
-  for (const Json& alarm : json.at("false_alarms")) {
-    record.alarms->alarms.push_back({.frame = alarm.at("frame").get<std::uint32_t>(),
-                                     .s_m = alarm.at("s_m").get<double>(),
-                                     .distance_m = alarm.at("distance_m").get<double>(),
-                                     .object = alarm.at("object").get<std::string>(),
-                                     .cause = alarm.at("cause").get<std::string>()});
-  }
-  return record;
+  a.Optional("driven_m", driven_m, "Of studies with a detector, as the next two.");
+  a.Optional("beside", beside, "Objects that must raise no alarm.");
+  a.Optional("false_alarms", alarms, "");
+  a.Ensure({"driven_m"}, driven_m.has_value() == (beside && alarms),
+           "must stand with beside and false_alarms");
+  if (driven_m && beside && alarms) s.alarms = {*driven_m, *beside, *alarms};
 }
 
 }  // namespace railcast

@@ -10,6 +10,7 @@
 #include "analysis/detectors/run_evaluation.h"
 #include "core/recipe/scenario_draw.h"
 #include "core/scenario/json_text.h"
+#include "core/scenario/value_type.h"
 
 namespace railcast {
 
@@ -46,6 +47,8 @@ struct StudiedObject {
   [[nodiscard]] bool is_undecided() const { return is_from_start && !is_in_time(); }
 };
 
+void Describe(Archive& a, StudiedObject& s);
+
 /// What a detector says of an approach beyond the objects in the way.
 struct ApproachAlarms {
   double driven_m{};
@@ -63,6 +66,9 @@ struct ApproachRecord {
   std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
 };
 
+/// A line of approaches.jsonl.
+void Describe(Archive& a, ApproachRecord& s);
+
 /// What the courses of a scenario say.
 /// @param frames Numbers of the frames that were followed.
 /// @throws InputError as DetectObject() does.
@@ -72,9 +78,5 @@ struct ApproachRecord {
                                       const DetectSpec& spec);
 
 [[nodiscard]] ApproachAlarms AlarmsOf(const EvaluatedRun& run);
-
-[[nodiscard]] Json ToJson(const ApproachRecord& record);
-/// @pre ToJson() made it.
-[[nodiscard]] ApproachRecord ApproachFromJson(const Json& json);
 
 }  // namespace railcast

@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/record/read_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/program/version.h"
 
 namespace railcast {
@@ -16,20 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void CheckIsWhole(const fs::path& directory, const Json& identity) {
-  const std::string version = identity.value("version", std::string());
-  if (version != ProgramVersion()) {
-    throw InputError(ShownPath(directory / kStudyFile) + ": /version: must be " + ProgramVersion() +
+void CheckIsWhole(const fs::path& directory, const StudyRecord& identity) {
+  const std::string place = ShownPath(directory / kStudyFile);
+  if (identity.version != ProgramVersion()) {
+    throw InputError(place + ": /version: must be " + ProgramVersion() +
                      ", that of this program: make the study again, or use the program that made "
                      "it (got " +
-                     Json(version).dump() + ")");
+                     Quoted(identity.version) + ")");
   }
-  if (identity.contains("shard")) {
-    throw InputError(
-        ShownPath(directory / kStudyFile) +
-        ": /shard: must be absent: railcast-analyze study --shards joins shards (got " +
-        identity["shard"].dump() + ")");
-  }
+  if (identity.shard.empty()) return;
+  throw InputError(place +
+                   ": /shard: must be absent: railcast-analyze study --shards joins shards "
+                   "(got " +
+                   Quoted(identity.shard) + ")");
 }
 
 }  // namespace
@@ -37,12 +36,9 @@ void CheckIsWhole(const fs::path& directory, const Json& identity) {
 FinishedStudy ReadFinishedStudy(const fs::path& directory) {
   FinishedStudy study;
   study.directory = directory;
-  study.result.identity = ReadStudyJson(directory);
-  const std::string place = ShownPath(directory / kStudyFile);
-  const auto num_approaches = ReadJson(place, [&] {
-    CheckIsWhole(directory, study.result.identity);
-    return study.result.identity.at("num_scenarios").get<std::uint32_t>();
-  });
+  study.result.identity = ReadStudyRecord(directory);
+  CheckIsWhole(directory, study.result.identity);
+  const std::uint32_t num_approaches = study.result.identity.num_scenarios;
   study.result.num_approaches = num_approaches;
   study.result.approaches = ReadApproaches(directory);
   const std::size_t num_done = study.result.approaches.size();
@@ -56,16 +52,12 @@ FinishedStudy ReadFinishedStudy(const fs::path& directory) {
   }
   study.sample = CheckKeptFiles(directory);
   study.spec = ReadStudy(directory / kAskedFile);
-  study.recipe = ReadRecordedJson<Json>(ReadFileWhole(directory / kAskedRecipeFile),
-                                        ShownPath(directory / kAskedRecipeFile),
-                                        [](const Json& json) { return json; });
-  ReadJson(place, [&] {
-    const Json& frames = study.result.identity.at("frames");
-    for (std::uint32_t i = 0; i < frames.at("num").get<std::uint32_t>(); ++i) {
-      study.frames.push_back(frames.at("first").get<std::uint32_t>() +
-                             i * frames.at("stride").get<std::uint32_t>());
-    }
-  });
+  study.recipe = ReadRecordedJson(ReadFileWhole(directory / kAskedRecipeFile),
+                                  ShownPath(directory / kAskedRecipeFile));
+  const StudyFramesRecord& frames = study.result.identity.frames;
+  for (std::uint32_t i = 0; i < frames.num; ++i) {
+    study.frames.push_back(frames.first + i * frames.stride);
+  }
   return study;
 }
 

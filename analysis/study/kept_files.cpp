@@ -9,11 +9,12 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/run_folder.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
@@ -33,10 +34,11 @@ std::set<std::string> KeepScenario(const ScenarioDrawer& drawer,
 }
 
 void WriteManifest(const std::set<std::string>& names, const std::filesystem::path& directory) {
-  Json files;
-  for (const std::string& name : names) files[name] = HashFile(directory / name).hash;
-  WriteFileWhole(directory / kManifestFile,
-                 WithManifestHash(Json{{"files_xxh3", files}}.dump(2) + "\n"));
+  StudyManifestRecord manifest;
+  for (const std::string& name : names) {
+    manifest.files.emplace_back(name, HashFile(directory / name).hash);
+  }
+  WriteFileWhole(directory / kManifestFile, WithManifestHash(RecordFile(manifest)));
 }
 
 }  // namespace
@@ -89,11 +91,9 @@ std::vector<std::filesystem::path> CheckKeptFiles(const std::filesystem::path& d
   CheckManifestHash(text, ShownPath(manifest));
   ErrorList faults;
   std::vector<std::filesystem::path> sample;
-  const auto files =
-      ReadRecordedJson<StrictJson>(text, ShownPath(manifest), [](const StrictJson& json) {
-        return json.at("files_xxh3").get<std::map<std::string, std::string>>();
-      });
-  for (const auto& [name, hash] : files) {
+  const auto record =
+      ReadRecord<StudyManifestRecord>(WithoutManifestHash(text), ShownPath(manifest));
+  for (const auto& [name, hash] : record.files) {
     (void)CompareHash(directory / name, hash, std::string(kManifestFile), faults);
     if (name.starts_with(std::string(kSampleFolder) + "/") && name.ends_with(kScenarioFile)) {
       sample.push_back(directory / name);

@@ -20,6 +20,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "core/program/version.h"
 #include "core/recipe/recipe_files.h"
 #include "core/recipe/scenario_draw.h"
@@ -82,23 +83,22 @@ class ScannerPool {
   std::size_t num_made_ = 0;
 };
 
-Json IdentityOfStudy(const StudySpec& study,
-                     const Recipe& recipe,
-                     const RecipeBases& bases,
-                     const StudyChoices& choices) {
-  Json base_hashes = Json::array();
-  for (std::size_t i = 0; i < recipe.bases.size(); ++i) base_hashes.push_back(bases.hash(i));
-  return {
-      {"version", ProgramVersion()},
-      {"embree", EmbreeVersion()},
-      {"isa", AtPlace("--", [&] { return IsaInUse(choices.isa); })},
-      {"study_xxh3", ContentHash(ReadFileWhole(study.file))},
-      {"recipe_xxh3", ContentHash(ReadFileWhole(recipe.file))},
-      {"bases_xxh3", std::move(base_hashes)},
-      {"files_xxh3", HashOfRecipeFiles(recipe)},
-      {"num_scenarios", recipe.num_scenarios},
-      {"frames",
-       {{"first", recipe.warm_up_frames}, {"stride", recipe.stride}, {"num", recipe.num_frames}}}};
+StudyRecord IdentityOfStudy(const StudySpec& study,
+                            const Recipe& recipe,
+                            const RecipeBases& bases,
+                            const StudyChoices& choices) {
+  StudyRecord identity{.version = ProgramVersion(),
+                       .embree = EmbreeVersion(),
+                       .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
+                       .study_hash = ContentHash(ReadFileWhole(study.file)),
+                       .recipe_hash = ContentHash(ReadFileWhole(recipe.file)),
+                       .files_hash = HashOfRecipeFiles(recipe),
+                       .num_scenarios = recipe.num_scenarios,
+                       .frames = {recipe.warm_up_frames, recipe.stride, recipe.num_frames}};
+  for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
+    identity.base_hashes.push_back(bases.hash(i));
+  }
+  return identity;
 }
 
 std::vector<std::uint32_t> FramesOf(const Recipe& recipe) {
@@ -181,32 +181,32 @@ StudyResult RunStudy(const StudySpec& study,
   CheckAreThere(study, drawer);
   StudyResult result;
   result.identity = IdentityOfStudy(study, recipe, drawer.bases(), choices);
-  StudyDirectory directory(choices.directory, result.identity, recipe.num_scenarios, choices.shard);
+  StudyDirectory directory(choices.directory, result.identity, choices.shard);
   result.num_approaches = choices.shard.NumOf(recipe.num_scenarios);
   if (!choices.shards.empty()) {
-    MergeStudies(choices.shards, result.identity, recipe.num_scenarios, directory);
+    MergeStudies(choices.shards, result.identity, directory);
   }
   const std::vector<std::uint32_t> frames = FramesOf(recipe);
   const int num_threads =
       choices.num_threads > 0 ? choices.num_threads : tbb::info::default_concurrency();
   ScannerPool scanners(study, choices.isa, static_cast<std::size_t>(num_threads) + kMostIdle);
   const std::uint32_t num_before = directory.num_done();
-  const auto make = [&](const ScenarioTurn& turn) -> std::optional<Json> {
+  const auto make = [&](const ScenarioTurn& turn) -> std::optional<std::string> {
     const std::uint32_t number = choices.shard.ScenarioAt(num_before + turn.index);
     const DrawnScenario drawn = drawer.Draw(number);
-    return AtPlace(PlaceOfScenario(recipe, number), [&]() -> std::optional<Json> {
+    return AtPlace(PlaceOfScenario(recipe, number), [&]() -> std::optional<std::string> {
       CheckIsStudied(drawn.scenario);
       auto scanner = scanners.Take(drawn.scenario, turn.num_threads);
       const auto record = RecordBy(*scanner, study, drawn, frames, turn.is_stopped);
       scanners.Return(std::move(scanner));
       if (!record) return std::nullopt;
-      return ToJson(*record);
+      return RecordText(*record);
     });
   };
   TakeTurns(result.num_approaches - num_before, num_threads,
             std::numeric_limits<std::uint32_t>::max(),
             {.make = make,
-             .keep = [&](const Json& line) { directory.Append(line); },
+             .keep = [&](const std::string& line) { directory.Append(line); },
              .on_progress =
                  [&](double num_beyond) {
                    hooks.on_progress(directory.num_done() + static_cast<std::uint32_t>(num_beyond),

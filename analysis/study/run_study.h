@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/study/approach_record.h"
+#include "analysis/study/study_record.h"
 #include "analysis/study/study_spec.h"
 #include "core/io/run/dataset_files.h"
 #include "core/recipe/recipe.h"
@@ -35,7 +36,7 @@ struct StudyResult {
   std::uint64_t num_frames{};              ///< Of those made by this run.
   std::uint64_t num_traced{};              ///< Frames among them of which firings were traced.
   double elapsed_s{};
-  Json identity;  ///< What the figures depend on: versions and hashes.
+  StudyRecord identity;  ///< What the figures depend on: versions and hashes.
 
   [[nodiscard]] bool is_complete() const { return approaches.size() == num_approaches; }
 };

@@ -8,6 +8,8 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 
@@ -17,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // study.json of a shard.
-Json WithShard(Json identity, const Shard& shard) {
-  if (!shard.is_whole()) identity["shard"] = ShardText(shard);
+StudyRecord WithShard(StudyRecord identity, const Shard& shard) {
+  if (!shard.is_whole()) identity.shard = ShardText(shard);
   return identity;
 }
 
@@ -33,9 +35,9 @@ std::string StudyDifference(const std::string& key, const Json& found, const Jso
 }
 
 // @param other What to do about it.
-void CheckSameStudy(const fs::path& directory, const Json& ours, const std::string& other) {
-  const Json found = ReadStudyJson(directory);
-  Json all = ours;
+void CheckSameStudy(const fs::path& directory, const StudyRecord& ours, const std::string& other) {
+  const Json found = Json::parse(RecordText(ReadStudyRecord(directory)));
+  Json all = Json::parse(RecordText(ours));
   for (const auto& [key, value] : found.items()) all.emplace(key, nullptr);
   for (const auto& [key, value] : all.items()) {
     const Json theirs = found.value(key, Json());
@@ -46,13 +48,10 @@ void CheckSameStudy(const fs::path& directory, const Json& ours, const std::stri
 
 }  // namespace
 
-StudyDirectory::StudyDirectory(fs::path directory,
-                               Json identity,
-                               std::uint32_t num_scenarios,
-                               const Shard& shard)
+StudyDirectory::StudyDirectory(fs::path directory, StudyRecord identity, const Shard& shard)
     : directory_(std::move(directory)), shard_(shard) {
   lock_.emplace(directory_);
-  const Json ours = WithShard(std::move(identity), shard);
+  const StudyRecord ours = WithShard(std::move(identity), shard);
   if (fs::exists(directory_ / kStudyFile)) {
     CheckSameStudy(directory_, ours, "; choose another --out");
   } else {
@@ -61,15 +60,15 @@ StudyDirectory::StudyDirectory(fs::path directory,
           "--out: must be a new or an empty folder, or that of a study to continue (got " +
           ShownPath(directory_) + ")");
     }
-    WriteFileWhole(directory_ / kStudyFile, ours.dump(2) + "\n");
+    WriteFileWhole(directory_ / kStudyFile, RecordFile(ours));
   }
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
-  num_done_ = lines.Skip(shard.NumOf(num_scenarios));
+  num_done_ = lines.Skip(shard.NumOf(ours.num_scenarios));
   lines_.emplace(directory_ / kApproachesFile, lines.size());
 }
 
-void StudyDirectory::Append(const Json& line) {
-  lines_->Append(WithLineHash(line.dump()) + "\n");
+void StudyDirectory::Append(const std::string& record) {
+  lines_->Append(WithLineHash(record) + "\n");
   ++num_done_;
 }
 
@@ -77,38 +76,28 @@ std::vector<ApproachRecord> StudyDirectory::Read() const {
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
   std::vector<ApproachRecord> records;
   for (std::uint32_t i = 0; i < num_done_; ++i) {
-    const ScenarioLines::Line line = lines.Need();
-    records.push_back(ReadJson(line.placed.place, [&] { return ApproachFromJson(line.record); }));
+    const PlacedLine line = lines.Need();
+    records.push_back(ReadRecordLine<ApproachRecord>(line.text, line.place));
   }
   return records;
-}
-
-Json ReadStudyJson(const fs::path& directory) {
-  const fs::path file = directory / kStudyFile;
-  Json found = Json::parse(ReadFileWhole(file), nullptr, false);
-  if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
-  return found;
 }
 
 std::vector<ApproachRecord> ReadApproaches(const fs::path& directory) {
   ScenarioLines lines(directory / kApproachesFile, {});
   std::vector<ApproachRecord> records;
   while (const auto line = lines.Next()) {
-    records.push_back(ReadJson(line->placed.place, [&] { return ApproachFromJson(line->record); }));
+    records.push_back(ReadRecordLine<ApproachRecord>(line->text, line->place));
   }
   return records;
 }
 
 void MergeStudies(const std::vector<fs::path>& shards,
-                  const Json& identity,
-                  std::uint32_t num_scenarios,
+                  const StudyRecord& identity,
                   StudyDirectory& into) {
   std::map<std::uint32_t, ScenarioLines> by_number;
   std::uint32_t num_shards = 0;
   for (const fs::path& folder : shards) {
-    const Json shard_text = ReadStudyJson(folder).value("shard", Json());
-    const auto shard =
-        shard_text.is_string() ? ParseShard(shard_text.get<std::string>()) : std::optional<Shard>();
+    const auto shard = ParseShard(ReadStudyRecord(folder).shard);
     if (!shard) throw InputError(ShownPath(folder) + ": must be a shard of the study");
     CheckSameStudy(folder, WithShard(identity, *shard), "");
     if (num_shards == 0) num_shards = shard->of;
@@ -123,8 +112,8 @@ void MergeStudies(const std::vector<fs::path>& shards,
     throw InputError("--shards: must be all " + std::to_string(num_shards) + " shards (got " +
                      std::to_string(by_number.size()) + ")");
   }
-  for (std::uint32_t i = into.num_done(); i < num_scenarios; ++i) {
-    into.Append(by_number.at(i % num_shards + 1).Need().record);
+  for (std::uint32_t i = into.num_done(); i < identity.num_scenarios; ++i) {
+    into.Append(WithoutLineHash(by_number.at(i % num_shards + 1).Need().text));
   }
 }
 

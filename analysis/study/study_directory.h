@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "analysis/study/approach_record.h"
+#include "analysis/study/study_record.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/run_folder.h"
-#include "core/scenario/json_text.h"
 
 namespace railcast {
 
@@ -26,15 +26,12 @@ class StudyDirectory {
   /// @throws InputError if it holds anything else, or belongs to another study or shard, or is
   /// being
   ///   written by another process.
-  StudyDirectory(std::filesystem::path directory,
-                 Json identity,
-                 std::uint32_t num_scenarios,
-                 const Shard& shard);
+  StudyDirectory(std::filesystem::path directory, StudyRecord identity, const Shard& shard);
 
   /// Number of the shard's approaches that are done.
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
-  /// Adds the next line.
-  void Append(const Json& line);
+  /// Adds the next record as a line.
+  void Append(const std::string& record);
   /// Waits until all lines are on the disk.
   void Sync() { lines_->Sync(); }
 
@@ -50,10 +47,6 @@ class StudyDirectory {
   std::uint32_t num_done_ = 0;
 };
 
-/// Reads study.json of a folder.
-/// @throws InputError if there is none, or if it is damaged.
-[[nodiscard]] Json ReadStudyJson(const std::filesystem::path& directory);
-
 /// Reads the approaches of a folder that no process writes to, up to the first damaged line.
 /// @throws InputError if the file cannot be read.
 [[nodiscard]] std::vector<ApproachRecord> ReadApproaches(const std::filesystem::path& directory);
@@ -62,8 +55,7 @@ class StudyDirectory {
 /// @param identity As of StudyDirectory.
 /// @throws InputError if a shard is missing, incomplete, there twice or of another study.
 void MergeStudies(const std::vector<std::filesystem::path>& shards,
-                  const Json& identity,
-                  std::uint32_t num_scenarios,
+                  const StudyRecord& identity,
                   StudyDirectory& into);
 
 }  // namespace railcast

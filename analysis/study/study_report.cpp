@@ -44,24 +44,22 @@ std::string SeenText(const StudySpec& study) {
 
 std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
                                                               const StudyResult& result) {
-  const Json& identity = result.identity;
-  const auto text = [&](const char* key) { return identity.at(key).get<std::string>(); };
+  const StudyRecord& identity = result.identity;
   std::string bases;
-  for (const Json& hash : identity.at("bases_xxh3")) {
-    if (!bases.empty()) bases += ", ";
-    bases += hash.get<std::string>();
+  for (const std::string& hash : identity.base_hashes) {
+    bases += (bases.empty() ? "" : ", ") + hash;
   }
   const BrakingSpec& braking = study.detect.braking;
   return {
-      {"Study", ShownPath(study.file) + " (" + text("study_xxh3") + ")"},
-      {"Recipe", ShownPath(study.recipe) + " (" + text("recipe_xxh3") + ")"},
+      {"Study", ShownPath(study.file) + " (" + identity.study_hash + ")"},
+      {"Recipe", ShownPath(study.recipe) + " (" + identity.recipe_hash + ")"},
       {"Bases", bases},
       {"Approaches", NumberText(result.approaches.size())},
       {"Asked about", study.ObjectsText()},
       {"Detected", SeenText(study)},
       {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
                       " m/s2, margin " + NumberText(braking.margin_m) + " m"},
-      {"Simulated by", text("version") + ", Embree " + text("embree") + ", " + text("isa")}};
+      {"Simulated by", identity.version + ", Embree " + identity.embree + ", " + identity.isa}};
 }
 
 // Each target that a driver's distance is published for.

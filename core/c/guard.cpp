@@ -4,7 +4,6 @@
 #include <new>
 
 #include "core/base/out_of_memory.h"
-#include "core/scenario/json_text.h"
 #include "railcast/error.h"
 
 namespace railcast {
@@ -42,7 +41,7 @@ railcast_status StatusOfException() noexcept {
     Keep("out of memory");
     return RAILCAST_OUT_OF_MEMORY;
   } catch (const std::exception& error) {
-    Keep(JsonFault(error.what()).c_str());
+    Keep(error.what());
   } catch (...) {
     Keep("an exception of unknown type");
   }

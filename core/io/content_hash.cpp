@@ -73,6 +73,12 @@ bool HasLineHash(std::string_view line) {
   return line.find(kBegin) != std::string_view::npos;
 }
 
+std::string WithoutLineHash(std::string_view line) {
+  const std::size_t begin = line.rfind(kBegin);
+  if (begin == std::string_view::npos) return std::string(line);
+  return std::string(line.substr(0, begin)) + "}";
+}
+
 std::string LineHashFault(std::string_view line) {
   const std::size_t begin = line.rfind(kBegin);
   if (begin == std::string_view::npos) return "must end with line_xxh3, the hash of all before it";

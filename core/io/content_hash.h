@@ -33,4 +33,7 @@ struct FileHash {
 /// Whether a line has a hash of itself. Those of older programs have none.
 [[nodiscard]] bool HasLineHash(std::string_view line);
 
+/// The line as it was before WithLineHash(), if it has a hash.
+[[nodiscard]] std::string WithoutLineHash(std::string_view line);
+
 }  // namespace railcast

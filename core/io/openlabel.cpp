@@ -25,42 +25,38 @@ void OpenLabelPlace::Fail(const std::string& rule) const {
   throw InputError(file + ": " + pointer + ": " + rule);
 }
 
-StrictJson ParseOpenLabel(const std::string& text, const std::string& shown) {
+Json ParseOpenLabel(const std::string& text, const std::string& shown) {
   try {
-    return StrictJson::parse(text);
-  } catch (const StrictJson::exception&) {
+    return Json::parse(text);
+  } catch (const Json::exception&) {
     throw InputError(shown + ": must be a file of OpenLABEL");
   }
 }
 
-const StrictJson& OpenLabelMember(const StrictJson& json,
-                                  const std::string& key,
-                                  const OpenLabelPlace& place) {
+const Json& OpenLabelMember(const Json& json, const std::string& key, const OpenLabelPlace& place) {
   const auto found = json.is_object() ? json.find(key) : json.end();
   if (!json.is_object() || found == json.end()) (place / key).Fail("missing");
   return *found;
 }
 
-std::string OpenLabelText(const StrictJson& json,
-                          const std::string& key,
-                          const OpenLabelPlace& place) {
-  const StrictJson& value = OpenLabelMember(json, key, place);
+std::string OpenLabelText(const Json& json, const std::string& key, const OpenLabelPlace& place) {
+  const Json& value = OpenLabelMember(json, key, place);
   if (!value.is_string()) (place / key).Fail("must be a text");
   return value.get<std::string>();
 }
 
-std::vector<double> OpenLabelNumbers(const StrictJson& json,
+std::vector<double> OpenLabelNumbers(const Json& json,
                                      std::size_t count,
                                      const OpenLabelPlace& place) {
-  const bool are_numbers = json.is_array() && json.size() == count &&
-                           std::ranges::all_of(json, [](const StrictJson& number) {
-                             return number.is_number() && std::isfinite(number.get<double>());
-                           });
+  const bool are_numbers =
+      json.is_array() && json.size() == count && std::ranges::all_of(json, [](const Json& number) {
+        return number.is_number() && std::isfinite(number.get<double>());
+      });
   if (!are_numbers) place.Fail("must be " + NumberText(count) + " numbers");
   return json.get<std::vector<double>>();
 }
 
-Transform OpenLabelTransform(const StrictJson& json, const OpenLabelPlace& place) {
+Transform OpenLabelTransform(const Json& json, const OpenLabelPlace& place) {
   if (json.is_object() && json.contains("matrix4x4")) {
     const auto rows = OpenLabelNumbers(json.at("matrix4x4"), 16, place / "matrix4x4");
     const Eigen::Matrix4d matrix =

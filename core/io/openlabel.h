@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/strict_json.h"
+#include "core/scenario/json_text.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -27,25 +27,25 @@ struct OpenLabelPlace {
 
 /// Parses a file. @param shown Its name in messages.
 /// @throws InputError if it is no JSON.
-[[nodiscard]] StrictJson ParseOpenLabel(const std::string& text, const std::string& shown);
+[[nodiscard]] Json ParseOpenLabel(const std::string& text, const std::string& shown);
 
 // Each throws InputError as OpenLabelPlace::Fail() does.
 
-[[nodiscard]] const StrictJson& OpenLabelMember(const StrictJson& json,
-                                                const std::string& key,
-                                                const OpenLabelPlace& place);
+[[nodiscard]] const Json& OpenLabelMember(const Json& json,
+                                          const std::string& key,
+                                          const OpenLabelPlace& place);
 
-[[nodiscard]] std::string OpenLabelText(const StrictJson& json,
+[[nodiscard]] std::string OpenLabelText(const Json& json,
                                         const std::string& key,
                                         const OpenLabelPlace& place);
 
 /// @return `count` finite numbers.
-[[nodiscard]] std::vector<double> OpenLabelNumbers(const StrictJson& json,
+[[nodiscard]] std::vector<double> OpenLabelNumbers(const Json& json,
                                                    std::size_t count,
                                                    const OpenLabelPlace& place);
 
 /// A pose or a `transform_data`: a matrix, or a quaternion and a translation.
-[[nodiscard]] Transform OpenLabelTransform(const StrictJson& json, const OpenLabelPlace& place);
+[[nodiscard]] Transform OpenLabelTransform(const Json& json, const OpenLabelPlace& place);
 
 /// Of seven numbers or more: position, then quaternion (x, y, z, w).
 [[nodiscard]] Transform OpenLabelPose(const std::vector<double>& numbers,

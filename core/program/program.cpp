@@ -19,7 +19,6 @@
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/version.h"
-#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
@@ -84,7 +83,7 @@ int RunMain(const std::string& program,
     if (IsOutOfThreads(error)) {
       complaints << kOutOfThreads;
     } else {
-      complaints << program << ": " << ShownLines(JsonFault(error.what())) << "\n";
+      complaints << program << ": " << ShownLines(error.what()) << "\n";
     }
   }
   return kExitFailure;

@@ -60,18 +60,18 @@ class OneDraw {
     const ScenarioSpec& scenario = result.scenario;
     const Json resolved = Json::parse(ResolvedScenarioJson(scenario));
     result.record = {
-        {"scenario", number_},
-        {"base", recipe_.bases[base_].file.substr(recipe_.bases[base_].file.rfind('/') + 1)},
-        {"split", NameOf(split_)},
-        {"line", line_hash_},
-        {"seen_s_m", {seen_.begin_s_m, seen_.end_s_m}},
-        {"seed", scenario.seed},
-        {"world_seed", scenario.world.seed},
-        {"start_s_m", run ? draft_.start().s_m : scenario.vehicle.start_s_m},
-        {"drawn", std::move(drawn)},
-        {"placed", placed},
-        {"weather", resolved.at("weather")}};
-    if (run) result.record["first_frame"] = first_frame_;
+        .scenario = number_,
+        .base = recipe_.bases[base_].file.substr(recipe_.bases[base_].file.rfind('/') + 1),
+        .split = std::string(NameOf(split_)),
+        .line = line_hash_,
+        .seen_s_m = {seen_.begin_s_m, seen_.end_s_m},
+        .seed = scenario.seed,
+        .world_seed = scenario.world.seed,
+        .start_s_m = run ? draft_.start().s_m : scenario.vehicle.start_s_m,
+        .placed = placed,
+        .weather = resolved.at("weather")};
+    for (const auto& [name, value] : drawn.items()) result.record.drawn.emplace_back(name, value);
+    if (run) result.record.first_frame = first_frame_;
     return result;
   }
 

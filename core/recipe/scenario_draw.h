@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/dataset_record.h"
 #include "core/recipe/recipe.h"
 #include "core/recipe/recipe_files.h"
 #include "core/recipe/split_plan.h"
-#include "core/scenario/json_text.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -20,9 +20,8 @@ struct DrawnScenario {
   std::shared_ptr<const RecordedBase> run{};
   std::uint32_t first_frame{};
   std::uint32_t num_frames{};
-  /// What index and report say of it: scenario, base, split, place, seed, start_s_m, drawn,
-  /// objects, weather; of a plan also the first frame.
-  Json record{};
+  /// What a data set says of it, but for its sequences.
+  ScenarioRecord record{};
 };
 
 /// Draws the scenarios of a recipe. Each depends on the recipe and its number alone.

@@ -9,7 +9,6 @@
 
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/dataset_files.h"
-#include "core/scenario/json_text.h"
 
 namespace railcast {
 
@@ -17,12 +16,6 @@ namespace railcast {
 /// other: millions need not fit into memory.
 class ScenarioLines {
  public:
-  /// A line, as it stands and as JSON without its hash.
-  struct Line {
-    PlacedLine placed;
-    Json record;
-  };
-
   /// @param file Of a data set, a study or a shard of them; it need not be there yet.
   /// @throws InputError if the file cannot be read.
   ScenarioLines(std::filesystem::path file, const Shard& shard);
@@ -30,10 +23,10 @@ class ScenarioLines {
   /// Returns the line of the shard's next scenario; nothing from the first line on that is another,
   /// incomplete or not as it was written, as an interrupted run may leave it.
   /// @throws InputError if the file cannot be read.
-  [[nodiscard]] std::optional<Line> Next();
+  [[nodiscard]] std::optional<PlacedLine> Next();
   /// As Next(), for the lines of finished scenarios.
   /// @throws InputError "file:3: rule" also where Next() returns nothing.
-  [[nodiscard]] Line Need();
+  [[nodiscard]] PlacedLine Need();
   /// Skips all further lines, or `most` of them.
   /// @return How many there were.
   std::uint32_t Skip(std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
@@ -46,7 +39,7 @@ class ScenarioLines {
  private:
   [[nodiscard]] std::optional<PlacedLine> Read();
   // Returns what is wrong with a line; empty if nothing is: then it is read.
-  std::string Take(const PlacedLine& line, Json& record);
+  std::string Take(const PlacedLine& line);
 
   std::filesystem::path file_;
   Shard shard_;

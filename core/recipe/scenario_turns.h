@@ -4,8 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-
-#include "core/scenario/json_text.h"
+#include <string>
 
 namespace railcast {
 
@@ -27,10 +26,10 @@ struct ScenarioTurn {
 /// What is done in turns.
 struct ScenarioWork {
   /// Makes a scenario. Called by several threads at once.
-  /// @return Its line; nothing if it was stopped.
-  std::function<std::optional<Json>(const ScenarioTurn& turn)> make;
+  /// @return Its record as text (RecordText()); nothing if it was stopped.
+  std::function<std::optional<std::string>(const ScenarioTurn& turn)> make;
   /// Takes the lines of the scenarios, in order; by one thread at a time, as are the next two.
-  std::function<void(const Json& line)> keep;
+  std::function<void(const std::string& line)> keep;
   /// Told how many scenarios are made beyond those whose lines were kept: before each scenario, and
   /// as often as the scenarios say how far they are.
   std::function<void(double num_beyond)> on_progress;

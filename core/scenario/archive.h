@@ -96,6 +96,7 @@ struct Key {
   const char* doc{};  ///< What the value means, for the schema.
   RuleRef rule = kAnything;
   bool is_required{};
+  bool is_nullable{};  ///< Whether it is null where an optional value is absent.
 };
 
 /// The value of a member that no two elements of a list may share.
@@ -122,6 +123,15 @@ class Archive {
   void Optional(std::string_view key, T& value, const char* doc, const Rule& rule = {}) {
     static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
     Visit({key, doc, rule, false}, RefTo(value));
+  }
+  /// The key is null where there is no value.
+  template <class T, class Rule = Anything>
+  void Nullable(std::string_view key,
+                std::optional<T>& value,
+                const char* doc,
+                const Rule& rule = {}) {
+    static_assert(CanKeep<T, Rule>(), "no value of this type keeps or breaks this rule");
+    Visit({key, doc, rule, true, true}, RefTo(value));
   }
   /// A list, or a file that holds it under the same key.
   template <class T>

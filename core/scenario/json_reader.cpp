@@ -68,6 +68,15 @@ void ReadArray(JsonSource& source, const Node& node, const ValueRef& array, cons
   }
 }
 
+void ReadMap(JsonSource& source, const Node& node, const ValueRef& map, const RuleRef& rule) {
+  const auto list = source.PlainMembers(node);
+  if (!list) return;
+  for (const Member& member : list->members) {
+    ReadValue(source, member.value, {map.type->member(map.place, member.key), map.type->of()},
+              rule);
+  }
+}
+
 /// Reads one of several structs, which "type" distinguishes. It is written in place, because a type
 /// may have a key "file" of its own.
 void ReadVariant(JsonSource& source, const Node& node, const ValueRef& variant) {
@@ -107,6 +116,8 @@ void ReadValue(JsonSource& source, const Node& node, const ValueRef& value, cons
       return ReadNumber(source, node, *static_cast<double*>(value.place), rule);
     case Kind::kWhole:
       return ReadWhole(source, node, value, rule);
+    case Kind::kSigned:
+      return ReadSigned(source, node, *static_cast<std::int64_t*>(value.place));
     case Kind::kText:
       return ReadText(source, node, *static_cast<std::string*>(value.place), rule);
     case Kind::kName:
@@ -120,6 +131,11 @@ void ReadValue(JsonSource& source, const Node& node, const ValueRef& value, cons
       return ReadArray(source, node, value, rule);
     case Kind::kList:
       return ReadList(source, node, value, rule);
+    case Kind::kMap:
+      return ReadMap(source, node, value, rule);
+    case Kind::kJson:
+      *static_cast<Json*>(value.place) = *node.json;
+      return;
     case Kind::kVariant:
       return ReadVariant(source, node, value);
     case Kind::kOwn:
@@ -153,7 +169,9 @@ void JsonReader::Visit(const Key& key, const ValueRef& value) {
   const Node* const node = Find(key.name);
   if (node == nullptr && key.is_required && list_.is_complete) missing_.emplace_back(key.name);
   keys_.emplace_back(key.name);
-  if (node != nullptr) ReadValue(source_, *node, value, key.rule);
+  if (node == nullptr) return;
+  if (key.is_nullable && node->json->is_null()) return value.type->renew(value.place, 0);
+  ReadValue(source_, *node, value, key.rule);
 }
 
 void JsonReader::Preset(std::string_view key,

@@ -202,30 +202,6 @@ std::string PointerStep(std::string_view key) {
   return step;
 }
 
-std::string JsonFault(std::string_view what) {
-  constexpr std::string_view kBegin = "[json.exception.";
-  const std::size_t begin = what.find("] ");
-  if (!what.starts_with(kBegin) || begin == std::string_view::npos) return std::string(what);
-  const std::string_view said = what.substr(begin + 2);
-  if (what.find(".parse_error.") < begin) return Reason(std::string(said));
-  const auto between = [&](std::string_view from, std::string_view to) {
-    const std::size_t first = said.find(from) + from.size();
-    return std::string(said.substr(first, said.rfind(to) - first));
-  };
-  if (said.starts_with("key '")) {
-    return "key " + ShownText(between("key '", "' not found")) + " is missing";
-  }
-  if (said.starts_with("type must be ")) {
-    return "a value must be " + between("be ", ", but is") + " (got " +
-           std::string(said.substr(said.rfind(' ') + 1)) + ")";
-  }
-  if (said.starts_with("cannot use ")) {
-    return "a value must be an object or an array (got " +
-           std::string(said.substr(said.rfind(' ') + 1)) + ")";
-  }
-  return ShownLines(std::string(said));
-}
-
 JsonText ParseJson(const std::string& text) {
   if (text.starts_with("\xEF\xBB\xBF")) {
     JsonText result;

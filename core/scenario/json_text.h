@@ -28,19 +28,4 @@ struct JsonText {
 /// deep, finite numbers only, no NUL bytes.
 [[nodiscard]] JsonText ParseJson(const std::string& text);
 
-/// Says in our words what the library means by a message of its exceptions, such as that of a
-/// missing key. Other texts stay as they are.
-[[nodiscard]] std::string JsonFault(std::string_view what);
-
-/// Calls `read`, which takes values out of JSON.
-/// @throws InputError "place: is damaged: ..." if what it asks for is not there.
-template <typename Read>
-auto ReadJson(const std::string& place, const Read& read) -> decltype(read()) {
-  try {
-    return read();
-  } catch (const Json::exception& error) {
-    throw InputError(place + ": is damaged: " + JsonFault(error.what()));
-  }
-}
-
 }  // namespace railcast

@@ -57,6 +57,15 @@ void ReadWhole(JsonSource& source, const Node& node, const ValueRef& value, cons
                          std::to_string(at_most));
 }
 
+void ReadSigned(JsonSource& source, const Node& node, std::int64_t& value) {
+  const Json& json = *node.json;
+  const bool is_whole = json.is_number_integer() && !json.is_number_unsigned();
+  const bool fits = is_whole || (json.is_number_unsigned() &&
+                                 std::in_range<std::int64_t>(json.get<std::uint64_t>()));
+  if (!fits) return source.Fault(node, "must be a whole number of at most 63 bits");
+  value = json.get<std::int64_t>();
+}
+
 void ReadText(JsonSource& source, const Node& node, std::string& value, const RuleRef& rule) {
   if (rule.kind() == RuleRef::Kind::kExistingFile) {
     if (const auto file = source.FileNamedBy(node)) value = file->string();

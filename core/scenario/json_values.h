@@ -18,6 +18,7 @@ void ReadBool(JsonSource& source, const Node& node, bool& value);
 void ReadNumber(JsonSource& source, const Node& node, double& value, const RuleRef& rule);
 /// @param rule Limits, NumberChoices or none.
 void ReadWhole(JsonSource& source, const Node& node, const ValueRef& value, const RuleRef& rule);
+void ReadSigned(JsonSource& source, const Node& node, std::int64_t& value);
 /// @param rule One of those for texts, or none.
 void ReadText(JsonSource& source, const Node& node, std::string& value, const RuleRef& rule);
 /// Reads the name of an enumeration's value.

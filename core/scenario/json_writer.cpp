@@ -27,7 +27,10 @@ void JsonWriter::Switches(std::string_view key,
 
 void JsonWriter::Visit(const Key& key, const ValueRef& value) {
   if (value.type->kind == ValueType::Kind::kOptional) {
-    if (value.type->size(value.place) == 0) return;
+    if (value.type->size(value.place) == 0) {
+      if (key.is_nullable) object_[std::string(key.name)] = nullptr;
+      return;
+    }
     return Visit(key, {value.type->at(value.place, 0), value.type->of()});
   }
   const Json* const assumed = AssumedOf(key.name);
@@ -60,6 +63,8 @@ Json JsonWriter::Written(const ValueRef& value, const Json* assumed) const {
       return *static_cast<const double*>(value.place);
     case Kind::kWhole:
       return type.whole(value.place);
+    case Kind::kSigned:
+      return *static_cast<const std::int64_t*>(value.place);
     case Kind::kText:
       return *static_cast<const std::string*>(value.place);
     case Kind::kName:
@@ -75,6 +80,15 @@ Json JsonWriter::Written(const ValueRef& value, const Json* assumed) const {
       }
       return list;
     }
+    case Kind::kMap: {
+      Json object = Json::object();
+      for (const std::string& key : type.keys(value.place)) {
+        object[key] = Written({type.member(value.place, key), type.of()}, nullptr);
+      }
+      return object;
+    }
+    case Kind::kJson:
+      return *static_cast<const Json*>(value.place);
     case Kind::kVariant: {
       const std::size_t index = type.size(value.place);
       const ValueType::Alternative alternative = type.alternatives()[index];

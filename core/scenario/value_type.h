@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -14,6 +16,7 @@
 
 #include "railcast/enum_names.h"
 #include "railcast/objects.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -46,6 +49,15 @@ inline constexpr bool kIsOptional = false;
 template <class T>
 inline constexpr bool kIsOptional<std::optional<T>> = true;
 template <class T>
+inline constexpr bool kIsMap = false;
+template <class T>
+inline constexpr bool kIsMap<std::map<std::string, T>> = true;
+/// Values by name, in their order.
+template <class T>
+using NamedValues = std::vector<std::pair<std::string, T>>;
+template <class T>
+inline constexpr bool kIsMap<NamedValues<T>> = true;
+template <class T>
 inline constexpr bool kIsVariant = false;
 template <class... Ts>
 inline constexpr bool kIsVariant<std::variant<Ts...>> = true;
@@ -63,13 +75,16 @@ struct ValueType {
   enum class Kind {
     kBool,
     kNumber,  ///< double
-    kWhole,   ///< Integer; no spec has a negative one.
+    kWhole,   ///< Integer that is not negative.
+    kSigned,  ///< std::int64_t
     kText,    ///< std::string
     kName,    ///< Enumeration with names.
     kObjectType,
     kOptional,  ///< A container of none or one.
-    kArray,
+    kArray,     ///< std::array, or a vector or quaternion (x, y, z, w) of numbers.
     kList,
+    kMap,      ///< std::map or NamedValues, of which each name is a key.
+    kJson,     ///< Any value, kept as it is.
     kStruct,   ///< With a description.
     kVariant,  ///< One of several structs, which "type" distinguishes.
     kOwn,      ///< Has a ReadValue(source, node, value) of its own.
@@ -84,10 +99,12 @@ struct ValueType {
   std::string (*name)(const void*){};
   void (*set_name)(void*, const std::string&){};
 
-  const ValueType* (*of)(){};           ///< Of the elements of kOptional, kArray, kList.
+  const ValueType* (*of)(){};           ///< Of the elements of kOptional, kArray, kList, kMap.
   std::size_t (*size)(const void*){};   ///< Their number; of kVariant the alternative's index.
   void (*renew)(void*, std::size_t){};  ///< Makes that many new ones, or that alternative.
   void* (*at)(void*, std::size_t){};    ///< An element, or the alternative.
+  std::vector<std::string> (*keys)(const void*){};  ///< Of kMap.
+  void* (*member)(void*, const std::string&){};     ///< Of kMap; a new one if there is none.
 
   void (*describe)(Archive&, void*){};  ///< Of kStruct.
   void* (*make)(){};                    ///< A new value; of all kinds. NewValue owns it.
@@ -161,6 +178,45 @@ constexpr void AddContainer(ValueType& type) {
   }
 }
 
+template <class T>
+constexpr void AddMembers(ValueType& type) {
+  using Value = typename T::value_type::second_type;
+  type.kind = ValueType::Kind::kMap;
+  type.of = []() -> const ValueType* { return TypeOf<Value>(); };
+  type.keys = [](const void* place) {
+    std::vector<std::string> keys;
+    for (const auto& member : *static_cast<const T*>(place)) keys.push_back(member.first);
+    return keys;
+  };
+  type.member = [](void* place, const std::string& key) -> void* {
+    T& map = *static_cast<T*>(place);
+    if constexpr (std::is_same_v<T, NamedValues<Value>>) {
+      for (auto& member : map) {
+        if (member.first == key) return &member.second;
+      }
+      return &map.emplace_back(key, Value()).second;
+    } else {
+      return &map[key];
+    }
+  };
+}
+
+// Numbers that follow one another in memory, a quaternion's as x, y, z, w.
+template <class T, std::size_t kSize>
+constexpr void AddNumbers(ValueType& type) {
+  static_assert(sizeof(T) == kSize * sizeof(double));
+  type.kind = ValueType::Kind::kArray;
+  type.of = []() -> const ValueType* { return TypeOf<double>(); };
+  type.size = [](const void*) { return kSize; };
+  type.at = [](void* place, std::size_t i) -> void* {
+    if constexpr (std::is_same_v<T, Eigen::Quaterniond>) {
+      return static_cast<T*>(place)->coeffs().data() + i;
+    } else {
+      return static_cast<T*>(place)->data() + i;
+    }
+  };
+}
+
 template <class... Ts>
 constexpr void AddAlternatives(ValueType& type, std::in_place_type_t<std::variant<Ts...>>) {
   using T = std::variant<Ts...>;
@@ -195,6 +251,8 @@ template <class T>
     type.kind = Kind::kBool;
   } else if constexpr (std::is_same_v<T, double>) {
     type.kind = Kind::kNumber;
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    type.kind = Kind::kSigned;
   } else if constexpr (std::integral<T>) {
     type.kind = Kind::kWhole;
     type.most = std::numeric_limits<T>::max();
@@ -218,8 +276,16 @@ template <class T>
     };
   } else if constexpr (std::is_same_v<T, ObjectType>) {
     type.kind = Kind::kObjectType;
+  } else if constexpr (kIsMap<T>) {
+    AddMembers<T>(type);
   } else if constexpr (kIsOptional<T> || kIsArray<T> || kIsList<T>) {
     AddContainer<T>(type);
+  } else if constexpr (std::is_same_v<T, Vector3>) {
+    AddNumbers<T, 3>(type);
+  } else if constexpr (std::is_same_v<T, Eigen::Quaterniond>) {
+    AddNumbers<T, 4>(type);
+  } else if constexpr (std::is_same_v<T, nlohmann::ordered_json>) {
+    type.kind = Kind::kJson;
   } else if constexpr (kIsVariant<T>) {
     AddAlternatives(type, std::in_place_type<T>);
   } else {

@@ -53,7 +53,7 @@ int WriteScenarios(const Recipe& recipe, const DatasetOptions& options) {
     const std::uint32_t number = shard.ScenarioAt(i);
     const DrawnScenario drawn = drawer.Draw(number);
     report.Add(drawn.record);
-    const auto split = ValueNamed<Split>(drawn.record.at("split").get<std::string>()).value();
+    const auto split = ValueNamed<Split>(drawn.record.split).value();
     folders.at(static_cast<std::size_t>(split)) += SequenceFolderOf(number) + "\n";
     const fs::path folder = directory / SequenceFolderOf(number);
     const std::string name = drawn.run ? "plan.resolved.json" : "scenario.resolved.json";

@@ -7,6 +7,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/scenario_verification.h"
@@ -53,21 +54,18 @@ bool HoldsOnlyBeginningOf(const fs::path& unfinished, const std::string& text) {
 
 }  // namespace
 
-Json DatasetJson(const DatasetSpec& spec) {
-  Json json = {{"version", spec.version},
-               {"embree", spec.embree_version},
-               {"isa", spec.isa},
-               {"recipe_xxh3", ContentHash(spec.recipe)},
-               {"bases_xxh3", spec.base_hashes},
-               {"num_scenarios", spec.num_scenarios},
-               {"format", spec.format},
-               {"fields", spec.fields},
-               {"merged", spec.is_merged}};
-  if (!spec.files_hash.empty()) json["files_xxh3"] = spec.files_hash;
-  if (!spec.shard.is_whole()) {
-    json["shard"] = ShardText(spec.shard);
-  }
-  return json;
+DatasetRecord RecordOf(const DatasetSpec& spec) {
+  return {.version = spec.version,
+          .embree = spec.embree_version,
+          .isa = spec.isa,
+          .recipe_hash = ContentHash(spec.recipe),
+          .base_hashes = spec.base_hashes,
+          .num_scenarios = spec.num_scenarios,
+          .format = spec.format,
+          .fields = spec.fields,
+          .is_merged = spec.is_merged,
+          .files_hash = spec.files_hash,
+          .shard = spec.shard.is_whole() ? "" : ShardText(spec.shard)};
 }
 
 DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
@@ -78,7 +76,7 @@ DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   if (fs::exists(directory / kDatasetFile)) {
     CheckSameDataset();
   } else {
-    const std::string text = DatasetJson(spec_).dump(2) + "\n";
+    const std::string text = RecordFile(RecordOf(spec_));
     if (!fs::is_empty(directory) && !HoldsOnlyBeginningOf(unfinished, text)) {
       throw InputError(
           "--out: must be a new or an empty folder, or that of a data set to continue "
@@ -116,10 +114,10 @@ bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
       return false;
     }
     const std::uint64_t before = lines.size();
-    ScenarioLines::Line line = lines.Need();
+    const PlacedLine line = lines.Need();
     const std::uint32_t scenario = spec_.shard.ScenarioAt(i);
-    const bool is_whole = VerifyScenario(directory, scenario, line.placed).faults.empty();
-    if (is_whole && first_hole) kept_.emplace(i, std::move(line.record));
+    const bool is_whole = VerifyScenario(directory, scenario, line).faults.empty();
+    if (is_whole && first_hole) kept_.emplace(i, WithoutLineHash(line.text));
     if (is_whole || first_hole) continue;
     first_hole = i;
     size = before;
@@ -130,7 +128,7 @@ bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
   return true;
 }
 
-const Json* DatasetDirectory::Kept(std::uint32_t i) const {
+const std::string* DatasetDirectory::Kept(std::uint32_t i) const {
   const auto found = kept_.find(i);
   return found == kept_.end() ? nullptr : &found->second;
 }
@@ -139,7 +137,7 @@ void DatasetDirectory::CheckSameDataset() const {
   const fs::path file = spec_.directory / kDatasetFile;
   const Json found = Json::parse(ReadFileWhole(file), nullptr, false);
   if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
-  Json ours = DatasetJson(spec_);
+  Json ours = Json::parse(RecordText(RecordOf(spec_)));
   if (found.contains("shard") && !ours.contains("shard")) ours["shard"] = nullptr;
   for (const auto& [key, value] : ours.items()) {
     const Json other = found.value(key, Json());
@@ -149,8 +147,8 @@ void DatasetDirectory::CheckSameDataset() const {
   }
 }
 
-void DatasetDirectory::Append(const Json& line) {
-  lines_->Append(WithLineHash(line.dump()) + "\n");
+void DatasetDirectory::Append(const std::string& record) {
+  lines_->Append(WithLineHash(record) + "\n");
   ++num_done_;
 }
 

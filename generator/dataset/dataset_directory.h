@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/scenario/json_text.h"
 
@@ -31,7 +32,7 @@ struct DatasetSpec {
 };
 
 /// dataset.json of a data set.
-[[nodiscard]] Json DatasetJson(const DatasetSpec& spec);
+[[nodiscard]] DatasetRecord RecordOf(const DatasetSpec& spec);
 
 /// A folder with a data set, complete or unfinished: dataset.json, recipe.json, scenarios.jsonl
 /// with a line for each scenario that is done, and sequences/NNN/NNNNNN. manifest.json says that it
@@ -58,12 +59,12 @@ class DatasetDirectory {
   [[nodiscard]] bool Check(const std::function<bool(double share)>& goes_on);
   /// Whether the shard's i-th scenario was done when the folder was opened.
   [[nodiscard]] bool WasDone(std::uint32_t i) const { return i < num_found_; }
-  /// The line of a scenario that is kept; null if it is none.
-  [[nodiscard]] const Json* Kept(std::uint32_t i) const;
+  /// The record of a scenario that is kept; null if it is none.
+  [[nodiscard]] const std::string* Kept(std::uint32_t i) const;
   [[nodiscard]] std::uint32_t num_kept() const { return static_cast<std::uint32_t>(kept_.size()); }
 
-  /// Adds the line of the next scenario, whose sequence is complete.
-  void Append(const Json& line);
+  /// Adds the record of the next scenario, whose sequence is complete, as a line.
+  void Append(const std::string& record);
   /// Waits until all lines are on the disk.
   void Sync();
 
@@ -75,7 +76,7 @@ class DatasetDirectory {
   std::optional<LineFile> lines_;
   std::uint32_t num_found_ = 0;  ///< Lines when the folder was opened.
   std::uint32_t num_done_ = 0;
-  std::map<std::uint32_t, Json> kept_;
+  std::map<std::uint32_t, std::string> kept_;
   bool is_complete_ = false;
 };
 

@@ -13,8 +13,10 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/io/content_hash.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
+#include "core/io/run/dataset_report_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/recipe/recipe.h"
@@ -60,24 +62,21 @@ class NewFile {
 /// @param sequences The hashes of all sequences' data, one after the other.
 std::string ManifestText(const DatasetSpec& spec,
                          const std::string& sequences,
-                         const Json& report) {
-  Json files = Json::object();
+                         const DatasetReportRecord& report) {
+  DatasetManifestRecord manifest{.version = spec.version,
+                                 .num_scenarios = spec.num_scenarios,
+                                 .num_frames = report.num_frames,
+                                 .points = report.counts.points,
+                                 .format = spec.format};
   // The program that made the data is named in dataset.json, and SQLite's version in its file.
   std::string data;
   for (const std::string_view name : kHashedFiles) {
     const std::string hash = HashFile(spec.directory / name).hash;
-    files[std::string(name)] = hash;
+    manifest.files.emplace_back(name, hash);
     if (name != kDatasetFile && name != kIndexDatabaseFile && name != kScenariosFile) data += hash;
   }
-  data += sequences;
-  const Json manifest = {{"version", spec.version},
-                         {"num_scenarios", spec.num_scenarios},
-                         {"num_frames", report.at("num_frames")},
-                         {"points", report.at("points")},
-                         {"format", spec.format},
-                         {"files_xxh3", std::move(files)},
-                         {"data_xxh3", ContentHash(data)}};
-  return WithManifestHash(manifest.dump(2) + "\n");
+  manifest.data_hash = ContentHash(data + sequences);
+  return WithManifestHash(RecordFile(manifest));
 }
 
 }  // namespace
@@ -95,19 +94,15 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   PerPart<std::uint32_t> parts{};
   ScenarioLines lines(directory / kScenariosFile, spec.shard);
   for (std::uint32_t i = 0; i < spec.num_scenarios; ++i) {
-    const IndexedScenario scenario = ReadIndexedScenario(directory, lines.Need().record);
-    const Json& record = scenario.record;
-    const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
+    const IndexedScenario scenario = ReadIndexedScenario(directory, lines.Need());
+    const ScenarioRecord& record = scenario.record;
+    const auto split = ValueNamed<Split>(record.split).value();
     ++parts.at(static_cast<std::size_t>(split));
-    for (const IndexedSequence& sequence : scenario.sequences) {
-      const Json& of_sensor = sequence.record;
-      splits.at(static_cast<std::size_t>(split))
-          .Append(of_sensor.at("folder").get<std::string>() + "\n");
-      hashes += of_sensor.at("data_xxh3").get_ref<const std::string&>();
+    for (const SequenceRecord& sequence : record.sequences) {
+      splits.at(static_cast<std::size_t>(split)).Append(sequence.folder + "\n");
+      hashes += sequence.data_hash;
     }
-    if (record.contains("sensors_xxh3")) {
-      hashes += record.at("sensors_xxh3").get_ref<const std::string&>();
-    }
+    hashes += record.sensors_hash;
     index.Append(IndexLines(scenario));
     database.Add(scenario);
     report.Add(scenario);
@@ -115,22 +110,20 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   index.Finish();
   database.Finish();
   for (NewFile& split : splits) split.Finish();
-  const Json written = report.Write();
-  WriteFileWhole(directory / kReportFile, written.dump(2) + "\n");
+  const DatasetReportRecord written = report.Record();
+  WriteFileWhole(directory / kReportFile, RecordFile(written));
   WriteFileWhole(directory / kDatasetManifestFile, ManifestText(spec, hashes, written));
   return parts;
 }
 
 void WriteShardManifest(const DatasetSpec& spec) {
-  Json files = Json::object();
+  DatasetManifestRecord manifest{.version = spec.version,
+                                 .shard = ShardText(spec.shard),
+                                 .num_scenarios = spec.shard.NumOf(spec.num_scenarios)};
   for (const std::string_view name : kHashedFilesOfShard) {
-    files[std::string(name)] = HashFile(spec.directory / name).hash;
+    manifest.files.emplace_back(name, HashFile(spec.directory / name).hash);
   }
-  const Json manifest = {{"version", spec.version},
-                         {"shard", ShardText(spec.shard)},
-                         {"num_scenarios", spec.shard.NumOf(spec.num_scenarios)},
-                         {"files_xxh3", std::move(files)}};
-  WriteFileWhole(spec.directory / kDatasetManifestFile, WithManifestHash(manifest.dump(2) + "\n"));
+  WriteFileWhole(spec.directory / kDatasetManifestFile, WithManifestHash(RecordFile(manifest)));
 }
 
 }  // namespace railcast

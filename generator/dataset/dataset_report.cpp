@@ -47,39 +47,23 @@ std::string CountsLine(const std::string& name, const Counts& counts) {
   return line + "\n";
 }
 
-// Counts by the names of their bins.
-Json ByDistance(const std::array<std::uint64_t, kNumDistanceBins>& counts) {
-  Json json = Json::object();
-  for (std::size_t i = 0; i < counts.size(); ++i) json[DistanceBinName(i)] = counts[i];
-  return json;
-}
-
-Json ByOcclusion(const std::array<std::uint64_t, kNumOcclusionBins>& counts) {
-  Json json = Json::object();
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    json[std::string(kOcclusionBinNames[i])] = counts[i];
-  }
-  return json;
-}
-
 double ShareOf(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
 }  // namespace
 
-void ScenarioReport::Add(const Json& record) {
-  const auto split = ValueNamed<Split>(record.at("split").get<std::string>()).value();
-  ++parts_.at(static_cast<std::size_t>(split));
-  ++bases_[record.at("base").get<std::string>()];
-  ++weathers_[WeatherInWords(record.at("weather"))];
-  for (const auto& [name, value] : record.at("drawn").items()) {
+void ScenarioReport::Add(const ScenarioRecord& record) {
+  ++parts_.at(static_cast<std::size_t>(ValueNamed<Split>(record.split).value()));
+  ++bases_[record.base];
+  ++weathers_[WeatherInWords(record.weather)];
+  for (const auto& [name, value] : record.drawn) {
     if (value.is_string() || value.is_boolean()) {
       ++drawn_[name][value.is_string() ? value.get<std::string>() : value.dump()];
     }
   }
-  for (const Json& object : record.at("placed")) {
-    const auto name = object.at("name").get<std::string>();
+  for (const Json& object : record.placed) {
+    const std::string name = object.value("name", "");
     ++placed_[name.substr(0, name.rfind('/'))];
   }
 }
@@ -122,45 +106,47 @@ std::string PartsText(const PerPart<std::uint32_t>& parts, const SplitSpec& spli
 }
 
 void DatasetReport::Add(const IndexedScenario& scenario) {
-  const Json& record = scenario.record;
-  PerSplit& split = splits_[record.at("split").get<std::string>()];
+  const ScenarioRecord& record = scenario.record;
+  SplitCountsRecord& split = record_.splits[record.split];
   ++split.scenarios;
   scenarios_.Add(record);
   std::set<std::pair<std::string, std::string>> objects;  // By type and name.
-  for (const IndexedSequence& sequence : scenario.sequences) {
-    const std::size_t num_frames = sequence.frames.size();
-    frames_by_base_[record.at("base").get<std::string>()] += num_frames;
-    frames_by_sensor_[sequence.record.at("sensor").get<std::string>()] += num_frames;
-    for (const IndexedFrame& frame : sequence.frames) {
+  for (std::size_t i = 0; i < record.sequences.size(); ++i) {
+    const std::vector<IndexedFrame>& frames = scenario.frames[i];
+    record_.frames_by_base[record.base] += frames.size();
+    record_.frames_by_sensor[record.sequences[i].sensor] += frames.size();
+    for (const IndexedFrame& frame : frames) {
       AddFrame(frame, split);
-      for (const IndexedObject& object : frame.objects) objects.emplace(object.type, object.name);
+      for (const IndexObjectRecord& object : frame.objects) {
+        objects.emplace(object.type, object.name);
+      }
     }
   }
-  for (const auto& [type, name] : objects) ++types_.at(type).objects;
+  for (const auto& [type, name] : objects) ++record_.objects.at(type).objects;
 }
 
-void DatasetReport::AddFrame(const IndexedFrame& frame, PerSplit& split) {
-  ++num_frames_;
+void DatasetReport::AddFrame(const IndexedFrame& frame, SplitCountsRecord& split) {
+  ++record_.num_frames;
   ++split.frames;
   const FrameCounts& counts = frame.record.counts;
   split.points += counts.points;
-  counts_.Add(counts);
-  for (const auto& [label, points] : counts.points_per_label) ++frames_with_label_[label];
+  record_.counts.Add(counts);
+  for (const auto& [label, points] : counts.points_per_label) ++record_.labels[label].frames;
   std::string hashes = frame.record.clouds_hash;
-  for (const WrittenFile& file : frame.record.files) hashes += file.hash;
+  for (const KnownFile& file : frame.record.files) hashes += file.hash;
   // Frames of objects alone have no files that could be compared.
   if (!hashes.empty()) frame_hashes_.push_back(ContentHashNumber(hashes));
-  if (counts.points == 0) ++frames_without_points_;
+  if (counts.points == 0) ++record_.frames_without_points;
   bool has_object = false;
-  for (const IndexedObject& object : frame.objects) {
+  for (const IndexObjectRecord& object : frame.objects) {
     AddObject(object);
     has_object = has_object || object.points > 0;
   }
-  if (!has_object) ++frames_without_objects_;
+  if (!has_object) ++record_.frames_without_objects;
 }
 
-void DatasetReport::AddObject(const IndexedObject& object) {
-  PerType& type = types_[object.type];
+void DatasetReport::AddObject(const IndexObjectRecord& object) {
+  TypeCountsRecord& type = record_.objects[object.type];
   ++type.in_frames;
   if (object.points > 0) ++type.with_points;
   type.points += object.points;
@@ -182,40 +168,17 @@ std::uint64_t DatasetReport::NumDuplicates() {
   return num_duplicates;
 }
 
-Json DatasetReport::Write() {
-  Json splits = Json::object();
-  for (const auto& [name, split] : splits_) {
-    splits[name] = {
-        {"scenarios", split.scenarios}, {"frames", split.frames}, {"points", split.points}};
+DatasetReportRecord DatasetReport::Record() {
+  DatasetReportRecord record = record_;
+  record.duplicate_frames = NumDuplicates();
+  for (const auto& [label, points] : record.counts.points_per_label) {
+    LabelCountsRecord& counts = record.labels.at(label);
+    counts.points = points;
+    counts.share = ShareOf(points, record.counts.points);
   }
-  Json labels = Json::object();
-  for (const auto& [label, points] : counts_.points_per_label) {
-    labels[label] = {{"points", points},
-                     {"share", ShareOf(points, counts_.points)},
-                     {"frames", frames_with_label_.at(label)}};
-  }
-  Json types = Json::object();
-  for (const auto& [name, type] : types_) {
-    types[name] = {{"objects", type.objects},
-                   {"in_frames", type.in_frames},
-                   {"with_points", type.with_points},
-                   {"points", type.points},
-                   {"by_distance", ByDistance(type.by_distance)},
-                   {"points_by_distance", ByDistance(type.points_by_distance)},
-                   {"by_occlusion", ByOcclusion(type.by_occlusion)}};
-  }
-  Json report = {{"num_frames", num_frames_}, {"splits", std::move(splits)}};
-  report["frames_without_points"] = frames_without_points_;
-  report["frames_without_objects"] = frames_without_objects_;
-  report["duplicate_frames"] = NumDuplicates();
-  PutCounts(counts_, report);
-  report["labels"] = std::move(labels);
-  report["objects"] = std::move(types);
-  report["weathers"] = scenarios_.Weathers();
-  report["drawn"] = scenarios_.Drawn();
-  report["frames_by_base"] = frames_by_base_;
-  report["frames_by_sensor"] = frames_by_sensor_;
-  return report;
+  record.weathers = scenarios_.weathers();
+  record.drawn = scenarios_.drawn();
+  return record;
 }
 
 }  // namespace railcast

@@ -50,6 +50,12 @@ bag::SqliteStatement InsertInto(bag::SqliteDatabase& database,
   return {database, sql + ")"};
 }
 
+Json JsonOf(const NamedValues<Json>& values) {
+  Json object = Json::object();
+  for (const auto& [name, value] : values) object[name] = value;
+  return object;
+}
+
 }  // namespace
 
 IndexDatabase::Inserts::Inserts(bag::SqliteDatabase& database)
@@ -72,25 +78,25 @@ IndexDatabase::IndexDatabase(std::filesystem::path file)
 }
 
 void IndexDatabase::Add(const IndexedScenario& scenario) {
-  const Json& record = scenario.record;
-  const auto text = [&](const char* key) { return record.at(key).get<std::string>(); };
-  const auto number = record.at("scenario").get<std::int64_t>();
+  const ScenarioRecord& record = scenario.record;
   inserts_->scenarios
-      .With(number, text("base"), text("split"), text("line"), record.at("start_s_m").get<double>(),
-            record.at("drawn").dump(), record.at("placed").dump(), record.at("weather").dump())
+      .With(std::int64_t{record.scenario}, record.base, record.split, record.line, record.start_s_m,
+            JsonOf(record.drawn).dump(), record.placed.dump(), record.weather.dump())
       .Step();
-  for (const IndexedSequence& sequence : scenario.sequences) AddSequence(number, sequence);
+  for (std::size_t i = 0; i < record.sequences.size(); ++i) {
+    AddSequence(record.scenario, record.sequences[i], scenario.frames[i]);
+  }
 }
 
-void IndexDatabase::AddSequence(std::int64_t scenario, const IndexedSequence& sequence) {
+void IndexDatabase::AddSequence(std::int64_t scenario,
+                                const SequenceRecord& sequence,
+                                const std::vector<IndexedFrame>& frames) {
   const std::int64_t id = num_sequences_++;
-  const Json& record = sequence.record;
   inserts_->sequences
-      .With(id, scenario, record.at("sensor").get<std::string>(),
-            record.at("folder").get<std::string>(), record.at("num_frames").get<std::int64_t>(),
-            record.at("points").get<std::int64_t>())
+      .With(id, scenario, sequence.sensor, sequence.folder, std::int64_t{sequence.num_frames},
+            static_cast<std::int64_t>(sequence.points))
       .Step();
-  for (const IndexedFrame& frame : sequence.frames) AddFrame(id, frame);
+  for (const IndexedFrame& frame : frames) AddFrame(id, frame);
 }
 
 void IndexDatabase::AddFrame(std::int64_t sequence, const IndexedFrame& frame) {
@@ -101,10 +107,10 @@ void IndexDatabase::AddFrame(std::int64_t sequence, const IndexedFrame& frame) {
       .With(id, sequence, whole(record.frame), record.stamp_ns, frame.vehicle_s_m,
             frame.vehicle_speed_mps, whole(record.counts.points))
       .Step();
-  for (const WrittenFile& file : record.files) {
-    inserts_->files.With(id, file.name, whole(file.size), file.hash).Step();
+  for (const KnownFile& file : record.files) {
+    inserts_->files.With(id, file.name, whole(file.bytes.value_or(0)), file.hash).Step();
   }
-  for (const IndexedObject& object : frame.objects) {
+  for (const IndexObjectRecord& object : frame.objects) {
     inserts_->objects
         .With(id, object.name, object.type, object.label, whole(object.instance), object.distance_m,
               whole(object.points), whole(object.firings_visible), whole(object.firings_alone),

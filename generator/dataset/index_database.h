@@ -32,7 +32,9 @@ class IndexDatabase {
     bag::SqliteStatement objects;
     bag::SqliteStatement labels;
   };
-  void AddSequence(std::int64_t scenario, const IndexedSequence& sequence);
+  void AddSequence(std::int64_t scenario,
+                   const SequenceRecord& sequence,
+                   const std::vector<IndexedFrame>& frames);
   void AddFrame(std::int64_t sequence, const IndexedFrame& frame);
 
   std::filesystem::path file_;

@@ -1,158 +1,113 @@
 #include "generator/dataset/indexed_scenario.h"
 
-#include <array>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/sequence_lines.h"
+#include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/insert_record.h"
+#include "core/io/run/object_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
-#include "core/io/write_file.h"
-#include "generator/insert/run/insert_folder.h"
 
 namespace railcast {
 namespace {
 
-IndexedObject IndexedObjectOf(const StrictJson& json, const std::string& place) {
-  IndexedObject object{.name = json.at("name"),
-                       .type = json.at("type"),
-                       .label = json.at("label"),
-                       .instance = json.at("instance"),
-                       .distance_m = 0.0,
-                       .points = json.at("points"),
-                       .firings_visible = json.at("firings_visible"),
-                       .firings_alone = json.at("firings_alone"),
-                       .occlusion = ReadOcclusion(json, place)};
-  const auto center_m = json.at("sensor").at("center_m").get<std::array<double, 3>>();
+IndexObjectRecord IndexObjectOf(const ObjectRecord& object) {
   constexpr double kMillimetres = 1e3;
-  object.distance_m =
-      std::round(std::hypot(center_m[0], center_m[1], center_m[2]) * kMillimetres) / kMillimetres;
-  return object;
-}
-
-Json ObjectJson(const IndexedObject& object) {
-  Json json = {{"name", object.name},
-               {"type", object.type},
-               {"label", object.label},
-               {"instance", object.instance},
-               {"distance_m", object.distance_m},
-               {"points", object.points},
-               {"firings_visible", object.firings_visible},
-               {"firings_alone", object.firings_alone},
-               {"occlusion", nullptr}};
-  if (object.occlusion) json["occlusion"] = *object.occlusion;
-  return json;
-}
-
-/// Reads a line of objects.jsonl.
-std::vector<IndexedObject> ReadIndexedObjects(const std::string& line, const std::string& place) {
-  std::vector<IndexedObject> objects;
-  ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
-    for (const StrictJson& object : json.at("objects")) {
-      objects.push_back(
-          IndexedObjectOf(object, place + ": /objects/" + std::to_string(objects.size())));
-    }
-    return true;
-  });
-  return objects;
+  const Vector3& center_m = object.sensor.center_m;
+  const double distance_m = std::hypot(center_m.x(), center_m.y(), center_m.z());
+  return {.name = object.name,
+          .type = object.type,
+          .label = object.label,
+          .instance = object.instance,
+          .distance_m = std::round(distance_m * kMillimetres) / kMillimetres,
+          .points = object.points,
+          .firings_visible = object.firings_visible,
+          .firings_alone = object.firings_alone,
+          .occlusion = object.occlusion};
 }
 
 /// What a line of insert.jsonl says of a frame, with the files of the recording.
-FrameRecord ReadInsertedFrame(const std::string& line, const std::string& place) {
-  return ReadRecordedJson<StrictJson>(line, place, [](const StrictJson& json) {
-    FrameRecord record;
-    record.frame = json.at("frame");
-    record.stamp_ns = json.at("stamp_ns");
-    record.counts.points = json.at("points");
-    const std::string folder = std::string(kRecordingFolder) + "/";
-    for (const StrictJson& file : json.at("files")) {
-      const std::string name = file.at("name");
-      if (!name.starts_with(folder)) continue;
-      record.files.push_back({name.substr(folder.size()), file.at("bytes"), file.at("xxh3")});
-    }
-    return record;
-  });
+FrameRecord ReadInsertedFrame(const PlacedLine& line) {
+  FrameRecord record = ReadInsertLine(line.text, line.place).frame;
+  const std::string folder = std::string(kRecordingFolder) + "/";
+  std::erase_if(record.files,
+                [&](const KnownFile& file) { return !file.name.starts_with(folder); });
+  for (KnownFile& file : record.files) file.name = file.name.substr(folder.size());
+  return record;
 }
 
-IndexedSequence ReadIndexedSequence(const std::filesystem::path& dataset, const Json& record) {
-  IndexedSequence sequence{record, {}};
-  std::filesystem::path folder = dataset / record.at("folder").get<std::string>();
+std::vector<IndexedFrame> ReadIndexedFrames(const std::filesystem::path& dataset,
+                                            const SequenceRecord& sequence) {
+  std::filesystem::path folder = dataset / sequence.folder;
   // What was put into a recording that is no sequence is known beside it.
   const bool is_sequence = std::filesystem::exists(folder / kFramesFile);
   if (!is_sequence) folder = folder.parent_path();
   const std::filesystem::path frames_file = folder / (is_sequence ? kFramesFile : kInsertFile);
-  std::istringstream frames(ReadFileWhole(frames_file));
-  std::istringstream objects(ReadFileWhole(folder / kObjectsFile));
-  const Json& s_m = record.at("vehicle_s_m");
-  const Json& speed_mps = record.at("vehicle_speed_mps");
-  const std::string place = ShownPath(frames_file);
-  std::string frame_line;
-  std::string objects_line;
-  for (std::size_t i = 0; std::getline(frames, frame_line); ++i) {
-    auto frame_record =
-        is_sequence
-            ? ParseFrameLine(frame_line)
-            : std::optional(ReadInsertedFrame(frame_line, place + ":" + std::to_string(i + 1)));
-    if (!frame_record || i >= s_m.size() || !std::getline(objects, objects_line)) {
-      throw InputError(place + ":" + std::to_string(i + 1) + ": is damaged");
+  LineReader lines(frames_file);
+  LineReader objects(folder / kObjectsFile);
+  std::vector<IndexedFrame> frames;
+  for (std::size_t i = 0; i < sequence.vehicle_s_m.size(); ++i) {
+    const PlacedLine line = lines.Need();
+    IndexedFrame frame{is_sequence ? ReadFrameLine(line.text, line.place) : ReadInsertedFrame(line),
+                       sequence.vehicle_s_m[i],
+                       sequence.vehicle_speed_mps.at(i),
+                       {}};
+    const PlacedLine objects_line = objects.Need();
+    for (const ObjectRecord& object :
+         ReadObjectsRecord(objects_line.text, frame.record.frame, objects_line.place).objects) {
+      frame.objects.push_back(IndexObjectOf(object));
     }
-    IndexedFrame frame{
-        std::move(*frame_record), s_m[i].get<double>(), speed_mps[i].get<double>(), {}};
-    const std::string objects_place =
-        ShownPath(folder / kObjectsFile) + ":" + std::to_string(i + 1);
-    frame.objects = ReadIndexedObjects(objects_line, objects_place);
-    sequence.frames.push_back(std::move(frame));
+    frames.push_back(std::move(frame));
   }
-  if (sequence.frames.size() == s_m.size()) return sequence;
-  throw InputError(place + ": must have a line for each of " + NumberText(s_m.size()) +
-                   " frames (got " + NumberText(sequence.frames.size()) + ")");
+  if (const auto further = lines.Next()) {
+    throw InputError(further->place + ": must be the end of " +
+                     NumberText(sequence.vehicle_s_m.size()) + " frames");
+  }
+  return frames;
 }
 
-std::string IndexLine(const Json& scenario, const Json& sequence, const IndexedFrame& frame) {
-  Json files = Json::array();
-  for (const WrittenFile& file : frame.record.files) files.push_back(file.name);
-  Json objects = Json::array();
-  for (const IndexedObject& object : frame.objects) objects.push_back(ObjectJson(object));
-  Json line = {{"scenario", scenario.at("scenario")},
-               {"sensor", sequence.at("sensor")},
-               {"frame", frame.record.frame},
-               {"split", scenario.at("split")},
-               {"folder", sequence.at("folder")},
-               {"files", std::move(files)},
-               {"stamp_ns", frame.record.stamp_ns},
-               {"base", scenario.at("base")},
-               {"line", scenario.at("line")},
-               {"vehicle_s_m", frame.vehicle_s_m},
-               {"vehicle_speed_mps", frame.vehicle_speed_mps}};
-  for (const char* const file : {"bag", "trace"}) {
-    if (sequence.contains(file)) line[file] = sequence.at(file);
-  }
-  PutCounts(frame.record.counts, line);
-  line["objects"] = std::move(objects);
-  line["drawn"] = scenario.at("drawn");
-  line["weather"] = scenario.at("weather");
-  return line.dump() + "\n";
+IndexRecord IndexOf(const ScenarioRecord& scenario,
+                    const SequenceRecord& sequence,
+                    const IndexedFrame& frame) {
+  IndexRecord line{.scenario = scenario.scenario,
+                   .sensor = sequence.sensor,
+                   .frame = frame.record.frame,
+                   .split = scenario.split,
+                   .folder = sequence.folder,
+                   .stamp_ns = frame.record.stamp_ns,
+                   .base = scenario.base,
+                   .line = scenario.line,
+                   .vehicle_s_m = frame.vehicle_s_m,
+                   .vehicle_speed_mps = frame.vehicle_speed_mps,
+                   .bag = sequence.bag,
+                   .trace = sequence.trace,
+                   .counts = frame.record.counts,
+                   .objects = frame.objects,
+                   .drawn = scenario.drawn,
+                   .weather = scenario.weather};
+  for (const KnownFile& file : frame.record.files) line.files.push_back(file.name);
+  return line;
 }
 
 }  // namespace
 
-IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, Json record) {
-  IndexedScenario scenario{std::move(record), {}};
-  for (const Json& sequence : scenario.record.at("sequences")) {
-    scenario.sequences.push_back(ReadIndexedSequence(dataset, sequence));
+IndexedScenario ReadIndexedScenario(const std::filesystem::path& dataset, const PlacedLine& line) {
+  IndexedScenario scenario{ReadRecordLine<ScenarioRecord>(line.text, line.place), {}};
+  for (const SequenceRecord& sequence : scenario.record.sequences) {
+    scenario.frames.push_back(ReadIndexedFrames(dataset, sequence));
   }
   return scenario;
 }
 
 std::string IndexLines(const IndexedScenario& scenario) {
   std::string lines;
-  for (const IndexedSequence& sequence : scenario.sequences) {
-    for (const IndexedFrame& frame : sequence.frames) {
-      lines += IndexLine(scenario.record, sequence.record, frame);
+  for (std::size_t i = 0; i < scenario.frames.size(); ++i) {
+    for (const IndexedFrame& frame : scenario.frames[i]) {
+      lines += RecordText(IndexOf(scenario.record, scenario.record.sequences[i], frame)) + "\n";
     }
   }
   return lines;

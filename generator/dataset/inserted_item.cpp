@@ -10,9 +10,12 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
+#include "core/io/recording/line_reader.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/insert_record.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/insertion_verification.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/recorded_bases.h"
@@ -36,13 +39,9 @@ std::map<std::string, std::string> HashesIn(const fs::path& directory) {
 
 std::uint64_t PointsIn(const fs::path& directory) {
   std::uint64_t points = 0;
-  const fs::path file = directory / kInsertFile;
-  const std::string text = ReadFileWhole(file);
-  std::string_view rest = text;
-  while (const auto line = TakeLine(rest)) {
-    points += ReadRecordedJson<StrictJson>(
-        std::string(*line), ShownPath(file),
-        [](const StrictJson& json) { return json.at("points").get<std::uint64_t>(); });
+  LineReader lines(directory / kInsertFile);
+  while (const auto line = lines.Next()) {
+    points += ReadInsertLine(line->text, line->place).frame.counts.points;
   }
   return points;
 }
@@ -74,37 +73,34 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                    MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
 }
 
-Json RecordOfInserted(const DrawnScenario& drawn,
-                      const fs::path& dataset,
-                      const fs::path& directory) {
+SequenceRecord RecordOfInserted(const DrawnScenario& drawn,
+                                const fs::path& dataset,
+                                const fs::path& directory) {
   ErrorList errors;
   for (const std::string& fault : VerifyInsertion(directory, [](double) {}).faults) {
     errors.AddLine(fault);
   }
   errors.ThrowIfAny();
   const RecordedRun& run = RunOf(*drawn.run);
-  Json s_m = Json::array();
-  Json speed_mps = Json::array();
-  for (std::uint32_t i = 0; i < drawn.num_frames; ++i) {
-    s_m.push_back(run.Chainage_m(drawn.first_frame + i));
-    speed_mps.push_back(Speed_mps(run, drawn.first_frame + i));
-  }
-  const Json hashes = HashesIn(directory);
   const fs::path manifest = directory / kManifestFile;
-  const auto plan_hash = ReadRecordedJson<StrictJson>(
-      ReadFileWhole(manifest), ShownPath(manifest),
-      [](const StrictJson& json) { return json.at("plan_xxh3").get<std::string>(); });
-  const fs::path folder = (directory / kRecordingFolder).lexically_relative(dataset);
-  return {{"sensor", drawn.scenario.lidar.name},
-          {"folder", folder.generic_string()},
-          {"num_frames", drawn.num_frames},
-          {"points", PointsIn(directory)},
-          {"scenario_xxh3", plan_hash},
-          {"data_xxh3", ContentHash(hashes.dump())},
-          {"manifest_xxh3", hashes.at(std::string(kManifestFile))},
-          {"vehicle_s_m", std::move(s_m)},
-          {"vehicle_speed_mps", std::move(speed_mps)},
-          {"files_xxh3", hashes}};
+  const std::string text = ReadFileWhole(manifest);
+  SequenceRecord record{
+      .sensor = drawn.scenario.lidar.name,
+      .folder = (directory / kRecordingFolder).lexically_relative(dataset).generic_string(),
+      .num_frames = drawn.num_frames,
+      .points = PointsIn(directory),
+      .scenario_hash =
+          ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(manifest))
+              .run.plan_hash,
+      .data_hash = {},
+      .manifest_hash = ContentHash(text),
+      .files = HashesIn(directory)};
+  record.data_hash = ContentHash(Json(record.files).dump());
+  for (std::uint32_t i = 0; i < drawn.num_frames; ++i) {
+    record.vehicle_s_m.push_back(run.Chainage_m(drawn.first_frame + i));
+    record.vehicle_speed_mps.push_back(Speed_mps(run, drawn.first_frame + i));
+  }
+  return record;
 }
 
 }  // namespace railcast

@@ -22,8 +22,8 @@ namespace railcast {
 /// What scenarios.jsonl says of it when it is complete: as of a sequence, which is its folder
 /// `recording`, and the hashes of all files of the scenario.
 /// @throws InputError with a line for each file that is not as it was written, or not its own.
-[[nodiscard]] Json RecordOfInserted(const DrawnScenario& drawn,
-                                    const std::filesystem::path& dataset,
-                                    const std::filesystem::path& directory);
+[[nodiscard]] SequenceRecord RecordOfInserted(const DrawnScenario& drawn,
+                                              const std::filesystem::path& dataset,
+                                              const std::filesystem::path& directory);
 
 }  // namespace railcast

@@ -8,6 +8,9 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/scenario_verification.h"
@@ -49,29 +52,22 @@ void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
 GivenShard ReadShard(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
   const std::string text = ReadFileWhole(file);
-  GivenShard given;
-  try {
-    const Json json = Json::parse(text);
-    given.spec = {.directory = directory,
-                  .version = json.at("version"),
-                  .embree_version = json.at("embree"),
-                  .isa = json.at("isa"),
-                  .recipe = ReadFileWhole(directory / kRecipeFile),
-                  .base_hashes = json.at("bases_xxh3"),
-                  .files_hash = json.value("files_xxh3", ""),
-                  .num_scenarios = json.at("num_scenarios"),
-                  .format = json.at("format"),
-                  .fields = json.at("fields"),
-                  .is_merged = json.at("merged"),
-                  .shard = {}};
-    // A whole data set is the only shard of itself.
-    if (json.contains("shard")) {
-      given.spec.shard = ParseShard(json.at("shard").get<std::string>()).value_or(Shard{});
-    }
-  } catch (const Json::exception&) {
-    throw InputError(ShownPath(file) + ": is damaged");
-  }
-  if (DatasetJson(given.spec).dump(2) + "\n" != text) {
+  const auto record = ReadRecord<DatasetRecord>(text, ShownPath(file));
+  GivenShard given{.spec = {.directory = directory,
+                            .version = record.version,
+                            .embree_version = record.embree,
+                            .isa = record.isa,
+                            .recipe = ReadFileWhole(directory / kRecipeFile),
+                            .base_hashes = record.base_hashes,
+                            .files_hash = record.files_hash,
+                            .num_scenarios = record.num_scenarios,
+                            .format = record.format,
+                            .fields = record.fields,
+                            .is_merged = record.is_merged,
+                            // A whole data set is the only shard of itself.
+                            .shard = ParseShard(record.shard).value_or(Shard{})},
+                   .lines = {}};
+  if (RecordFile(RecordOf(given.spec)) != text) {
     throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
   }
   CheckIsWhole(directory, given.spec);
@@ -82,7 +78,7 @@ GivenShard ReadShard(const fs::path& directory) {
 
 std::string WithoutShard(DatasetSpec spec) {
   spec.shard = {};
-  return DatasetJson(spec).dump();
+  return RecordText(RecordOf(spec));
 }
 
 // Returns the shards by their numbers.
@@ -182,15 +178,15 @@ std::uint32_t MergeShards(
     const std::uint32_t number = merged.num_done();
     on_progress(number, spec.num_scenarios);
     auto& [shard, lines] = shards[number % num_shards];
-    const ScenarioLines::Line line = lines->Need();
+    const PlacedLine line = lines->Need();
     // The system allows a thousand open files; there may be more shards.
     lines->Pause();
-    CheckScenario(shard.directory, number, line.placed);
+    CheckScenario(shard.directory, number, line);
     const std::string folder = SequenceFolderOf(number);
     PutScenario(shard.directory / folder, out / folder);
     // Files of others are not removed.
-    if (merged.WasDone(number)) CheckScenario(out, number, line.placed);
-    merged.Append(line.record);
+    if (merged.WasDone(number)) CheckScenario(out, number, line);
+    merged.Append(WithoutLineHash(line.text));
   }
   merged.Sync();
   WriteDatasetFiles(merged.spec());

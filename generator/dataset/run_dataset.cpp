@@ -12,10 +12,13 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
 #include "core/io/run/run_folder.h"
+#include "core/io/run/run_record.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/recipe/recipe_files.h"
@@ -149,7 +152,7 @@ class DatasetRun {
     const std::uint32_t num_done = directory_.num_done();
     const ScenarioWork work = {
         .make = [&](const ScenarioTurn& turn) { return Make(num_done + turn.index, turn); },
-        .keep = [this](const Json& line) { directory_.Append(line); },
+        .keep = [this](const std::string& line) { directory_.Append(line); },
         .on_progress =
             [this](double num_beyond) {
               hooks_.on_progress({directory_.num_done(), result_.num_scenarios, num_beyond});
@@ -162,8 +165,8 @@ class DatasetRun {
   }
 
   // Returns the line of one of the shard's scenarios; nothing if it was stopped.
-  std::optional<Json> Make(std::uint32_t of_shard, const ScenarioTurn& turn) {
-    if (const Json* const kept = directory_.Kept(of_shard)) return *kept;
+  std::optional<std::string> Make(std::uint32_t of_shard, const ScenarioTurn& turn) {
+    if (const std::string* const kept = directory_.Kept(of_shard)) return *kept;
     const std::uint32_t number = choices_.shard.ScenarioAt(of_shard);
     const bool was_done = directory_.WasDone(of_shard);
     DrawnScenario drawn = drawer_.Draw(number);
@@ -177,20 +180,19 @@ class DatasetRun {
     if (plan.is_merged) CheckCanMerge(maker, plan);
     if (!MakeScenario(turn, maker, plan)) return std::nullopt;
     if (plan.is_in_folders()) {
-      drawn.record["sensors_xxh3"] = ContentHash(ReadFileWhole(plan.directory / kSensorsFile));
+      drawn.record.sensors_hash = ContentHash(ReadFileWhole(plan.directory / kSensorsFile));
     }
-    drawn.record["sequences"] = Json::array();
     for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
-      drawn.record["sequences"].push_back(RecordOf(maker, maker.pattern(i), plan.sensors[i]));
+      drawn.record.sequences.push_back(RecordOf(maker, maker.pattern(i), plan.sensors[i]));
     }
-    return std::move(drawn.record);
+    return RecordText(drawn.record);
   }
 
   // As Make().
-  std::optional<Json> MakeOfPlan(std::uint32_t number,
-                                 bool was_done,
-                                 DrawnScenario& drawn,
-                                 const ScenarioTurn& turn) {
+  std::optional<std::string> MakeOfPlan(std::uint32_t number,
+                                        bool was_done,
+                                        DrawnScenario& drawn,
+                                        const ScenarioTurn& turn) {
     const fs::path directory = choices_.directory / SequenceFolderOf(number);
     const InsertHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
                                  turn.on_progress(static_cast<double>(num_done) / num_frames);
@@ -201,9 +203,8 @@ class DatasetRun {
                 [&] { return MakeInserted(drawn, choices_, directory, was_done, hooks); });
     num_frames_ += made.num_done - made.num_resumed;
     if (!made.is_complete) return std::nullopt;
-    drawn.record["sequences"] =
-        Json::array({RecordOfInserted(drawn, choices_.directory, directory)});
-    return std::move(drawn.record);
+    drawn.record.sequences = {RecordOfInserted(drawn, choices_.directory, directory)};
+    return RecordText(drawn.record);
   }
 
   // Returns whether all of it is there; not if the run was stopped.
@@ -232,34 +233,29 @@ class DatasetRun {
   }
 
   // What scenarios.jsonl says of a sequence.
-  [[nodiscard]] Json RecordOf(const FrameMaker& maker,
-                              const ScanPattern& pattern,
-                              const SensorPlan& sensor) const {
+  [[nodiscard]] SequenceRecord RecordOf(const FrameMaker& maker,
+                                        const ScanPattern& pattern,
+                                        const SensorPlan& sensor) const {
     const SequenceSpec& spec = sensor.spec;
-    const std::string text = ReadFileWhole(spec.directory / kManifestFile);
-    const auto [points, data_hash] = ReadRecordedJson<Json>(
-        text, ShownPath(spec.directory / kManifestFile),
-        [](const Json& json) { return std::pair(json.at("points"), json.at("data_xxh3")); });
-    Json s_m = Json::array();
-    Json speed_mps = Json::array();
+    const fs::path file = spec.directory / kManifestFile;
+    const std::string text = ReadFileWhole(file);
+    const ManifestRecord manifest = ReadManifest(text, ShownPath(file));
+    SequenceRecord record{
+        .sensor = sensor.name,
+        .folder = spec.directory.lexically_relative(choices_.directory).generic_string(),
+        .num_frames = spec.num_frames,
+        .points = manifest.counts.points,
+        .scenario_hash = spec.identity.scenario_hash,
+        .data_hash = manifest.data_hash,
+        .manifest_hash = ContentHash(text),
+        .trace = spec.trace};
     for (std::uint32_t i = 0; i < spec.num_frames; ++i) {
       const std::int64_t stamp_ns = pattern.StampNs(spec.FrameAt(i));
       const RailWorld& world = *maker.StateAt(stamp_ns).world;
-      s_m.push_back(world.VehicleChainage_m(stamp_ns));
-      speed_mps.push_back(world.VehicleSpeed_mps(stamp_ns));
+      record.vehicle_s_m.push_back(world.VehicleChainage_m(stamp_ns));
+      record.vehicle_speed_mps.push_back(world.VehicleSpeed_mps(stamp_ns));
     }
-    Json record = {
-        {"sensor", sensor.name},
-        {"folder", spec.directory.lexically_relative(choices_.directory).generic_string()},
-        {"num_frames", spec.num_frames},
-        {"points", points},
-        {"scenario_xxh3", spec.identity.scenario_hash},
-        {"data_xxh3", data_hash},
-        {"manifest_xxh3", ContentHash(text)},
-        {"vehicle_s_m", std::move(s_m)},
-        {"vehicle_speed_mps", std::move(speed_mps)}};
-    if (!spec.bag.empty()) record["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}};
-    if (!spec.trace.empty()) record["trace"] = spec.trace;
+    if (!spec.bag.empty()) record.bag = {spec.bag, spec.cloud_topics};
     return record;
   }
 

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <ranges>
 #include <string>
 #include <string_view>
@@ -21,9 +20,10 @@
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/content_hash.h"
 #include "core/io/field_layout.h"
+#include "core/io/record/record_text.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/sequence_lines.h"
 #include "core/io/run/frame_record.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
@@ -201,28 +201,23 @@ class MergedWriter {
   // Returns the line about it.
   std::string WriteCloud(const MergedFrame& frame) const {
     MergedCloud cloud;
-    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    MergedRecord line{.frame = frame.parts.front().frame, .stamp_ns = frame.stamp_ns, .file = {}};
     for (const MergedFrame::Part& part : frame.parts) {
       const auto& [name, scenario, spec] = sensors_[part.sensor].plan;
       cloud.Add(ReadPcdCloud(spec.directory / CloudName(spec, part.frame)),
                 {.sensor_index = static_cast<std::uint8_t>(part.sensor),
                  .merged_from_cloud = MergedFromCloud(scenario),
                  .later_ns = part.later_ns});
-      parts.push_back({{"sensor", name}, {"frame", part.frame}, {"later_ns", part.later_ns}});
+      line.parts.push_back({name, part.frame, part.later_ns});
     }
     const SequenceSpec& first = sensors_.front().plan.spec;
     const std::string name = CloudName(first, frame.parts.front().frame);
     const std::string bytes = cloud.Pcd(first.files.format->name == kCompressed);
     fs::create_directories((folder_ / name).parent_path());
     WriteFileWhole(folder_ / name, bytes);
-    const nlohmann::ordered_json line = {{"frame", frame.parts.front().frame},
-                                         {"stamp_ns", frame.stamp_ns},
-                                         {"file", name},
-                                         {"bytes", bytes.size()},
-                                         {"xxh3", ContentHash(bytes)},
-                                         {"points", cloud.num_points()},
-                                         {"parts", std::move(parts)}};
-    return line.dump() + "\n";
+    line.file = {name, ContentHash(bytes), bytes.size()};
+    line.points = cloud.num_points();
+    return RecordText(line) + "\n";
   }
 
   // The vehicle's poses by the nominal mount of the first sensor, whose poses are recorded.
@@ -248,37 +243,30 @@ class MergedWriter {
   std::size_t num_done_ = 0;
 };
 
-std::vector<double> Components(const Eigen::Ref<const Eigen::VectorXd>& vector) {
-  return {vector.begin(), vector.end()};
-}
-
-// sensors.json: the folders of the sensors, where each sensor is on the vehicle by its nominal
-// mount, and the hashes of the merged files.
-std::string SensorsJson(const RunPlan& plan) {
-  nlohmann::ordered_json sensors = nlohmann::ordered_json::array();
+// What sensors.json says: where each sensor is by its nominal mount, and the hashes of the merged
+// files.
+SensorsRecord SensorsRecordOf(const RunPlan& plan) {
+  SensorsRecord record;
   for (const auto& [name, scenario, spec] : plan.sensors) {
     const Transform vehicle_from_sensor = VehicleFromSensor(scenario.lidar.mount);
-    const Eigen::Quaterniond rotation = CanonicalRotation(vehicle_from_sensor);
-    sensors.push_back({{"name", name},
-                       {"folder", name},
-                       {"rate_hz", scenario.lidar.scan.rate_hz},
-                       {"phase_s", scenario.lidar.scan.phase_s},
-                       {"start_frame", spec.start_frame},
-                       {"num_frames", spec.num_frames},
-                       {"stride", spec.stride},
-                       {"vehicle_from_sensor",
-                        {{"translation_m", Components(vehicle_from_sensor.translation())},
-                         {"quaternion_xyzw", Components(rotation.coeffs())}}}});
+    record.sensors.push_back({.name = name,
+                              .folder = name,
+                              .rate_hz = scenario.lidar.scan.rate_hz,
+                              .phase_s = scenario.lidar.scan.phase_s,
+                              .start_frame = spec.start_frame,
+                              .num_frames = spec.num_frames,
+                              .stride = spec.stride,
+                              .vehicle_from_sensor = {vehicle_from_sensor.translation(),
+                                                      CanonicalRotation(vehicle_from_sensor)}});
   }
-  nlohmann::ordered_json all = {{"version", 1}, {"sensors", std::move(sensors)}};
-  if (plan.is_merged) {
-    nlohmann::ordered_json hashes = nlohmann::ordered_json::object();
-    for (const std::string_view file : {kMergedFile, kPosesFile}) {
-      hashes[std::string(file)] = ContentHash(ReadFileWhole(plan.directory / kMergedFolder / file));
-    }
-    all["merged"] = {{"folder", kMergedFolder}, {"files_xxh3", std::move(hashes)}};
+  if (!plan.is_merged) return record;
+  MergedFolderRecord& merged = record.merged.emplace();
+  merged.folder = kMergedFolder;
+  for (const std::string_view file : {kMergedFile, kPosesFile}) {
+    merged.files.emplace_back(file,
+                              ContentHash(ReadFileWhole(plan.directory / kMergedFolder / file)));
   }
-  return all.dump(2) + "\n";
+  return record;
 }
 
 }  // namespace
@@ -349,7 +337,8 @@ bool FinishRun(const FrameMaker& maker,
     }
     if (!is_complete) return false;
   }
-  if (plan.is_in_folders()) WriteFileWhole(plan.directory / kSensorsFile, SensorsJson(plan));
+  if (plan.is_in_folders())
+    WriteFileWhole(plan.directory / kSensorsFile, RecordFile(SensorsRecordOf(plan)));
   return true;
 }
 

@@ -22,9 +22,9 @@ std::string_view LineWalk::Next(std::size_t num_lines) const {
   return std::string_view(text_).substr(position_, end - position_);
 }
 
-bool HasContent(const std::filesystem::path& directory, const WrittenFile& file) {
+bool HasContent(const std::filesystem::path& directory, const KnownFile& file) {
   const std::filesystem::path path = directory / file.name;
-  return std::filesystem::exists(path) && std::filesystem::file_size(path) == file.size &&
+  return std::filesystem::exists(path) && std::filesystem::file_size(path) == file.bytes &&
          ContentHash(ReadFileWhole(path)) == file.hash;
 }
 

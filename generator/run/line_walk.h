@@ -35,6 +35,6 @@ class LineWalk {
 
 /// Whether a file is there and has the content that was written.
 /// @throws InputError if it cannot be read.
-[[nodiscard]] bool HasContent(const std::filesystem::path& directory, const WrittenFile& file);
+[[nodiscard]] bool HasContent(const std::filesystem::path& directory, const KnownFile& file);
 
 }  // namespace railcast

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -14,10 +13,12 @@
 #include "core/base/units.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/content_hash.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/motion_files.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
 #include "generator/run/line_walk.h"
 
@@ -25,7 +26,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-using OrderedJson = nlohmann::ordered_json;
 
 bool HasBytes(const fs::path& file, std::string_view bytes) {
   return fs::exists(file) && ReadFileWhole(file) == bytes;
@@ -89,42 +89,6 @@ std::vector<LineFileName> LineFileNames(const SequenceSpec& spec) {
   return names;
 }
 
-}  // namespace
-
-std::string LabelsJson(const LabelTable& labels) {
-  OrderedJson list = OrderedJson::array();
-  for (const Label& label : labels.labels()) {
-    list.push_back({{"id", label.id},
-                    {"name", label.name},
-                    {"rgb", label.rgb},
-                    {"whu_railway3d", label.whu_railway3d},
-                    {"osdar23", label.osdar23},
-                    {"semantic_kitti", label.semantic_kitti},
-                    {"semantic_kitti_nearest", label.semantic_kitti_nearest}});
-  }
-  return OrderedJson{{"version", 1}, {"labels", list}}.dump(2) + "\n";
-}
-
-namespace {
-
-// materials.json: the materials by the ids that frames carry; 0 means none.
-std::string MaterialsJson(const MaterialLibrary& materials) {
-  OrderedJson list = OrderedJson::array();
-  for (const Material& material : materials.materials()) {
-    list.push_back(
-        {{"id", list.size()},
-         {"name", material.name},
-         {"reflectivity", material.reflectivity},
-         {"reflectivity_1550nm", material.reflectivity_1550nm.value_or(material.reflectivity)},
-         {"facet_slope_deg", material.facet_slope_deg},
-         {"specular_f0", material.specular_f0},
-         {"specular_f0_1550nm", material.specular_f0_1550nm.value_or(material.specular_f0)},
-         {"specular_roughness", material.specular_roughness},
-         {"retroreflectance", material.retroreflectance}});
-  }
-  return OrderedJson{{"version", 1}, {"materials", list}}.dump(2) + "\n";
-}
-
 // How many lines a frame has in the i-th of a run's line files.
 std::size_t NumLinesIn(std::size_t i, std::size_t num_files, const FrameRecord& record) {
   const std::size_t first_of_motion = num_files - 1 - record.motion_lines.size();
@@ -146,7 +110,7 @@ std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
     records += walks[i].Next(NumLinesIn(i, walks.size(), *record));
   }
   if (ContentHash(records) != record->records_hash) return std::nullopt;
-  for (const WrittenFile& file : record->files) {
+  for (const KnownFile& file : record->files) {
     if (!HasContent(spec.directory, file)) return std::nullopt;
   }
   return record;
@@ -271,7 +235,8 @@ std::vector<std::uint64_t> RunDirectory::CountFrames(const osi::TraceContent& fo
   for (; num_done_ < most_done_; ++num_done_) {
     const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
     if (!record || (!spec_.trace.empty() && !HasMessage(found, num_done_, *record))) break;
-    if (num_done_ == 0) first_pose_ = ParsePoseLine(walks.front().Next());
+    if (num_done_ == 0)
+      first_pose_ = ReadPoseRecord(walks.front().Next(), ShownPath(spec_.directory / kPosesFile));
     counts_.Add(record->counts);
     for (std::size_t i = 0; i < walks.size(); ++i) {
       walks[i].Advance(NumLinesIn(i, walks.size(), *record));
@@ -377,7 +342,7 @@ void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
     encoded.record.clouds_hash = ContentHash(encoded.sensor_view);
   }
   for (const FrameFile& file : encoded.files) {
-    encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+    encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
   encoded.pose = PoseRecord(frame.stamp_ns, frame.world_from_sensor);
   encoded.objects_line = ObjectsLine(frame, made.objects);
@@ -405,7 +370,7 @@ void RunDirectory::Write(const EncodedFrame& frame) {
     all_lines += lines[i];
   }
   record.records_hash = ContentHash(all_lines);
-  line_files_.back().Append(FrameRecordLine(record));
+  line_files_.back().Append(HashedRecordLine(record));
   counts_.Add(record.counts);
   ++num_done_;
 }
@@ -419,32 +384,26 @@ void RunDirectory::Finish() {
 }
 
 std::string RunDirectory::ManifestJson() const {
-  OrderedJson manifest = {{"version", spec_.version},
-                          {"seed", spec_.seed},
-                          {"format", spec_.files.format->name},
-                          {"start_frame", spec_.start_frame},
-                          {"num_frames", spec_.num_frames}};
+  ManifestRecord manifest{.version = spec_.version,
+                          .seed = spec_.seed,
+                          .format = std::string(spec_.files.format->name),
+                          .start_frame = spec_.start_frame,
+                          .num_frames = spec_.num_frames,
+                          .counts = counts_};
   if (!spec_.fidelity_choice_json.empty()) {
-    manifest["fidelity_choice"] = OrderedJson::parse(spec_.fidelity_choice_json);
+    manifest.fidelity_choice = Json::parse(spec_.fidelity_choice_json);
   }
-  PutCounts(counts_, manifest);
   // frames.jsonl holds the hash of every frame's files, so these hashes cover the whole content.
-  // The data's hash leaves out run.json, which names the program that made them.
-  std::vector<KnownFile> known;
-  OrderedJson files = OrderedJson::object();
   std::vector<std::string> names = {std::string(kRunFile)};
   for (const FrameFile& file : FixedFiles()) names.push_back(file.name);
   for (const LineFileName& file : LineFileNames(spec_)) names.push_back(file.name);
   if (!spec_.trace.empty()) names.push_back(spec_.trace);
   for (const std::string& name : names) {
     // Of thousands of objects, their file is larger than the memory may be.
-    const std::string hash = HashFile(spec_.directory / name).hash;
-    files[name] = hash;
-    known.push_back({name, hash, {}});
+    manifest.files.emplace_back(name, HashFile(spec_.directory / name).hash);
   }
-  manifest["files_xxh3"] = files;
-  manifest["data_xxh3"] = DataHash(known);
-  return WithManifestHash(manifest.dump(2) + "\n");
+  manifest.data_hash = DataHash(manifest.files);
+  return WithManifestHash(RecordFile(manifest));
 }
 
 }  // namespace railcast

@@ -16,9 +16,6 @@
 
 namespace railcast {
 
-/// Returns labels.json in the form that the scenario reader reads.
-[[nodiscard]] std::string LabelsJson(const LabelTable& labels);
-
 /// Returns run.json, which identifies the run of a directory from its first moment on.
 [[nodiscard]] std::string RunJson(const SequenceSpec& spec);
 

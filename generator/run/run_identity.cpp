@@ -4,8 +4,10 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/bag_lines_name.h"
 #include "core/io/run/motion_files.h"
+#include "core/io/run/run_record.h"
 #include "generator/run/run_directory.h"
 
 namespace railcast {
@@ -13,41 +15,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json RunObject(const SequenceSpec& spec) {
-  Json inputs = Json::array();
+RunRecord RunRecordOf(const SequenceSpec& spec) {
+  RunRecord run{.version = spec.version,
+                .embree = spec.embree_version,
+                .isa = spec.isa,
+                .seed = spec.seed,
+                .scenario_hash = spec.identity.scenario_hash,
+                .format = std::string(spec.files.format->name),
+                .trace = spec.trace,
+                .start_frame = spec.start_frame,
+                .num_frames = spec.num_frames};
   for (const InputFile& input : spec.identity.inputs) {
-    Json& entry = inputs.emplace_back(Json{{"name", input.name}, {"xxh3", input.hash}});
-    // Left out where it is the file's own hash, as in the directories of older programs.
-    if (!input.folder.empty()) entry["folder"] = input.folder;
+    run.inputs.push_back({input.name, input.hash, input.folder});
   }
-  // Differences are looked for in this order, since a different seed or different content of a file
-  // also changes the scenario's hash.
-  Json run = {{"version", spec.version},
-              {"embree", spec.embree_version},
-              {"isa", spec.isa},
-              {"seed", spec.seed},
-              {"inputs", inputs},
-              {"scenario_xxh3", spec.identity.scenario_hash},
-              {"commands_xxh3", ContentHash(spec.commands_jsonl)},
-              {"format", spec.files.format->name}};
-  if (spec.commands_jsonl.empty()) run.erase("commands_xxh3");
+  if (!spec.commands_jsonl.empty()) run.commands_hash = ContentHash(spec.commands_jsonl);
   if (!spec.bag.empty()) {
-    run["fields"] = ros::TextOf(spec.clouds);
-    run["bag"] = {{"path", spec.bag}, {"topics", spec.cloud_topics}, {"lines", kBagLinesFile}};
-  } else if (!spec.trace.empty()) {
-    run["trace"] = spec.trace;
-  } else if (!spec.files.format->dataset) {
-    run["fields"] = spec.files.fields.Text();
+    run.fields = ros::TextOf(spec.clouds);
+    run.bag = {spec.bag, spec.cloud_topics, std::string(kBagLinesFile)};
+  } else if (spec.trace.empty() && !spec.files.format->dataset) {
+    run.fields = spec.files.fields.Text();
   }
   if (spec.motion_sensors) {
-    Json names = Json::array();
-    for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) names.push_back(file.sensor);
-    run["motion_sensors"] = std::move(names);
+    for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) {
+      run.motion_sensors.push_back(file.sensor);
+    }
   }
-  run["start_frame"] = spec.start_frame;
-  run["num_frames"] = spec.num_frames;
-  // Left out where it is 1, as in the directories of older programs.
-  if (spec.stride != 1) run["stride"] = spec.stride;
+  if (spec.stride != 1) run.stride_if_not_1 = spec.stride;
   return run;
 }
 
@@ -94,10 +87,6 @@ std::string ProgramDifference(const std::string& key,
   const std::string other = "choose another --out";
   const bool is_isa = key == "isa";
   const std::string what = is_isa ? "instruction set" : key == "embree" ? "Embree" : "railcast";
-  if (found.is_null()) {
-    return "was begun by an older railcast, which did not record its " +
-           (is_isa ? what : what + "'s version") + "; " + other;
-  }
   const std::string got = Text(found) + " (got " + Text(ours) + "); ";
   const std::string same = is_isa ? "add --isa " + Text(found) : "use that one";
   if (is_complete) {
@@ -121,7 +110,7 @@ std::string NameOf(const std::string& key) {
 }  // namespace
 
 std::string RunJson(const SequenceSpec& spec) {
-  return RunObject(spec).dump(2) + "\n";
+  return RecordFile(RunRecordOf(spec));
 }
 
 void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete) {
@@ -133,7 +122,7 @@ void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is
       false);
   const std::string place = ShownPath(spec.directory) + ": ";
   if (!found.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
-  const Json ours = RunObject(spec);
+  const Json ours = Json::parse(RunJson(spec));
   if (found.contains("commands_xxh3") && spec.commands_jsonl.empty()) {
     throw InputError(place + "holds a run with commands; choose another --out");
   }

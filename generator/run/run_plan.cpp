@@ -11,6 +11,7 @@
 #include "core/io/ros/frame_topics.h"
 #include "core/io/run/bag_lines_name.h"
 #include "core/io/run/camera_files.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/trace_name.h"
 #include "core/io/write_file.h"

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/survey_record.h"
 #include "core/io/verify/findings.h"
@@ -54,7 +55,7 @@ std::string SurveyReport(const Survey& survey, std::size_t num_bytes) {
 }
 
 /// The name of a recording, and a hash over the names and the bytes of all of its files.
-Json ContentOf(const std::filesystem::path& source) {
+SurveyedRecord ContentOf(const std::filesystem::path& source) {
   const auto capture = FindCapture(source);
   const auto bag = FindBag(source);
   const std::filesystem::path recording = capture ? capture->file : bag ? bag->bag : source;
@@ -75,38 +76,29 @@ Json ContentOf(const std::filesystem::path& source) {
     text += name + '\n' + file.hash + '\n';
     num_bytes += file.num_bytes;
   }
-  return {{"name", source.filename().string()},
-          {"files", files.size()},
-          {"bytes", num_bytes},
-          {"xxh3", ContentHash(text)}};
+  return {source.filename().string(), files.size(), num_bytes, ContentHash(text)};
 }
 
-/// The line of the survey's record.
-std::string RecordText(const SurveyCommandOptions& options,
-                       const Survey& survey,
-                       const Json& files_xxh3) {
+SurveyRecord SurveyRecordOf(const SurveyCommandOptions& options, const Survey& survey) {
   const auto& [source, made, out] = options;
-  Json record = {{"railcast_survey", 1},
-                 {"version", ProgramVersion()},
-                 {"made_of", Json::array()},
-                 {"start_frame", source.first_frame},
-                 {"stride", source.stride},
-                 {"num_frames", survey.num_frames},
-                 {"range_m", source.range_max_m},
-                 {"voxel_m", made.voxel_m},
-                 {"max_gap_m", made.surfels.max_gap_m},
-                 {"surfel_size", made.surfels.size_factor},
-                 {"keep_moving", made.keeps_moving},
-                 {"standing", source.is_standing},
-                 {"world_axes", source.is_in_world}};
-  for (const auto& recording : source.recordings) record["made_of"].push_back(ContentOf(recording));
-  if (!source.poses.empty()) record["poses"] = ContentOf(source.poses);
-  if (source.white_intensity) record["white"] = *source.white_intensity;
+  SurveyRecord record{.version = ProgramVersion(),
+                      .start_frame = source.first_frame,
+                      .stride = source.stride,
+                      .num_frames = survey.num_frames,
+                      .range_m = source.range_max_m,
+                      .voxel_m = made.voxel_m,
+                      .max_gap_m = made.surfels.max_gap_m,
+                      .surfel_size = made.surfels.size_factor,
+                      .keeps_moving = made.keeps_moving,
+                      .is_standing = source.is_standing,
+                      .is_in_world = source.is_in_world,
+                      .white_intensity = source.white_intensity};
+  for (const auto& recording : source.recordings) record.made_of.push_back(ContentOf(recording));
+  if (!source.poses.empty()) record.poses = ContentOf(source.poses);
   if (!survey.is_way_of_vehicle && !survey.way.world_from_body.empty()) {
-    record["sensor_height_m"] = survey.way.above_rail_m;
+    record.sensor_height_m = survey.way.above_rail_m;
   }
-  record["files_xxh3"] = files_xxh3;
-  return WithLineHash(record.dump()) + "\n";
+  return record;
 }
 
 /// Writes the line along the vehicle's way and says where it is; returns the file's text, empty
@@ -151,10 +143,11 @@ int RunSurvey(const SurveyCommandOptions& options) {
   const std::string bytes = EncodeSurvey(survey.labels, survey.tiles);
   WriteFileWhole(options.out / kSurveyFile, bytes);
   std::cout << SurveyReport(survey, bytes.size());
-  Json files_xxh3 = {{kSurveyFile, ContentHash(bytes)}};
+  SurveyRecord record = SurveyRecordOf(options, survey);
+  record.files.emplace_back(kSurveyFile, ContentHash(bytes));
   const std::string world = WriteWorld(options, survey);
-  if (!world.empty()) files_xxh3[kSurveyWorldFile] = ContentHash(world);
-  WriteFileWhole(options.out / kSurveyRecordFile, RecordText(options, survey, files_xxh3));
+  if (!world.empty()) record.files.emplace_back(kSurveyWorldFile, ContentHash(world));
+  WriteFileWhole(options.out / kSurveyRecordFile, HashedRecordLine(record));
   return kExitSuccess;
 }
 

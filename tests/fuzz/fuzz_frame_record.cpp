@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
 #include "tests/fuzz/fuzz_target.h"
 
 /// a line of frames.jsonl as a resumed run reads it, without its hash,
@@ -15,7 +16,7 @@ RAILCAST_FUZZ_TARGET(frame_record) {
   if (line.size() < 3 || !line.ends_with('}')) return 0;
   const auto record = railcast::ParseFrameLine(railcast::WithLineHash(line));
   if (!record) return 0;
-  railcast::Check(railcast::ParseFrameLine(railcast::FrameRecordLine(*record)) == record,
+  railcast::Check(railcast::ParseFrameLine(railcast::HashedRecordLine(*record)) == record,
                   "what is written reads the same");
   return 0;
 }

@@ -4,8 +4,11 @@
 #include <string_view>
 
 #include "core/base/error.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/run/dataset_record.h"
+#include "core/io/run/insert_record.h"
+#include "core/io/run/run_record.h"
 #include "core/io/verify/cloud_counts.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -29,35 +32,37 @@ void ReadObjects(const std::string& line) {
   }
 }
 
-// Must work at any depth of nesting.
-void CompareTotals(const std::string& text) {
-  const StrictJson manifest = StrictJson::parse(text, nullptr, false);
-  CountTotals totals;
-  totals.Add({{"points", 3}, {"outcomes", {{"point", 3}}}, {"points_per_label", {{"rail", 3}}}});
+void CompareTotals(const FrameCounts& counts) {
+  FrameCounts totals;
+  totals.points = 3;
+  totals.points_per_label = {{"rail", 3}};
   ErrorList faults;
-  totals.Compare(manifest, kPlace, faults);
+  CompareCounts(totals, counts, {kPlace, "", ""}, faults);
   for (const std::string& fault : faults.lines()) {
     Check(std::string_view(fault).starts_with("fuzz:3: /"), "a fault names its member");
   }
 }
 
 void ReadManifestFile(const std::string& text) {
-  CompareTotals(text);
-  static_cast<void>(DataHash(ReadManifest(text, kPlace).files));
+  const ManifestRecord manifest = ReadManifest(text, kPlace);
+  CompareTotals(manifest.counts);
+  static_cast<void>(DataHash(manifest.files));
   CheckManifestHash(text, kPlace);
 }
 
 void ReadLine(char kind, const std::string& line) {
   try {
     if (kind == 'f') {
-      for (const ScanPose& pose : ReadFrameLine(line, kPlace).scan_poses) {
+      for (const ScanPose& pose : ScanPosesOf(ReadFrameLine(line, kPlace).scan_poses)) {
         CheckPose(pose.world_from_sensor);
       }
     }
     if (kind == 'o') ReadObjects(line);
     if (kind == 'p') CheckPose(ReadPoseLine(line, kStamp_ns, kPlace));
     if (kind == 'm') ReadManifestFile(line);
-    if (kind == 'r') static_cast<void>(ReadRunSummary(line, kPlace));
+    if (kind == 'r') static_cast<void>(ReadRun(line, kPlace));
+    if (kind == 'i') static_cast<void>(ReadInsertLine(line, kPlace));
+    if (kind == 's') static_cast<void>(ReadRecordLine<ScenarioRecord>(line, kPlace));
   } catch (const InputError& error) {
     Check(std::string_view(error.what()).starts_with("fuzz:3: "), "a fault names its line");
   }
@@ -67,7 +72,8 @@ void ReadLine(char kind, const std::string& line) {
 }  // namespace railcast
 
 /// Entry point for libFuzzer. The first byte selects the file of a sequence: the rest is a line of
-/// f frames.jsonl, o objects.jsonl or p poses.csv, or the whole of m manifest.json or r run.json.
+/// f frames.jsonl, i insert.jsonl, o objects.jsonl, p poses.csv or s scenarios.jsonl, or the whole
+/// of m manifest.json or r run.json.
 RAILCAST_FUZZ_TARGET(sequence) {
   if (size == 0) return 0;
   railcast::ReadLine(static_cast<char>(data[0]),

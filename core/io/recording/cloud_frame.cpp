@@ -14,6 +14,7 @@
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 
 namespace railcast {

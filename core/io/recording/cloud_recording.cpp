@@ -11,7 +11,7 @@
 #include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
-#include "core/io/recording/sequence_lines.h"
+#include "core/io/run/frame_record.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {

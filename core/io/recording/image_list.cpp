@@ -4,7 +4,7 @@
 
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/recording/sequence_lines.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/run/sequence_files.h"
 
 namespace railcast {
@@ -35,7 +35,7 @@ ImageList ReadImageList(const std::filesystem::path& directory) {
   }
   LineReader lines(directory / kFramesFile);
   for (std::size_t place = 0; auto text = lines.Next(); ++place) {
-    FrameLine line = ReadFrameLine(text->text, text->place);
+    FrameRecord line = ReadFrameLine(text->text, text->place);
     std::erase_if(line.files, [](const KnownFile& file) { return !IsCameraFile(file.name); });
     if (!line.files.empty()) list.frames.push_back({place, line.frame, std::move(line.files)});
   }

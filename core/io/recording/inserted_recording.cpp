@@ -11,11 +11,13 @@
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
 #include "core/io/cloud/kitti.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/dataset_files.h"
-#include "core/io/strict_json.h"
+#include "core/io/run/insert_record.h"
+#include "core/io/run/run_record.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -58,7 +60,7 @@ void TakeRows(const std::string& rows, const std::string& place, RecordedFrame& 
 RecordedFrame ReadInsertedFrame(const InsertedContext& context,
                                 const FrameLines& lines,
                                 const Recording::FrameReader& read) {
-  FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+  const FrameRecord line = ReadInsertLine(lines.frame.text, lines.frame.place).frame;
   RecordedFrame recorded = read();
   for (const KnownFile& file : line.files) {
     const std::string bytes = ReadHashedFile(context.directory, file, kInsertFile);
@@ -66,7 +68,7 @@ RecordedFrame ReadInsertedFrame(const InsertedContext& context,
     TakeRows(bytes, ShownPath(context.directory / file.name), recorded);
   }
   recorded.frame.index = line.frame;
-  TakeRecords(std::move(line), lines, recorded);
+  TakeRecords(line, lines, recorded);
   if (context.kitti.labels().empty()) return recorded;
   recorded.axes = PointAxes::kSensorAtStamp;
   for (RecordedObject& object : recorded.objects) {
@@ -90,34 +92,18 @@ fs::path CopyIn(const fs::path& folder, const std::string& opened) {
   throw InputError(ShownPath(folder) + ": must hold the recording that something was put into");
 }
 
-/// What run.json says of an insertion.
-struct InsertedRun {
-  std::string recording;
-  std::string format;
-  bool has_kitti_labels{};
-};
-
-InsertedRun ReadInsertedRun(const fs::path& directory) {
-  const fs::path file = directory / kRunFile;
-  return ReadRecordedJson<StrictJson>(
-      ReadFileWhole(file), ShownPath(file), [](const StrictJson& json) {
-        return InsertedRun{json.at("recording"), json.at("format"), json.at("kitti_labels")};
-      });
-}
-
 /// Checks what is read of all frames together, once the run is complete.
 void CheckOwnFiles(const fs::path& directory) {
   const fs::path file = directory / kManifestFile;
   if (!IsThere(file)) return;
   const std::string text = ReadFileWhole(file);
   CheckManifestHash(text, ShownPath(file));
-  ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
-    for (const std::string_view name : {kRunFile, kInsertWorldFile, kLabelsFile}) {
-      const std::string known(name);
-      (void)ReadHashedFile(directory, {known, json.at("files_xxh3").at(known), {}}, kManifestFile);
-    }
-    return true;
-  });
+  const auto manifest =
+      ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(file));
+  for (const auto& [name, hash] : manifest.files) {
+    if (name != kRunFile && name != kInsertWorldFile && name != kLabelsFile) continue;
+    (void)ReadHashedFile(directory, {name, hash, {}}, kManifestFile);
+  }
 }
 
 /// The frames of a recording that something was put into, with what is known of them beside it.
@@ -125,7 +111,8 @@ class InsertionRecording : public Recording {
  public:
   explicit InsertionRecording(const fs::path& directory) : lines_(directory / kInsertFile) {
     CheckOwnFiles(directory);
-    const InsertedRun run = ReadInsertedRun(directory);
+    const auto run = ReadRecord<InsertRunRecord>(ReadFileWhole(directory / kRunFile),
+                                                 ShownPath(directory / kRunFile));
     const fs::path folder = directory / kRecordingFolder;
     clouds_ = OpenCloudsIn(folder);
     is_copy_ = clouds_ == nullptr;
@@ -159,8 +146,8 @@ class InsertionRecording : public Recording {
     std::optional<FrameReader> read = clouds_->Next();
     if (is_copy_) {  // Which holds the frames before, too.
       is_copy_ = false;
-      const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
-      for (std::uint32_t i = 0; read && i < line.frame; ++i) read = clouds_->Next();
+      const std::uint32_t first = ReadInsertLine(lines.frame.text, lines.frame.place).frame.frame;
+      for (std::uint32_t i = 0; read && i < first; ++i) read = clouds_->Next();
     }
     if (!read) {
       throw InputError(lines.frame.place + ": must be of a frame of " +

@@ -4,14 +4,16 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/cloud/point_table.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
+#include "core/io/run/frame_record.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "railcast/lidar.h"
 #include "railcast/scenario.h"
 
@@ -19,21 +21,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A line of merged.jsonl.
-struct MergedLine {
-  std::uint32_t frame{};
-  std::int64_t stamp_ns{};
-  KnownFile file;
-};
-
-MergedLine ReadMergedLine(const PlacedLine& line) {
-  return ReadRecordedJson<StrictJson>(line.text, line.place, [](const StrictJson& json) {
-    return MergedLine{json.at("frame").get<std::uint32_t>(),
-                      json.at("stamp_ns").get<std::int64_t>(),
-                      {json.at("file"), json.at("xxh3"), json.at("bytes")}};
-  });
-}
 
 /// The lines about one cloud, not yet parsed.
 struct MergedCloudLines {
@@ -54,7 +41,7 @@ void AddFromFirstSensor(const MergedContext& context,
                         const FrameLines& lines,
                         const std::string& place,
                         RecordedFrame& recorded) {
-  FrameLine line = ReadNextFrameLine(lines);
+  const FrameRecord line = ReadNextFrameLine(lines);
   Frame& frame = recorded.frame;
   if (line.frame != frame.index) {
     throw InputError(place + ": frame: must be that of " + lines.frame.place + ", " +
@@ -63,13 +50,11 @@ void AddFromFirstSensor(const MergedContext& context,
   const PlacedLine& objects = lines.records.at(1);
   CheckRecords(line, lines);
   const Transform first_from_vehicle = context.vehicle_from_first.inverse();
-  for (ScanPose& pose : line.scan_poses) {
+  TakeScanPoses(line, frame);
+  frame.world_from_sensor_end = frame.world_from_sensor_end * first_from_vehicle;
+  for (ScanPose& pose : frame.poses_between) {
     pose.world_from_sensor = pose.world_from_sensor * first_from_vehicle;
   }
-  frame.duration_ns = line.scan_poses.back().time_ns;
-  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
-  line.scan_poses.pop_back();
-  frame.poses_between = std::move(line.scan_poses);
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
   std::map<std::uint32_t, std::uint32_t> num_points;
   for (const std::uint32_t instance : frame.instance) ++num_points[instance];
@@ -83,7 +68,7 @@ void AddFromFirstSensor(const MergedContext& context,
 
 /// The "sensor" of a merged cloud is the vehicle.
 RecordedFrame ReadMergedFrame(const MergedContext& context, const MergedCloudLines& lines) {
-  const MergedLine line = ReadMergedLine(lines.cloud);
+  const auto line = ReadRecordLine<MergedRecord>(lines.cloud.text, lines.cloud.place);
   const std::string file = ShownPath(context.directory / line.file.name);
   RecordedFrame recorded = MakeCloudFrame(
       ParsePcdTable(file, ReadKnownFile(context.directory, line.file, kMergedFile)), file);

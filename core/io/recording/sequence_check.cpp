@@ -49,46 +49,45 @@ std::string ReadKnownFile(const std::filesystem::path& directory,
 
 SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
   const std::filesystem::path run = directory / kRunFile;
-  SequenceSummary summary{directory, ReadRunSummary(ReadFileWhole(run), ShownPath(run)), {}};
+  SequenceSummary summary{directory, ReadRun(ReadFileWhole(run), ShownPath(run)), {}};
   const std::filesystem::path manifest = directory / kManifestFile;
   if (!IsThere(manifest)) return summary;
   const std::string text = ReadFileWhole(manifest);
+  CheckManifestHash(text, ShownPath(manifest));
   summary.manifest = ReadManifest(text, ShownPath(manifest));
-  // Manifests of older programs have no hash of their own.
-  if (!summary.run.isa.empty()) CheckManifestHash(text, ShownPath(manifest));
   return summary;
 }
 
 void CheckKnownFiles(const SequenceSummary& summary) {
   if (!summary.manifest) {
-    for (const KnownFile& file : summary.run.files) {
+    for (const KnownFile& file : summary.run.Files()) {
       (void)ReadKnownFile(summary.directory, file, kRunFile);
     }
     return;
   }
-  const Manifest& manifest = *summary.manifest;
-  for (const KnownFile& file : manifest.files) {
+  const ManifestRecord& manifest = *summary.manifest;
+  for (const KnownFile& file : manifest.Files()) {
     // Nothing is read of a trace, whose size may be that of all frames.
     if (file.name == summary.run.trace) continue;
     (void)ReadKnownFile(summary.directory, file, kManifestFile);
   }
   const std::string data_hash = DataHash(manifest.files);
-  if (manifest.data_hash.empty() || manifest.data_hash == data_hash) return;
+  if (manifest.data_hash == data_hash) return;
   throw InputError(ShownPath(summary.directory / kManifestFile) + ": data_xxh3: must be " +
                    data_hash + ", that of the files (got " + ShownText(manifest.data_hash) + ")");
 }
 
 SequenceOrigin OriginOf(const SequenceSummary& summary) {
-  const RunSummary& run = summary.run;
+  const RunRecord& run = summary.run;
   return {.version = run.version,
           .embree = run.embree,
           .isa = run.isa,
           .scenario_hash = run.scenario_hash,
           .data_hash = summary.manifest ? summary.manifest->data_hash : "",
           .is_finished = summary.manifest.has_value(),
-          .has_commands = run.has_commands,
+          .has_commands = !run.commands_hash.empty(),
           .chosen_effects =
-              summary.manifest ? summary.manifest->chosen_effects : std::vector<std::string>()};
+              summary.manifest ? summary.manifest->ChosenEffects() : std::vector<std::string>()};
 }
 
 std::vector<std::string> RecordFiles(std::string_view format) {
@@ -123,7 +122,7 @@ std::vector<LineReader> OpenMotionFiles(const SequenceSummary& summary) {
 
 std::vector<PlacedLine> ReadMotionLines(const PlacedLine& frame, std::vector<LineReader>& readers) {
   if (readers.empty()) return {};
-  const FrameLine line = ReadFrameLine(frame.text, frame.place);
+  const FrameRecord line = ReadFrameLine(frame.text, frame.place);
   if (line.motion_lines.size() != readers.size()) {
     throw InputError(frame.place + ": motion_lines: must be " + NumberText(readers.size()) +
                      ", as many as run.json has motion sensors" + Got(line.motion_lines.size()));
@@ -142,7 +141,7 @@ std::vector<PlacedLine> ReadMotionLines(const PlacedLine& frame, std::vector<Lin
 FrameLineReader::FrameLineReader(const SequenceSummary& summary)
     : num_frames_(CountLines(summary.directory / kFramesFile)),
       next_frame_(summary.run.start_frame),
-      stride_(summary.run.stride),
+      stride_(summary.run.stride()),
       frames_(summary.directory / kFramesFile) {
   // Lines are counted before files are hashed, since a missing line is a more specific fault than a
   // hash that differs.
@@ -169,31 +168,35 @@ std::optional<FrameLines> FrameLineReader::Next() {
   return lines;
 }
 
-FrameLine ReadNextFrameLine(const FrameLines& lines) {
-  FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+FrameRecord ReadNextFrameLine(const FrameLines& lines) {
+  FrameRecord line = ReadFrameLine(lines.frame.text, lines.frame.place);
   if (line.frame == lines.expected_frame) return line;
   throw InputError(lines.frame.place + ": frame: must be " + NumberText(lines.expected_frame) +
                    ", one after another (got " + NumberText(line.frame) + ")");
 }
 
-void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded) {
+void TakeScanPoses(const FrameRecord& line, Frame& frame) {
+  std::vector<ScanPose> poses = ScanPosesOf(line.scan_poses);
+  frame.duration_ns = poses.back().time_ns;
+  frame.world_from_sensor_end = poses.back().world_from_sensor;
+  poses.pop_back();
+  frame.poses_between = std::move(poses);
+}
+
+void TakeRecords(const FrameRecord& line, const FrameLines& lines, RecordedFrame& recorded) {
   const PlacedLine& pose = lines.records.at(0);
   const PlacedLine& objects = lines.records.at(1);
   Frame& frame = recorded.frame;
   frame.stamp_ns = line.stamp_ns;
-  frame.duration_ns = line.scan_poses.back().time_ns;
   frame.world_from_sensor = ReadPoseLine(pose.text, line.stamp_ns, pose.place);
-  frame.world_from_sensor_end = line.scan_poses.back().world_from_sensor;
-  line.scan_poses.pop_back();
-  frame.poses_between = std::move(line.scan_poses);
+  TakeScanPoses(line, frame);
   recorded.has_pose = true;
   recorded.objects = ReadObjectsLine(objects.text, line.frame, objects.place);
   CheckRecords(line, lines);
 }
 
-void CheckRecords(const FrameLine& line, const FrameLines& lines) {
-  // Those of older programs have no hash of themselves.
-  const std::string fault = HasLineHash(lines.frame.text) ? LineHashFault(lines.frame.text) : "";
+void CheckRecords(const FrameRecord& line, const FrameLines& lines) {
+  const std::string fault = LineHashFault(lines.frame.text);
   if (!fault.empty()) throw InputError(lines.frame.place + ": " + fault);
   std::string records;
   std::string files;

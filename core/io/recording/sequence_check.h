@@ -8,7 +8,7 @@
 
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_lines.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/run/run_record.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -36,8 +36,8 @@ namespace railcast {
 /// The summary that a sequence directory gives of itself.
 struct SequenceSummary {
   std::filesystem::path directory;
-  RunSummary run;
-  std::optional<Manifest> manifest;  ///< Absent while the run is unfinished.
+  RunRecord run;
+  std::optional<ManifestRecord> manifest;  ///< Absent while the run is unfinished.
 };
 
 /// Reads the summary.
@@ -111,15 +111,18 @@ class FrameLineReader {
 /// Parses the frame's line of frames.jsonl.
 /// @throws InputError with one line if it is damaged, or if it belongs to a frame other than the
 ///   expected one.
-[[nodiscard]] FrameLine ReadNextFrameLine(const FrameLines& lines);
+[[nodiscard]] FrameRecord ReadNextFrameLine(const FrameLines& lines);
+
+/// Takes the sensor's poses during the scan.
+void TakeScanPoses(const FrameRecord& line, Frame& frame);
 
 /// Takes what the frame's lines say: stamp, poses and objects.
 /// @throws InputError as CheckRecords() does.
-void TakeRecords(FrameLine line, const FrameLines& lines, RecordedFrame& recorded);
+void TakeRecords(const FrameRecord& line, const FrameLines& lines, RecordedFrame& recorded);
 
 /// Checks the frame's line against its own hash, and its lines in the other files against
 /// records_hash.
 /// @throws InputError with one line if they have changed since the frame was written.
-void CheckRecords(const FrameLine& line, const FrameLines& lines);
+void CheckRecords(const FrameRecord& line, const FrameLines& lines);
 
 }  // namespace railcast

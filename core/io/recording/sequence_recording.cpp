@@ -25,7 +25,7 @@
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/point_layout.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
+#include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/lidar.h"
@@ -53,7 +53,7 @@ bool HasClouds(const SequenceSummary& summary) {
   return format == nullptr || !format->files.empty();
 }
 
-const KnownFile& CloudFileOf(const FrameLine& line, const std::string& place) {
+const KnownFile& CloudFileOf(const FrameRecord& line, const std::string& place) {
   for (const KnownFile& file : line.files) {
     const FrameFormat* const format = FindReader(file.name);
     if (format != nullptr && !format->dataset) return file;
@@ -78,7 +78,7 @@ class CloudsOfBag {
  public:
   /// @throws InputError "bag: rule" if its clouds cannot be put into the slots of the scan.
   explicit CloudsOfBag(const SequenceSummary& summary)
-      : file_((summary.directory / summary.run.bag).lexically_normal()) {
+      : file_((summary.directory / summary.run.bag.value().path).lexically_normal()) {
     if (!exists(file_)) file_ += kUnfinishedSuffix;
     if (ros::ParseCloudSpec(summary.run.fields, true, true).layout != ros::PointLayout::kRailcast) {
       throw InputError(ShownPath(summary.directory) + ": must have railcast's fields (got " +
@@ -87,10 +87,10 @@ class CloudsOfBag {
     reader_ = bag::OpenBag(file_);
     const auto& topics = reader_->topics();
     const auto found =
-        std::ranges::find(topics, summary.run.cloud_topics.at(0), &bag::BagTopic::name);
+        std::ranges::find(topics, summary.run.bag->topics.front(), &bag::BagTopic::name);
     if (found == topics.end()) {
       throw InputError(ShownPath(file_) + ": must have the topic " +
-                       ShownText(summary.run.cloud_topics[0]));
+                       ShownText(summary.run.bag->topics.front()));
     }
     reader_->Select({static_cast<std::size_t>(found - topics.begin())});
   }
@@ -127,7 +127,7 @@ RecordedFrame ReadCloudInBag(const SequenceContext& context,
 RecordedFrame ReadFrame(const SequenceContext& context,
                         const FrameLines& lines,
                         const CloudInBag* cloud) {
-  FrameLine line = ReadNextFrameLine(lines);
+  FrameRecord line = ReadNextFrameLine(lines);
   RecordedFrame recorded;
   bool has_ranges = true;
   if (cloud != nullptr) {
@@ -140,27 +140,16 @@ RecordedFrame ReadFrame(const SequenceContext& context,
     const PointTable table = format.parse(file, std::move(bytes), std::nullopt);
     recorded = MakeScanFrame(table, file, context.pattern, format.has_all_slots);
     has_ranges = table.Find("range_m") != nullptr;
+  } else {
+    recorded.name = ShownPath(context.directory);
   }
   Frame& frame = recorded.frame;
   frame.index = line.frame;
-  TakeRecords(std::move(line), lines, recorded);
+  TakeRecords(line, lines, recorded);
   if (context.is_in_sensor_axes()) return recorded;
   UndoOutputAxes(context.output, context.vehicle_from_sensor, context.pattern, recorded);
   if (!has_ranges) RecomputeRanges(frame);
   return recorded;
-}
-
-std::vector<std::string> ReadMaterialNames(const std::filesystem::path& file) {
-  const auto read = [](const StrictJson& json) {
-    std::vector<std::string> names;
-    for (const StrictJson& material : json.at("materials")) {
-      const auto id = material.at("id").get<std::uint16_t>();
-      if (names.size() <= id) names.resize(id + std::size_t{1});
-      names[id] = material.at("name");
-    }
-    return names;
-  };
-  return ReadRecordedJson<StrictJson>(ReadFileWhole(file), ShownPath(file), read);
 }
 
 /// What all frames of a sequence in KITTI's format share.
@@ -175,7 +164,7 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
                              const FrameLines& lines,
                              std::uint32_t place) {
   const std::filesystem::path& directory = context.directory;
-  FrameLine line = ReadNextFrameLine(lines);
+  FrameRecord line = ReadNextFrameLine(lines);
   std::erase_if(line.files, [](const KnownFile& file) { return IsCameraFile(file.name); });
   if (line.files.size() != 2 || !line.files[0].name.ends_with(".bin") ||
       !line.files[1].name.ends_with(".label")) {
@@ -186,7 +175,7 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
   const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
   RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
   recorded.frame.index = place;
-  TakeRecords(std::move(line), lines, recorded);
+  TakeRecords(line, lines, recorded);
   for (RecordedObject& object : recorded.objects) {
     object.label = KittiClassOf(object, context.labels, context.kitti);
   }
@@ -196,7 +185,7 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
 
 /// Says what is being read, for WithinMemory: the first of the frame's files is its cloud.
 std::string ReadingFrameText(const std::filesystem::path& directory, const FrameLines& lines) {
-  const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+  const FrameRecord line = ReadFrameLine(lines.frame.text, lines.frame.place);
   return ReadingText(line.files.empty() ? directory : directory / line.files.front().name);
 }
 
@@ -209,7 +198,8 @@ class SequenceRecording : public Recording {
     info_.kind = "sequence";
     info_.num_frames = lines_.num_frames();
     info_.labels = ReadLabelTable(directory / kLabelsFile);
-    info_.materials = ReadMaterialNames(directory / kMaterialsFile);
+    const std::filesystem::path materials = directory / kMaterialsFile;
+    info_.materials = ReadMaterialNames(ReadFileWhole(materials), ShownPath(materials));
     info_.scenario = ReadScenario(directory / kScenarioFile);
     CheckNames();
     info_.origin = OriginOf(summary);
@@ -220,7 +210,7 @@ class SequenceRecording : public Recording {
                         .pattern = BuildScanPattern(lidar.scan),
                         .output = info_.scenario->output,
                         .vehicle_from_sensor = VehicleFromSensor(lidar.mount)});
-    if (!summary.run.bag.empty()) clouds_.emplace(summary);
+    if (summary.run.bag) clouds_.emplace(summary);
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }

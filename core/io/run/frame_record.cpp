@@ -1,58 +1,21 @@
 #include "core/io/run/frame_record.h"
 
-#include <nlohmann/json.hpp>
-
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/strict_json.h"
+#include "core/io/record/read_record.h"
+#include "core/scenario/archive.h"
 
 namespace railcast {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json ScanPoseJson(const RecordedScanPose& pose) {
-  const Vector3& position_m = pose.position_m;
-  const Eigen::Quaterniond& turn = pose.rotation;
-  return {{"time_ns", pose.time_ns},
-          {"position_m", {position_m.x(), position_m.y(), position_m.z()}},
-          {"quaternion_xyzw", {turn.x(), turn.y(), turn.z(), turn.w()}}};
-}
-
-RecordedScanPose ParseScanPose(const StrictJson& pose) {
-  const auto position_m = pose.at("position_m").get<std::array<double, 3>>();
-  const auto turn = pose.at("quaternion_xyzw").get<std::array<double, 4>>();
-  return {pose.at("time_ns").get<std::uint32_t>(),
-          Vector3(position_m[0], position_m[1], position_m[2]),
-          Eigen::Quaterniond(turn[3], turn[0], turn[1], turn[2])};
-}
-
-FrameRecord Parse(const StrictJson& line) {
-  FrameRecord record;
-  record.frame = line.at("frame").get<std::uint32_t>();
-  record.stamp_ns = line.at("stamp_ns").get<std::int64_t>();
-  for (const StrictJson& pose : line.at("scan_poses")) {
-    record.scan_poses.push_back(ParseScanPose(pose));
-  }
-  for (const StrictJson& file : line.at("files")) {
-    record.files.push_back({file.at("name").get<std::string>(),
-                            file.at("bytes").get<std::uint64_t>(),
-                            file.at("xxh3").get<std::string>()});
-  }
-  record.records_hash = line.at("records_xxh3").get<std::string>();
-  if (line.contains("motion_lines")) line.at("motion_lines").get_to(record.motion_lines);
-  if (line.contains("clouds_xxh3")) record.clouds_hash = line.at("clouds_xxh3").get<std::string>();
-  record.counts.points = line.at("points").get<std::uint64_t>();
-  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
-    record.counts.outcomes[i] =
-        line.at("outcomes").at(std::string(kOutcomeNames[i])).get<std::uint64_t>();
-  }
-  record.counts.points_per_label =
-      line.at("points_per_label").get<std::map<std::string, std::uint64_t>>();
-  return record;
+bool IsUnit(const Eigen::Quaterniond& rotation) {
+  constexpr double kTolerance = 1e-3;
+  return std::abs(rotation.norm() - 1.0) <= kTolerance;
 }
 
 }  // namespace
@@ -83,37 +46,71 @@ std::string PoseLine(const PoseRecord& pose) {
   return line + "\n";
 }
 
-PoseRecord ParsePoseLine(std::string_view line) {
+Transform MakePose(const std::vector<double>& numbers, const std::string& place) {
+  if (numbers.size() != 7) {
+    throw InputError(place + ": a pose must have seven numbers" + Got(numbers.size()));
+  }
+  for (const double number : numbers) {
+    if (!std::isfinite(number)) throw InputError(place + ": a pose must be finite");
+  }
+  const Eigen::Quaterniond turn(numbers[6], numbers[3], numbers[4], numbers[5]);
+  if (!IsUnit(turn)) {
+    throw InputError(place + ": a quaternion must have length 1" + Got(turn.norm()));
+  }
+  return MakeTransform(turn.normalized().toRotationMatrix(),
+                       Vector3(numbers[0], numbers[1], numbers[2]));
+}
+
+void DescribeRotation(Archive& a, Eigen::Quaterniond& rotation) {
+  a.Required("quaternion_xyzw", rotation, "Turns from these axes to those around.");
+  a.Ensure({"quaternion_xyzw"}, IsUnit(rotation), "must have length 1");
+}
+
+PoseRecord ReadPoseRecord(std::string_view line, const std::string& place) {
+  if (line.ends_with('\n')) line.remove_suffix(1);
   const auto take = [&line] {
-    const std::size_t end = line.find_first_of(",\n");
-    Check(end != std::string_view::npos, "a line of poses.csv has eight numbers");
+    const std::size_t end = line.find(',');
     const std::string_view word = line.substr(0, end);
-    line.remove_prefix(end + 1);
+    line.remove_prefix(end == std::string_view::npos ? line.size() : end + 1);
     return word;
   };
   PoseRecord pose;
-  const auto stamp = ParseNumber<std::int64_t>(take());
-  Check(stamp.has_value(), "poses.csv begins with the stamp");
-  pose.stamp_ns = *stamp;
-  std::array<double, 7> values{};
-  for (double& value : values) {
-    const auto number = ParseNumber<double>(take());
-    Check(number.has_value(), "poses.csv holds numbers");
-    value = *number;
+  const std::string_view first = take();
+  const auto stamp_ns = ParseNumber<std::int64_t>(first);
+  if (!stamp_ns) {
+    throw InputError(place + ": stamp_ns: must be a whole number (got " + ShownText(first) + ")");
   }
-  pose.position_m = Vector3(values[0], values[1], values[2]);
-  pose.rotation = Eigen::Quaterniond(values[6], values[3], values[4], values[5]);
+  pose.stamp_ns = *stamp_ns;
+  std::vector<double> numbers;
+  while (!line.empty()) {
+    const std::string_view word = take();
+    const auto number = ParseNumber<double>(word);
+    if (!number) throw InputError(place + ": must be numbers (got " + ShownText(word) + ")");
+    numbers.push_back(*number);
+  }
+  (void)MakePose(numbers, place);
+  pose.position_m = Vector3(numbers[0], numbers[1], numbers[2]);
+  pose.rotation = Eigen::Quaterniond(numbers[6], numbers[3], numbers[4], numbers[5]);
   return pose;
 }
 
-void PutCounts(const FrameCounts& counts, nlohmann::ordered_json& object) {
-  nlohmann::ordered_json outcomes = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < kOutcomeNames.size(); ++i) {
-    outcomes[std::string(kOutcomeNames[i])] = counts.outcomes[i];
+Transform ReadPoseLine(std::string_view line, std::int64_t stamp_ns, const std::string& place) {
+  const PoseRecord pose = ReadPoseRecord(line, place);
+  if (pose.stamp_ns != stamp_ns) {
+    throw InputError(place + ": stamp_ns: must be " + NumberText(stamp_ns) +
+                     ", as in frames.jsonl or insert.jsonl" + Got(pose.stamp_ns));
   }
-  object["points"] = counts.points;
-  object["outcomes"] = outcomes;
-  object["points_per_label"] = counts.points_per_label;
+  return MakeTransform(pose.rotation.normalized().toRotationMatrix(), pose.position_m);
+}
+
+void Describe(Archive& a, OutcomeCounts& s) {
+  for (std::size_t i = 0; i < s.size(); ++i) a.Required(kOutcomeNames[i], s[i], "");
+}
+
+void Describe(Archive& a, FrameCounts& s) {
+  a.Required("points", s.points, "Slots with a point.");
+  a.Required("outcomes", s.outcomes, "Firings with each outcome.");
+  a.Required("points_per_label", s.points_per_label, "Of the labels that have any.");
 }
 
 void FrameCounts::Add(const FrameCounts& other) {
@@ -162,34 +159,58 @@ std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame) {
   return poses;
 }
 
-nlohmann::ordered_json ScanPosesJson(const std::vector<RecordedScanPose>& poses) {
-  Json json = Json::array();
-  for (const RecordedScanPose& pose : poses) json.push_back(ScanPoseJson(pose));
-  return json;
+std::vector<ScanPose> ScanPosesOf(const std::vector<RecordedScanPose>& poses) {
+  std::vector<ScanPose> result;
+  for (const RecordedScanPose& pose : poses) {
+    result.push_back({pose.time_ns, MakeTransform(pose.rotation.normalized().toRotationMatrix(),
+                                                  pose.position_m)});
+  }
+  return result;
 }
 
-std::string FrameRecordLine(const FrameRecord& record) {
-  Json files = Json::array();
-  for (const WrittenFile& file : record.files) {
-    files.push_back({{"name", file.name}, {"bytes", file.size}, {"xxh3", file.hash}});
+void Describe(Archive& a, RecordedScanPose& s) {
+  a.Required("time_ns", s.time_ns, "Since the frame's stamp.");
+  a.Required("position_m", s.position_m, "In the world.");
+  DescribeRotation(a, s.rotation);
+}
+
+void Describe(Archive& a, FrameRecord& s) {
+  a.Required("frame", s.frame, "Its number.");
+  a.Required("stamp_ns", s.stamp_ns, "Simulation time.");
+  a.Required("scan_poses", s.scan_poses,
+             "The sensor's poses after the stamp, of which the last is that of the last firing.",
+             NonEmptyList());
+  a.Required("files", s.files, "Of this frame.");
+  a.Required("records_xxh3", s.records_hash, "Hash of the frame's lines in the other line files.");
+  a.Optional("motion_lines", s.motion_lines,
+             "How many lines of each motion sensor's file belong to the frame.");
+  a.Optional("clouds_xxh3", s.clouds_hash,
+             "Hash of its clouds in the run's bag, or of its message in the trace.");
+  Describe(a, s.counts);
+}
+
+void CheckTimes(const std::vector<RecordedScanPose>& poses, const std::string& place) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const std::uint32_t before_ns = poses[i - 1].time_ns;
+    if (poses[i].time_ns > before_ns) continue;
+    throw InputError(
+        {{place + ": /scan_poses/" + std::to_string(i) + "/time_ns",
+          "must be > that before, " + NumberText(before_ns), NumberText(poses[i].time_ns)}});
   }
-  Json line = {{"frame", record.frame},
-               {"stamp_ns", record.stamp_ns},
-               {"scan_poses", ScanPosesJson(record.scan_poses)},
-               {"files", files},
-               {"records_xxh3", record.records_hash}};
-  if (!record.motion_lines.empty()) line["motion_lines"] = record.motion_lines;
-  if (!record.clouds_hash.empty()) line["clouds_xxh3"] = record.clouds_hash;
-  PutCounts(record.counts, line);
-  return WithLineHash(line.dump()) + "\n";
+}
+
+FrameRecord ReadFrameLine(std::string_view line, const std::string& place) {
+  auto record = ReadRecordLine<FrameRecord>(line, place);
+  CheckTimes(record.scan_poses, place);
+  return record;
 }
 
 std::optional<FrameRecord> ParseFrameLine(std::string_view line) {
   if (line.ends_with('\n')) line.remove_suffix(1);
   if (!LineHashFault(line).empty()) return std::nullopt;
   try {
-    return Parse(StrictJson::parse(line));
-  } catch (const StrictJson::exception&) {
+    return ReadFrameLine(line, "");
+  } catch (const InputError&) {
     return std::nullopt;
   }
 }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <array>
 #include <cstdint>
 #include <map>
@@ -10,10 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/run/sequence_files.h"
 #include "railcast/frame.h"
 #include "railcast/transform.h"
 
 namespace railcast {
+
+class Archive;
 
 /// Returns the rotation as a quaternion with w >= 0, so that of the two for the same rotation it is
 /// always the same one.
@@ -37,15 +38,34 @@ inline constexpr std::string_view kPosesHeader = "stamp_ns,x,y,z,qx,qy,qz,qw\n";
 /// Returns a line of poses.csv with enough digits to restore the same doubles.
 [[nodiscard]] std::string PoseLine(const PoseRecord& pose);
 
-/// Parses such a line.
-/// @pre The line was written by PoseLine.
-[[nodiscard]] PoseRecord ParsePoseLine(std::string_view line);
+/// Reads such a line.
+/// @throws InputError "place: rule" if it is anything else.
+[[nodiscard]] PoseRecord ReadPoseRecord(std::string_view line, const std::string& place);
+
+/// Reads such a line: world_from_sensor at the stamp.
+/// @throws InputError "place: rule" if it is not such a line, or has another stamp.
+[[nodiscard]] Transform ReadPoseLine(std::string_view line,
+                                     std::int64_t stamp_ns,
+                                     const std::string& place);
+
+/// Makes a pose of seven numbers: x y z qx qy qz qw.
+/// @throws InputError "place: rule" unless there are seven finite numbers and the quaternion has
+///   length 1.
+[[nodiscard]] Transform MakePose(const std::vector<double>& numbers, const std::string& place);
+
+/// Describes a record's key quaternion_xyzw.
+void DescribeRotation(Archive& a, Eigen::Quaterniond& rotation);
+
+/// Number of firings with each outcome, by its number.
+struct OutcomeCounts : std::array<std::uint64_t, kOutcomeNames.size()> {
+  OutcomeCounts() : array() {}
+};
+void Describe(Archive& a, OutcomeCounts& s);
 
 /// Counts over one frame, or over many together.
 struct FrameCounts {
   std::uint64_t points{};  ///< Slots with a point.
-  /// Number of firings with each outcome.
-  std::array<std::uint64_t, kOutcomeNames.size()> outcomes{};
+  OutcomeCounts outcomes{};
   /// By the label's name; labels without a point are left out.
   std::map<std::string, std::uint64_t> points_per_label;
 
@@ -55,18 +75,7 @@ struct FrameCounts {
 
 [[nodiscard]] FrameCounts CountFrame(const Frame& frame, const LabelTable& labels);
 
-/// Adds the members `points`, `outcomes` and `points_per_label`, as in frames.jsonl and
-/// manifest.json, to `object`.
-void PutCounts(const FrameCounts& counts, nlohmann::ordered_json& object);
-
-/// A file that holds data of a frame.
-struct WrittenFile {
-  std::string name;  ///< Relative to the sequence directory.
-  std::uint64_t size{};
-  std::string hash;  ///< ContentHash of its bytes.
-
-  bool operator==(const WrittenFile&) const = default;
-};
+void Describe(Archive& a, FrameCounts& s);
 
 /// The sensor's pose at a time during a frame's scan.
 struct RecordedScanPose {
@@ -82,27 +91,36 @@ struct RecordedScanPose {
 /// The poses after the stamp, of which the last is that of the last firing.
 [[nodiscard]] std::vector<RecordedScanPose> ScanPosesOf(const Frame& frame);
 
-/// The member `scan_poses` of lines of frames.jsonl and insert.jsonl.
-[[nodiscard]] nlohmann::ordered_json ScanPosesJson(const std::vector<RecordedScanPose>& poses);
+void Describe(Archive& a, RecordedScanPose& s);
+
+/// @throws InputError "place: rule" unless each is later than the one before it.
+void CheckTimes(const std::vector<RecordedScanPose>& poses, const std::string& place);
 
 /// A line of frames.jsonl, which states that a frame is complete.
 struct FrameRecord {
   std::uint32_t frame{};
   std::int64_t stamp_ns{};
-  std::vector<RecordedScanPose> scan_poses;
-  std::vector<WrittenFile> files;
-  std::string records_hash;  ///< Hash of the frame's lines in the directory's other files.
+  /// By time: at least one, and the last at the last firing.
+  std::vector<RecordedScanPose> scan_poses{};
+  std::vector<KnownFile> files{};
+  std::string records_hash{};  ///< Hash over the frame's lines in the directory's other files.
   /// The numbers of these in the files of the motion sensors, in their order.
   std::vector<std::uint32_t> motion_lines{};
-  std::string clouds_hash{};  ///< Of its clouds in the run's bag; empty if there is none.
-  FrameCounts counts;
+  std::string
+      clouds_hash{};  ///< Over its clouds in the run's bag or trace; empty if there is none.
+  FrameCounts counts{};
 
   bool operator==(const FrameRecord&) const = default;
 };
+void Describe(Archive& a, FrameRecord& s);
 
-[[nodiscard]] std::string FrameRecordLine(const FrameRecord& record);
+/// @throws InputError "place: rule" if it is not a line of frames.jsonl. Its hash is not checked.
+[[nodiscard]] FrameRecord ReadFrameLine(std::string_view line, const std::string& place);
 
-/// Returns nothing if the line is incomplete, was changed, or was not written by FrameRecordLine.
+/// Returns nothing if the line is incomplete, was changed, or is no line of frames.jsonl.
 [[nodiscard]] std::optional<FrameRecord> ParseFrameLine(std::string_view line);
+
+/// The scan's poses as a frame has them.
+[[nodiscard]] std::vector<ScanPose> ScanPosesOf(const std::vector<RecordedScanPose>& poses);
 
 }  // namespace railcast

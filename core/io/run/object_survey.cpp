@@ -4,60 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/frame_record.h"
 
 namespace railcast {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// The line is put together as text: of thousands of objects, a tree of JSON values costs several
-// times as much as tracing the frame.
-
-std::string Dumped(const Json& value) {
-  return value.dump();
-}
-
-// As Dumped(), which writes finite numbers with this function, too.
-void AppendJsonNumber(double number, std::string& line) {
-  if (!std::isfinite(number)) {
-    line.append("null");
-    return;
-  }
-  std::array<char, 64> digits{};
-  const char* const end =
-      nlohmann::detail::to_chars(digits.data(), digits.data() + digits.size(), number);
-  line.append(digits.data(), static_cast<std::size_t>(end - digits.data()));
-}
-
-// As Dumped(), without its detour for text in which nothing is escaped.
-void AppendJsonText(const std::string& text, std::string& line) {
-  const bool is_plain = std::ranges::all_of(text, [](char letter) {
-    return letter >= ' ' && letter <= '~' && letter != '"' && letter != '\\';
-  });
-  if (is_plain) {
-    line.append(1, '"').append(text).append(1, '"');
-  } else {
-    line.append(Dumped(text));
-  }
-}
-
-template <int kSize>
-void AppendList(const Eigen::Matrix<double, kSize, 1>& numbers, std::string& line) {
-  line += '[';
-  for (Eigen::Index i = 0; i < kSize; ++i) {
-    if (i > 0) line += ',';
-    AppendJsonNumber(numbers[i], line);
-  }
-  line += ']';
-}
 
 double ToTenthOfMillimetre(double length_m) {
   constexpr double kSteps_per_m = 1e4;
@@ -65,73 +22,29 @@ double ToTenthOfMillimetre(double length_m) {
   return std::round(length_m * kSteps_per_m) / kSteps_per_m + 0.0;
 }
 
-void AppendBox(const Transform& to_from_box, const Vector3& size_m, std::string& line) {
-  line.append("{\"center_m\":");
-  AppendList<3>(to_from_box.translation(), line);
-  line.append(",\"size_m\":");
-  AppendList<3>(size_m, line);
-  line.append(",\"quaternion_xyzw\":");
-  AppendList<4>(CanonicalRotation(to_from_box).coeffs(), line);
-  line += '}';
+BoxRecord BoxOf(const Transform& to_from_box, const Vector3& size_m) {
+  return {to_from_box.translation(), size_m, CanonicalRotation(to_from_box)};
 }
 
-void AppendBoxes(const ObjectInFrame& object,
-                 const Transform& sensor_from_world,
-                 std::string& line) {
-  line.append(",\"world\":");
-  AppendBox(object.world_from_box, object.size_m, line);
-  line.append(",\"sensor\":");
-  const Transform sensor_from_box = sensor_from_world * object.world_from_box;
-  const std::size_t begin = line.size();
-  AppendBox(sensor_from_box, object.size_m, line);
-  const std::size_t length = line.size() - begin;
-  line.append(",\"output\":");
-  // Unless the scenario chooses other axes, it is the same box.
-  if (object.output_from_box.matrix() == sensor_from_box.matrix()) {
-    line.append(line, begin, length);
-  } else {
-    AppendBox(object.output_from_box, object.size_m, line);
-  }
-}
-
-void AppendContacts(const ObjectInFrame& object, std::string& line) {
-  line += '[';
+ObjectRecord RecordOf(const ObjectInFrame& object, const Transform& sensor_from_world) {
+  ObjectRecord record{.name = object.name,
+                      .type = object.type,
+                      .label = object.label,
+                      .instance = object.instance,
+                      .world = BoxOf(object.world_from_box, object.size_m),
+                      .sensor = BoxOf(sensor_from_world * object.world_from_box, object.size_m),
+                      .output = BoxOf(object.output_from_box, object.size_m),
+                      .velocity_world_mps = object.velocity_world_mps,
+                      .points = object.points,
+                      .firings_visible = object.view.firings_visible,
+                      .firings_alone = object.view.firings_alone,
+                      .occlusion = object.view.occlusion()};
+  if (object.points > 0) record.points_time_ns = object.points_time_ns;
   for (const ContactInFrame& contact : object.contacts) {
-    if (&contact != object.contacts.data()) line += ',';
-    line.append("{\"with\":");
-    AppendJsonText(contact.with, line);
-    line.append(contact.is_overlap ? ",\"overlap\":true" : ",\"overlap\":false");
-    line.append(",\"gap_m\":");
-    AppendJsonNumber(ToTenthOfMillimetre(contact.gap_m), line);
-    line += '}';
+    record.contacts.push_back(
+        {contact.with, contact.is_overlap, ToTenthOfMillimetre(contact.gap_m)});
   }
-  line += ']';
-}
-
-void AppendObject(const ObjectInFrame& object,
-                  const Transform& sensor_from_world,
-                  std::string& line) {
-  line.append("{\"name\":");
-  AppendJsonText(object.name, line);
-  line.append(",\"type\":");
-  AppendJsonText(object.type, line);
-  line.append(",\"label\":");
-  AppendJsonText(object.label, line);
-  line.append(",\"instance\":").append(std::to_string(object.instance));
-  AppendBoxes(object, sensor_from_world, line);
-  line.append(",\"velocity_mps\":");
-  AppendList<3>(object.velocity_world_mps, line);
-  line.append(",\"points\":").append(std::to_string(object.points));
-  line.append(",\"points_time_ns\":");
-  line.append(object.points > 0 ? std::to_string(object.points_time_ns) : "null");
-  line.append(",\"firings_visible\":").append(std::to_string(object.view.firings_visible));
-  line.append(",\"firings_alone\":").append(std::to_string(object.view.firings_alone));
-  line.append(",\"occlusion\":");
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // Written as null.
-  AppendJsonNumber(object.view.occlusion().value_or(kUnknown), line);
-  line.append(",\"contacts\":");
-  AppendContacts(object, line);
-  line += '}';
+  return record;
 }
 
 struct Seen {
@@ -191,18 +104,17 @@ Transform Mirrored(const Transform& to_from_box) {
 
 }  // namespace
 
-std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
+ObjectsRecord RecordOf(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
   const Transform sensor_from_world = frame.world_from_sensor.inverse();
-  std::string line = "{\"frame\":" + std::to_string(frame.index) +
-                     ",\"stamp_ns\":" + std::to_string(frame.stamp_ns) + ",\"objects\":[";
-  constexpr std::size_t kUsualLength = 1000;
-  line.reserve(line.size() + kUsualLength * objects.size());
+  ObjectsRecord record{frame.index, frame.stamp_ns, {}};
   for (const ObjectInFrame& object : objects) {
-    if (&object != objects.data()) line += ',';
-    AppendObject(object, sensor_from_world, line);
+    record.objects.push_back(RecordOf(object, sensor_from_world));
   }
-  line += "]}\n";
-  return line;
+  return record;
+}
+
+std::string ObjectsLine(const Frame& frame, const std::vector<ObjectInFrame>& objects) {
+  return RecordText(RecordOf(frame, objects)) + "\n";
 }
 
 std::uint32_t PointsOnInstance(const Frame& frame, std::uint32_t instance) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/object_record.h"
 #include "core/scene/object_contacts.h"
 #include "railcast/frame.h"
 #include "railcast/scene.h"
@@ -40,10 +41,10 @@ struct ObjectInFrame {
   std::vector<ContactInFrame> contacts{};  ///< At the stamp, in the world's order.
 };
 
-/// Returns a line of objects.jsonl: the stamp and, for every object, its identity, its box at the
-/// stamp in world coordinates, in the sensor's axes (right-handed whatever `output` says) and in
-/// those of the frame's points, velocity, points and their mean time, firings, occlusion (null
-/// where it would not be visible even alone), and what it touches or overlaps.
+/// What objects.jsonl says of a frame's objects.
+[[nodiscard]] ObjectsRecord RecordOf(const Frame& frame, const std::vector<ObjectInFrame>& objects);
+
+/// The frame's line of objects.jsonl, with its end.
 [[nodiscard]] std::string ObjectsLine(const Frame& frame,
                                       const std::vector<ObjectInFrame>& objects);
 

@@ -8,23 +8,11 @@
 #include "core/io/run/bag_lines_name.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/trace_name.h"
-#include "core/io/strict_json.h"
-#include "core/io/write_file.h"
+#include "core/scenario/archive.h"
 #include "railcast/camera.h"
 
 namespace railcast {
 namespace {
-
-namespace fs = std::filesystem;
-
-// What `read` makes of a directory's sensors.json; nothing without the file.
-template <typename Read>
-auto ReadSensorsFile(const fs::path& directory, const Read& read)
-    -> decltype(read(StrictOrderedJson{})) {
-  const fs::path file = directory / kSensorsFile;
-  if (!fs::exists(file)) return {};
-  return ReadRecordedJson<StrictOrderedJson>(ReadFileWhole(file), ShownPath(file), read);
-}
 
 constexpr std::array kNames = {kRunFile,        kManifestFile,   kScenarioFile,
                                kLabelsFile,     kMaterialsFile,  kCommandsFile,
@@ -77,29 +65,16 @@ bool IsOfCamera(std::string_view name) {
 
 }  // namespace
 
-std::vector<fs::path> SensorFoldersIn(const fs::path& directory) {
-  return ReadSensorsFile(directory, [&](const StrictOrderedJson& json) {
-    std::vector<fs::path> folders;
-    for (const auto& sensor : json.at("sensors")) {
-      folders.push_back(directory / sensor.at("folder").get<std::string>());
-    }
-    return folders;
-  });
+void DescribeContent(Archive& a, KnownFile& s) {
+  std::uint64_t bytes = s.bytes.value_or(0);
+  a.Required("bytes", bytes, "Its size.");
+  s.bytes = bytes;
+  a.Required("xxh3", s.hash, "Hash of its bytes.");
 }
 
-std::optional<MergedFolder> MergedFolderIn(const fs::path& directory) {
-  return ReadSensorsFile(directory, [&](const StrictOrderedJson& json) {
-    std::optional<MergedFolder> merged;
-    if (!json.contains("merged")) return merged;
-    const StrictOrderedJson& found = json.at("merged");
-    merged.emplace().folder = directory / found.at("folder").get<std::string>();
-    for (const std::string_view name : {kMergedFile, kPosesFile}) {
-      const std::string key(name);
-      merged->files.push_back(
-          {key, found.at("files_xxh3").at(key).get<std::string>(), std::nullopt});
-    }
-    return merged;
-  });
+void Describe(Archive& a, KnownFile& s) {
+  a.Required("name", s.name, "Relative to the directory.", NonEmptyString());
+  DescribeContent(a, s);
 }
 
 const std::vector<FrameFileKind>& CameraFileKinds() {

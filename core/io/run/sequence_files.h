@@ -11,6 +11,8 @@
 
 namespace railcast {
 
+class Archive;
+
 // The names of the files of a sequence directory (docs/files.md), relative to it.
 
 inline constexpr std::string_view kRunFile = "run.json";
@@ -39,16 +41,6 @@ inline constexpr std::string_view kCalibrationName = "calibration.json";
 /// The folder of the motion sensors' samples: "motion/imu.csv".
 inline constexpr std::string_view kMotionFolder = "motion";
 
-// The files of the clouds of all sensors of a run together (docs/files.md), in a folder beside
-// those of the sensors.
-
-inline constexpr std::string_view kMergedFolder = "merged";
-/// Names the clouds, what they are made of and their hashes, a line for each. Relative to the
-/// folder.
-inline constexpr std::string_view kMergedFile = "merged.jsonl";
-/// The field that tells from which sensor a point is: its place in sensors.json.
-inline constexpr std::string_view kSensorIndexField = "sensor_index";
-
 /// The files of an image, in folders below that of its camera.
 [[nodiscard]] const std::vector<FrameFileKind>& CameraFileKinds();
 
@@ -73,24 +65,11 @@ struct KnownFile {
   std::string name;                    ///< Relative to the directory.
   std::string hash;                    ///< ContentHash of its bytes.
   std::optional<std::uint64_t> bytes;  ///< Size in bytes; absent where it is not recorded.
+
+  bool operator==(const KnownFile&) const = default;
 };
-
-/// The file that names the folders of several sensors' sequences of one run.
-inline constexpr std::string_view kSensorsFile = "sensors.json";
-
-/// The folders that a directory's sensors.json names, in its order; none if it has no such file.
-/// @throws InputError if the file is not what railcast-generate sequence writes.
-[[nodiscard]] std::vector<std::filesystem::path> SensorFoldersIn(
-    const std::filesystem::path& directory);
-
-/// The folder of the merged clouds that a directory's sensors.json names, and its files' hashes.
-struct MergedFolder {
-  std::filesystem::path folder;
-  std::vector<KnownFile> files;  ///< Relative to the folder.
-};
-
-/// @return Nothing if sensors.json names none.
-/// @throws InputError as SensorFoldersIn() does.
-[[nodiscard]] std::optional<MergedFolder> MergedFolderIn(const std::filesystem::path& directory);
+void Describe(Archive& a, KnownFile& s);
+/// Describes a file's size and hash, which stand in a record beside its name.
+void DescribeContent(Archive& a, KnownFile& s);
 
 }  // namespace railcast

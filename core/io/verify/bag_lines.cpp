@@ -8,10 +8,12 @@
 
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/bag_lines_name.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
+#include "core/scenario/archive.h"
 
 namespace railcast {
 namespace {
@@ -47,6 +49,12 @@ void CompareFiles(const fs::path& bag, const BagLines& lines, ErrorList& faults)
 }
 
 }  // namespace
+
+void Describe(Archive& a, BagLineRecord& s) {
+  a.Optional("messages", s.num_messages, "Of a commit.");
+  a.Optional("xxh3", s.hash, "Hash of these.");
+  a.Optional("files_xxh3", s.files, "Hashes of the bag's files; in the last line alone.");
+}
 
 fs::path BagLinesFile(const fs::path& bag) {
   return bag.parent_path() / kBagLinesFile;
@@ -85,16 +93,16 @@ std::vector<std::uint64_t> ReadMessageHashes(bag::BagReader& reader) {
 }
 
 std::string CommitLine(std::span<const std::uint64_t> messages) {
-  const StrictOrderedJson line = {{"messages", messages.size()}, {"xxh3", CommitHash(messages)}};
-  return WithLineHash(line.dump()) + "\n";
+  return HashedRecordLine(
+      BagLineRecord{.num_messages = messages.size(), .hash = CommitHash(messages)});
 }
 
 std::string BagFilesLine(const fs::path& bag) {
-  StrictOrderedJson files;
+  BagLineRecord line;
   for (const std::string& name : FixedFilesOf(bag)) {
-    files[name] = HashFile(bag.parent_path() / name).hash;
+    line.files[name] = HashFile(bag.parent_path() / name).hash;
   }
-  return WithLineHash(StrictOrderedJson{{"files_xxh3", files}}.dump()) + "\n";
+  return HashedRecordLine(line);
 }
 
 BagLines ReadBagLines(const fs::path& file) {
@@ -107,14 +115,12 @@ BagLines ReadBagLines(const fs::path& file) {
     if (!lines.files.empty() || !LineHashFault(line).empty()) break;
     begin = end + 1;
     const std::string place = ShownPath(file) + ":" + NumberText(lines.commits.size() + 1);
-    ReadRecordedJson<StrictJson>(line, place, [&](const StrictJson& json) {
-      if (json.contains("files_xxh3")) {
-        lines.files = json.at("files_xxh3");
-      } else {
-        lines.commits.push_back({json.at("messages"), json.at("xxh3"), begin});
-      }
-      return true;
-    });
+    auto record = ReadRecordLine<BagLineRecord>(line, place);
+    if (record.files.empty()) {
+      lines.commits.push_back({record.num_messages.value_or(0), record.hash, begin});
+    } else {
+      lines.files = std::move(record.files);
+    }
   }
   return lines;
 }

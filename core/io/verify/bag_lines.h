@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "core/io/bag/bag.h"
 
 namespace railcast {
+
+class Archive;
 
 // bag.jsonl stands beside a run's bag and says what the bag holds: a line for each of its commits,
 // and, once it is complete, a last one with the hashes of its files. A line is written before its
@@ -35,6 +38,14 @@ namespace railcast {
 /// The last line: the hashes of a complete bag's files. That of a database is not among them, since
 /// its bytes change when it is opened; the hashes of its messages stand for it.
 [[nodiscard]] std::string BagFilesLine(const std::filesystem::path& bag);
+
+/// A line: of a commit, or the last one.
+struct BagLineRecord {
+  std::optional<std::size_t> num_messages{};
+  std::string hash{};  ///< Of these.
+  std::map<std::string, std::string> files{};
+};
+void Describe(Archive& a, BagLineRecord& s);
 
 /// What the lines say.
 struct BagLines {

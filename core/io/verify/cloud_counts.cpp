@@ -5,56 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include "core/base/text.h"
-#include "railcast/frame.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
-
-// Both are numbers, or objects of numbers.
-void AddToTotals(StrictJson& sum, const StrictJson& value) {
-  if (!value.is_object()) {
-    sum = sum.get<std::uint64_t>() + value.get<std::uint64_t>();
-    return;
-  }
-  for (const auto& [key, one] : value.items()) AddToTotals(sum.emplace(key, 0U).first.value(), one);
-}
-
-const StrictJson* FindCount(const StrictJson& object, const std::string& key) {
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
-
-std::string TotalText(const StrictJson* value) {
-  if (value == nullptr) return "nothing";
-  return value->is_number() ? value->dump() : value->type_name();
-}
-
-// The parsed value may be nested too deep to be copied, compared or written, so only members that
-// must be numbers are examined.
-void CompareTo(const StrictJson& sum,
-               const StrictJson* got,
-               const std::string& pointer,
-               const CountsPlace& place,
-               ErrorList& faults) {
-  if (sum.is_object() && got != nullptr && got->is_object()) {
-    for (const auto& [key, one] : sum.items()) {
-      CompareTo(one, FindCount(*got, key), pointer + "/" + ShownText(key), place, faults);
-    }
-    for (const auto& [key, one] : got->items()) {
-      if (sum.contains(key)) continue;
-      faults.Add({place.place + ": " + pointer + "/" + ShownText(key), place.is_absent, ""});
-    }
-    return;
-  }
-  if (sum.is_number() && got != nullptr && got->is_number() && sum == *got) return;
-  const std::string expected = sum.is_number() ? sum.dump() : sum.type_name();
-  faults.Add({place.place + ": " + pointer, "must be " + expected + ", " + place.compared,
-              TotalText(got)});
-}
 
 // Which of the stored slots have a point; nothing if the cloud does not say.
 std::optional<std::vector<bool>> StoredPoints(const PointTable& cloud, const FrameFormat& format) {
@@ -69,94 +28,95 @@ std::optional<std::vector<bool>> StoredPoints(const PointTable& cloud, const Fra
 }
 
 // The columns of a data set's layout have ids of that data set.
-StrictJson PointsPerLabel(const PointTable& cloud,
-                          const PointColumn& column,
-                          const std::vector<bool>& has_point,
-                          const LabelTable& labels) {
+std::map<std::string, std::uint64_t> PointsPerLabel(const PointTable& cloud,
+                                                    const PointColumn& column,
+                                                    const std::vector<bool>& has_point,
+                                                    const LabelTable& labels) {
   std::map<std::uint32_t, std::uint64_t> num_by_id;
   VisitColumn(cloud, column, [&](std::size_t i, auto value) {
     if (has_point[i]) ++num_by_id[static_cast<std::uint32_t>(value)];
   });
-  StrictJson json = StrictJson::object();
+  std::map<std::string, std::uint64_t> counts;
   for (const auto& [id, num] : num_by_id) {
     const Label* const label = labels.Find(id);
-    json[label == nullptr ? "label " + NumberText(id) : label->name] = num;
+    counts[label == nullptr ? "label " + NumberText(id) : label->name] = num;
   }
-  return json;
+  return counts;
 }
 
 // A firing's outcome is that of its first slot.
-std::optional<StrictJson> FiringsPerOutcome(const PointTable& cloud,
-                                            const PointColumn& column,
-                                            std::uint64_t num_firings) {
+std::optional<OutcomeCounts> FiringsPerOutcome(const PointTable& cloud,
+                                               const PointColumn& column,
+                                               std::uint64_t num_firings) {
   if (num_firings == 0 || cloud.num_points() % num_firings != 0) return std::nullopt;
   const std::size_t returns = cloud.num_points() / num_firings;
-  StrictJson json = StrictJson::object();
-  for (const std::string_view name : kOutcomeNames) json[std::string(name)] = 0U;
+  OutcomeCounts counts;
   bool is_known = true;
   VisitColumn(cloud, column, [&](std::size_t i, auto value) {
     if (i % returns != 0) return;
     const auto outcome = static_cast<std::size_t>(value);
-    is_known = is_known && outcome < kOutcomeNames.size();
-    if (!is_known) return;
-    StrictJson& num = json[std::string(kOutcomeNames[outcome])];
-    num = num.template get<std::uint64_t>() + 1;
+    is_known = is_known && outcome < counts.size();
+    if (is_known) ++counts[outcome];
   });
   if (!is_known) return std::nullopt;
-  return json;
-}
-
-std::uint64_t NumFirings(const StrictJson& line) {
-  std::uint64_t num = 0;
-  for (const auto& [name, count] : line.at("outcomes").items()) num += count.get<std::uint64_t>();
-  return num;
+  return counts;
 }
 
 }  // namespace
 
-void CompareCounts(const StrictJson& counted,
-                   const StrictJson& object,
-                   const std::string& key,
+void CompareCounts(const FrameCounts& counted,
+                   const FrameCounts& got,
                    const CountsPlace& place,
                    ErrorList& faults) {
-  CompareTo(counted, FindCount(object, key), "/" + key, place, faults);
-}
-
-void CountTotals::Add(const StrictJson& line) {
-  for (const auto& [key, sum] : sums_.items()) AddToTotals(sum, line.at(key));
-}
-
-void CountTotals::Compare(const StrictJson& manifest,
-                          const std::string& place,
-                          ErrorList& faults) const {
-  for (const auto& [key, sum] : sums_.items()) {
-    CompareCounts(sum, manifest, key, {place, "the sum over frames.jsonl", "is in no frame"},
-                  faults);
+  const auto compare = [&](const std::string& pointer, std::uint64_t must_be, std::uint64_t is) {
+    if (must_be == is) return;
+    faults.Add({place.place + ": " + pointer,
+                "must be " + NumberText(must_be) + ", " + place.compared, NumberText(is)});
+  };
+  compare("/points", counted.points, got.points);
+  for (std::size_t i = 0; i < got.outcomes.size(); ++i) {
+    compare("/outcomes/" + std::string(kOutcomeNames[i]), counted.outcomes[i], got.outcomes[i]);
+  }
+  const auto pointer_of = [](const std::string& label) {
+    return "/points_per_label" + PointerStep(label);
+  };
+  for (const auto& [label, num] : counted.points_per_label) {
+    const auto found = got.points_per_label.find(label);
+    compare(pointer_of(label), num, found == got.points_per_label.end() ? 0 : found->second);
+  }
+  for (const auto& [label, num] : got.points_per_label) {
+    if (counted.points_per_label.contains(label)) continue;
+    faults.Add({place.place + ": " + pointer_of(label), place.is_absent, ""});
   }
 }
 
 void CompareWithCloud(const CountedCloud& counted,
-                      const StrictJson& line,
+                      const FrameCounts& line,
                       const std::string& place,
                       ErrorList& faults) {
   const auto& [cloud, format, labels, file] = counted;
   const auto has_point = StoredPoints(cloud, format);
   if (!has_point) return;
-  const CountsPlace compared = {place, "as counted in " + ShownPath(file),
-                                "is not in " + ShownPath(file)};
-  const auto compare = [&](const std::string& key, const StrictJson& expected) {
-    CompareCounts(expected, line, key, compared, faults);
-  };
-  compare("points", static_cast<std::uint64_t>(std::ranges::count(*has_point, true)));
+  FrameCounts expected = line;
+  expected.points = static_cast<std::uint64_t>(std::ranges::count(*has_point, true));
   const PointColumn* const label = cloud.Find("label");
   if (label != nullptr && !format.dataset) {
-    compare("points_per_label", PointsPerLabel(cloud, *label, *has_point, labels));
+    expected.points_per_label = PointsPerLabel(cloud, *label, *has_point, labels);
   }
   const PointColumn* const outcome = cloud.Find("outcome");
-  if (outcome == nullptr || !format.has_all_slots) return;
-  const auto outcomes = FiringsPerOutcome(cloud, *outcome, NumFirings(line));
-  if (outcomes) return compare("outcomes", *outcomes);
-  faults.Add({place + ": /outcomes", "must be those of the firings in " + ShownPath(file), ""});
+  if (outcome != nullptr && format.has_all_slots) {
+    const std::uint64_t num_firings =
+        std::accumulate(line.outcomes.begin(), line.outcomes.end(), std::uint64_t{0});
+    const auto outcomes = FiringsPerOutcome(cloud, *outcome, num_firings);
+    if (outcomes) {
+      expected.outcomes = *outcomes;
+    } else {
+      faults.Add({place + ": /outcomes", "must be those of the firings in " + ShownPath(file), ""});
+    }
+  }
+  CompareCounts(expected, line,
+                {place, "as counted in " + ShownPath(file), "is not in " + ShownPath(file)},
+                faults);
 }
 
 }  // namespace railcast

@@ -11,12 +11,14 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/recording/sequence_summary.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
+#include "core/io/run/run_record.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/findings.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
@@ -87,12 +89,9 @@ class DatasetVerifier : private Findings {
     }
     const std::string text = ReadFileWhole(file);
     Try([&] { CheckManifestHash(text, ShownPath(file)); });
-    ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
-      for (const auto& [name, hash] : json.at("files_xxh3").items()) {
-        CheckKnown(name, hash, kDatasetManifestFile);
-      }
-      return true;
-    });
+    const auto manifest =
+        ReadRecord<DatasetManifestRecord>(WithoutManifestHash(text), ShownPath(file));
+    for (const auto& [name, hash] : manifest.files) CheckKnown(name, hash, kDatasetManifestFile);
   }
 
   void CheckScenarios() {
@@ -132,20 +131,10 @@ bool IsDataset(const fs::path& directory) {
 
 DatasetContent ReadDatasetContent(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
-  return ReadRecordedJson<StrictJson>(
-      ReadFileWhole(file), ShownPath(file), [&](const StrictJson& json) {
-        DatasetContent content;
-        content.num_scenarios = json.at("num_scenarios");
-        content.recipe_hash = json.at("recipe_xxh3");
-        if (!json.contains("shard")) return content;
-        const std::string text = json.at("shard");
-        const std::optional<Shard> shard = ParseShard(text);
-        if (!shard) {
-          throw InputError(ShownPath(file) + ": is damaged: /shard (got " + ShownText(text) + ")");
-        }
-        content.shard = *shard;
-        return content;
-      });
+  const auto record = ReadRecord<DatasetRecord>(ReadFileWhole(file), ShownPath(file));
+  return {.num_scenarios = record.num_scenarios,
+          .recipe_hash = record.recipe_hash,
+          .shard = ParseShard(record.shard).value_or(Shard{})};
 }
 
 std::vector<fs::path> FinishedSequences(const fs::path& directory, const DatasetContent& content) {

@@ -7,11 +7,13 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/insert_record.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
@@ -24,17 +26,9 @@ namespace fs = std::filesystem;
 std::vector<KnownFile> FilesOfLine(const PlacedLine& line, std::uint32_t frame) {
   const std::string fault = LineHashFault(line.text);
   if (!fault.empty()) throw InputError(line.place + ": " + fault);
-  return ReadRecordedJson<StrictJson>(line.text, line.place, [&](const StrictJson& json) {
-    const auto got = json.at("frame").get<std::uint32_t>();
-    if (got != frame) {
-      throw InputError(line.place + ": /frame: must be " + NumberText(frame) + Got(got));
-    }
-    std::vector<KnownFile> files;
-    for (const StrictJson& file : json.at("files")) {
-      files.push_back({file.at("name"), file.at("xxh3"), file.at("bytes")});
-    }
-    return files;
-  });
+  const FrameRecord record = ReadInsertLine(line.text, line.place).frame;
+  if (record.frame == frame) return record.files;
+  throw InputError(line.place + ": /frame: must be " + NumberText(frame) + Got(record.frame));
 }
 
 class InsertionVerifier : private Findings {
@@ -74,15 +68,14 @@ class InsertionVerifier : private Findings {
     }
     const std::string text = ReadFileWhole(file);
     Try([&] { CheckManifestHash(text, ShownPath(file)); });
-    ReadRecordedJson<StrictJson>(text, ShownPath(file), [&](const StrictJson& json) {
-      num_frames_ = json.at("num_frames");
-      first_frame_ = json.at("first_frame");
-      for (const auto& [name, hash] : json.at("files_xxh3").items()) {
-        known_.insert(name);
-        CheckHash(directory_ / name, hash, std::string(kManifestFile));
-      }
-      return true;
-    });
+    const auto manifest =
+        ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(file));
+    num_frames_ = manifest.run.num_frames;
+    first_frame_ = manifest.run.first_frame;
+    for (const auto& [name, hash] : manifest.files) {
+      known_.insert(name);
+      CheckHash(directory_ / name, hash, std::string(kManifestFile));
+    }
   }
 
   void CheckFrames() {

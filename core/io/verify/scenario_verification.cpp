@@ -10,12 +10,14 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/bag_lines_name.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/dataset_record.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
@@ -52,11 +54,8 @@ class MergedVerifier : private Findings {
     LineReader lines(merged_.folder / kMergedFile);
     for (; const auto line = lines.Next(); ++result_.num_frames) {
       on_progress(static_cast<double>(result_.num_frames) / num_lines);
-      const auto file = Attempt("", faults_, [&] {
-        return ReadRecordedJson<StrictJson>(line->text, line->place, [](const StrictJson& json) {
-          return KnownFile{json.at("file"), json.at("xxh3"), json.at("bytes")};
-        });
-      });
+      const auto file = Attempt(
+          "", faults_, [&] { return ReadRecordLine<MergedRecord>(line->text, line->place).file; });
       if (!file) continue;
       CheckFile(*file, [&] { return ReadKnownFile(merged_.folder, *file, kMergedFile); });
     }
@@ -76,83 +75,45 @@ class MergedVerifier : private Findings {
   NameSet known_;
 };
 
-/// What a line of scenarios.jsonl says of a sequence.
-struct SequenceOfLine {
-  std::string folder;
-  std::string manifest_hash;
-  std::string data_hash;
-  std::string scenario_hash;
-  std::uint64_t points{};
-  std::uint32_t num_frames{};
-  std::string bag{};  ///< That holds its clouds, relative to the folder; empty = none.
-  /// Of a recording into which something was put: the hashes of all files of the scenario.
-  std::map<std::string, std::string> files{};
-};
-
-/// A line of scenarios.jsonl.
-struct ScenarioLine {
-  std::uint32_t scenario{};
-  std::vector<SequenceOfLine> sequences;
-  std::optional<std::string> sensors_hash;  ///< Of several sensors.
-};
-
-ScenarioLine ReadScenarioLine(const PlacedLine& line) {
-  return ReadRecordedJson<StrictJson>(line.text, line.place, [](const StrictJson& json) {
-    ScenarioLine read{json.at("scenario"), {}, {}};
-    for (const StrictJson& sequence : json.at("sequences")) {
-      read.sequences.push_back({sequence.at("folder"), sequence.at("manifest_xxh3"),
-                                sequence.at("data_xxh3"), sequence.at("scenario_xxh3"),
-                                sequence.at("points"), sequence.at("num_frames")});
-      if (sequence.contains("bag")) read.sequences.back().bag = sequence.at("bag").at("path");
-      if (sequence.contains("files_xxh3")) read.sequences.back().files = sequence.at("files_xxh3");
-    }
-    if (json.contains("sensors_xxh3")) {
-      read.sensors_hash = json.at("sensors_xxh3").get<std::string>();
-    }
-    return read;
-  });
-}
-
 class ScenarioVerifier : private Findings {
  public:
   ScenarioVerifier(const fs::path& dataset, std::uint32_t scenario, const PlacedLine& line)
       : dataset_(dataset), scenario_(scenario), folder_(SequenceFolderOf(scenario)), line_(line) {}
 
   Verification Run() {
-    const auto read = Attempt("", faults_, [&] { return ReadScenarioLine(line_); });
-    if (read) {
-      const std::string hash_fault = LineHashFault(line_.text);
-      if (!hash_fault.empty()) faults_.Add({line_.place, hash_fault, ""});
-      CheckLine(*read);
-    }
+    const std::string hash_fault = LineHashFault(line_.text);
+    if (!hash_fault.empty()) faults_.Add({line_.place, hash_fault, ""});
+    const auto read = Attempt(
+        "", faults_, [&] { return ReadRecordLine<ScenarioRecord>(line_.text, line_.place); });
+    if (read) CheckLine(*read);
     return Take();
   }
 
  private:
-  void CheckLine(const ScenarioLine& line) {
+  void CheckLine(const ScenarioRecord& line) {
     const auto fail = [&](const std::string& got) {
       faults_.Add({line_.place,
                    "must be the line of scenario " + NumberText(scenario_) + " in " + folder_,
                    ShownText(got)});
     };
     if (line.scenario != scenario_) return fail(NumberText(line.scenario));
-    for (const SequenceOfLine& sequence : line.sequences) {
-      const bool is_below = line.sensors_hash || !sequence.files.empty();
+    for (const SequenceRecord& sequence : line.sequences) {
+      const bool is_below = !line.sensors_hash.empty() || !sequence.files.empty();
       const bool is_in_place =
           is_below ? sequence.folder.starts_with(folder_ + "/") : sequence.folder == folder_;
       if (!is_in_place) return fail(sequence.folder);
     }
-    for (const SequenceOfLine& sequence : line.sequences) {
+    for (const SequenceRecord& sequence : line.sequences) {
       if (!sequence.files.empty()) return CheckFiles(sequence);
       CheckSequence(sequence);
     }
-    if (!line.sensors_hash) return;
+    if (line.sensors_hash.empty()) return;
     // That of all sensors stands beside their folders.
-    for (const SequenceOfLine& sequence : line.sequences) {
-      if (sequence.bag.empty()) continue;
-      bag_ = (fs::path(sequence.folder) / sequence.bag).lexically_normal().generic_string();
+    for (const SequenceRecord& sequence : line.sequences) {
+      if (!sequence.bag) continue;
+      bag_ = (fs::path(sequence.folder) / sequence.bag->path).lexically_normal().generic_string();
     }
-    CheckHash(dataset_ / folder_ / kSensorsFile, *line.sensors_hash, line_.place);
+    CheckHash(dataset_ / folder_ / kSensorsFile, line.sensors_hash, line_.place);
     Try([&] {
       const auto merged = MergedFolderIn(dataset_ / folder_);
       if (!merged) return;
@@ -164,7 +125,7 @@ class ScenarioVerifier : private Findings {
     Try([&] { FindOthers(); });
   }
 
-  void CheckSequence(const SequenceOfLine& line) {
+  void CheckSequence(const SequenceRecord& line) {
     sequences_.insert(line.folder);
     const std::string manifest = line.folder + "/" + std::string(kManifestFile);
     if (IsThere(dataset_ / manifest) &&
@@ -174,7 +135,7 @@ class ScenarioVerifier : private Findings {
     Try([&] { Add(VerifySequence(dataset_ / line.folder, [](double) {})); });
   }
 
-  void CheckFiles(const SequenceOfLine& line) {
+  void CheckFiles(const SequenceRecord& line) {
     NameSet known;
     for (const auto& [name, hash] : line.files) {
       if (fs::path(name).is_absolute() ||
@@ -195,22 +156,20 @@ class ScenarioVerifier : private Findings {
   }
 
   // The line repeats what the manifest says.
-  void CompareManifest(const fs::path& file, const SequenceOfLine& line) {
+  void CompareManifest(const fs::path& file, const SequenceRecord& line) {
     const auto compare = [&](const char* key, const std::string& got, const std::string& expected) {
       if (got == expected) return;
       faults_.Add({line_.place + ": /sequences: " + key,
                    "must be " + ShownText(expected) + ", as in " + ShownPath(file),
                    ShownText(got)});
     };
-    ReadRecordedJson<StrictJson>(ReadFileWhole(file), ShownPath(file), [&](const StrictJson& json) {
-      const StrictJson& hashes = json.at("files_xxh3");
-      compare("points", NumberText(line.points), json.at("points").dump());
-      compare("num_frames", NumberText(line.num_frames), json.at("num_frames").dump());
-      compare("data_xxh3", line.data_hash, json.at("data_xxh3").get<std::string>());
-      compare("scenario_xxh3", line.scenario_hash,
-              hashes.at(std::string(kScenarioFile)).get<std::string>());
-      return true;
-    });
+    const ManifestRecord manifest = ReadManifest(ReadFileWhole(file), ShownPath(file));
+    compare("points", NumberText(line.points), NumberText(manifest.counts.points));
+    compare("num_frames", NumberText(line.num_frames), NumberText(manifest.num_frames));
+    compare("data_xxh3", line.data_hash, manifest.data_hash);
+    for (const auto& [name, hash] : manifest.files) {
+      if (name == kScenarioFile) compare("scenario_xxh3", line.scenario_hash, hash);
+    }
   }
 
   // Files of sequences have been looked at with these.

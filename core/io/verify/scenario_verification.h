@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/io/recording/line_reader.h"
-#include "core/io/run/sequence_files.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/verify/verification.h"
 
 namespace railcast {

@@ -21,7 +21,7 @@ class SurveyVerifier : private Findings {
                                 "missing: the survey is unfinished, or of an older program", ""}});
       }
       ++result_.num_files;
-      for (const auto& [name, hash] : ReadSurveyRecord(directory)) {
+      for (const auto& [name, hash] : ReadSurveyHashes(directory)) {
         known.insert(name);
         CheckHash(directory / name, hash, std::string(kSurveyRecordFile));
       }

@@ -11,7 +11,6 @@
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/verify/bag_clouds.h"
 #include "core/io/verify/bag_lines.h"
 #include "core/io/verify/cloud_counts.h"
@@ -26,13 +25,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files that a manifest always names.
-std::vector<std::string> NeededFiles(const RunSummary& run) {
+std::vector<std::string> NeededFiles(const RunRecord& run) {
   std::vector<std::string> names = RecordFiles(run.format);
   for (const std::string_view name :
        {kFramesFile, kRunFile, kScenarioFile, kLabelsFile, kMaterialsFile}) {
     names.emplace_back(name);
   }
-  for (const KnownFile& file : run.files) names.push_back(file.name);
+  for (const KnownFile& file : run.Files()) names.push_back(file.name);
   for (const std::string& sensor : run.motion_sensors) names.push_back(MotionFileName(sensor));
   return names;
 }
@@ -42,7 +41,7 @@ class Verifier : private Findings {
   Verifier(const fs::path& directory, const std::function<void(double)>& on_progress)
       : on_progress_(on_progress) {
     summary_.directory = directory;
-    summary_.run = ReadRunSummary(ReadFileWhole(directory / kRunFile), PathOf(kRunFile));
+    summary_.run = ReadRun(ReadFileWhole(directory / kRunFile), PathOf(kRunFile));
     known_ = {std::string(kRunFile), std::string(kManifestFile)};
   }
 
@@ -52,7 +51,7 @@ class Verifier : private Findings {
     CheckKnownFiles();
     ReadLabels();
     are_frames_known_ = Try([&] { CheckFrames(); });
-    if (!summary_.run.bag.empty()) Try([&] { CheckBag(); });
+    if (summary_.run.bag) Try([&] { CheckBag(); });
     if (!summary_.run.trace.empty()) Try([&] { CheckTrace(); });
     Try([&] { FindOthers(); });
     return Take();
@@ -72,51 +71,48 @@ class Verifier : private Findings {
   void CheckKnownFiles();
   void ReadLabels();
   void CheckFile(const KnownFile& file, std::string_view said_in);
-  void CheckCloud(const KnownFile& file, const FrameLines& lines, const FrameFormat& format);
+  void CheckCloud(const KnownFile& file,
+                  const FrameRecord& line,
+                  const FrameLines& lines,
+                  const FrameFormat& format);
   void CompareCloud(const KnownFile& file,
                     std::string bytes,
+                    const FrameRecord& line,
                     const FrameLines& lines,
                     const FrameFormat& format);
   void CheckFrames();
   void CheckBag();
   void CheckTrace();
   bool HasAllLines(std::string_view name);
-  void CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records);
-  void CheckNames(const FrameLine& line, const std::string& place);
+  void CheckFrame(const FrameRecord& line, const FrameLines& lines, bool has_all_records);
+  void CheckNames(const FrameRecord& line, const std::string& place);
   void FindOthers();
 
   const std::function<void(double)>& on_progress_;
   SequenceSummary summary_;
-  StrictJson manifest_json_;
   std::optional<LabelTable> labels_;
-  CountTotals totals_;
+  FrameCounts totals_;
   NameSet known_;
   bool are_frames_known_ = false;
   std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag or a trace.
 };
 
 void Verifier::ReadTheManifest() {
-  if (summary_.run.isa.empty()) {
-    Fault(kRunFile,
-          "is of an older railcast, which named neither the instruction set nor Embree, and whose "
-          "scenario names files elsewhere");
-  }
   if (!IsThere(summary_.directory / kManifestFile)) {
     return Fault(kManifestFile, "missing: the run is unfinished");
   }
   Try([&] {
     const std::string text = ReadFileWhole(summary_.directory / kManifestFile);
     summary_.manifest = ReadManifest(text, PathOf(kManifestFile));
-    manifest_json_ = StrictJson::parse(text);
-    if (!summary_.run.isa.empty()) CheckManifestHash(text, PathOf(kManifestFile));
+    CheckManifestHash(text, PathOf(kManifestFile));
   });
 }
 
 // The manifest's own hash shows that it is unchanged; only its contents show that it belongs to
 // this run.
 void Verifier::CompareManifest() {
-  const RunSummary& run = summary_.run;
-  const Manifest& manifest = *summary_.manifest;
+  const RunRecord& run = summary_.run;
+  const ManifestRecord& manifest = *summary_.manifest;
   const auto compare = [&](const char* key, const std::string& got, const std::string& expected) {
     if (got == expected) return;
     Fault(kManifestFile, std::string("/") + key + ": must be " + expected +
@@ -128,24 +124,26 @@ void Verifier::CompareManifest() {
   compare("start_frame", NumberText(manifest.start_frame), NumberText(run.start_frame));
   compare("num_frames", NumberText(manifest.num_frames), NumberText(run.num_frames));
   for (const std::string& name : NeededFiles(run)) {
-    if (std::ranges::find(manifest.files, name, &KnownFile::name) == manifest.files.end()) {
+    if (std::ranges::none_of(manifest.files,
+                             [&](const auto& file) { return file.first == name; })) {
       Fault(kManifestFile, "/files_xxh3: must name " + ShownText(name));
     }
   }
   const std::string data_hash = DataHash(manifest.files);
-  if (manifest.data_hash == data_hash || run.isa.empty()) return;
+  if (manifest.data_hash == data_hash) return;
   Fault(kManifestFile, "/data_xxh3: must be " + data_hash + ", that of the files (got " +
                            ShownText(manifest.data_hash) + ")");
 }
 
 void Verifier::CheckKnownFiles() {
-  for (const KnownFile& file : summary_.run.files) CheckFile(file, kRunFile);
+  const std::vector<KnownFile> of_run = summary_.run.Files();
+  for (const KnownFile& file : of_run) CheckFile(file, kRunFile);
   if (!summary_.manifest) return;
-  for (const KnownFile& file : summary_.manifest->files) {
+  for (const KnownFile& file : summary_.manifest->Files()) {
     const auto same = [&](const KnownFile& other) {
       return other.name == file.name && other.hash == file.hash;
     };
-    if (std::ranges::none_of(summary_.run.files, same)) CheckFile(file, kManifestFile);
+    if (std::ranges::none_of(of_run, same)) CheckFile(file, kManifestFile);
   }
 }
 
@@ -170,6 +168,7 @@ void Verifier::CheckFile(const KnownFile& file, std::string_view said_in) {
 }
 
 void Verifier::CheckCloud(const KnownFile& file,
+                          const FrameRecord& line,
                           const FrameLines& lines,
                           const FrameFormat& format) {
   known_.insert(file.name);
@@ -179,21 +178,19 @@ void Verifier::CheckCloud(const KnownFile& file,
     result_.num_bytes += bytes.size();
     ++result_.num_files;
   });
-  if (is_whole) Try([&] { CompareCloud(file, std::move(bytes), lines, format); });
+  if (is_whole) Try([&] { CompareCloud(file, std::move(bytes), line, lines, format); });
 }
 
 // The line's hash shows that it is as it was written; only the cloud shows what it holds.
 void Verifier::CompareCloud(const KnownFile& file,
                             std::string bytes,
+                            const FrameRecord& line,
                             const FrameLines& lines,
                             const FrameFormat& format) {
   if (!labels_) return;
   const std::string path = PathOf(file.name);
   const PointTable cloud = format.parse(path, std::move(bytes), std::nullopt);
-  ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place, [&](const StrictJson& json) {
-    CompareWithCloud({cloud, format, *labels_, file.name}, json, lines.frame.place, faults_);
-    return true;
-  });
+  CompareWithCloud({cloud, format, *labels_, file.name}, line.counts, lines.frame.place, faults_);
 }
 
 bool Verifier::HasAllLines(std::string_view name) {
@@ -220,7 +217,7 @@ void Verifier::CheckFrames() {
   }
   std::vector<LineReader> motion;
   if (!Try([&] { motion = OpenMotionFiles(summary_); })) has_all_records = false;
-  const std::uint32_t stride = summary_.run.stride;
+  const std::uint32_t stride = summary_.run.stride();
   FrameLines lines{summary_.run.start_frame, {}, {}, {}};
   for (std::size_t i = 0; auto frame = frames.Next(); ++i, lines.expected_frame += stride) {
     on_progress_(static_cast<double>(i) / static_cast<double>(result_.num_frames));
@@ -249,17 +246,18 @@ void Verifier::CheckFrames() {
     if (line) CheckFrame(*line, lines, has_all_records);
   }
   if (summary_.manifest && has_all_frames) {
-    totals_.Compare(manifest_json_, PathOf(kManifestFile), faults_);
+    CompareCounts(totals_, summary_.manifest->counts,
+                  {PathOf(kManifestFile), "the sum over frames.jsonl", "is in no frame"}, faults_);
   }
 }
 
-void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool has_all_records) {
+void Verifier::CheckFrame(const FrameRecord& line, const FrameLines& lines, bool has_all_records) {
   CheckNames(line, lines.frame.place);
   if (has_all_records && Try([&] { CheckRecords(line, lines); })) {
     const PlacedLine& objects = lines.records.at(1);
     Try([&] { (void)ReadObjectsLine(objects.text, line.frame, objects.place); });
   }
-  if (!summary_.run.bag.empty() || !summary_.run.trace.empty()) {
+  if (summary_.run.bag || !summary_.run.trace.empty()) {
     clouds_.push_back({line.stamp_ns, line.clouds_hash, lines.frame.place});
   }
   const std::string hash_fault = LineHashFault(lines.frame.text);
@@ -268,28 +266,23 @@ void Verifier::CheckFrame(const FrameLine& line, const FrameLines& lines, bool h
   for (const KnownFile& file : line.files) {
     if (format != nullptr && format->parse != nullptr &&
         file.name.starts_with(format->files.front().folder)) {
-      CheckCloud(file, lines, *format);
+      CheckCloud(file, line, lines, *format);
     } else {
       CheckFile(file, kFramesFile);
     }
   }
-  Try([&] {
-    ReadRecordedJson<StrictJson>(lines.frame.text, lines.frame.place,
-                                 [&](const StrictJson& json) { totals_.Add(json); });
-  });
+  totals_.Add(line.counts);
 }
 
 void Verifier::CheckBag() {
   const bool is_finished = summary_.manifest.has_value();
-  fs::path bag = (summary_.directory / summary_.run.bag).lexically_normal();
+  fs::path bag = (summary_.directory / summary_.run.bag->path).lexically_normal();
   const fs::path unfinished = bag.string() + std::string(kUnfinishedSuffix);
   if (!fs::exists(bag) && fs::exists(unfinished)) bag = unfinished;
-  // Bags of older programs have no such file.
-  const bool has_lines = ReadRecordedJson<StrictJson>(
-      ReadFileWhole(summary_.directory / kRunFile), PathOf(kRunFile),
-      [](const StrictJson& json) { return json.at("bag").contains("lines"); });
-  if (has_lines) Try([&] { CompareWithBagLines(bag, is_finished, faults_); });
-  CompareWithBag(bag, summary_.run.cloud_topics, clouds_, faults_);
+  // Bags of 0.2 have no such file.
+  if (!summary_.run.bag->lines.empty())
+    Try([&] { CompareWithBagLines(bag, is_finished, faults_); });
+  CompareWithBag(bag, summary_.run.bag->topics, clouds_, faults_);
   if (is_finished) CheckHasItsEnd(bag, faults_);
   ++result_.num_files;
   if (fs::is_regular_file(bag)) result_.num_bytes += fs::file_size(bag);
@@ -305,12 +298,12 @@ void Verifier::CheckTrace() {
 }
 
 // Files are named by the number of their frame; those of a dataset count from 0.
-void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
+void Verifier::CheckNames(const FrameRecord& line, const std::string& place) {
   const FrameFormat* const format = FindFrameFormat(summary_.run.format);
   const bool is_of_dataset = format != nullptr && format->dataset;
   const std::size_t num_files = format == nullptr ? 1 : format->files.size();
   const std::uint32_t number =
-      is_of_dataset ? (line.frame - summary_.run.start_frame) / summary_.run.stride : line.frame;
+      is_of_dataset ? (line.frame - summary_.run.start_frame) / summary_.run.stride() : line.frame;
   const std::string digits = FrameDigits(number);
   // A camera's files are beside those of the format, all of them or none.
   const auto num_of_camera = static_cast<std::size_t>(std::ranges::count_if(
@@ -334,7 +327,7 @@ void Verifier::CheckNames(const FrameLine& line, const std::string& place) {
 
 void Verifier::FindOthers() {
   ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
-    if (known_.contains(name) || (!summary_.run.bag.empty() && IsOfBag(name))) return;
+    if (known_.contains(name) || (summary_.run.bag && IsOfBag(name))) return;
     if (summary_.manifest && are_frames_known_) {
       return Fault(name, "is named neither in manifest.json nor in frames.jsonl");
     }

@@ -10,25 +10,25 @@ namespace railcast {
 namespace {
 
 /// What a value is, as messages show it.
-std::string GotOf(const StrictJson& value) {
+std::string GotOf(const Json& value) {
   return value.is_primitive() ? ShownText(value.dump()) : value.type_name();
 }
 
 class GeoJsonPlaceCheck {
  public:
-  void CheckObject(const StrictJson& object, const std::string& pointer, int depth);
+  void CheckObject(const Json& object, const std::string& pointer, int depth);
   [[nodiscard]] ErrorList& errors() { return errors_; }
 
  private:
   /// A list of places, of lines, or of areas.
-  void CheckList(const StrictJson& list, const std::string& pointer, int depth);
+  void CheckList(const Json& list, const std::string& pointer, int depth);
   /// @return Whether it has a height; absent if it is no place.
-  std::optional<bool> CheckPosition(const StrictJson& position, const std::string& pointer);
+  std::optional<bool> CheckPosition(const Json& position, const std::string& pointer);
 
   ErrorList errors_;
 };
 
-std::optional<bool> GeoJsonPlaceCheck::CheckPosition(const StrictJson& position,
+std::optional<bool> GeoJsonPlaceCheck::CheckPosition(const Json& position,
                                                      const std::string& pointer) {
   if (position.size() < 2) {
     errors_.Add({pointer, "must have a longitude and a latitude",
@@ -45,7 +45,7 @@ std::optional<bool> GeoJsonPlaceCheck::CheckPosition(const StrictJson& position,
 /// Areas of several parts are nested three deep.
 constexpr int kDeepestList = 3;
 
-void GeoJsonPlaceCheck::CheckList(const StrictJson& list, const std::string& pointer, int depth) {
+void GeoJsonPlaceCheck::CheckList(const Json& list, const std::string& pointer, int depth) {
   std::optional<bool> has_heights;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string place = pointer + "/" + std::to_string(i);
@@ -65,9 +65,7 @@ void GeoJsonPlaceCheck::CheckList(const StrictJson& list, const std::string& poi
   }
 }
 
-void GeoJsonPlaceCheck::CheckObject(const StrictJson& object,
-                                    const std::string& pointer,
-                                    int depth) {
+void GeoJsonPlaceCheck::CheckObject(const Json& object, const std::string& pointer, int depth) {
   constexpr int kDeepest = 8;
   if (!object.is_object()) return;
   if (depth > kDeepest) {
@@ -84,7 +82,7 @@ void GeoJsonPlaceCheck::CheckObject(const StrictJson& object,
     CheckObject(object["geometry"], pointer + "/geometry", depth + 1);
   }
   if (!object.contains("coordinates")) return;
-  const StrictJson& coordinates = object["coordinates"];
+  const Json& coordinates = object["coordinates"];
   const std::string place = pointer + "/coordinates";
   if (!coordinates.is_array()) {
     errors_.Add({place, "must be a list of coordinates", GotOf(coordinates)});
@@ -98,7 +96,7 @@ void GeoJsonPlaceCheck::CheckObject(const StrictJson& object,
 }  // namespace
 
 void CheckGeoJsonPlaces(const std::filesystem::path& file) {
-  const StrictJson root = ReadMapJson(file);
+  const Json root = ReadMapJson(file);
   GeoJsonPlaceCheck check;
   check.CheckObject(root, "", 0);
   AtPlace(ShownPath(file) + ": ", [&] { check.errors().ThrowIfAny(); });

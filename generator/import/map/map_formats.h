@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
 #include "core/scenario/json_text.h"
 #include "generator/import/map/rail_map.h"
@@ -17,11 +16,11 @@
 namespace railcast {
 
 /// @throws InputError if the file cannot be read or is no JSON.
-[[nodiscard]] inline StrictJson ReadMapJson(const std::filesystem::path& file) {
+[[nodiscard]] inline Json ReadMapJson(const std::filesystem::path& file) {
   const std::string text = ReadFileWhole(file);
   try {
-    return StrictJson::parse(text);
-  } catch (const StrictJson::exception&) {
+    return Json::parse(text);
+  } catch (const Json::exception&) {
     throw InputError(ShownPath(file) + ": must be JSON: " + ParseJson(text).syntax_error);
   }
 }

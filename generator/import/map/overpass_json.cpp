@@ -18,37 +18,35 @@ class OverpassReader {
  public:
   explicit OverpassReader(ErrorList& errors) : errors_(errors) {}
 
-  void Read(const StrictJson& elements);
+  void Read(const Json& elements);
   [[nodiscard]] RailMap TakeMap() { return std::move(map_); }
 
  private:
-  void ReadNode(const StrictJson& element, const std::string& pointer);
-  void ReadWay(const StrictJson& element, const std::string& pointer);
+  void ReadNode(const Json& element, const std::string& pointer);
+  void ReadWay(const Json& element, const std::string& pointer);
   /// A number of 64 bits with sign; otherwise a fault with this rule.
-  [[nodiscard]] std::optional<std::int64_t> OverpassId(const StrictJson& value,
+  [[nodiscard]] std::optional<std::int64_t> OverpassId(const Json& value,
                                                        const std::string& place,
                                                        const std::string& rule);
-  [[nodiscard]] std::optional<std::int64_t> IdOf(const StrictJson& element,
-                                                 const std::string& pointer);
-  [[nodiscard]] std::optional<double> DegreesOf(const StrictJson& element,
+  [[nodiscard]] std::optional<std::int64_t> IdOf(const Json& element, const std::string& pointer);
+  [[nodiscard]] std::optional<double> DegreesOf(const Json& element,
                                                 const std::string& pointer,
                                                 const char* key,
                                                 double most_deg);
 
-  [[nodiscard]] std::optional<Eigen::Vector2d> PlaceOf_deg(const StrictJson& element,
+  [[nodiscard]] std::optional<Eigen::Vector2d> PlaceOf_deg(const Json& element,
                                                            const std::string& pointer);
   /// The node of an id, which has one place wherever it is named.
   [[nodiscard]] std::optional<std::size_t> NodeOf(std::int64_t id,
                                                   const Eigen::Vector2d& place_deg,
                                                   const std::string& pointer);
   /// A node that stands in the file as an element of its own.
-  [[nodiscard]] std::optional<std::size_t> GivenNode(const StrictJson& id,
-                                                     const std::string& place);
+  [[nodiscard]] std::optional<std::size_t> GivenNode(const Json& id, const std::string& place);
   /// A node of a way with its geometry (`out geom;`).
-  [[nodiscard]] std::optional<std::size_t> DrawnNode(const StrictJson& element,
+  [[nodiscard]] std::optional<std::size_t> DrawnNode(const Json& element,
                                                      std::size_t i,
                                                      const std::string& pointer);
-  [[nodiscard]] std::optional<std::vector<std::size_t>> NodesOf(const StrictJson& element,
+  [[nodiscard]] std::optional<std::vector<std::size_t>> NodesOf(const Json& element,
                                                                 const std::string& pointer);
 
   ErrorList& errors_;
@@ -59,7 +57,7 @@ class OverpassReader {
   std::unordered_set<std::int64_t> ways_;  ///< Ids.
 };
 
-MapTags OverpassTags(const StrictJson& element) {
+MapTags OverpassTags(const Json& element) {
   MapTags tags;
   if (!element.contains("tags") || !element["tags"].is_object()) return tags;
   for (const auto& [key, value] : element["tags"].items()) {
@@ -74,7 +72,7 @@ std::optional<double> HeightOf_m(std::string_view value) {
   return height_m && IsHeight(*height_m) ? height_m : std::nullopt;
 }
 
-std::optional<std::int64_t> OverpassReader::OverpassId(const StrictJson& value,
+std::optional<std::int64_t> OverpassReader::OverpassId(const Json& value,
                                                        const std::string& place,
                                                        const std::string& rule) {
   const bool fits = value.is_number_unsigned()
@@ -89,8 +87,7 @@ std::optional<std::int64_t> OverpassReader::OverpassId(const StrictJson& value,
   return std::nullopt;
 }
 
-std::optional<std::int64_t> OverpassReader::IdOf(const StrictJson& element,
-                                                 const std::string& pointer) {
+std::optional<std::int64_t> OverpassReader::IdOf(const Json& element, const std::string& pointer) {
   if (!element.contains("id")) {
     errors_.Add({pointer + "/id", "must be a whole number", "none"});
     return std::nullopt;
@@ -98,7 +95,7 @@ std::optional<std::int64_t> OverpassReader::IdOf(const StrictJson& element,
   return OverpassId(element["id"], pointer + "/id", "must be a whole number");
 }
 
-std::optional<double> OverpassReader::DegreesOf(const StrictJson& element,
+std::optional<double> OverpassReader::DegreesOf(const Json& element,
                                                 const std::string& pointer,
                                                 const char* key,
                                                 double most_deg) {
@@ -114,7 +111,7 @@ std::optional<double> OverpassReader::DegreesOf(const StrictJson& element,
   return std::nullopt;
 }
 
-std::optional<Eigen::Vector2d> OverpassReader::PlaceOf_deg(const StrictJson& element,
+std::optional<Eigen::Vector2d> OverpassReader::PlaceOf_deg(const Json& element,
                                                            const std::string& pointer) {
   const auto longitude_deg = DegreesOf(element, pointer, "lon", kMostLongitude_deg);
   const auto latitude_deg = DegreesOf(element, pointer, "lat", kMostLatitude_deg);
@@ -138,7 +135,7 @@ std::optional<std::size_t> OverpassReader::NodeOf(std::int64_t id,
   return std::nullopt;
 }
 
-void OverpassReader::ReadNode(const StrictJson& element, const std::string& pointer) {
+void OverpassReader::ReadNode(const Json& element, const std::string& pointer) {
   const auto id = IdOf(element, pointer);
   const auto place_deg = PlaceOf_deg(element, pointer);
   if (!id || !place_deg) return;
@@ -152,8 +149,7 @@ void OverpassReader::ReadNode(const StrictJson& element, const std::string& poin
   if (IsThing(node.tags)) map_.things.push_back({{node.geographic_deg}, {}, node.tags});
 }
 
-std::optional<std::size_t> OverpassReader::GivenNode(const StrictJson& id,
-                                                     const std::string& place) {
+std::optional<std::size_t> OverpassReader::GivenNode(const Json& id, const std::string& place) {
   const auto node_id = OverpassId(id, place, "must be a node id");
   if (!node_id) return std::nullopt;
   const auto found = nodes_.find(*node_id);
@@ -163,10 +159,10 @@ std::optional<std::size_t> OverpassReader::GivenNode(const StrictJson& id,
   return std::nullopt;
 }
 
-std::optional<std::size_t> OverpassReader::DrawnNode(const StrictJson& element,
+std::optional<std::size_t> OverpassReader::DrawnNode(const Json& element,
                                                      std::size_t i,
                                                      const std::string& pointer) {
-  const StrictJson& point = element["geometry"][i];
+  const Json& point = element["geometry"][i];
   const std::string place = pointer + "/geometry/" + std::to_string(i);
   if (!point.is_object()) {
     errors_.Add({place, "must be a place (ask Overpass for whole ways: out geom; without a box)",
@@ -186,7 +182,7 @@ std::optional<std::size_t> OverpassReader::DrawnNode(const StrictJson& element,
   return id ? NodeOf(*id, *place_deg, place) : std::nullopt;
 }
 
-std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const StrictJson& element,
+std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const Json& element,
                                                                 const std::string& pointer) {
   const auto is_list = [&](const char* key) {
     return element.contains(key) && element[key].is_array();
@@ -214,7 +210,7 @@ std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const StrictJson
   return nodes;
 }
 
-void OverpassReader::ReadWay(const StrictJson& element, const std::string& pointer) {
+void OverpassReader::ReadWay(const Json& element, const std::string& pointer) {
   const auto id = IdOf(element, pointer);
   if (!id) return;
   MapTags tags = OverpassTags(element);
@@ -241,11 +237,11 @@ void OverpassReader::ReadWay(const StrictJson& element, const std::string& point
   map_.things.push_back(std::move(thing));
 }
 
-void OverpassReader::Read(const StrictJson& elements) {
+void OverpassReader::Read(const Json& elements) {
   // Nodes may follow the ways that need them.
   for (const bool reads_nodes : {true, false}) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      const StrictJson& element = elements[i];
+      const Json& element = elements[i];
       const std::string pointer = "/elements/" + std::to_string(i);
       if (!element.is_object() || !element.contains("type") || !element["type"].is_string()) {
         errors_.Add({pointer + "/type", "must be node, way or relation", element.type_name()});
@@ -261,7 +257,7 @@ void OverpassReader::Read(const StrictJson& elements) {
 }  // namespace
 
 RailMap ReadOverpassJson(const std::filesystem::path& file) {
-  const StrictJson root = ReadMapJson(file);
+  const Json root = ReadMapJson(file);
   ErrorList errors;
   if (!root.is_object() || !root.contains("elements") || !root["elements"].is_array()) {
     throw InputError(

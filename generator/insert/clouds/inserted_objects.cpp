@@ -1,14 +1,14 @@
 #include "generator/insert/clouds/inserted_objects.h"
 
+#include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "core/io/record/record_text.h"
 #include "core/io/run/object_survey.h"
 
 namespace railcast {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The points of an instance and the sum of their times.
 struct TimedPoints {
@@ -34,8 +34,8 @@ std::map<std::uint32_t, TimedPoints> LostPoints(const RecordedFirings& firings,
   return lost;
 }
 
-/// A line of objects.jsonl.
-Json ObjectsJson(const Frame& frame, const std::vector<RecordedObject>& recorded) {
+std::vector<ObjectRecord> RecordsOf(const Frame& frame,
+                                    const std::vector<RecordedObject>& recorded) {
   std::vector<ObjectInFrame> objects;
   for (const RecordedObject& object : recorded) {
     ObjectInFrame entry{object.name, object.type, object.label, object.instance};
@@ -49,12 +49,23 @@ Json ObjectsJson(const Frame& frame, const std::vector<RecordedObject>& recorded
     entry.view.firings_alone = object.firings_alone;
     objects.push_back(std::move(entry));
   }
+  std::vector<ObjectRecord> records = RecordOf(frame, objects).objects;
   // What is hidden was counted in rays, of which only the share is known here.
-  Json line = Json::parse(ObjectsLine(frame, objects));
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (recorded[i].occlusion) line["objects"][i]["occlusion"] = *recorded[i].occlusion;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (recorded[i].occlusion) records[i].occlusion = recorded[i].occlusion;
   }
-  return line;
+  return records;
+}
+
+// Takes from an object the points that it has lost.
+void TakePoints(const TimedPoints& lost, ObjectRecord& object) {
+  const std::int64_t points = object.points;
+  const std::int64_t left = std::max<std::int64_t>(0, points - lost.num);
+  object.points = static_cast<std::uint32_t>(left);
+  if (left == 0) object.points_time_ns.reset();
+  if (!object.points_time_ns) return;
+  const std::int64_t sum_ns = *object.points_time_ns * points - lost.time_ns;
+  object.points_time_ns = static_cast<std::uint32_t>(std::max<std::int64_t>(0, sum_ns / left));
 }
 
 }  // namespace
@@ -63,35 +74,23 @@ std::string InsertedObjectsLine(const RecordedFirings& firings,
                                 const InsertedFrame& inserted,
                                 std::uint32_t number,
                                 std::int64_t stamp_ns) {
-  Json line = ObjectsJson(inserted.recorded.frame, inserted.recorded.objects);
-  line["frame"] = number;
-  line["stamp_ns"] = stamp_ns;
-  return ObjectsWith(line.dump(), firings, inserted);
+  const RecordedFrame& recorded = inserted.recorded;
+  return ObjectsWith({number, stamp_ns, RecordsOf(recorded.frame, recorded.objects)}, firings,
+                     inserted);
 }
 
-std::string ObjectsWith(const std::string& line,
+std::string ObjectsWith(ObjectsRecord record,
                         const RecordedFirings& firings,
                         const InsertedFrame& inserted) {
-  if (inserted.objects.empty() && inserted.edits.empty()) return line + "\n";
-  Json json = Json::parse(line);
   const auto lost = LostPoints(firings, inserted);
-  for (Json& object : json.at("objects")) {
-    const auto found = lost.find(object.at("instance").get<std::uint32_t>());
-    if (found == lost.end() || found->second.num == 0) continue;
-    const auto points = object.at("points").get<std::int64_t>();
-    const std::int64_t left = std::max<std::int64_t>(0, points - found->second.num);
-    object["points"] = left;
-    Json& mean_ns = object["points_time_ns"];
-    if (left == 0 || !mean_ns.is_number()) {
-      mean_ns = nullptr;
-    } else {
-      const std::int64_t sum_ns = mean_ns.get<std::int64_t>() * points - found->second.time_ns;
-      mean_ns = std::max<std::int64_t>(0, sum_ns / left);
-    }
+  for (ObjectRecord& object : record.objects) {
+    const auto found = lost.find(object.instance);
+    if (found != lost.end() && found->second.num != 0) TakePoints(found->second, object);
   }
-  const Json added = ObjectsJson(inserted.recorded.frame, inserted.objects);
-  for (const Json& object : added.at("objects")) json["objects"].push_back(object);
-  return json.dump() + "\n";
+  for (ObjectRecord& added : RecordsOf(inserted.recorded.frame, inserted.objects)) {
+    record.objects.push_back(std::move(added));
+  }
+  return RecordText(record) + "\n";
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/run/object_record.h"
 #include "generator/insert/inserted_frame.h"
 #include "generator/insert/recorded_firings.h"
 
@@ -18,9 +19,8 @@ namespace railcast {
                                               std::uint32_t number,
                                               std::int64_t stamp_ns);
 
-/// As above, for a recorded line.
-/// @param line The recorded one, without its end.
-[[nodiscard]] std::string ObjectsWith(const std::string& line,
+/// As above, for what a recorded line says.
+[[nodiscard]] std::string ObjectsWith(ObjectsRecord record,
                                       const RecordedFirings& firings,
                                       const InsertedFrame& inserted);
 

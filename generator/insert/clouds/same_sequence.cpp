@@ -18,23 +18,19 @@
 namespace railcast {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// What the run of a recorded sequence was, but for its directory and frames.
 SequenceSpec SpecOf(const SequenceSummary& summary, const ScenarioSpec& scenario) {
-  const RunSummary& run = summary.run;
+  const RunRecord& run = summary.run;
   SequenceSpec spec;
   spec.version = run.version;
   spec.embree_version = run.embree;
   spec.isa = run.isa;
   spec.identity = IdentityOf(scenario);
-  if (run.has_commands) spec.commands_jsonl = ReadFileWhole(summary.directory / kCommandsFile);
+  if (!run.commands_hash.empty())
+    spec.commands_jsonl = ReadFileWhole(summary.directory / kCommandsFile);
   spec.seed = run.seed;
-  if (summary.manifest) {
-    const Json manifest = Json::parse(ReadFileWhole(summary.directory / kManifestFile));
-    if (manifest.contains("fidelity_choice")) {
-      spec.fidelity_choice_json = manifest["fidelity_choice"].dump();
-    }
+  if (summary.manifest && !summary.manifest->fidelity_choice.is_null()) {
+    spec.fidelity_choice_json = summary.manifest->fidelity_choice.dump();
   }
   spec.files = {
       .format = &ParseFrameFormat(run.format),
@@ -47,7 +43,7 @@ SequenceSpec SpecOf(const SequenceSummary& summary, const ScenarioSpec& scenario
   }
   if (!run.motion_sensors.empty()) spec.motion_sensors = scenario.motion_sensors;
   spec.materials = MaterialLibrary(scenario.materials);
-  spec.stride = run.stride;
+  spec.stride = run.stride();
   return spec;
 }
 
@@ -108,7 +104,7 @@ class SameSequence : public RecordingOutput {
                                     const InsertedFrame& inserted,
                                     std::uint32_t frame) const override {
     const FrameLines& lines = lines_.at(frame);
-    const FrameLine line = ReadFrameLine(lines.frame.text, lines.frame.place);
+    const FrameRecord line = ReadFrameLine(lines.frame.text, lines.frame.place);
     std::vector<FrameFile> clouds;
     std::vector<FrameFile> images;
     for (const KnownFile& file : line.files) {
@@ -151,22 +147,19 @@ class SameSequence : public RecordingOutput {
                                      const InsertedFrame& inserted,
                                      std::vector<FrameFile> files) const {
     EncodedFrame encoded;
-    auto record = ParseFrameLine(lines.frame.text + "\n");
-    if (!record) {
-      throw InputError(lines.frame.place +
-                       ": must be as this railcast writes it; make the "
-                       "sequence anew, or convert it with --format");
-    }
-    encoded.record = std::move(*record);
+    encoded.record = ReadFrameLine(lines.frame.text, lines.frame.place);
     encoded.record.files.clear();
     for (const FrameFile& file : files) {
-      encoded.record.files.push_back({file.name, file.bytes.size(), ContentHash(file.bytes)});
+      encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
     }
     encoded.record.counts =
         CountsWith(encoded.record.counts, firings, inserted, spec_.files.labels);
     encoded.files = std::move(files);
-    encoded.pose = ParsePoseLine(lines.records.at(0).text + "\n");
-    encoded.objects_line = ObjectsWith(lines.records.at(1).text, firings, inserted);
+    const PlacedLine& pose = lines.records.at(0);
+    encoded.pose = ReadPoseRecord(pose.text, pose.place);
+    const PlacedLine& objects = lines.records.at(1);
+    encoded.objects_line = ObjectsWith(
+        ReadObjectsRecord(objects.text, encoded.record.frame, objects.place), firings, inserted);
     for (const PlacedLine& motion : lines.motion) encoded.motion_lines.push_back(motion.text);
     return encoded;
   }

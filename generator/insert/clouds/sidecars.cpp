@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -17,8 +15,6 @@
 
 namespace railcast {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The recorded slots whose returns are in no slot any more.
 std::vector<std::uint32_t> LostSlots(const InsertedFrame& inserted) {
@@ -109,30 +105,24 @@ FrameFile EncodedCloud(const Frame& points, const std::string& name) {
   return file;
 }
 
-Json ListOf(const Vector3& vector) {
-  return {vector.x(), vector.y(), vector.z()};
-}
-
-Json ObjectEntry(const RecordedObject& object, const Frame& after, const InsertedFrame& inserted) {
-  double nearest_m = std::numeric_limits<double>::infinity();
-  std::uint32_t num_returns = 0;
+InsertedObjectRecord ObjectEntry(const RecordedObject& object,
+                                 const Frame& after,
+                                 const InsertedFrame& inserted) {
+  InsertedObjectRecord entry{.name = object.name,
+                             .type = object.type,
+                             .label = object.label,
+                             .instance = object.instance,
+                             .center_sensor_m = object.sensor_from_box.translation(),
+                             .firings_visible = object.firings_visible,
+                             .firings_alone = object.firings_alone};
   for (const SlotEdit& edit : inserted.edits) {
     const bool is_new = edit.is_added && !edit.is_merged;
     if (!is_new || after.instance[edit.slot] != object.instance) continue;
-    ++num_returns;
-    nearest_m = std::min(nearest_m, double{after.range_m[edit.slot]});
+    ++entry.returns;
+    const double range_m = after.range_m[edit.slot];
+    entry.nearest_return_m = std::min(entry.nearest_return_m.value_or(range_m), range_m);
   }
-  Json entry = {{"name", object.name},
-                {"type", object.type},
-                {"label", object.label},
-                {"instance", object.instance},
-                {"center_sensor_m", ListOf(object.sensor_from_box.translation())},
-                {"returns", num_returns},
-                {"nearest_return_m", nullptr},
-                {"firings_visible", object.firings_visible},
-                {"firings_alone", object.firings_alone},
-                {"is_visible", num_returns > 0}};
-  if (num_returns > 0) entry["nearest_return_m"] = nearest_m;
+  entry.is_visible = entry.returns > 0;
   return entry;
 }
 
@@ -171,53 +161,39 @@ std::vector<FrameFile> SidecarFiles(const RecordedFirings& firings,
   return files;
 }
 
-Json InsertEntry(const RecordedFirings& firings,
-                 const InsertedFrame& inserted,
-                 const InsertPlan& plan,
-                 std::uint32_t frame) {
+InsertRecord InsertEntry(const RecordedFirings& firings,
+                         const InsertedFrame& inserted,
+                         const InsertPlan& plan,
+                         std::uint32_t frame) {
   const RecordedFrame& recorded = firings.recorded;
   const Frame& after = inserted.recorded.frame;
-  std::uint64_t num_added = 0;
-  std::uint64_t num_weaker = 0;
+  const std::int64_t time_ns = plan.frame_times_ns.at(frame);
+  const PoseRecord pose(plan.first_stamp_ns + time_ns, after.world_from_sensor);
+  InsertRecord entry{
+      .frame = {.frame = frame, .stamp_ns = pose.stamp_ns, .scan_poses = ScanPosesOf(after)},
+      .source = std::filesystem::path(recorded.name).filename().string(),
+      .plan_hash = plan.identity.scenario_hash,
+      .seed = plan.scenario.seed,
+      .time_ns = time_ns,
+      .pose = {pose.position_m, pose.rotation, recorded.has_pose},
+      .removed = LostSlots(inserted).size(),
+      .are_points_alone = firings.are_points_alone};
+  entry.frame.counts.points = static_cast<std::uint64_t>(
+      std::ranges::count_if(after.x, [](float x) { return !std::isnan(x); }));
   for (const SlotEdit& edit : inserted.edits) {
-    num_added += edit.is_added;
-    num_weaker += edit.has_point && !edit.is_added && edit.is_weaker;
+    entry.added += edit.is_added;
+    entry.weaker += edit.has_point && !edit.is_added && edit.is_weaker;
   }
-  const std::int64_t stamp_ns = plan.first_stamp_ns + plan.frame_times_ns.at(frame);
-  const PoseRecord pose(stamp_ns, after.world_from_sensor);
-  Json entry = {{"frame", frame},
-                {"source", std::filesystem::path(recorded.name).filename().string()},
-                {"plan_xxh3", plan.identity.scenario_hash},
-                {"seed", plan.scenario.seed},
-                {"stamp_ns", stamp_ns},
-                {"time_ns", plan.frame_times_ns[frame]},
-                {"pose",
-                 {{"position_m", ListOf(pose.position_m)},
-                  {"quaternion_xyzw",
-                   {pose.rotation.x(), pose.rotation.y(), pose.rotation.z(), pose.rotation.w()}},
-                  {"is_recorded", recorded.has_pose}}},
-                {"scan_poses", ScanPosesJson(ScanPosesOf(after))},
-                {"points", std::ranges::count_if(after.x, [](float x) { return !std::isnan(x); })},
-                {"added", num_added},
-                {"removed", LostSlots(inserted).size()},
-                {"weaker", num_weaker},
-                {"are_points_alone", firings.are_points_alone}};
-  Json objects = Json::array();
   for (const RecordedObject& object : inserted.objects) {
-    Json& added = objects.emplace_back(ObjectEntry(object, after, inserted));
+    InsertedObjectRecord& added = entry.objects.emplace_back(ObjectEntry(object, after, inserted));
     const auto& specs = plan.scenario.world.objects;
     const auto place = std::ranges::find(specs, object.name, &ObjectSpec::name);
     const auto index = static_cast<std::size_t>(place - specs.begin());
     if (place == specs.end() || index >= plan.places.size()) continue;
     const PlacedThing& placed = plan.places[index];
-    added["asked"] = placed.asked;
-    added["placed"] = {{"s_m", placed.s_m},
-                       {"d_m", placed.d_m},
-                       {"h_m", placed.h_m},
-                       {"is_on_ground", placed.is_on_ground},
-                       {"has_ground", placed.has_ground}};
+    added.asked = placed.asked;
+    added.placed = {placed.s_m, placed.d_m, placed.h_m, placed.is_on_ground, placed.has_ground};
   }
-  entry["objects"] = std::move(objects);
   return entry;
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/io/run/insert_record.h"
 #include "generator/insert/clouds/edit_rows.h"
 #include "generator/insert/clouds/recording_output.h"
 #include "generator/insert/insert_plan.h"
@@ -32,10 +31,10 @@ enum class PointChange : std::uint8_t {
                                                   const LabelNumbers& labels,
                                                   std::uint32_t frame);
 
-/// The frame's members of its line in insert.jsonl.
-[[nodiscard]] nlohmann::ordered_json InsertEntry(const RecordedFirings& firings,
-                                                 const InsertedFrame& inserted,
-                                                 const InsertPlan& plan,
-                                                 std::uint32_t frame);
+/// The frame's line in insert.jsonl, but for its files and the hash of its other lines.
+[[nodiscard]] InsertRecord InsertEntry(const RecordedFirings& firings,
+                                       const InsertedFrame& inserted,
+                                       const InsertPlan& plan,
+                                       std::uint32_t frame);
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include "core/io/cloud/point_table.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 
 namespace railcast {

@@ -11,8 +11,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/openlabel.h"
-#include "core/io/strict_json.h"
 #include "core/io/write_file.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
@@ -25,7 +25,7 @@ struct Link {
 };
 
 /// "1631441453.299504000", or a number, in ns.
-std::int64_t StampOf_ns(const StrictJson& json, const OpenLabelPlace& place) {
+std::int64_t StampOf_ns(const Json& json, const OpenLabelPlace& place) {
   constexpr std::int64_t kMost_s = 9'000'000'000;
   if (json.is_number() && std::abs(json.get<double>()) <= static_cast<double>(kMost_s)) {
     return std::llround(json.get<double>() * static_cast<double>(kNsPerS));
@@ -45,12 +45,12 @@ std::int64_t StampOf_ns(const StrictJson& json, const OpenLabelPlace& place) {
 
 class OpenLabel {
  public:
-  OpenLabel(const StrictJson& json, const OpenLabelPlace& place, const std::string& sensor)
+  OpenLabel(const Json& json, const OpenLabelPlace& place, const std::string& sensor)
       : json_(OpenLabelMember(json, "openlabel", place)),
         place_(place / "openlabel"),
         sensor_(sensor) {
     const OpenLabelPlace systems_place = place_ / "coordinate_systems";
-    const StrictJson& systems = OpenLabelMember(json_, "coordinate_systems", place_);
+    const Json& systems = OpenLabelMember(json_, "coordinate_systems", place_);
     if (!systems.is_object() || !systems.contains(sensor)) {
       systems_place.Fail("must have that of the sensor " + Quoted(sensor));
     }
@@ -65,7 +65,7 @@ class OpenLabel {
 
   [[nodiscard]] PoseFile Read() const {
     const OpenLabelPlace frames_place = place_ / "frames";
-    const StrictJson& frames = OpenLabelMember(json_, "frames", place_);
+    const Json& frames = OpenLabelMember(json_, "frames", place_);
     if (!frames.is_object()) frames_place.Fail("must be an object");
     // Their numbers are texts, and those stand in any order.
     std::map<std::int64_t, std::string> keys;
@@ -77,7 +77,7 @@ class OpenLabel {
     PoseFile poses;
     for (const auto& [number, key] : keys) {
       const OpenLabelPlace own = frames_place / key / "frame_properties";
-      const StrictJson& properties =
+      const Json& properties =
           OpenLabelMember(frames.at(key), "frame_properties", frames_place / key);
       poses.world_from_sensor.push_back(PoseIn(properties, own));
       if (properties.contains("timestamp")) {
@@ -89,7 +89,7 @@ class OpenLabel {
   }
 
  private:
-  [[nodiscard]] Transform PoseIn(const StrictJson& properties, const OpenLabelPlace& place) const {
+  [[nodiscard]] Transform PoseIn(const Json& properties, const OpenLabelPlace& place) const {
     std::multimap<std::string, Link> links;
     if (properties.is_object() && properties.contains("transforms")) {
       for (const auto& [name, transform] : properties.at("transforms").items()) {
@@ -131,7 +131,7 @@ class OpenLabel {
     return parent->second;
   }
 
-  const StrictJson& json_;
+  const Json& json_;
   OpenLabelPlace place_;
   std::string sensor_;
   std::map<std::string, Link> parents_;  ///< Of coordinate systems, by name.
@@ -141,7 +141,7 @@ class OpenLabel {
 
 PoseFile ReadOpenLabelPoses(const std::filesystem::path& file, const std::string& sensor) {
   const OpenLabelPlace place{ShownPath(file), ""};
-  const StrictJson json = ParseOpenLabel(ReadFileWhole(file), place.file);
+  const Json json = ParseOpenLabel(ReadFileWhole(file), place.file);
   return OpenLabel(json, place, sensor).Read();
 }
 

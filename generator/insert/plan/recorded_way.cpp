@@ -58,12 +58,13 @@ std::vector<PosedFrame> ReadLinesOfSequence(const fs::path& directory) {
   FrameLineReader reader(summary);
   std::vector<PosedFrame> frames;
   while (const auto lines = reader.Next()) {
-    FrameLine line = ReadNextFrameLine(*lines);
+    const FrameRecord line = ReadNextFrameLine(*lines);
     CheckRecords(line, *lines);
     const PlacedLine& pose = lines->records.at(0);
     PosedFrame posed{.name = pose.place, .stamp_ns = line.stamp_ns};
     posed.poses.push_back({0, ReadPoseLine(pose.text, line.stamp_ns, pose.place)});
-    posed.poses.insert(posed.poses.end(), line.scan_poses.begin(), line.scan_poses.end());
+    const std::vector<ScanPose> scan_poses = ScanPosesOf(line.scan_poses);
+    posed.poses.insert(posed.poses.end(), scan_poses.begin(), scan_poses.end());
     const PlacedLine& objects = lines->records.at(1);
     for (const RecordedObject& object : ReadObjectsLine(objects.text, line.frame, objects.place)) {
       posed.last_instance = std::max(posed.last_instance, InstanceOfObject(object.instance));

@@ -1,16 +1,15 @@
 #include "generator/insert/run/insert_folder.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/record/record_text.h"
+#include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/strict_json.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/verify/insertion_verification.h"
 #include "core/io/write_file.h"
@@ -20,7 +19,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 /// Whether a line of insert.jsonl is that of the frame, and all that it names is there.
 bool IsWhole(const fs::path& directory,
@@ -31,19 +29,13 @@ bool IsWhole(const fs::path& directory,
   line.remove_suffix(1);
   if (!HasLineHash(line) || !LineHashFault(line).empty()) return false;
   try {
-    const StrictJson json = StrictJson::parse(line);
-    if (json.at("frame").get<std::uint32_t>() != frame) return false;
-    if (json.at("records_xxh3").get<std::string>() != ContentHash(records)) return false;
-    for (const StrictJson& file : json.at("files")) {
-      const WrittenFile written = {file.at("name").get<std::string>(),
-                                   file.at("bytes").get<std::uint64_t>(),
-                                   file.at("xxh3").get<std::string>()};
-      if (!HasContent(directory, written)) return false;
-    }
-  } catch (const StrictJson::exception&) {
+    const FrameRecord record = ReadInsertLine(line, "").frame;
+    return record.frame == frame && record.records_hash == ContentHash(records) &&
+           std::ranges::all_of(record.files,
+                               [&](const KnownFile& file) { return HasContent(directory, file); });
+  } catch (const InputError&) {
     return false;
   }
-  return true;
 }
 
 }  // namespace
@@ -52,14 +44,14 @@ InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock
   const fs::path run_file = spec_.directory / kRunFile;
   std::error_code none;
   if (spec_.is_mended) {
-    WriteFileWhole(run_file, spec_.run_json);
+    WriteFileWhole(run_file, RecordFile(spec_.run));
     fs::remove(spec_.directory / kManifestFile, none);
   } else if (fs::exists(run_file)) {
     CheckSameRun(ReadFileWhole(run_file));
   } else {
     MakeEmptyFolder(spec_.directory);
     was_empty_ = true;
-    WriteFileWhole(run_file, spec_.run_json);
+    WriteFileWhole(run_file, RecordFile(spec_.run));
   }
   is_complete_ = fs::exists(spec_.directory / kManifestFile);
   if (is_complete_) {
@@ -72,7 +64,7 @@ void InsertFolder::CheckSameRun(const std::string& found) const {
   const Json theirs = Json::parse(found, nullptr, false);
   const std::string place = ShownPath(spec_.directory) + ": ";
   if (!theirs.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
-  const Json ours = Json::parse(spec_.run_json);
+  const Json ours = Json::parse(RecordText(spec_.run));
   for (const auto& [key, value] : ours.items()) {
     const auto other = theirs.find(key);
     if (other != theirs.end() && *other == value) continue;
@@ -100,10 +92,10 @@ void InsertFolder::CountFrames() {
     sizes_.push_back(std::move(sizes));
   };
   note();
-  for (; num_done_ < spec_.num_frames; ++num_done_) {
+  for (; num_done_ < spec_.run.num_frames; ++num_done_) {
     std::string records;
     for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
-    const std::uint32_t frame = spec_.first_frame + num_done_;
+    const std::uint32_t frame = spec_.run.first_frame + num_done_;
     if (!IsWhole(spec_.directory, walks.back().Next(), frame, records)) break;
     for (LineWalk& walk : walks) walk.Advance();
     note();
@@ -129,7 +121,7 @@ void InsertFolder::WriteFixed(const FixedFile& file) {
     const FileHash wanted = file.copy_of.empty()
                                 ? FileHash{ContentHash(file.bytes), file.bytes.size()}
                                 : HashFile(file.copy_of);
-    if (HasContent(spec_.directory, {file.name, wanted.num_bytes, wanted.hash})) return;
+    if (HasContent(spec_.directory, {file.name, wanted.hash, wanted.num_bytes})) return;
   }
   MakeFolders(path.parent_path());
   if (file.copy_of.empty()) {
@@ -144,23 +136,20 @@ void InsertFolder::WriteFixed(const FixedFile& file) {
 
 void InsertFolder::Write(const std::vector<FrameFile>& files,
                          const std::vector<std::string>& lines,
-                         Json& entry) {
+                         InsertRecord entry) {
   Check(lines.size() + 1 == lines_.size(), "each file gets a line");
-  Json names = Json::array();
   for (const FrameFile& file : files) {
     MakeFolders((spec_.directory / file.name).parent_path());
     WriteFileWhole(spec_.directory / file.name, file.bytes);
-    names.push_back(
-        {{"name", file.name}, {"bytes", file.bytes.size()}, {"xxh3", ContentHash(file.bytes)}});
+    entry.frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
   std::string records;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     lines_[i].Append(lines[i]);
     records += lines[i];
   }
-  entry["files"] = std::move(names);
-  entry["records_xxh3"] = ContentHash(records);
-  lines_.back().Append(WithLineHash(entry.dump()) + "\n");
+  entry.frame.records_hash = ContentHash(records);
+  lines_.back().Append(HashedRecordLine(entry));
   ++num_done_;
 }
 
@@ -185,19 +174,19 @@ void InsertFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
   for (const fs::path& file : files) fs::remove(file);
 }
 
-void InsertFolder::Finish(const Json& summary, const std::vector<std::string>& others) {
+void InsertFolder::Finish(const std::vector<std::string>& remarks,
+                          const std::vector<std::string>& others) {
   for (LineFile& file : lines_) file.Sync();
-  Json manifest = Json::parse(spec_.run_json);
-  manifest.update(summary);
-  Json hashes = Json::object();
+  InsertManifestRecord manifest{.run = spec_.run, .remarks = remarks};
   std::vector<std::string> names = {std::string(kRunFile)};
   names.insert(names.end(), fixed_.begin(), fixed_.end());
   names.insert(names.end(), others.begin(), others.end());
   for (const LineFileName& file : LineFiles()) names.push_back(file.name);
   RemoveUnfinished(names);
-  for (const std::string& name : names) hashes[name] = HashFile(spec_.directory / name).hash;
-  manifest["files_xxh3"] = std::move(hashes);
-  WriteFileWhole(spec_.directory / kManifestFile, WithManifestHash(manifest.dump(2) + "\n"));
+  for (const std::string& name : names) {
+    manifest.files.emplace_back(name, HashFile(spec_.directory / name).hash);
+  }
+  WriteFileWhole(spec_.directory / kManifestFile, WithManifestHash(RecordFile(manifest)));
   is_complete_ = true;
 }
 

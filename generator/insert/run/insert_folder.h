@@ -1,7 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/insert_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/insert/clouds/recording_output.h"
 #include "generator/run/line_walk.h"
@@ -19,9 +18,7 @@ namespace railcast {
 /// What a folder of inserted frames is of.
 struct InsertFolderSpec {
   std::filesystem::path directory;
-  std::string run_json;  ///< An object whose members say which run it is.
-  std::uint32_t first_frame{};
-  std::uint32_t num_frames{};
+  InsertRunRecord run;
   /// Those that get a line of each frame, without insert.jsonl.
   std::vector<LineFileName> line_files;
   /// Whether the folder is known to be of this run: what is not as it was written is made anew.
@@ -47,17 +44,17 @@ class InsertFolder {
   void WriteFixed(const FixedFile& file);
   /// Writes the next frame.
   /// @param lines One for each of the spec's files.
-  /// @param entry The frame's members of its line in insert.jsonl; gets `files` and `records_xxh3`.
+  /// @param entry The frame's line in insert.jsonl, but for its files and the hash of `lines`.
   void Write(const std::vector<FrameFile>& files,
              const std::vector<std::string>& lines,
-             nlohmann::ordered_json& entry);
+             InsertRecord entry);
   /// Removes what was written if no frame was: a plan that does not fit its recording leaves
   /// nothing that keeps a mended one from being run.
   void Abandon() noexcept;
-  /// Writes the manifest: the members of run.json, those of `summary`, and the hashes of all files
-  /// but those of frames, which insert.jsonl names.
+  /// Writes the manifest: the members of run.json, remarks, and the hashes of all files but those
+  /// of frames, which insert.jsonl names.
   /// @param others Names of files that were written by others.
-  void Finish(const nlohmann::ordered_json& summary, const std::vector<std::string>& others);
+  void Finish(const std::vector<std::string>& remarks, const std::vector<std::string>& others);
 
  private:
   void CheckSameRun(const std::string& found) const;

@@ -8,16 +8,17 @@
 #include <exception>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/recording/line_reader.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/simulate/frame_poses.h"
@@ -37,7 +38,6 @@ namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
                                           const RecordingInfo& info,
@@ -56,30 +56,29 @@ std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
       info.kind + ")");
 }
 
-std::string RunJsonOf(const InsertChoices& choices,
-                      const RecordingInfo& info,
-                      const InsertPlan& plan,
-                      const InsertRange& range) {
-  Json json = {{"version", ProgramVersion()},
-               {"embree", EmbreeVersion()},
-               {"recording", choices.recording.lexically_normal().generic_string()},
-               {"recording_xxh3", choices.recording_hash.empty()
-                                      ? ContentHash(RecordingTraits(choices.recording))
-                                      : choices.recording_hash},
-               {"kind", info.kind},
-               {"kitti_labels", info.has_kitti_labels},
-               {"plan_xxh3", plan.identity.scenario_hash},
-               {"seed", plan.scenario.seed},
-               {"format", choices.format},
-               {"points_alone", choices.may_use_points_alone},
-               {"first_frame", range.first},
-               {"num_frames", range.num}};
-  if (info.origin) {
-    json["source"] = {{"version", info.origin->version},
-                      {"scenario_xxh3", info.origin->scenario_hash},
-                      {"data_xxh3", info.origin->data_hash}};
+InsertRunRecord RecordOfRun(const InsertChoices& choices,
+                            const RecordingInfo& info,
+                            const InsertPlan& plan,
+                            const InsertRange& range) {
+  InsertRunRecord run{.version = ProgramVersion(),
+                      .embree = EmbreeVersion(),
+                      .recording = choices.recording.lexically_normal().generic_string(),
+                      .recording_hash = choices.recording_hash,
+                      .kind = info.kind,
+                      .has_kitti_labels = info.has_kitti_labels,
+                      .plan_hash = plan.identity.scenario_hash,
+                      .seed = plan.scenario.seed,
+                      .format = choices.format,
+                      .may_use_points_alone = choices.may_use_points_alone,
+                      .first_frame = range.first,
+                      .num_frames = range.num};
+  if (run.recording_hash.empty()) {
+    run.recording_hash = ContentHash(RecordingTraits(choices.recording));
   }
-  return json.dump(2) + "\n";
+  if (info.origin) {
+    run.source = {info.origin->version, info.origin->scenario_hash, info.origin->data_hash};
+  }
+  return run;
 }
 
 /// The plan as a scenario, for what looks at the frames: with the line of the recording and the
@@ -121,7 +120,7 @@ struct FrameOnWay {
   InsertedFrame inserted;
   WrittenFrame output;
   std::vector<FrameFile> sidecars;
-  Json entry;
+  InsertRecord entry;
   std::exception_ptr fault;  ///< Why there is nothing to write.
 };
 
@@ -142,9 +141,7 @@ class InsertRun {
         inserter_(plan, choices.num_threads),
         output_(OutputOf(choices, recording.info(), plan, range_)),
         folder_({.directory = choices.directory,
-                 .run_json = RunJsonOf(choices, recording.info(), plan, range_),
-                 .first_frame = range_.first,
-                 .num_frames = range_.num,
+                 .run = RecordOfRun(choices, recording.info(), plan, range_),
                  .line_files = LineFiles(),
                  .is_mended = choices.is_mended}) {}
 
@@ -272,8 +269,8 @@ class InsertRun {
     return Try(way, [&](FrameOnWay& it) {
       it.output = output_->Encode(it.firings, it.inserted, it.frame);
       it.entry = InsertEntry(it.firings, it.inserted, plan_, it.frame);
-      if (split_) it.entry["split"] = *split_;
-      if (!it.output.source_hash.empty()) it.entry["source_xxh3"] = it.output.source_hash;
+      if (split_) it.entry.split = *split_;
+      it.entry.source_hash = it.output.source_hash;
       if (it.output.has_slots) MakeSidecars(it);
     });
   }
@@ -295,7 +292,7 @@ class InsertRun {
     std::vector<std::string> lines = {
         PoseLine(pose), InsertedObjectsLine(way.firings, way.inserted, way.frame, stamp_ns)};
     lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
-    folder_.Write(files, lines, way.entry);
+    folder_.Write(files, lines, std::move(way.entry));
     hooks_.on_progress(folder_.num_done(), range_.num);
   }
 
@@ -303,7 +300,7 @@ class InsertRun {
     output_->Finish();
     std::vector<std::string> others;
     for (const std::string& name : output_->WholeFiles()) others.push_back(InRecording(name));
-    folder_.Finish({{"remarks", plan_.remarks}}, others);
+    folder_.Finish(plan_.remarks, others);
   }
 
   const InsertPlan& plan_;
@@ -328,18 +325,16 @@ std::string ReportOf(const fs::path& directory) {
   std::uint64_t added = 0;
   std::uint64_t removed = 0;
   std::uint64_t num_frames = 0;
-  const std::string text = ReadFileWhole(directory / kInsertFile);
-  std::string_view rest = text;
-  while (const auto line = TakeLine(rest)) {
-    const Json json = Json::parse(*line);
+  LineReader lines(directory / kInsertFile);
+  while (const auto line = lines.Next()) {
+    const InsertRecord record = ReadInsertLine(line->text, line->place);
     ++num_frames;
-    added += json.at("added").get<std::uint64_t>();
-    removed += json.at("removed").get<std::uint64_t>();
-    for (const Json& object : json.at("objects")) {
-      auto& [returns, frames] = seen[object.at("name").get<std::string>()];
-      const auto num = object.at("returns").get<std::uint64_t>();
-      returns += num;
-      frames += num > 0 ? 1 : 0;
+    added += record.added;
+    removed += record.removed;
+    for (const InsertedObjectRecord& object : record.objects) {
+      auto& [returns, frames] = seen[object.name];
+      returns += object.returns;
+      frames += object.is_visible ? 1 : 0;
     }
   }
   std::string report = NumberText(num_frames) + " frames, " + NumberText(added) +

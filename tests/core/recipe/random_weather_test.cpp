@@ -8,8 +8,10 @@
 #include <map>
 #include <string>
 
+#include "core/io/record/record_text.h"
 #include "core/recipe/recipe.h"
 #include "core/recipe/scenario_draw.h"
+#include "tests/core/recipe/drawn_value.h"
 
 namespace railcast {
 namespace {
@@ -82,7 +84,7 @@ class RandomWeatherRecipe : public testing::Test {
     const ScenarioDrawer drawer(recipe_);
     for (std::uint32_t i = 0; i < num; ++i) {
       const DrawnScenario drawn = drawer.Draw(i);
-      weathers_.emplace(drawn.record.at("drawn").at("weather"), drawn.scenario.weather);
+      weathers_.emplace(DrawnOf(drawn.record, "weather"), drawn.scenario.weather);
     }
   }
   void ExpectWithin(const std::string& family, auto value, double from, double to) const {

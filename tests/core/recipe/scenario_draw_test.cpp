@@ -1,4 +1,5 @@
 #include "core/recipe/scenario_draw.h"
+#include "core/io/record/record_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include "railcast/rail_world.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/recipe/drawn_value.h"
 #include "tests/core/recipe/recipe_project.h"
 
 namespace railcast {
@@ -34,7 +36,7 @@ TEST(ScenarioDraw, DependsOnTheRecipeAndTheNumberAlone) {
   const std::vector<DrawnScenario> all = DrawAll(recipe);
   const ScenarioDrawer drawer(recipe);
   EXPECT_EQ(drawer.Draw(4).scenario, all[4].scenario);
-  EXPECT_EQ(drawer.Draw(4).record, all[4].record);
+  EXPECT_EQ(RecordText(drawer.Draw(4).record), RecordText(all[4].record));
   std::set<double> rains_mmph;
   for (const DrawnScenario& drawn : all) rains_mmph.insert(drawn.scenario.weather.rain_rate_mmph);
   EXPECT_EQ(rains_mmph.size(), all.size());
@@ -75,7 +77,7 @@ TEST(ScenarioDraw, ValuesOfAGroupComeTogether) {
      "draws": {"/weather/rain_rate_mmph": {"type": "uniform", "min": 3, "max": 9}}}]}])");
   std::map<std::string, int> counts;
   for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {
-    const std::string option = drawn.record.at("drawn").at("weather");
+    const std::string option = DrawnOf(drawn.record, "weather");
     ++counts[option];
     EXPECT_EQ(drawn.scenario.weather.wetness, option == "wet" ? 1.0 : 0.0);
     EXPECT_EQ(drawn.scenario.weather.rain_rate_mmph >= 3.0, option == "wet");
@@ -93,7 +95,7 @@ TEST(ScenarioDraw, PlacedObjectsMeetNothing) {
     EXPECT_EQ(drawn.scenario.world.objects.size(), 13U);
     const auto world = MakeWorld(drawn.scenario);
     EXPECT_TRUE(ContactFinder(*world).FindAll(0).empty());
-    for (const Json& placed : drawn.record.at("placed")) {
+    for (const Json& placed : drawn.record.placed) {
       was_any_drawn_again = was_any_drawn_again || placed.at("attempt") != 1;
     }
   }
@@ -126,7 +128,7 @@ TEST(ScenarioDraw, PlacedObjectsStandInNoStructure) {
   d_m = {{"type", "choice"}, {"values", {in_the_wall_m, 6.0}}};
   bool was_any_drawn_again = false;
   for (const DrawnScenario& drawn : DrawAll(ReadProjectRecipe(directory.path(), recipe))) {
-    for (const Json& placed : drawn.record.at("placed")) {
+    for (const Json& placed : drawn.record.placed) {
       EXPECT_EQ(placed.at("drawn").at("/d_m"), 6.0);
       was_any_drawn_again = was_any_drawn_again || placed.at("attempt") != 1;
     }
@@ -177,7 +179,7 @@ TEST(ScenarioDraw, ChainagesOfAPlacedMotionCountFromTheObject) {
 std::map<std::string, int> NumInParts(const std::vector<DrawnScenario>& scenarios) {
   std::map<std::string, int> num;
   for (const DrawnScenario& drawn : scenarios) {
-    ++num[drawn.record.at("split").get<std::string>()];
+    ++num[drawn.record.split];
   }
   return num;
 }
@@ -196,9 +198,9 @@ TEST(ScenarioDraw, PartsByPlaceHoldTheirSharesAndSeeNoCommonGround) {
             (std::map<std::string, int>{{"train", 56}, {"val", 12}, {"test", 12}}));
   for (const DrawnScenario& one : all) {
     for (const DrawnScenario& other : all) {
-      if (one.record.at("split") == other.record.at("split")) continue;
-      const Json& a = one.record.at("seen_s_m");
-      const Json& b = other.record.at("seen_s_m");
+      if (one.record.split == other.record.split) continue;
+      const auto& a = one.record.seen_s_m;
+      const auto& b = other.record.seen_s_m;
       EXPECT_TRUE(a[1] < b[0] || b[1] < a[0]);
     }
   }
@@ -219,8 +221,8 @@ TEST(ScenarioDraw, ALongRunKeepsToItsPart) {
   const std::vector<DrawnScenario> all = DrawAll(ReadProjectRecipe(directory.path(), recipe));
   EXPECT_EQ(NumInParts(all), (std::map<std::string, int>{{"train", 6}, {"val", 2}, {"test", 2}}));
   for (const DrawnScenario& drawn : all) {
-    const Json& seen_s_m = drawn.record.at("seen_s_m");
-    EXPECT_NEAR(seen_s_m[1].get<double>() - seen_s_m[0].get<double>(), 140.0, 1e-9);
+    const auto& seen_s_m = drawn.record.seen_s_m;
+    EXPECT_NEAR(seen_s_m[1] - seen_s_m[0], 140.0, 1e-9);
   }
 }
 
@@ -243,8 +245,8 @@ TEST(ScenarioDraw, AllScenariosOfALineAreInOnePart) {
   EXPECT_EQ(NumInParts(all), (std::map<std::string, int>{{"train", 14}, {"val", 3}, {"test", 3}}));
   std::map<std::string, std::set<std::string>> parts_of_line;
   for (const DrawnScenario& drawn : all) {
-    parts_of_line[drawn.record.at("line")].insert(drawn.record.at("split"));
-    EXPECT_EQ(drawn.record.at("split") == "val", drawn.record.at("base") == "line_1100.json");
+    parts_of_line[drawn.record.line].insert(drawn.record.split);
+    EXPECT_EQ(drawn.record.split == "val", drawn.record.base == "line_1100.json");
   }
   EXPECT_EQ(parts_of_line.size(), 4U);
   for (const auto& [line, parts] : parts_of_line) EXPECT_EQ(parts.size(), 1U);

@@ -35,8 +35,7 @@ TEST_F(ScenarioLinesTest, ComeOneAfterTheOtherAlsoAfterAPause) {
   for (const int expected : {1, 4, 7}) {
     const auto line = lines.Next();
     ASSERT_TRUE(line);
-    EXPECT_EQ(line->record, Json({{"scenario", expected}}));
-    EXPECT_EQ(line->placed.text + "\n", LineOf(expected));
+    EXPECT_EQ(line->text + "\n", LineOf(expected));
     lines.Pause();
   }
   EXPECT_FALSE(lines.Next());
@@ -63,7 +62,7 @@ TEST_F(ScenarioLinesTest, AreSkippedAsFarAsIsAskedFor) {
   Write(LineOf(1) + LineOf(4));
   ScenarioLines lines = Open();
   EXPECT_EQ(lines.Skip(1), 1U);
-  EXPECT_EQ(lines.Next()->record.at("scenario"), 4);
+  EXPECT_EQ(lines.Next()->text + "\n", LineOf(4));
   EXPECT_EQ(lines.Skip(1), 0U);
 }
 
@@ -72,12 +71,12 @@ TEST_F(ScenarioLinesTest, OfFinishedScenariosAreNamedIfTheyAreNotAsTheyWereWritt
   const auto message = [&](const std::string& second) {
     Write(LineOf(1) + second);
     ScenarioLines lines = Open();
-    EXPECT_EQ(lines.Need().record.at("scenario"), 1);
+    EXPECT_EQ(lines.Need().text + "\n", LineOf(1));
     return MessageOf([&] { (void)lines.Need(); });
   };
   EXPECT_EQ(message(""), file + ":2: missing");
   EXPECT_EQ(message(LineOf(2)), file + ":2: must be the line of scenario 4 (got 2)");
-  EXPECT_EQ(message("{\"scen\n"), file + ":2: is damaged: is no JSON object");
+  EXPECT_EQ(message("{\"scen\n"), file + ":2: must end with line_xxh3, the hash of all before it");
   EXPECT_EQ(message("{\"scenario\":4}\n"),
             file + ":2: must end with line_xxh3, the hash of all before it");
 }

@@ -30,8 +30,8 @@ constexpr std::uint32_t kAny = 1'000;
 struct NumberedWork {
   std::vector<int> kept;
   std::vector<double> progress;
-  ScenarioWork work{.make = [](const ScenarioTurn& turn) { return Json(turn.index); },
-                    .keep = [this](const Json& line) { kept.push_back(line.get<int>()); },
+  ScenarioWork work{.make = [](const ScenarioTurn& turn) { return std::to_string(turn.index); },
+                    .keep = [this](const std::string& line) { kept.push_back(std::stoi(line)); },
                     .on_progress =
                         [this](double num_beyond) {
                           progress.push_back(static_cast<double>(kept.size()) + num_beyond);
@@ -45,7 +45,7 @@ void LetOvertake(std::uint32_t index, NumberedWork& numbered) {
   numbered.work.make = [=](const ScenarioTurn& turn) {
     if (turn.index == index) *is_made = true;
     while (turn.index == 0 && !*is_made) std::this_thread::yield();
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
 }
 
@@ -61,7 +61,7 @@ TEST(ScenarioTurns, MakeAsManyAtOnceAsThereAreThreads) {
   std::latch all_three(3);
   numbered.work.make = [&](const ScenarioTurn& turn) {
     all_three.arrive_and_wait();
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   TakeTurns(3, 3, kAny, numbered.work);
   EXPECT_THAT(numbered.kept, ElementsAre(0, 1, 2));
@@ -71,7 +71,7 @@ TEST(ScenarioTurns, ShareTheThreadsAmongFewScenarios) {
   NumberedWork numbered;
   numbered.work.make = [&](const ScenarioTurn& turn) {
     EXPECT_FALSE(turn.is_alone);
-    return Json(turn.num_threads);
+    return std::to_string(turn.num_threads);
   };
   TakeTurns(2, 6, kAny, numbered.work);
   TakeTurns(9, 3, kAny, numbered.work);
@@ -84,7 +84,7 @@ TEST(ScenarioTurns, GiveAllThreadsToTheOnlyScenario) {
   numbered.work.make = [&](const ScenarioTurn& turn) {
     EXPECT_TRUE(turn.is_alone);
     num_threads.push_back(turn.num_threads);
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   TakeTurns(1, 6, kAny, numbered.work);
   TakeTurns(2, 6, 1, numbered.work);
@@ -103,7 +103,7 @@ TEST(ScenarioTurns, RunAheadNoFartherThanFourForEachThread) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
       before_first = farthest.load();
     }
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   TakeTurns(30, 2, kAny, numbered.work);
   EXPECT_EQ(before_first, 7U);
@@ -116,7 +116,7 @@ TEST(ScenarioTurns, PassOnTheFaultOfTheFirstAndKeepThoseBeforeIt) {
     numbered.work.make = [&](const ScenarioTurn& turn) {
       if (turn.index == 5) std::this_thread::sleep_for(std::chrono::milliseconds(5));
       if (turn.index >= 5) throw InputError("scenario " + std::to_string(turn.index));
-      return Json(turn.index);
+      return std::to_string(turn.index);
     };
     EXPECT_EQ(MessageOf([&] { TakeTurns(20, num_threads, kAny, numbered.work); }), "scenario 5");
     EXPECT_THAT(numbered.kept, ElementsAre(0, 1, 2, 3, 4));
@@ -125,7 +125,7 @@ TEST(ScenarioTurns, PassOnTheFaultOfTheFirstAndKeepThoseBeforeIt) {
 
 TEST(ScenarioTurns, StopThoseAfterAFault) {
   NumberedWork numbered;
-  numbered.work.make = [&](const ScenarioTurn& turn) -> std::optional<Json> {
+  numbered.work.make = [&](const ScenarioTurn& turn) -> std::optional<std::string> {
     if (turn.index == 0) throw InputError("scenario 0");
     while (!turn.is_stopped()) std::this_thread::yield();
     return std::nullopt;
@@ -136,9 +136,9 @@ TEST(ScenarioTurns, StopThoseAfterAFault) {
 
 TEST(ScenarioTurns, KeepNothingAfterALineThatCouldNotBeKept) {
   NumberedWork numbered;
-  numbered.work.keep = [&](const Json& line) {
-    if (line == 3) throw InputError("disk full");
-    numbered.kept.push_back(line.get<int>());
+  numbered.work.keep = [&](const std::string& line) {
+    if (line == "3") throw InputError("disk full");
+    numbered.kept.push_back(std::stoi(line));
   };
   EXPECT_EQ(MessageOf([&] { TakeTurns(20, 3, kAny, numbered.work); }), "disk full");
   EXPECT_THAT(numbered.kept, ElementsAre(0, 1, 2));
@@ -149,7 +149,7 @@ TEST(ScenarioTurns, BeginNoneAfterBeingStopped) {
   std::atomic<int> num_begun = 0;
   numbered.work.make = [&](const ScenarioTurn& turn) {
     ++num_begun;
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   numbered.work.is_stopped = [&] { return num_begun >= 6; };
   TakeTurns(50, 2, kAny, numbered.work);
@@ -161,7 +161,7 @@ TEST(ScenarioTurns, TellProgressThatNeverFalls) {
   NumberedWork numbered;
   numbered.work.make = [&](const ScenarioTurn& turn) {
     for (const double done : {0.25, 0.5, 1.0}) turn.on_progress(done);
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   TakeTurns(12, 3, kAny, numbered.work);
   EXPECT_TRUE(std::ranges::is_sorted(numbered.progress));
@@ -177,7 +177,7 @@ TEST(ScenarioTurns, LetOneAtATimeTakeMuchMemory) {
     EXPECT_EQ(turn.num_threads_of_run, 4);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     --num_large;
-    return Json(turn.index);
+    return std::to_string(turn.index);
   };
   TakeTurns(12, 4, kAny, numbered.work);
   EXPECT_EQ(numbered.kept.size(), 12U);

@@ -28,31 +28,5 @@ TEST(PointerStep, ShowsWordsAsAnyKey) {
   EXPECT_EQ(PointerStep("ridge_m/2"), "/ridge_m~12");
 }
 
-// What a reader of `{"a": [1], "b": "text"}` is told.
-template <typename Read>
-std::string FaultOf(const Read& read) {
-  const Json json = {{"a", {1}}, {"b", "text"}};
-  return MessageOf([&] { ReadJson("FILE:3", [&] { static_cast<void>(read(json)); }); });
-}
-
-TEST(ReadJson, SaysInItsOwnWordsWhatIsNotThere) {
-  const std::string begin = "FILE:3: is damaged: ";
-  EXPECT_EQ(FaultOf([](const Json& json) { return json.at("x\ny"); }),
-            begin + R"(key x\ny is missing)");
-  EXPECT_EQ(FaultOf([](const Json& json) { return json.at("b").get<int>(); }),
-            begin + "a value must be number (got string)");
-  EXPECT_EQ(FaultOf([](const Json& json) { return json.at("b").at("c"); }),
-            begin + "a value must be an object or an array (got string)");
-  EXPECT_EQ(FaultOf([](const Json& json) { return json.at("a").at(1); }),
-            begin + "array index 1 is out of range");
-  EXPECT_EQ(
-      FaultOf([](const Json&) { return Json::parse("[1,]"); }),
-      begin + "syntax error while parsing value - unexpected ']'; expected '[', '{', or a literal");
-}
-
-TEST(JsonFault, LeavesOtherTexts) {
-  EXPECT_EQ(JsonFault("out of luck"), "out of luck");
-}
-
 }  // namespace
 }  // namespace railcast

@@ -10,39 +10,42 @@ namespace {
 
 IndexedFrame FrameOf(const std::string& hash, const std::vector<std::string>& persons) {
   IndexedFrame frame;
-  frame.record.files = {{"frames/000000.pcd", 100, hash}, {"image/000000.png", 50, "image"}};
+  frame.record.files = {{"frames/000000.pcd", hash, 100}, {"image/000000.png", "image", 50}};
   for (const std::string& person : persons) {
-    IndexedObject& object = frame.objects.emplace_back();
+    IndexObjectRecord& object = frame.objects.emplace_back();
     object.name = person;
     object.type = "person";
   }
   return frame;
 }
 
-IndexedScenario ScenarioOf(int number, std::vector<IndexedFrame> frames) {
-  return {{{"scenario", number},
-           {"split", "train"},
-           {"base", "base.json"},
-           {"drawn", Json::object()},
-           {"placed", Json::array()},
-           {"weather", Json::object()}},
-          {{{{"sensor", "front"}}, std::move(frames)}}};
+IndexedScenario ScenarioOf(std::uint32_t number, std::vector<IndexedFrame> frames) {
+  return {{.scenario = number,
+           .base = "base.json",
+           .split = "train",
+           .line = "",
+           .sequences = {{.sensor = "front",
+                          .folder = "",
+                          .scenario_hash = "",
+                          .data_hash = "",
+                          .manifest_hash = ""}}},
+          {std::move(frames)}};
 }
 
 TEST(DatasetReport, CountsFramesThatAnotherOneHasTheBytesOf) {
   DatasetReport report;
   report.Add(ScenarioOf(0, {FrameOf("a", {}), FrameOf("b", {}), FrameOf("a", {})}));
   report.Add(ScenarioOf(1, {FrameOf("c", {}), FrameOf("a", {})}));
-  EXPECT_EQ(report.Write().at("duplicate_frames"), 2);
+  EXPECT_EQ(report.Record().duplicate_frames, 2U);
 }
 
 TEST(DatasetReport, CountsAnObjectOnceAScenario) {
   DatasetReport report;
   report.Add(ScenarioOf(0, {FrameOf("a", {"anna"}), FrameOf("b", {"anna", "ben"})}));
   report.Add(ScenarioOf(1, {FrameOf("c", {"anna"})}));
-  const Json persons = report.Write().at("objects").at("person");
-  EXPECT_EQ(persons.at("objects"), 3);
-  EXPECT_EQ(persons.at("in_frames"), 4);
+  const TypeCountsRecord persons = report.Record().objects.at("person");
+  EXPECT_EQ(persons.objects, 3U);
+  EXPECT_EQ(persons.in_frames, 4U);
 }
 
 }  // namespace

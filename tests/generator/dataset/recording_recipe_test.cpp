@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/base/text.h"
+#include "core/io/record/record_text.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/verify/dataset_verification.h"
 #include "generator//dataset/merge_shards.h"
@@ -18,6 +19,7 @@
 #include "generator/insert/run/insert_run.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/core/recipe/drawn_value.h"
 #include "tests/generator/dataset/dataset_project.h"
 #include "tests/generator/insert/plan/plan_project.h"
 
@@ -122,12 +124,12 @@ TEST_F(RecordingRecipe, DrawsPlansForFramesOfSeveralRecordings) {
   std::set<std::uint32_t> first_frames;
   for (const DrawnScenario& drawn : DrawAllOf(recipe)) {
     ASSERT_TRUE(drawn.run && drawn.scenario.world.recording);
-    recordings.insert(drawn.record.at("drawn").at("recording").get<std::string>());
+    recordings.insert(DrawnOf(drawn.record, "recording"));
     first_frames.insert(drawn.first_frame);
     EXPECT_LE(drawn.first_frame + 5, kNumRecorded);
     const double start_s_m = drawn.run->frames().at(drawn.first_frame).s_m;
     EXPECT_NEAR(start_s_m, 2.0 * drawn.first_frame, 0.01);
-    EXPECT_EQ(drawn.record.at("start_s_m"), start_s_m);
+    EXPECT_EQ(drawn.record.start_s_m, start_s_m);
     ASSERT_EQ(drawn.scenario.world.objects.size(), 1U);
     const double ahead_m = drawn.scenario.world.objects[0].s_m - start_s_m;
     EXPECT_TRUE(ahead_m >= 15.0 && ahead_m <= 30.0) << ahead_m;
@@ -146,7 +148,7 @@ TEST_F(RecordingRecipe, DependsOnTheRecipeAndTheNumberAlone) {
   const std::vector<DrawnScenario> all = DrawAllOf(recipe);
   const DrawnScenario again = ScenarioDrawer(Read(Boxes())).Draw(4);
   EXPECT_EQ(again.scenario, all[4].scenario);
-  EXPECT_EQ(again.record, all[4].record);
+  EXPECT_EQ(RecordText(again.record), RecordText(all[4].record));
 }
 
 TEST_F(RecordingRecipe, ThingsThatMoveSetOffInTheFirstFrameOfTheirScenario) {
@@ -307,12 +309,12 @@ TEST_F(RecordingRecipe, NoPlaceOfARecordingIsInTwoParts) {
                    {"test", 0.25},  {"cell_m", 15}, {"sight_m", 4}};
   std::map<std::pair<std::string, int>, std::set<std::string>> parts;
   for (const DrawnScenario& drawn : DrawAllOf(Read(json))) {
-    const Json& record = drawn.record;
-    const double begin_s_m = record.at("seen_s_m")[0];
-    const double end_s_m = record.at("seen_s_m")[1];
+    const ScenarioRecord& record = drawn.record;
+    const double begin_s_m = record.seen_s_m[0];
+    const double end_s_m = record.seen_s_m[1];
     EXPECT_NEAR(end_s_m - begin_s_m, 10.0, 0.01);
     for (int cell = static_cast<int>(std::floor(begin_s_m)); cell < end_s_m; ++cell) {
-      parts[{record.at("drawn").at("recording"), cell}].insert(record.at("split"));
+      parts[{DrawnOf(record, "recording"), cell}].insert(record.split);
     }
   }
   std::set<std::string> all;
@@ -328,7 +330,7 @@ TEST_F(RecordingRecipe, NoRecordingIsInTwoParts) {
   json["split"] = {{"by", "line"}, {"train", 0.5}, {"val", 0.5}, {"test", 0.0}};
   std::map<std::string, std::set<std::string>> parts;
   for (const DrawnScenario& drawn : DrawAllOf(Read(json))) {
-    parts[drawn.record.at("drawn").at("recording")].insert(drawn.record.at("split"));
+    parts[DrawnOf(drawn.record, "recording")].insert(drawn.record.split);
   }
   ASSERT_EQ(parts.size(), 2U);
   for (const auto& [recording, names] : parts) EXPECT_EQ(names.size(), 1U) << recording;
@@ -336,8 +338,8 @@ TEST_F(RecordingRecipe, NoRecordingIsInTwoParts) {
       R"([{"file": "plan.json", "recordings": ["one"], "split": "val"},
           {"file": "plan.json", "recordings": ["two"], "split": "train"}])");
   for (const DrawnScenario& drawn : DrawAllOf(Read(json))) {
-    const bool is_one = drawn.record.at("drawn").at("recording") == "one";
-    EXPECT_EQ(drawn.record.at("split"), is_one ? "val" : "train");
+    const bool is_one = DrawnOf(drawn.record, "recording") == "one";
+    EXPECT_EQ(drawn.record.split, is_one ? "val" : "train");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"

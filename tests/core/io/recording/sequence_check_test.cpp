@@ -113,29 +113,6 @@ TEST(SequenceCheck, OfAnInterruptedRunComparesNamesWithTheScenario) {
   }
 }
 
-// Directories of older programs record neither what made them nor copies of their inputs.
-TEST(SequenceCheck, OfAnOlderDirectoryGoesAsFarAsItsHashes) {
-  const DamagedRun run("pcd");
-  auto summary = nlohmann::ordered_json::parse(ReadFileWhole(run.path / "run.json"));
-  summary.erase("embree");
-  summary.erase("isa");
-  summary["scenario_xxh3"] = "5ce0a4105ce0a410";
-  WriteFileWhole(run.path / "run.json", summary.dump());
-  auto manifest = nlohmann::ordered_json::parse(ReadFileWhole(run.path / "manifest.json"));
-  manifest.erase("data_xxh3");
-  manifest.erase("manifest_xxh3");
-  manifest["all_xxh3"] = "5ce0a4105ce0a410";
-  manifest["files_xxh3"].erase("scenario.resolved.json");
-  manifest["files_xxh3"]["run.json"] = run.HashOf("run.json");
-  WriteFileWhole(run.path / "manifest.json", manifest.dump());
-  EXPECT_EQ(RunMessage(run), "no error");
-  const SequenceOrigin origin = *OpenRecording(run.path)->info().origin;
-  EXPECT_EQ(origin.isa, "");
-  EXPECT_EQ(origin.data_hash, "");
-  run.Flip("objects.jsonl");
-  EXPECT_TRUE(RunMessage(run).starts_with("objects.jsonl: must have the hash "));
-}
-
 TEST(SequenceCheck, TakesNoSequenceForMereCloudsWhenItsLinesAreLost) {
   for (const char* format : {"pcd", "kitti"}) {
     const DamagedRun run(format);

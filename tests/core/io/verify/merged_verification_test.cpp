@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
 
@@ -24,8 +26,7 @@ class VerifyMergedClouds : public testing::Test {
     std::string lines;
     for (const std::string name : {"frames/000000.pcd", "frames/000001.pcd"}) {
       WriteFileWhole(merged_.folder / name, name);
-      lines +=
-          R"({"file": ")" + name + R"(", "bytes": 17, "xxh3": ")" + ContentHash(name) + "\"}\n";
+      lines += RecordText(MergedRecord{.file = {name, ContentHash(name), 17}}) + "\n";
     }
     WriteFileWhole(merged_.folder / "merged.jsonl", lines);
     merged_.files = {{"merged.jsonl", ContentHash(lines), std::nullopt}};
@@ -68,7 +69,7 @@ TEST_F(VerifyMergedClouds, NamesAChangedListOfClouds) {
   const Faults faults = FaultsFound();
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].find("merged.jsonl: "), 0U);
-  EXPECT_EQ(faults[1].find("merged.jsonl:3: is damaged: "), 0U);
+  EXPECT_EQ(faults[1].find("merged.jsonl:3: /frame: missing"), 0U);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/io/content_hash.h"
-#include "core/io/recording/sequence_summary.h"
+#include "core/io/run/run_record.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/damaged_run.h"
 #include "tests/generator/example_run.h"
@@ -141,11 +141,11 @@ TEST_P(Verify, ComparesTheManifestWithWhatItSumsUp) {
   ReplaceInManifest("\"seed\": 5", "\"seed\": 6");
   EXPECT_THAT(Faults(), ElementsAre("manifest.json: /seed: must be 5, as run.json says (got 6)"));
   WriteFileWhole(path() / "manifest.json", whole);
-  ReplaceInManifest("\"points\": " + points + ",", "\"note\": 1,");
-  EXPECT_THAT(Faults(), Contains("manifest.json: is damaged: unknown key note"));
+  ReplaceInManifest("\"points\": " + points + ",", "\"points\": " + points + ", \"note\": 1,");
+  EXPECT_THAT(Faults(), Contains(testing::StartsWith("manifest.json: /note: unknown key")));
   WriteFileWhole(path() / "manifest.json", whole);
   ReplaceInManifest("\"seed\": 5", "\"seed\": 5, \"seed\": 5");
-  EXPECT_THAT(Faults(), Contains("manifest.json: is damaged: /seed: duplicate key"));
+  EXPECT_THAT(Faults(), Contains("manifest.json: /seed: duplicate key"));
   WriteFileWhole(path() / "manifest.json", whole);
   const std::string hash = manifest.at("data_xxh3");
   ReplaceInManifest(hash, "0000000000000000");
@@ -244,7 +244,7 @@ TEST_P(Verify, FindsOcclusionsThatAreNone) {
   (void)RunSequence(spec, make, NoHooks());
   EXPECT_THAT(
       FaultsOf(out),
-      ElementsAre(out.string() + "/objects.jsonl:2: /objects/0/occlusion: must be from 0 to "
+      ElementsAre(out.string() + "/objects.jsonl:2: /objects/0/occlusion: must be >= 0 and <= "
                                  "1 (got -4.0)"));
 }
 
@@ -313,16 +313,6 @@ TEST_P(VerifyUnfinished, ComparesLabelsAndOutcomesWithTheCloudItself) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, VerifyUnfinished, testing::Values("pcd", "kitti"));
-
-TEST_P(Verify, SaysThatAnOlderDirectoryIsOne) {
-  auto run = nlohmann::ordered_json::parse(ReadFileWhole(path() / "run.json"));
-  run.erase("isa");
-  run.erase("embree");
-  WriteFileWhole(path() / "run.json", run.dump());
-  EXPECT_EQ(Faults().front(),
-            "run.json: is of an older railcast, which named neither the instruction set nor "
-            "Embree, and whose scenario names files elsewhere");
-}
 
 INSTANTIATE_TEST_SUITE_P(Formats, Verify, testing::Values("pcd", "kitti"));
 

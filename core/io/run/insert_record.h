@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/run/frame_record.h"
+#include "core/scenario/value_type.h"
+
+namespace railcast {
+
+// The files that say what an insertion has put into a recording (docs/insert.md).
+
+/// The run that made the recording, if it is a sequence.
+struct InsertSourceRecord {
+  std::string version;
+  std::string scenario_hash;
+  std::string data_hash;
+};
+void Describe(Archive& a, InsertSourceRecord& s);
+
+/// The content of run.json of an insertion.
+struct InsertRunRecord {
+  std::string version;
+  std::string embree;
+  std::string recording;  ///< Its path.
+  std::string recording_hash;
+  std::string kind;  ///< RecordingInfo::kind.
+  bool has_kitti_labels{};
+  std::string plan_hash;
+  std::uint64_t seed{};
+  std::string format;
+  bool may_use_points_alone{};
+  std::uint32_t first_frame{};
+  std::uint32_t num_frames{};
+  std::optional<InsertSourceRecord> source{};
+};
+void Describe(Archive& a, InsertRunRecord& s);
+
+/// The content of manifest.json of an insertion.
+struct InsertManifestRecord {
+  InsertRunRecord run{};
+  std::vector<std::string> remarks{};
+  NamedValues<std::string> files{};  ///< The hashes of all files but those of frames.
+};
+void Describe(Archive& a, InsertManifestRecord& s);
+
+/// Where an object of a plan is at first.
+struct PlaceRecord {
+  double s_m{};
+  double d_m{};
+  double h_m{};
+  bool is_on_ground{};
+  bool has_ground{};
+};
+void Describe(Archive& a, PlaceRecord& s);
+
+/// An inserted object in a frame.
+struct InsertedObjectRecord {
+  std::string name{};
+  std::string type{};
+  std::string label{};
+  std::uint32_t instance{};
+  Vector3 center_sensor_m = Vector3::Zero();
+  std::uint32_t returns{};
+  std::optional<double> nearest_return_m{};
+  std::uint32_t firings_visible{};
+  std::uint32_t firings_alone{};
+  bool is_visible{};
+  std::string asked{};  ///< Where the plan wants it, in its words.
+  std::optional<PlaceRecord> placed{};
+};
+void Describe(Archive& a, InsertedObjectRecord& s);
+
+/// Where the sensor was at a frame's stamp.
+struct InsertPoseRecord {
+  Vector3 position_m = Vector3::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  bool is_recorded{};
+};
+void Describe(Archive& a, InsertPoseRecord& s);
+
+/// A line of insert.jsonl, which states that a frame is complete.
+struct InsertRecord {
+  /// Its number, stamp, poses, files and number of points, and the hash of its other lines.
+  FrameRecord frame{};
+  std::string source{};  ///< Name of the recorded file.
+  std::string plan_hash{};
+  std::uint64_t seed{};
+  std::int64_t time_ns{};  ///< Of the recording.
+  InsertPoseRecord pose{};
+  std::uint64_t added{};
+  std::uint64_t removed{};
+  std::uint64_t weaker{};
+  bool are_points_alone{};
+  std::vector<InsertedObjectRecord> objects{};
+  std::string split{};        ///< The part of a data set that the recording says the frame is of.
+  std::string source_hash{};  ///< Of the recorded cloud's files.
+};
+void Describe(Archive& a, InsertRecord& s);
+
+/// @throws InputError "place: rule" if it is not a line of insert.jsonl. Its hash is not checked.
+[[nodiscard]] InsertRecord ReadInsertLine(std::string_view line, const std::string& place);
+
+}  // namespace railcast
