@@ -29,6 +29,7 @@ try:
     import railcast
 except ImportError as error:
     sys.exit(f"{error}: install Debian's python3-numpy and python3-yaml, and build the Python module (docs/python.md)")
+from join_semantic_kitti import run_in
 from model_tables import models_of
 from osdar_truth import Ontology
 
@@ -131,7 +132,7 @@ def write_ins(path, samples):
 
 
 def export(arguments):
-    paths = [pathlib.Path(path) for path in arguments.runs]
+    paths = [run_in(pathlib.Path(path)) for path in arguments.runs]
     runs, places = open_runs(paths)
     out = arguments.out
     if out.exists():
@@ -181,6 +182,9 @@ def main():
         export(parser.parse_args())
     except (BadInput, ValueError, OSError) as error:  # InputError is a ValueError.
         print(error, file=sys.stderr)
+        return 1
+    except KeyError as error:  # A field that the clouds do not have.
+        print(f"{error.args[0]}", file=sys.stderr)
         return 1
     return 0
 

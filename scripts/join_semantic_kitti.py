@@ -109,6 +109,12 @@ def join(out, splits):
     return counts
 
 
+def run_in(folder):
+    """The run itself of an insertion into one."""
+    run = folder / "recording"
+    return run if (folder / "insert.jsonl").exists() and (run / "run.json").exists() else folder
+
+
 def read_arguments(description, names):
     """The folder OUT and the runs by the name of their part, from the command line."""
     parser = argparse.ArgumentParser(description=description)
@@ -116,7 +122,7 @@ def read_arguments(description, names):
     for name in names:
         parser.add_argument(f"--{name}", type=pathlib.Path, nargs="+", default=[], metavar="RUN")
     arguments = parser.parse_args()
-    splits = {name: getattr(arguments, name) for name in names}
+    splits = {name: [run_in(run) for run in getattr(arguments, name)] for name in names}
     if not any(splits.values()):
         parser.error("at least one RUN is needed")
     return arguments.out, splits

@@ -8,6 +8,8 @@
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -36,6 +38,11 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   if (auto inserted = OpenInserted(directory)) return inserted;
   if (exists(directory / kMergedFile)) return OpenMerged(directory);
   CheckIsOfOneSensor(directory);
+  if (exists(directory / kDatasetFile)) {
+    throw InputError(ShownPath(directory) +
+                     ": is a data set; must be one of its sequences, such as " +
+                     ShownPath(directory / SequenceFolderOf(0)));
+  }
   if (auto clouds = OpenCloudsIn(directory)) return clouds;
   if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
