@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -100,9 +101,14 @@ void CheckOwnFiles(const fs::path& directory) {
   CheckManifestHash(text, ShownPath(file));
   const auto manifest =
       ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(file));
-  for (const auto& [name, hash] : manifest.files) {
-    if (name != kRunFile && name != kInsertWorldFile && name != kLabelsFile) continue;
-    (void)ReadHashedFile(directory, {name, hash, {}}, kManifestFile);
+  const std::map<std::string, std::string, std::less<>> hashes(manifest.files.begin(),
+                                                               manifest.files.end());
+  for (const std::string_view name : {kRunFile, kInsertWorldFile, kLabelsFile}) {
+    const auto known = hashes.find(name);
+    if (known == hashes.end()) {
+      throw InputError(ShownPath(file) + ": /files_xxh3: must name " + std::string(name));
+    }
+    (void)ReadHashedFile(directory, {known->first, known->second, {}}, kManifestFile);
   }
 }
 

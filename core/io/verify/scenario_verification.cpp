@@ -1,5 +1,6 @@
 #include "core/io/verify/scenario_verification.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -167,9 +168,10 @@ class ScenarioVerifier : private Findings {
     compare("points", NumberText(line.points), NumberText(manifest.counts.points));
     compare("num_frames", NumberText(line.num_frames), NumberText(manifest.num_frames));
     compare("data_xxh3", line.data_hash, manifest.data_hash);
-    for (const auto& [name, hash] : manifest.files) {
-      if (name == kScenarioFile) compare("scenario_xxh3", line.scenario_hash, hash);
-    }
+    const auto scenario = std::ranges::find_if(
+        manifest.files, [](const auto& each) { return each.first == kScenarioFile; });
+    compare("scenario_xxh3", line.scenario_hash,
+            scenario == manifest.files.end() ? "" : scenario->second);
   }
 
   // Files of sequences have been looked at with these.

@@ -27,7 +27,7 @@ bool IsWhole(const fs::path& directory,
              const std::string& records) {
   if (line.empty()) return false;
   line.remove_suffix(1);
-  if (!HasLineHash(line) || !LineHashFault(line).empty()) return false;
+  if (!LineHashFault(line).empty()) return false;
   try {
     const FrameRecord record = ReadInsertLine(line, "").frame;
     return record.frame == frame && record.records_hash == ContentHash(records) &&
