@@ -61,10 +61,9 @@ int RunCard(const CardOptions& options, const std::string& command_line) {
 
 void AddCard(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CardOptions>();
-  ProgramOptions card = app.AddCommand(
-      "card",
-      "Write the card of a data set: pictures, parts, classes, recipe, licence and limits, as "
-      "README.md and page");
+  ProgramOptions card = app.AddCommand("card",
+                                       "Write the card of a data set: pictures, parts, classes, "
+                                       "recipe, licence and limits, as README.md and page");
   card.AddOption("DATASET", options->dataset,
                  "Folder that railcast-generate dataset or merge made, whole and finished")
       .Required()

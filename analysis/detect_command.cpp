@@ -101,10 +101,9 @@ int RunDetect(const DetectOptions& options, const std::string& command_line) {
 
 void AddDetect(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DetectOptions>();
-  ProgramOptions detect =
-      app.AddCommand("detect",
-                     "Compare the distance at which objects in the way are detected "
-                     "with the distance that the train needs to stop");
+  ProgramOptions detect = app.AddCommand("detect",
+                                         "Compare the distance at which objects in the way are "
+                                         "detected with the distance that the train needs to stop");
   detect
       .AddOption("DIR", options->sources,
                  "Sequence directory; several of one scenario with different seeds give intervals")

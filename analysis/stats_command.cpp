@@ -192,7 +192,7 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
           progress.Show(std::to_string(done) + " frames");
         }
       };
-      all.Add(MeasureStatistics(*recording, show, track ? &*track : nullptr));
+      AddTo(all, MeasureStatistics(*recording, show, track ? &*track : nullptr));
       // Known only now.
       const auto info = std::ranges::find(infos, recording->info().source, &RecordingInfo::source);
       if (info != infos.end()) info->left_out = recording->info().left_out;

@@ -57,19 +57,21 @@ SeenScenarios LookAtScenarios(const std::vector<fs::path>& sequences) {
 }
 
 Section LicenceSection(const std::string& licence, const SeenScenarios& seen) {
-  Section section{.key = "licence", .title = "Licence and sources"};
-  section.paragraphs = {
-      licence.empty() ? "No licence is stated here: ask whoever gives this data set away."
-                      : "Licence: " + licence + ".",
-      std::string(seen.has_recordings
-                      ? "Objects were simulated by railcast and put into recordings."
-                      : "Points, poses, boxes and labels were simulated by railcast; no person was "
-                        "recorded.") +
-          " Maps, meshes and recordings that were read keep the licences of their owners."};
+  Section section{
+      .key = "licence",
+      .title = "Licence and sources",
+      .paragraphs = {
+          licence.empty() ? "No licence is stated here: ask whoever gives this data set away."
+                          : "Licence: " + licence + ".",
+          std::string(seen.has_recordings
+                          ? "Objects were simulated by railcast and put into recordings."
+                          : "Points, poses, boxes and labels were simulated by railcast; no person "
+                            "was recorded.") +
+              " Maps, meshes and recordings that were read keep the licences of their owners."}};
   if (seen.attributions.empty()) return section;
   Table table = {.key = "attributions",
                  .title = "Where the lines come from",
-                 .columns = {{"attribution", "Attribution", ""}},
+                 .columns = ColumnsOf("attribution: Attribution"),
                  .is_open = true};
   for (const std::string& attribution : seen.attributions) table.rows.push_back({attribution});
   section.tables.push_back(std::move(table));
@@ -79,10 +81,8 @@ Section LicenceSection(const std::string& licence, const SeenScenarios& seen) {
 Table LabelsTable(const LabelTable& labels) {
   Table table = {.key = "labels",
                  .title = "Numbers of the labels",
-                 .columns = {{"number", "Number", ""},
-                             {"label", "Label", ""},
-                             {"osdar23", "Class in OSDaR23", ""},
-                             {"whu_railway3d", "Class in WHU-Railway3D", ""}}};
+                 .columns = ColumnsOf("number: Number; label: Label; osdar23: Class in OSDaR23; "
+                                      "whu_railway3d: Class in WHU-Railway3D")};
   for (const Label& label : labels.labels()) {
     table.rows.push_back({std::uint64_t{label.id}, label.name, label.osdar23, label.whu_railway3d});
   }
@@ -112,9 +112,9 @@ std::uint64_t SizeOf(const fs::path& folder) {
 std::vector<Headline> HeadlinesOf(const DatasetOverview& overview) {
   constexpr double kMega = 1e6;
   return {{"Scenarios", "", overview.num_scenarios},
-          {"Frames", "", overview.num_frames},
-          {"Points", "", overview.num_points},
-          {"Classes with points", "", std::uint64_t{overview.classes.size()}},
+          {"Frames", "", overview.report.num_frames},
+          {"Points", "", overview.report.counts.points},
+          {"Classes with points", "", std::uint64_t{overview.report.labels.size()}},
           {"Size", "MB", static_cast<double>(SizeOf(overview.source)) / kMega}};
 }
 

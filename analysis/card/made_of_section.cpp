@@ -75,7 +75,7 @@ Table RecipeTable(const Json& recipe) {
   Table table = {.key = "recipe",
                  .title = "What the recipe says",
                  .note = "docs/dataset.md of railcast has the meanings of the keys.",
-                 .columns = {{"key", "Key", ""}, {"value", "Value", ""}},
+                 .columns = ColumnsOf("key: Key; value: Value"),
                  .is_open = true};
   Json shown = recipe;
   shown.erase("$schema");
@@ -110,7 +110,7 @@ std::string CommandText(const RecipeFacts& recipe, const DatasetRecord& identity
 Table OriginTable(const RecipeFacts& recipe, const DatasetRecord& identity) {
   Table table = {.key = "made_of",
                  .title = "What the bytes depend on",
-                 .columns = {{"what", "What", ""}, {"value", "Value", ""}},
+                 .columns = ColumnsOf("what: What; value: Value"),
                  .is_open = true};
   const auto add = [&](const char* what, std::string value) {
     table.rows.push_back({std::string(what), std::move(value)});

@@ -52,9 +52,9 @@ Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
                  "What each effect changes",
                  "The longest bars are the effects that matter most here: beams whose position, "
                  "intensity, range or outcome differ in any bit, and those whose outcome differs.",
-                 {"", "", false, {}},
-                 {"Share of beams", "%", false, {}},
-                 {{"anything", SeriesStyle::kBars, {}}, {"outcome", SeriesStyle::kBars, {}}}};
+                 {"", ""},
+                 {"Share of beams", "%"},
+                 {{"anything", SeriesStyle::kBars}, {"outcome", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : studies) {
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
@@ -67,14 +67,13 @@ Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
 }
 
 Chart ReturnsChart(const std::vector<const EffectStudy*>& studies) {
-  Chart chart = {
-      "returns",
-      "Points that each effect takes away and adds",
-      "The longest bars are the effects that cost or give most points, in percent of those "
-      "without the effect.",
-      {"", "", false, {}},
-      {"Points", "%", false, {}},
-      {{"taken away", SeriesStyle::kBars, {}}, {"added", SeriesStyle::kBars, {}}}};
+  Chart chart = {"returns",
+                 "Points that each effect takes away and adds",
+                 "The longest bars are the effects that cost or give most points, in percent of "
+                 "those without the effect.",
+                 {"", ""},
+                 {"Points", "%"},
+                 {{"taken away", SeriesStyle::kBars}, {"added", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : studies) {
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
@@ -91,25 +90,18 @@ Chart ReturnsChart(const std::vector<const EffectStudy*>& studies) {
 }
 
 Table EffectsTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"effects",
-                 "What each effect changes",
-                 "Without the effect against with it, the same draws. Identical beams are the same "
-                 "in every bit of position, intensity, range and outcome. Points moved and "
-                 "intensities changed are of those that are there both times.",
-                 {{"effect", "Effect", ""},
-                  {"in_scenario", "In the scenario", ""},
-                  {"beams", "Beams", ""},
-                  {"identical_percent", "Identical beams", "%"},
-                  {"outcome_percent", "Outcome changed", "%"},
-                  {"points_taken", "Points taken away", ""},
-                  {"points_added", "Points added", ""},
-                  {"moved_percent", "Points moved", "%"},
-                  {"moved_median_m", "Moved by, median", "m"},
-                  {"moved_95_m", "Moved by, 95 %", "m"},
-                  {"intensity_percent", "Intensity changed", "%"},
-                  {"intensity_median", "Intensity changed by, median", ""},
-                  {"intensity_95", "Intensity changed by, 95 %", ""}},
-                 {}};
+  Table table = {
+      "effects", "What each effect changes",
+      "Without the effect against with it, the same draws. Identical beams are the same in every "
+      "bit of position, intensity, range and outcome. Points moved and intensities changed are of "
+      "those that are there both times.",
+      ColumnsOf("effect: Effect; in_scenario: In the scenario; beams: Beams; "
+                "identical_percent: Identical beams; outcome_percent: Outcome changed; "
+                "points_taken: Points taken away; points_added: Points added; "
+                "moved_percent: Points moved; moved_median_m: Moved by, median; "
+                "moved_95_m: Moved by, 95 %; intensity_percent: Intensity changed; "
+                "intensity_median: Intensity changed by, median; "
+                "intensity_95: Intensity changed by, 95 %")};
   for (const EffectStudy& study : studies) {
     const BeamChanges& beams = study.beams;
     constexpr double kShare = 0.95;
@@ -126,19 +118,15 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
 
 // What a mean over frames does not show: one frame may change and all others stay.
 Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"frames",
-                 "What each effect changes, from frame to frame",
-                 "Shares of a frame's beams: those whose outcome changed, and points taken away or "
-                 "added.",
-                 {{"effect", "Effect", ""},
-                  {"frames", "Frames", ""},
-                  {"outcome_least_percent", "Outcome changed, least", "%"},
-                  {"outcome_median_percent", "Outcome changed, median", "%"},
-                  {"outcome_most_percent", "Outcome changed, most", "%"},
-                  {"points_least_percent", "Points taken or added, least", "%"},
-                  {"points_median_percent", "Points taken or added, median", "%"},
-                  {"points_most_percent", "Points taken or added, most", "%"}},
-                 {}};
+  Table table = {
+      "frames", "What each effect changes, from frame to frame",
+      "Shares of a frame's beams: those whose outcome changed, and points taken away or added.",
+      ColumnsOf("effect: Effect; frames: Frames; outcome_least_percent: Outcome changed, least; "
+                "outcome_median_percent: Outcome changed, median; "
+                "outcome_most_percent: Outcome changed, most; "
+                "points_least_percent: Points taken or added, least; "
+                "points_median_percent: Points taken or added, median; "
+                "points_most_percent: Points taken or added, most")};
   for (const EffectStudy& study : studies) {
     std::vector<Cell> row = {study.effect, study.frames.size()};
     for (const auto share : {&FrameChanges::outcome, &FrameChanges::points}) {
@@ -153,13 +141,12 @@ Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
 }
 
 Section EffectsSection(const std::vector<EffectStudy>& studies) {
-  Section section;
-  section.key = "effects";
-  section.title = "Beam by beam";
-  section.paragraphs = {
-      "Each effect is switched by itself, all others staying as they are, with the same seed: its "
-      "draws are its own, so that beams which it leaves alone are the same in every bit. Intervals "
-      "of shares take beams as independent."};
+  Section section{
+      .key = "effects",
+      .title = "Beam by beam",
+      .paragraphs = {"Each effect is switched by itself, all others staying as they are, with the "
+                     "same seed: its draws are its own, so that beams which it leaves alone are "
+                     "the same in every bit. Intervals of shares take beams as independent."}};
   std::string rest;
   for (const std::string& name : EffectNames()) {
     const auto is_it = [&](const EffectStudy& study) { return study.effect == name; };
@@ -184,9 +171,8 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
   Chart chart = {key,
                  title,
                  "The highest line is the effect that matters most at that range",
-                 {"Range", "m", true, {}},
-                 {"Share of beams", "%", false, {}},
-                 {}};
+                 {"Range", "m", true},
+                 {"Share of beams", "%"}};
   const auto sum = [&](const EffectStudy& study) {
     std::uint64_t num = 0;
     for (const BeamChanges::RangeBin& bin : study.beams.range_bins) num += bin.*num_changed;
@@ -194,7 +180,7 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
   };
   for (const EffectStudy* const study : Sorted(studies, sum)) {
     if (sum(*study) == 0 || chart.series.size() == kMaxLines) break;
-    ChartSeries series{NameOf(*study), SeriesStyle::kLinePoints, {}};
+    ChartSeries series{NameOf(*study), SeriesStyle::kLinePoints};
     for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
       const BeamChanges::RangeBin& counts = study->beams.range_bins[bin];
       if (counts.num_beams == 0) continue;
@@ -209,15 +195,14 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
 }
 
 Section RangeSection(const std::vector<EffectStudy>& studies) {
-  Section section;
-  section.key = "by_range";
-  section.title = "By range";
-  section.paragraphs = {"Shares of the beams that meet a surface at this range."};
-  section.charts = {RangeChart(studies, "outcome_by_range", "Beams with another outcome",
-                               &BeamChanges::RangeBin::num_outcome_changed),
-                    RangeChart(studies, "changed_by_range", "Beams that change at all",
-                               &BeamChanges::RangeBin::num_changed)};
-  Table table = {"changed_by_range", "Changed beams by range", "", {{"range_m", "Range", "m"}}, {}};
+  Section section{.key = "by_range",
+                  .title = "By range",
+                  .paragraphs = {"Shares of the beams that meet a surface at this range."},
+                  .charts = {RangeChart(studies, "outcome_by_range", "Beams with another outcome",
+                                        &BeamChanges::RangeBin::num_outcome_changed),
+                             RangeChart(studies, "changed_by_range", "Beams that change at all",
+                                        &BeamChanges::RangeBin::num_changed)}};
+  Table table = {"changed_by_range", "Changed beams by range", "", ColumnsOf("range_m: Range")};
   for (const EffectStudy& study : studies) {
     table.columns.push_back({study.effect + "_percent", InWords(study.effect), "%"});
   }
@@ -235,11 +220,9 @@ Section RangeSection(const std::vector<EffectStudy>& studies) {
 
 // How many more beams have each outcome with the effect than without it.
 Table OutcomesTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"outcomes",
-                 "Beams gained and lost by each outcome",
+  Table table = {"outcomes", "Beams gained and lost by each outcome",
                  "How many more beams end so with the effect than without it.",
-                 {{"effect", "Effect", ""}},
-                 {}};
+                 ColumnsOf("effect: Effect")};
   for (const std::string_view name : kOutcomeNames) {
     table.columns.push_back({std::string(name), InWords(name), ""});
   }
@@ -259,15 +242,9 @@ Table OutcomesTable(const std::vector<EffectStudy>& studies) {
 }
 
 Table TransitionsTable(const std::vector<EffectStudy>& studies) {
-  Table table = {"transitions",
-                 "What became of which beams",
-                 "",
-                 {{"effect", "Effect", ""},
-                  {"without", "Without it", ""},
-                  {"with", "With it", ""},
-                  {"beams", "Beams", ""},
-                  {"share_percent", "Share of those without it", "%"}},
-                 {}};
+  Table table = {"transitions", "What became of which beams", "",
+                 ColumnsOf("effect: Effect; without: Without it; with: With it; beams: Beams; "
+                           "share_percent: Share of those without it")};
   for (const EffectStudy& study : studies) {
     for (std::size_t from = 0; from < BeamChanges::kNumOutcomes; ++from) {
       const auto& row = study.beams.transitions[from];
@@ -284,10 +261,9 @@ Table TransitionsTable(const std::vector<EffectStudy>& studies) {
 }
 
 Section OutcomesSection(const std::vector<EffectStudy>& studies) {
-  Section section;
-  section.key = "outcomes";
-  section.title = "Outcomes";
-  section.tables = {OutcomesTable(studies), TransitionsTable(studies)};
+  Section section{.key = "outcomes",
+                  .title = "Outcomes",
+                  .tables = {OutcomesTable(studies), TransitionsTable(studies)}};
   return section;
 }
 
@@ -295,14 +271,13 @@ Chart CloudChart(const std::vector<EffectStudy>& studies,
                  const std::string& metric,
                  const std::string& title,
                  const std::string& unit) {
-  Chart chart = {
-      metric,
-      title,
-      "The longest bar is the effect that changes the cloud most; effects in the order of "
-      "the beams that they change.",
-      {"", "", false, {}},
-      {title, unit, false, {}},
-      {{"", SeriesStyle::kBars, {}}}};
+  Chart chart = {metric,
+                 title,
+                 "The longest bar is the effect that changes the cloud most; effects in the order "
+                 "of the beams that they change.",
+                 {"", ""},
+                 {title, unit, false},
+                 {{"", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : Sorted(studies, NumChanged)) {
     const Cell mean = MeanOverPairs(study->clouds, metric);
     const auto x = static_cast<double>(chart.x.categories.size());
@@ -315,16 +290,12 @@ Chart CloudChart(const std::vector<EffectStudy>& studies,
 }
 
 Section CloudsSection(const std::vector<EffectStudy>& studies) {
-  Section section;
-  section.key = "clouds";
-  section.title = "Cloud against cloud";
-  section.paragraphs = MetricsInWords();
+  Section section{.key = "clouds", .title = "Cloud against cloud", .paragraphs = MetricsInWords()};
   section.paragraphs.emplace_back("A is the cloud without the effect, B the one with it.");
   section.charts = {
       CloudChart(studies, "chamfer_m", "Chamfer distance", "m"),
       CloudChart(studies, "density_aware_chamfer", "Density-aware Chamfer distance", "")};
-  Table table = {
-      "clouds", "Metrics of clouds, means over frames", "", {{"effect", "Effect", ""}}, {}};
+  Table table = {"clouds", "Metrics of clouds, means over frames", "", ColumnsOf("effect: Effect")};
   if (!studies.empty()) {
     for (const PairMetric& metric : studies.front().clouds.metrics()) {
       table.columns.push_back({metric.key, metric.title, metric.unit});
@@ -347,10 +318,7 @@ Report MakeAblationReport(const std::vector<EffectStudy>& studies,
                           const std::string& title,
                           const std::vector<std::pair<std::string, std::string>>& facts,
                           const std::string& command) {
-  Report report;
-  report.title = title;
-  report.facts = facts;
-  report.command = command;
+  Report report{.title = title, .command = command, .facts = facts};
   constexpr std::size_t kMaxHeadlines = 6;
   for (const EffectStudy* const study : Sorted(studies, NumOutcomeChanged)) {
     if (NumOutcomeChanged(*study) == 0 || report.headlines.size() == kMaxHeadlines) break;

@@ -47,7 +47,7 @@ bool HasVelocities(const Comparison& comparison) {
 ChartSeries OverPairs(const Comparison& comparison,
                       const std::string& metric,
                       const std::string& title) {
-  ChartSeries series{title, SeriesStyle::kLine, {}};
+  ChartSeries series{title, SeriesStyle::kLine};
   const std::size_t index = IndexOf(comparison, metric);
   for (std::size_t i = 0; i < comparison.pairs().size(); ++i) {
     series.points.push_back(
@@ -58,18 +58,12 @@ ChartSeries OverPairs(const Comparison& comparison,
 }
 
 Table PairsTable(const Comparison& comparison) {
-  Table table = {"pairs",
-                 "Pairs of frames",
+  Table table = {"pairs", "Pairs of frames",
                  comparison.pair_stride() == 1
                      ? ""
                      : Joined({"One of ", std::to_string(comparison.pair_stride()), " pairs."}),
-                 {{"frame_a", "Frame of A", ""},
-                  {"frame_b", "Frame of B", ""},
-                  {"stamp_a_s", "Stamp of A", "s"},
-                  {"stamp_b_s", "Stamp of B", "s"},
-                  {"points_a", "Points of A", ""},
-                  {"points_b", "Points of B", ""}},
-                 {}};
+                 ColumnsOf("frame_a: Frame of A; frame_b: Frame of B; stamp_a_s: Stamp of A; "
+                           "stamp_b_s: Stamp of B; points_a: Points of A; points_b: Points of B")};
   for (const PairMetric& metric : comparison.metrics()) {
     table.columns.push_back({metric.key, metric.title, metric.unit});
   }
@@ -87,18 +81,15 @@ Table PairsTable(const Comparison& comparison) {
 }
 
 Chart FScoreChart(const Comparison& comparison) {
-  Chart chart = {
-      "f_score",
-      "How much of each cloud the other has",
-      "The sooner a line comes near 100 %, the closer the clouds: precision is the share of B's "
-      "points "
-      "with one of A within the distance, recall that of A's with one of B; means over pairs.",
-      {"Distance", "m", true, {}},
-      {"Share", "%", false, {}},
-      {}};
+  Chart chart = {"f_score",
+                 "How much of each cloud the other has",
+                 "The sooner a line comes near 100 %, the closer the clouds: precision is the "
+                 "share of B's points with one of A within the distance, recall that of A's with "
+                 "one of B; means over pairs.",
+                 {"Distance", "m", true},
+                 {"Share", "%"}};
   for (const char* const what : {"precision", "recall", "f_score"}) {
-    ChartSeries series{
-        std::string(what) == "f_score" ? "F-score" : what, SeriesStyle::kLinePoints, {}};
+    ChartSeries series{std::string(what) == "f_score" ? "F-score" : what, SeriesStyle::kLinePoints};
     for (std::size_t i = 0; i < comparison.distances_m().size(); ++i) {
       const std::size_t metric =
           IndexOf(comparison, PairMetrics(comparison.distances_m())[7 + 3 * i].key) +
@@ -113,26 +104,23 @@ Chart FScoreChart(const Comparison& comparison) {
 }
 
 Section DistancesSection(const Comparison& comparison) {
-  Section section;
-  section.key = "distances";
-  section.title = "How far the clouds are apart";
-  section.paragraphs = MetricsInWords();
+  Section section{
+      .key = "distances", .title = "How far the clouds are apart", .paragraphs = MetricsInWords()};
   if (comparison.registers()) {
     section.paragraphs.emplace_back(
         "Each cloud of B was first laid on its partner: iterative closest points, from points to "
         "planes (Chen and Medioni 1992), by PCL, on clouds thinned to cubes of 0.4 m. The residual "
         "is the root mean square of the distances of nearest points up to 2 m that remains.");
   }
-  section.charts.push_back(
-      {"distances_by_pair",
-       "Distances from pair to pair",
-       "A level line is a drive along which the clouds stay equally far apart; "
-       "a peak is a pair to look at.",
-       {"Pair", "", false, {}},
-       {"Distance", "m", true, {}},
-       {OverPairs(comparison, "chamfer_m", "Chamfer"),
-        OverPairs(comparison, "hausdorff95_m", "Hausdorff, 95 %"),
-        OverPairs(comparison, "hausdorff_m", "Hausdorff")}});
+  section.charts.push_back({"distances_by_pair",
+                            "Distances from pair to pair",
+                            "A level line is a drive along which the clouds stay equally far "
+                            "apart; a peak is a pair to look at.",
+                            {"Pair", ""},
+                            {"Distance", "m", true},
+                            {OverPairs(comparison, "chamfer_m", "Chamfer"),
+                             OverPairs(comparison, "hausdorff95_m", "Hausdorff, 95 %"),
+                             OverPairs(comparison, "hausdorff_m", "Hausdorff")}});
   section.charts.push_back(FScoreChart(comparison));
   section.tables = {MetricsTable(comparison), PairsTable(comparison)};
   return section;
@@ -144,7 +132,7 @@ ChartSeries Shares(const Histogram& histogram,
                    SeriesStyle style,
                    double (*x_of_bin)(std::int64_t)) {
   constexpr double kPercent = 100.0;
-  ChartSeries series{title, style, {}};
+  ChartSeries series{title, style};
   std::int64_t next = histogram.counts().empty() ? 0 : histogram.counts().front().first;
   for (const auto& [bin, count] : histogram.counts()) {
     // Empty bins are zeros; in a line only the ends of each run of empty bins are needed.
@@ -168,35 +156,33 @@ double AsNumber(std::int64_t bin) {
 Section DistributionsSection(const Comparison& comparison) {
   const CloudHistograms& a = comparison.histograms_a();
   const CloudHistograms& b = comparison.histograms_b();
-  Section section;
-  section.key = "distributions";
-  section.title = "How points are distributed";
-  section.paragraphs = {
-      "Shares of all points of all pairs. The divergences in the table of metrics compare these "
-      "distributions: 0 bit is the same, 1 bit has nothing in common."};
-  const ChartAxis share = {"Share of points", "%", false, {}};
+  Section section{.key = "distributions",
+                  .title = "How points are distributed",
+                  .paragraphs = {"Shares of all points of all pairs. The divergences in the table "
+                                 "of metrics compare these "
+                                 "distributions: 0 bit is the same, 1 bit has nothing in common."}};
+  const ChartAxis share = {"Share of points", "%"};
   section.charts.push_back(
       {"ranges",
        "Ranges",
        "Where the lines part, one cloud has more of its points at that range; bins of 1 m.",
-       {"Range", "m", false, {}},
+       {"Range", "m"},
        share,
        {Shares(a.range, "A", SeriesStyle::kLine, MiddleOfMetre),
         Shares(b.range, "B", SeriesStyle::kLine, MiddleOfMetre)}});
-  section.charts.push_back(
-      {"intensities",
-       "Intensities",
-       "Lines of one shape beside each other differ by a scale; bins of an eighth octave, what is "
-       "0.001 or less in the first.",
-       {"Intensity", "", true, {}},
-       share,
-       {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
-        Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
+  section.charts.push_back({"intensities",
+                            "Intensities",
+                            "Lines of one shape beside each other differ by a scale; bins of an "
+                            "eighth octave, what is 0.001 or less in the first.",
+                            {"Intensity", "", true},
+                            share,
+                            {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
+                             Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
   section.charts.push_back(
       {"rings",
        "Rings",
        "Where the lines part, one cloud has more of its points on that ring; ring 0 looks lowest.",
-       {"Ring", "", false, {}},
+       {"Ring", ""},
        share,
        {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
         Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
@@ -205,7 +191,7 @@ Section DistributionsSection(const Comparison& comparison) {
         {"velocities",
          "Velocities along the beams",
          "Where the lines part, one cloud has more of its points at that velocity; bins of 1 m/s.",
-         {"Velocity", "m/s", false, {}},
+         {"Velocity", "m/s"},
          share,
          {Shares(a.velocity, "A", SeriesStyle::kLine, MiddleOfMetre),
           Shares(b.velocity, "B", SeriesStyle::kLine, MiddleOfMetre)}});
@@ -241,19 +227,19 @@ Chart BinChart(const Table& table, const BinColumn& a, const BinColumn& b, const
   return {std::string(a.key).substr(0, std::string_view(a.key).find('_')) + "_by_range",
           y.title,
           "Where the lines part, the recordings differ at that range by more than their bands.",
-          {"Range", "m", true, {}},
+          {"Range", "m", true},
           y,
           {SeriesOf(table, {"range_m", a.key}, "A"), SeriesOf(table, {"range_m", b.key}, "B")}};
 }
 
 Section BinsSection(const Comparison& comparison) {
-  Section section;
-  section.key = "bins";
-  section.title = "Points and intensity by distance";
-  section.paragraphs = {
-      "Changes are (B - A) / A, as means over pairs in which A has at least 10 points in the bin. "
-      "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."};
-  Table table = {"by_range", "By distance", "", {{"range_m", "Range", "m"}}, {}};
+  Section section{
+      .key = "bins",
+      .title = "Points and intensity by distance",
+      .paragraphs = {"Changes are (B - A) / A, as means over pairs in which A has at least 10 "
+                     "points in the bin. "
+                     "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."}};
+  Table table = {"by_range", "By distance", "", ColumnsOf("range_m: Range")};
   std::vector<BinColumn> columns(std::begin(kBinColumns), std::end(kBinColumns));
   const bool has_velocities = HasVelocities(comparison);
   if (has_velocities) {
@@ -300,11 +286,9 @@ std::vector<std::string> MetricsInWords() {
   return {
       "Points are compared in the sensor's axes. The Chamfer distance is the mean of two means: of "
       "the distances of A's points from the nearest of B, and of B's from the nearest of A (Yuan "
-      "et "
-      "al. 2018, CD-P); that of squares is the sum of the mean squares (Fan et al. 2017). The "
+      "et al. 2018, CD-P); that of squares is the sum of the mean squares (Fan et al. 2017). The "
       "Hausdorff distance is the largest of all these distances, that of 95 % the larger of the "
-      "two "
-      "95th percentiles.",
+      "two 95th percentiles.",
       "The density-aware Chamfer distance (Wu et al. 2021, alpha = 10 per metre) also counts where "
       "many points share one nearest point; 0 is the same, 1 nothing in common. Precision is the "
       "share of B's points with one of A within a distance, recall that of A's with one of B, the "
@@ -313,19 +297,12 @@ std::vector<std::string> MetricsInWords() {
 }
 
 Table MetricsTable(const Comparison& comparison) {
-  Table table = {
-      "metrics",
-      "All metrics",
-      "Mean with its 95 % interval over pairs, taken as independent; fewer than 10 pairs "
-      "are not enough for one. Frames of one drive are alike: the interval of a drive's "
-      "mean is narrower than that of drives.",
-      {{"metric", "Metric", ""},
-       {"unit", "Unit", ""},
-       {"mean", "Mean over pairs", ""},
-       {"least", "Least", ""},
-       {"largest", "Largest", ""},
-       {"all_pairs", "All pairs as one", ""}},
-      {}};
+  Table table = {"metrics", "All metrics",
+                 "Mean with its 95 % interval over pairs, taken as independent; fewer than 10 "
+                 "pairs are not enough for one. Frames of one drive are alike: the interval of a "
+                 "drive's mean is narrower than that of drives.",
+                 ColumnsOf("metric: Metric; unit: Unit; mean: Mean over pairs; least: Least; "
+                           "largest: Largest; all_pairs: All pairs as one")};
   for (std::size_t i = 0; i < comparison.metrics().size(); ++i) {
     const PairMetric& metric = comparison.metrics()[i];
     const Comparison::Summary& summary = comparison.summaries()[i];
@@ -343,15 +320,15 @@ Report MakeCompareReport(const Comparison& comparison,
                          const RecordingInfo& a,
                          const RecordingInfo& b,
                          const std::string& command) {
-  Report report;
-  report.title = Joined({ShownPath(b.source), " compared with ", ShownPath(a.source)});
-  report.command = command;
-  report.facts = {{"A, the reference", Described(a)},
-                  {"B", Described(b)},
-                  {"Pairs", Joined({std::to_string(comparison.num_pairs()), ", by ",
-                                    PairingName(pairs.pairing())})},
-                  {"Without a partner", Joined({std::to_string(pairs.num_alone_a()), " of A, ",
-                                                std::to_string(pairs.num_alone_b()), " of B"})}};
+  Report report{
+      .title = Joined({ShownPath(b.source), " compared with ", ShownPath(a.source)}),
+      .command = command,
+      .facts = {{"A, the reference", Described(a)},
+                {"B", Described(b)},
+                {"Pairs", Joined({std::to_string(comparison.num_pairs()), ", by ",
+                                  PairingName(pairs.pairing())})},
+                {"Without a partner", Joined({std::to_string(pairs.num_alone_a()), " of A, ",
+                                              std::to_string(pairs.num_alone_b()), " of B"})}}};
   for (const char* const key :
        {"density_aware_chamfer", "mape_points_percent", "chamfer_m", "hausdorff95_m", "jsd_range",
         "jsd_intensity", "jsd_occupancy", "mape_intensity_percent"}) {

@@ -16,19 +16,15 @@ std::string PatchCounts(const PatchPairs& patches) {
 }
 
 Table TellingTable(const ToldApart& told) {
-  Table table = {
-      "telling_features",
-      "What tells them apart",
-      "Importance: area lost when the feature is shuffled among the patches; of features "
-      "that say the same, each may be small. Alone: how often the feature is greater in "
-      "a patch of B than in one of A; 0.5 is as often as not.",
-      {{"feature", "Feature", ""},
-       {"importance", "Importance", ""},
-       {"own_auc", "Alone", ""},
-       {"median_a", "Median of A", ""},
-       {"median_b", "Median of B", ""}},
-      {},
-      true};
+  Table table = {"telling_features",
+                 "What tells them apart",
+                 "Importance: area lost when the feature is shuffled among the patches; of "
+                 "features that say the same, each may be small. Alone: how often the feature is "
+                 "greater in a patch of B than in one of A; 0.5 is as often as not.",
+                 ColumnsOf("feature: Feature; importance: Importance; own_auc: Alone; "
+                           "median_a: Median of A; median_b: Median of B"),
+                 {},
+                 true};
   for (const ToldApart::Feature& feature : told.features) {
     const PatchFeature& described = kPatchFeatures.at(feature.index);
     table.rows.push_back({WithUnit(std::string(described.title), std::string(described.unit)),
@@ -39,11 +35,9 @@ Table TellingTable(const ToldApart& told) {
 }
 
 Table RangesTable(const ToldApart& told) {
-  Table table = {"told_by_range",
-                 "Told apart by range",
+  Table table = {"told_by_range", "Told apart by range",
                  "The same classifier's scores, of the patches in each range.",
-                 {{"range", "Range", "m"}, {"auc", "AUC", ""}},
-                 {}};
+                 ColumnsOf("range [m]: Range; auc: AUC")};
   for (std::size_t bin = 0; bin < kNumDistanceBins; ++bin) {
     table.rows.push_back({DistanceBinText(bin), told.area_by_range.at(bin)});
   }
@@ -54,8 +48,7 @@ std::string VerdictText(const ToldApart& told) {
   if (told.area.low > 0.5) return "B's patches can be told from A's.";
   if (told.area.high < 0.5) {
     return "B's patches look more like A's than A's own do: what differs in some frames differs "
-           "the "
-           "other way round in others.";
+           "the other way round in others.";
   }
   return "B's patches cannot be told from A's by these figures.";
 }
@@ -63,7 +56,7 @@ std::string VerdictText(const ToldApart& told) {
 }  // namespace
 
 Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told) {
-  Section section{"told_apart", "Whether the clouds can be told apart", {}, {}, {}};
+  Section section{"told_apart", "Whether the clouds can be told apart"};
   if (!told.is_enough()) {
     section.paragraphs = {
         Joined({"Not enough to tell: it takes ", std::to_string(kMinSamples),
@@ -74,8 +67,8 @@ Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told) {
   }
   section.paragraphs = {
       Joined({VerdictText(told),
-              " A classifier that has seen other frames of both gives a patch of "
-              "B a higher score than one of A with a probability (AUC) of ",
+              " A classifier that has seen other frames of both gives a patch of B a higher score "
+              "than one of A with a probability (AUC) of ",
               TextOf(told.area).value, " ", TextOf(told.area).interval,
               "; 0.5 is guessing, 1 is never wrong."}),
       Joined({"Classifier two-sample test (Lopez-Paz and Oquab 2017): ", PatchCounts(patches),
@@ -84,13 +77,12 @@ Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told) {
                   : Joined({", one of ", std::to_string(patches.stride()), " pairs,"}),
               " are cut into ten runs of pairs. A random forest (Breiman 2001) is grown to nine "
               "and tried on the tenth, ten times. Intervals are Student's over the ten, widened "
-              "for what "
-              "the forests have in common (Nadeau and Bengio 2003). A patch "
-              "is a cube of 2 m with 20 points at least; its figures do not say where it is."})};
+              "for what the forests have in common (Nadeau and Bengio 2003). A patch is a cube of "
+              "2 m with 20 points at least; its figures do not say where it is."})};
   Table results = {"told_apart",
                    "How well they can be told apart",
                    "",
-                   {{"figure", "Figure", ""}, {"value", "Value", ""}},
+                   ColumnsOf("figure: Figure; value: Value"),
                    {{"AUC", told.area}, {"Balanced accuracy", told.balanced_accuracy}},
                    true};
   if (told.shape_area.is_enough()) {

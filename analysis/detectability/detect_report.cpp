@@ -30,9 +30,8 @@ std::string WayText() {
   return "In the way is what reaches, at any time of the approach, into the vehicle's outline on "
          "the own track ahead: as wide and high as a wagon of gauge G1, and as a pantograph above "
          "it. What does not is no reason to brake and is not judged. What is detected too late, "
-         "but by "
-         "the run's first frames, is not judged either: had the run begun farther off, it might "
-         "have been in time.";
+         "but by the run's first frames, is not judged either: had the run begun farther off, it "
+         "might have been in time.";
 }
 
 std::string RunsText(std::size_t num_runs) {
@@ -48,19 +47,15 @@ std::string RunsText(std::size_t num_runs) {
 }
 
 Table BesideTable(const std::vector<Verdict>& verdicts) {
-  Table table;
-  table.key = "beside_the_track";
-  table.title = "What is beside the track";
-  table.note =
-      "The distance is that of the object's box from the axis of the own track ahead, across, "
-      "where it was nearest; absent of what was never ahead. Distances of detection are absent "
-      "where it came at once.";
-  table.columns = {{"object", "Object", ""},
-                   {"type", "Type", ""},
-                   {"from_axis_m", "From the axis", "m"},
-                   {"runs", "Runs", ""},
-                   {"detected", "Detected", ""},
-                   {"least_detected_at_m", "Detected at, at least", "m"}};
+  Table table{
+      .key = "beside_the_track",
+      .title = "What is beside the track",
+      .note =
+          "The distance is that of the object's box from the axis of the own track ahead, across, "
+          "where it was nearest; absent of what was never ahead. Distances of detection are absent "
+          "where it came at once.",
+      .columns = ColumnsOf("object: Object; type: Type; from_axis_m: From the axis; runs: Runs; "
+                           "detected: Detected; least_detected_at_m: Detected at, at least")};
   for (const Verdict& verdict : verdicts) {
     if (verdict.is_in_way) continue;
     table.rows.push_back({verdict.name, verdict.type,
@@ -71,21 +66,16 @@ Table BesideTable(const std::vector<Verdict>& verdicts) {
 }
 
 Table RunTable(const std::vector<DetectRun>& runs) {
-  Table table;
-  table.key = "runs";
-  table.title = "Each run";
-  table.note =
-      "At once, or begun too near: the run's first frames show the object, which may be seen from "
-      "farther off.";
-  table.columns = {{"seed", "Seed", ""},
-                   {"object", "Object", ""},
-                   {"outcome", "Outcome", ""},
-                   {"detected_at_m", "Detected at", "m"},
-                   {"speed_kmph", "Speed", "km/h"},
-                   {"gradient_permil", "Gradient", "permil"},
-                   {"braking_distance_m", "Braking distance", "m"},
-                   {"needed_m", "Needed", "m"},
-                   {"spare_m", "To spare", "m"}};
+  Table table{
+      .key = "runs",
+      .title = "Each run",
+      .note =
+          "At once, or begun too near: the run's first frames show the object, which may be seen "
+          "from farther off.",
+      .columns = ColumnsOf("seed: Seed; object: Object; outcome: Outcome; "
+                           "detected_at_m: Detected at; speed_kmph: Speed; "
+                           "gradient_permil: Gradient; braking_distance_m: Braking distance; "
+                           "needed_m: Needed; spare_m: To spare")};
   for (const DetectRun& run : runs) {
     for (const auto& [name, detection] : run.detections) {
       const bool is_judged = detection.is_in_way && detection.fate != Fate::kNeverApproached;
@@ -184,19 +174,15 @@ std::string BrakingText(const DetectSpec& spec) {
 }
 
 Table VerdictTable(const std::vector<Verdict>& verdicts) {
-  Table table;
-  table.key = "verdicts";
-  table.title = "Which objects are detected in time to stop";
-  table.note = "Distances of detection are of the runs that detected the object, but not at once.";
-  table.is_open = true;
-  table.columns = {{"object", "Object", ""},
-                   {"type", "Type", ""},
-                   {"verdict", "Verdict", ""},
-                   {"runs", "Runs", ""},
-                   {"least_detected_at_m", "Detected at, at least", "m"},
-                   {"needed_m", "Needed, at most", "m"},
-                   {"least_spare_m", "To spare, at least", "m"},
-                   {"begun_too_near", "Begun too near to tell", ""}};
+  Table table{
+      .key = "verdicts",
+      .title = "Which objects are detected in time to stop",
+      .note = "Distances of detection are of the runs that detected the object, but not at once.",
+      .columns =
+          ColumnsOf("object: Object; type: Type; verdict: Verdict; runs: Runs; "
+                    "least_detected_at_m: Detected at, at least; needed_m: Needed, at most; "
+                    "least_spare_m: To spare, at least; begun_too_near: Begun too near to tell"),
+      .is_open = true};
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way) continue;
     table.rows.push_back({verdict.name, verdict.type, verdict.InWords(), verdict.num_approached,
@@ -207,16 +193,13 @@ Table VerdictTable(const std::vector<Verdict>& verdicts) {
 }
 
 Table MeansTable(const std::vector<Verdict>& verdicts) {
-  Table table;
-  table.key = "means";
-  table.title = "Means over the runs";
-  table.note =
-      "Of the runs that detected the object, but not at once; the share in time is of those that "
-      "approached it and did not begin too near to tell.";
-  table.columns = {{"object", "Object", ""},
-                   {"detected_at_m", "Detected at", "m"},
-                   {"spare_m", "To spare", "m"},
-                   {"in_time_percent", "In time", "%"}};
+  Table table{.key = "means",
+              .title = "Means over the runs",
+              .note =
+                  "Of the runs that detected the object, but not at once; the share in time is of "
+                  "those that approached it and did not begin too near to tell.",
+              .columns = ColumnsOf("object: Object; detected_at_m: Detected at; spare_m: To spare; "
+                                   "in_time_percent: In time")};
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way) continue;
     table.rows.push_back(
@@ -240,10 +223,9 @@ Report MakeDetectReport(const std::vector<DetectRun>& runs,
                         std::vector<std::pair<std::string, std::string>> facts,
                         const RungUsed& rung) {
   const std::vector<Verdict> verdicts = MakeVerdicts(runs);
-  Report report;
-  report.title = "Which objects are detected in time to stop";
-  report.command = command;
-  report.facts = std::move(facts);
+  Report report{.title = "Which objects are detected in time to stop",
+                .command = command,
+                .facts = std::move(facts)};
   report.facts.emplace_back("Rung", rung.InWords());
   AddHeadlines(verdicts, report);
 

@@ -36,7 +36,7 @@ std::vector<InspectedApproach> ApproachesOf(const std::vector<DetectRun>& runs,
 ChartSeries SharesDetected(std::vector<double> detected_m) {
   std::ranges::sort(detected_m, std::greater{});
   const auto num = static_cast<double>(detected_m.size());
-  ChartSeries steps{"share of approaches", SeriesStyle::kLine, {}};
+  ChartSeries steps{"share of approaches", SeriesStyle::kLine};
   double share = 0.0;
   for (std::size_t i = 0; i < detected_m.size() && detected_m[i] > 0.0; ++i) {
     steps.points.push_back({.x = detected_m[i], .y = share});
@@ -79,13 +79,13 @@ Chart ProbabilityChart(const std::string& object,
   chart.caption.text +=
       " An inspection, a point at 1 or 0, keeps little of that; the curve is the most likely one "
       "for all inspections.";
-  ChartSeries inspections{"inspections", SeriesStyle::kPoints, {}};
+  ChartSeries inspections{"inspections", SeriesStyle::kPoints};
   double farthest_m = 0.0;
   for (const Inspection& each : inspected) {
     inspections.points.push_back({.x = each.range_m, .y = static_cast<double>(each.num_detected)});
     farthest_m = std::max(farthest_m, each.range_m);
   }
-  ChartSeries curve{"curve of hit and miss", SeriesStyle::kLine, {}};
+  ChartSeries curve{"curve of hit and miss", SeriesStyle::kLine};
   constexpr int kNumPoints = 200;
   for (int i = 1; i <= kNumPoints; ++i) {
     const double distance_m = farthest_m * i / kNumPoints;
@@ -99,22 +99,18 @@ Chart ProbabilityChart(const std::string& object,
 Section MakeProbabilitySection(const std::vector<DetectRun>& runs,
                                const std::vector<Verdict>& verdicts) {
   Section section{.key = "probability", .title = "Probability of detection"};
-  Table table;
-  table.key = "probability";
-  table.title = "Distances by which objects are detected with a probability of 0.9";
-  table.note =
-      "With 95 % confidence by the ranks of the runs' distances of detection. The curve is the "
-      "log-logistic one of hit and miss (MIL-HDBK-1823A), with an asymptote below 1 where the "
-      "likelihood ratio asks for it; its bounds are those of the profile likelihood. For it each "
-      "run is inspected once, since its frames are not independent.";
-  table.is_open = true;
-  table.columns = {{"object", "Object", ""},
-                   {"inspections", "Inspections", ""},
-                   {"detected", "Detected", ""},
-                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
-                   {"curve_d90_m", "Curve: 0.9 at", "m"},
-                   {"curve_d90_95_m", "Curve: with 95 % confidence", "m"},
-                   {"asymptote", "Asymptote", ""}};
+  Table table{
+      .key = "probability",
+      .title = "Distances by which objects are detected with a probability of 0.9",
+      .note =
+          "With 95 % confidence by the ranks of the runs' distances of detection. The curve is the "
+          "log-logistic one of hit and miss (MIL-HDBK-1823A), with an asymptote below 1 where the "
+          "likelihood ratio asks for it; its bounds are those of the profile likelihood. For it "
+          "each run is inspected once, since its frames are not independent.",
+      .columns = ColumnsOf("object: Object; inspections: Inspections; detected: Detected; "
+                           "d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: 0.9 at; "
+                           "curve_d90_95_m: Curve: with 95 % confidence; asymptote: Asymptote"),
+      .is_open = true};
   std::string too_few;
   for (const Verdict& verdict : verdicts) {
     if (!verdict.is_in_way || verdict.num_approached == 0) continue;

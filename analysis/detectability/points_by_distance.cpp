@@ -38,7 +38,7 @@ BinsByDistance BinsOf(const std::vector<DetectRun>& runs,
 }
 
 ChartSeries Upright(const std::string& title, double x, double high) {
-  ChartSeries series{title + " " + NumberText(std::round(x)) + " m", SeriesStyle::kLine, {}};
+  ChartSeries series{title + " " + NumberText(std::round(x)) + " m", SeriesStyle::kLine};
   constexpr double kLow = 0.1;
   for (const double y : {kLow, high}) series.points.push_back({.x = x, .y = y});
   return series;
@@ -61,19 +61,18 @@ std::string KeyOfObject(const std::string& prefix, const std::string& name) {
 }
 
 Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule) {
-  Table table;
-  table.key = "points_by_distance";
-  table.title = "Points on each object by distance";
-  table.note =
-      "Samples are frames of all runs, up to the closest point. Frames of one run show the same "
-      "object a little nearer each time and are not independent: the intervals are of their "
-      "scatter.";
-  table.columns = {
-      {"object", "Object", ""},
-      {"distance_m", "Distance", "m"},
-      {"frames", "Frames", ""},
-      {"points", "Points a frame", ""},
-      {"enough_percent", "Frames with " + NumberText(rule.min_points) + " points", "%"}};
+  Table table{.key = "points_by_distance",
+              .title = "Points on each object by distance",
+              .note =
+                  "Samples are frames of all runs, up to the closest point. Frames of one run show "
+                  "the same object a little nearer each time and are not independent: the "
+                  "intervals are of their scatter.",
+              .columns = {{"object", "Object", ""},
+                          {"distance_m", "Distance", "m"},
+                          {"frames", "Frames", ""},
+                          {"points", "Points a frame", ""},
+                          {"enough_percent",
+                           "Frames with " + NumberText(rule.min_points) + " points", "%"}}};
   for (const Verdict& verdict : MakeVerdicts(runs)) {
     for (const auto& [index, bin] : BinsOf(runs, verdict.name, rule)) {
       table.rows.push_back({verdict.name,
@@ -88,18 +87,16 @@ Table PointsTable(const std::vector<DetectRun>& runs, const DetectionRule& rule)
 Chart PointsChart(const std::vector<DetectRun>& runs,
                   const Verdict& verdict,
                   const DetectionRule& rule) {
-  Chart chart{
-      .key = KeyOfObject("points_", verdict.name),
-      .title = "Points on " + verdict.name + " against distance",
-      .caption =
-          std::string(
-              "Means of 10 m, with intervals where there are ten frames or more; a cross is a bin "
-              "without points. ") +
-          (verdict.is_in_way ? "In time: the detection stands to the right of what is needed."
-                             : "Beside the track: nothing to brake for."),
-      .x = {.title = "Distance", .unit = "m"},
-      .y = {.title = "Points a frame", .unit = "", .is_log = true}};
-  ChartSeries points{verdict.name, SeriesStyle::kLinePoints, {}};
+  Chart chart{.key = KeyOfObject("points_", verdict.name),
+              .title = "Points on " + verdict.name + " against distance",
+              .caption = std::string("Means of 10 m, with intervals where there are ten frames or "
+                                     "more; a cross is a bin without points. ") +
+                         (verdict.is_in_way
+                              ? "In time: the detection stands to the right of what is needed."
+                              : "Beside the track: nothing to brake for."),
+              .x = {.title = "Distance", .unit = "m"},
+              .y = {.title = "Points a frame", .unit = "", .is_log = true}};
+  ChartSeries points{verdict.name, SeriesStyle::kLinePoints};
   double highest = rule.min_points;
   double farthest_m = verdict.is_in_way ? verdict.most_needed_m : 0.0;
   std::uint32_t next_index = 0;
@@ -126,8 +123,8 @@ Chart PointsChart(const std::vector<DetectRun>& runs,
     highest = std::max(highest, estimate.high);
   }
   chart.series.push_back(std::move(points));
-  ChartSeries enough{
-      "detected from " + NumberText(rule.min_points) + " points on", SeriesStyle::kLine, {}};
+  ChartSeries enough{"detected from " + NumberText(rule.min_points) + " points on",
+                     SeriesStyle::kLine};
   const double min_points = rule.min_points;
   enough.points = {{.x = 0.0, .y = min_points}, {.x = farthest_m, .y = min_points}};
   chart.series.push_back(std::move(enough));

@@ -16,18 +16,14 @@ std::string CauseText(const FalseAlarm& alarm) {
 
 // Nothing there first, by cause, then objects.
 Table AlarmTable(const std::vector<EvaluatedRun>& runs) {
-  Table table;
-  table.key = "false_alarms";
-  table.title = "False alarms by what raised them";
-  table.note =
-      "The cause is the label of most of the points in the box that completes the rule, or its "
-      "class where it has none. Intervals are exact for a Poisson process (Garwood 1936), with no "
-      "alarm, too.";
-  table.is_open = true;
-  table.columns = {{"at", "At", ""},
-                   {"cause", "Cause", ""},
-                   {"alarms", "Alarms", ""},
-                   {"per_km", "Alarms per km", "1/km"}};
+  Table table{.key = "false_alarms",
+              .title = "False alarms by what raised them",
+              .note =
+                  "The cause is the label of most of the points in the box that completes the "
+                  "rule, or its class where it has none. Intervals are exact for a Poisson process "
+                  "(Garwood 1936), with no alarm, too.",
+              .columns = ColumnsOf("at: At; cause: Cause; alarms: Alarms; per_km: Alarms per km"),
+              .is_open = true};
   std::map<std::pair<std::string, std::string>, std::uint64_t> counts;
   std::uint64_t num_all = 0;
   std::uint64_t num_at_nothing = 0;
@@ -50,18 +46,13 @@ Table AlarmTable(const std::vector<EvaluatedRun>& runs) {
 }
 
 Table BesideAlarmsTable(const std::vector<EvaluatedRun>& runs) {
-  Table table;
-  table.key = "no_alarm";
-  table.title = "Objects that must raise no alarm";
-  table.note = "They are approached and never reach into the gauge of the own track.";
-  table.is_open = true;
-  table.columns = {{"object", "Object", ""},
-                   {"type", "Type", ""},
-                   {"verdict", "Verdict", ""},
-                   {"runs", "Runs", ""},
-                   {"runs_with_alarm", "With an alarm", ""},
-                   {"alarms", "Alarms", ""},
-                   {"from_axis_m", "From the axis", "m"}};
+  Table table{.key = "no_alarm",
+              .title = "Objects that must raise no alarm",
+              .note = "They are approached and never reach into the gauge of the own track.",
+              .columns = ColumnsOf(
+                  "object: Object; type: Type; verdict: Verdict; runs: Runs; "
+                  "runs_with_alarm: With an alarm; alarms: Alarms; from_axis_m: From the axis"),
+              .is_open = true};
   for (const auto& [name, object] : ObjectsBesideIn(runs)) {
     table.rows.push_back({name, object.type, object.num_alarms == 0 ? "no alarm" : "false alarm",
                           object.num_runs, object.num_runs_with_alarm, object.num_alarms,
@@ -93,15 +84,10 @@ Chart AlarmChart(const std::vector<EvaluatedRun>& runs) {
 }
 
 Table AlarmList(const std::vector<EvaluatedRun>& runs) {
-  Table table;
-  table.key = "each_false_alarm";
-  table.title = "Each false alarm";
-  table.columns = {{"run", "Run", ""},
-                   {"frame", "Frame", ""},
-                   {"chainage_m", "Chainage", "m"},
-                   {"distance_m", "Distance", "m"},
-                   {"at", "At", ""},
-                   {"cause", "Cause", ""}};
+  Table table{.key = "each_false_alarm",
+              .title = "Each false alarm",
+              .columns = ColumnsOf("run: Run; frame: Frame; chainage_m: Chainage; "
+                                   "distance_m: Distance; at: At; cause: Cause")};
   for (const EvaluatedRun& run : runs) {
     for (const FalseAlarm& alarm : run.alarms) {
       table.rows.push_back({ShownPath(run.run.source), std::uint64_t{alarm.frame}, alarm.s_m,
@@ -153,9 +139,10 @@ std::string FalseAlarmText(const DetectionRule& rule) {
 }
 
 Section AlarmSection(const std::vector<EvaluatedRun>& runs, const DetectionRule& rule) {
-  Section section{.key = "false_alarms", .title = "False alarms"};
-  section.paragraphs = {FalseAlarmText(rule)};
-  section.tables = {AlarmTable(runs)};
+  Section section{.key = "false_alarms",
+                  .title = "False alarms",
+                  .paragraphs = {FalseAlarmText(rule)},
+                  .tables = {AlarmTable(runs)}};
   Table beside = BesideAlarmsTable(runs);
   if (!beside.rows.empty()) section.tables.push_back(std::move(beside));
   Table list = AlarmList(runs);

@@ -35,18 +35,12 @@ Section InWaySection(const std::vector<Verdict>& verdicts) {
 
 Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
                         const std::vector<RecordingInfo>& infos) {
-  Table table;
-  table.key = "runs";
-  table.title = "Each run";
-  table.columns = {{"run", "Run", ""},
-                   {"weather", "Weather", ""},
-                   {"driven_m", "Driven", "m"},
-                   {"false_alarms", "False alarms", ""},
-                   {"object", "Object", ""},
-                   {"outcome", "Outcome", ""},
-                   {"detected_at_m", "Detected at", "m"},
-                   {"needed_m", "Needed", "m"},
-                   {"spare_m", "To spare", "m"}};
+  Table table{.key = "runs",
+              .title = "Each run",
+              .columns = ColumnsOf("run: Run; weather: Weather; driven_m: Driven; "
+                                   "false_alarms: False alarms; object: Object; outcome: Outcome; "
+                                   "detected_at_m: Detected at; needed_m: Needed; "
+                                   "spare_m: To spare")};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const EvaluatedRun& run = runs[i];
     const std::vector<Cell> head = {ShownPath(run.run.source),
@@ -74,14 +68,11 @@ Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
 Section BoxSection(const std::vector<EvaluatedRun>& runs, bool has_files) {
   Section section{.key = "boxes", .title = "Boxes"};
   if (has_files) section.paragraphs = BoxWarnings(runs);
-  Table table;
-  table.key = "boxes";
-  table.title = "What was reported of each run";
-  table.is_open = true;
-  table.columns = {{"run", "Run", ""},
-                   {"read", "Boxes", ""},
-                   {"in_gauge", "In the gauge", ""},
-                   {"matched", "Of an object", ""}};
+  Table table{
+      .key = "boxes",
+      .title = "What was reported of each run",
+      .columns = ColumnsOf("run: Run; read: Boxes; in_gauge: In the gauge; matched: Of an object"),
+      .is_open = true};
   for (const EvaluatedRun& run : runs) {
     table.rows.push_back(
         {ShownPath(run.run.source), run.boxes.read, run.boxes.in_gauge, run.boxes.matched});
@@ -104,12 +95,11 @@ Section LatencySection(const std::vector<EvaluatedRun>& runs) {
       "From a frame's stamp until its detections are known. A detection counts at the distance "
       "that is left then: nearer by the latency times the speed of the vehicle, and that of an "
       "object that comes towards it."};
-  Table table;
-  table.key = "latency";
-  table.title = "Latency";
-  table.is_open = true;
-  table.columns = {{"frames", "Frames", ""}, {"mean_ms", "Mean", "ms"}, {"most_ms", "Most", "ms"}};
-  table.rows = {{latency_ms.num(), latency_ms.PlainMean(), most_ms}};
+  Table table{.key = "latency",
+              .title = "Latency",
+              .columns = ColumnsOf("frames: Frames; mean_ms: Mean; most_ms: Most"),
+              .rows = {{latency_ms.num(), latency_ms.PlainMean(), most_ms}},
+              .is_open = true};
   section.tables = {std::move(table)};
   return section;
 }
@@ -188,9 +178,7 @@ Report MakeEvaluateReport(const std::vector<EvaluatedRun>& runs,
                           const std::string& command) {
   const std::vector<DetectRun> detect_runs = DetectRunsOf(runs);
   const std::vector<Verdict> verdicts = MakeVerdicts(detect_runs);
-  Report report;
-  report.title = "What a detector detects";
-  report.command = command;
+  Report report{.title = "What a detector detects", .command = command};
   std::size_t num_frames = 0;
   for (const EvaluatedRun& run : runs) num_frames += run.frames.size();
   report.facts = {{"Runs", NumberText(runs.size())},

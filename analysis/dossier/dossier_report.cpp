@@ -40,21 +40,15 @@ Report MakeDossier(const FinishedStudy& study,
   }
   const std::vector<TargetResult> targets = TargetsOf(observations);
   const std::vector<Factor> factors = FactorsOf(observations);
-  Report report;
-  report.title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question;
-  report.command = command;
-  report.headlines = VerdictHeadlines(targets);
-  report.sections = {VerdictSection(targets),
-                     ScopeSection(study, sample),
-                     ModelErrorSection(error),
-                     SensorSection(sample),
-                     LimitsSection(sample, study.spec.detector.has_value()),
-                     FactorsSection(WeighFactors(observations, factors), observations.size()),
-                     ConditionsSection(observations, factors),
-                     YardsticksSection(targets),
-                     CredibilitySection(),
-                     TraceabilitySection(study),
-                     SignaturesSection()};
+  Report report{
+      .title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question,
+      .command = command,
+      .headlines = VerdictHeadlines(targets),
+      .sections = {VerdictSection(targets), ScopeSection(study, sample), ModelErrorSection(error),
+                   SensorSection(sample), LimitsSection(sample, study.spec.detector.has_value()),
+                   FactorsSection(WeighFactors(observations, factors), observations.size()),
+                   ConditionsSection(observations, factors), YardsticksSection(targets),
+                   CredibilitySection(), TraceabilitySection(study), SignaturesSection()}};
   Section placement = PlacementSection(observations, factors, study.recipe);
   if (!placement.tables.empty()) {
     report.sections.insert(report.sections.begin() + 1, std::move(placement));

@@ -12,19 +12,15 @@ namespace railcast {
 extern const char* const kCredibility;
 
 Section CredibilitySection() {
-  Table table;
-  table.key = "credibility";
-  table.title = "Questions of credibility";
-  table.note =
-      "After the properties that Regulation (EU) 2022/1426, Annex III part 4, and the NATM "
-      "guidelines "
-      "of UNECE ask of simulation toolchains, in our words. Open questions are for whoever files "
-      "this.";
-  table.is_open = true;
-  table.columns = {{"property", "Property", ""},
-                   {"question", "Question", ""},
-                   {"state", "State", ""},
-                   {"answer", "Answer", ""}};
+  Table table{
+      .key = "credibility",
+      .title = "Questions of credibility",
+      .note =
+          "After the properties that Regulation (EU) 2022/1426, Annex III part 4, and the NATM "
+          "guidelines of UNECE ask of simulation toolchains, in our words. Open questions are for "
+          "whoever files this.",
+      .columns = ColumnsOf("property: Property; question: Question; state: State; answer: Answer"),
+      .is_open = true};
   for (const Json& row : Json::parse(kCredibility)) {
     const auto answer = row.at("answer").get<std::string>();
     table.rows.push_back({row.at("property").get<std::string>(),
@@ -35,11 +31,10 @@ Section CredibilitySection() {
 }
 
 Section TraceabilitySection(const FinishedStudy& study) {
-  Table table;
-  table.key = "traceability";
-  table.title = "What the figures depend on";
-  table.is_open = true;
-  table.columns = {{"what", "What", ""}, {"value", "Value", ""}};
+  Table table{.key = "traceability",
+              .title = "What the figures depend on",
+              .columns = ColumnsOf("what: What; value: Value"),
+              .is_open = true};
   const auto add = [&](const std::string& what, const std::string& value) {
     table.rows.push_back({what, value});
   };
@@ -64,24 +59,18 @@ Section TraceabilitySection(const FinishedStudy& study) {
   const auto seeds = std::ranges::minmax(approaches, {}, &ApproachRecord::seed);
   add("Approaches", NumberText(approaches.size()) + ", seeds " + NumberText(seeds.min.seed) +
                         " to " + NumberText(seeds.max.seed) +
-                        "; each line of approaches.jsonl has "
-                        "its own");
-  add("To make it again",
-      "railcast-analyze study STUDY.json --out DIR --isa " + identity.isa +
-          ", with the study and the recipe of the hashes above (inputs/ has copies); "
-          "approaches.jsonl then has the same bytes");
+                        "; each line of approaches.jsonl has its own");
+  add("To make it again", "railcast-analyze study STUDY.json --out DIR --isa " + identity.isa +
+                              ", with the study and the recipe of the hashes above (inputs/ has "
+                              "copies); approaches.jsonl then has the same bytes");
   return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};
 }
 
 Section SignaturesSection() {
-  Table table;
-  table.key = "signatures";
-  table.title = "Signatures";
-  table.is_open = true;
-  table.columns = {{"role", "Role", ""},
-                   {"name", "Name", ""},
-                   {"date", "Date", ""},
-                   {"signature", "Signature", ""}};
+  Table table{.key = "signatures",
+              .title = "Signatures",
+              .columns = ColumnsOf("role: Role; name: Name; date: Date; signature: Signature"),
+              .is_open = true};
   for (const char* const role : {"Made by", "Checked by", "Assessed by"}) {
     table.rows.push_back({std::string(role), std::string(), std::string(), std::string()});
   }

@@ -55,19 +55,15 @@ double PerFrame(std::uint64_t points, std::uint64_t num_frames) {
 }
 
 Table PointsTable(const std::map<std::string, ComparedBins>& by_target) {
-  Table table;
-  table.key = "model_points";
-  table.title = "Points on objects, against the reference";
-  table.note =
-      "Same scenes, seeds and draws; means over frames. The ratio is the mean over the approaches, "
-      "each of which counts once.";
-  table.is_open = true;
-  table.columns = {{"target", "Target", ""},
-                   {"distance_m", "Distance", "m"},
-                   {"frames", "Frames", ""},
-                   {"points", "Points", ""},
-                   {"points_in_reference", "Of the reference", ""},
-                   {"ratio", "Ratio", ""}};
+  Table table{.key = "model_points",
+              .title = "Points on objects, against the reference",
+              .note =
+                  "Same scenes, seeds and draws; means over frames. The ratio is the mean over the "
+                  "approaches, each of which counts once.",
+              .columns = ColumnsOf("target: Target; distance_m: Distance; frames: Frames; "
+                                   "points: Points; points_in_reference: Of the reference; "
+                                   "ratio: Ratio"),
+              .is_open = true};
   for (const auto& [target, bins] : by_target) {
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const ComparedBin& bin = bins.at(i);
@@ -108,22 +104,19 @@ Table DistancesTable(const ModelError& error) {
       shifts.most_m = std::fmax(shifts.most_m, shift_m);
     }
   }
-  Table table;
-  table.key = "model_distances";
-  table.title = "Distances from which on the points suffice, against the reference";
-  table.note =
-      "The number of points that the study's rule or detector asks for, interpolated between "
-      "frames. Positive: the study detects from "
-      "farther away than the reference. Left out are approaches that begin with enough points, and "
-      "those that never have them on one of the rungs.";
-  table.is_open = true;
-  table.columns = {{"target", "Target", ""},
-                   {"approaches", "Approaches", ""},
-                   {"at_start", "Enough from the start", ""},
-                   {"missed", "Never enough", ""},
-                   {"shift_m", "Shift, mean", "m"},
-                   {"least_shift_m", "Least", "m"},
-                   {"most_shift_m", "Greatest", "m"}};
+  Table table{
+      .key = "model_distances",
+      .title = "Distances from which on the points suffice, against the reference",
+      .note =
+          "The number of points that the study's rule or detector asks for, interpolated between "
+          "frames. Positive: the study detects from farther away than the reference. Left out are "
+          "approaches that begin with enough points, and those that never have them on one of the "
+          "rungs.",
+      .columns =
+          ColumnsOf("target: Target; approaches: Approaches; at_start: Enough from the start; "
+                    "missed: Never enough; shift_m: Shift, mean; least_shift_m: Least; "
+                    "most_shift_m: Greatest"),
+      .is_open = true};
   for (const auto& [target, shifts] : by_target) {
     table.rows.push_back({target, shifts.num, shifts.num_at_start, shifts.num_missed,
                           shifts.shift_m.Mean(), shifts.least_m, shifts.most_m});
@@ -138,7 +131,7 @@ Chart RatioChart(const std::map<std::string, ComparedBins>& by_target) {
               .x = {.title = "Distance", .unit = "m"},
               .y = {.title = "Ratio of points", .unit = ""}};
   for (const auto& [target, bins] : by_target) {
-    ChartSeries series{target, SeriesStyle::kLinePoints, {}};
+    ChartSeries series{target, SeriesStyle::kLinePoints};
     for (std::size_t i = 0; i + 1 < bins.size(); ++i) {
       const Span span = DistancesOf(i);
       series.points.push_back(PointAt((span.low + span.high) / 2.0, bins.at(i).ratios.Mean()));

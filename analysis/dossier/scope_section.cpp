@@ -104,20 +104,15 @@ std::string ValuesIn(const Json& scenario, const std::vector<std::string>& keys)
 Section ScopeSection(const FinishedStudy& study, const std::vector<ScenarioSpec>& sample) {
   const DrawnByName drawn = DrawnIn(study.result.approaches);
   const Json scenario = Json::parse(ResolvedScenarioJson(sample.front()));
-  Table table;
-  table.key = "scope";
-  table.title = "What the approaches cover";
-  table.note =
-      "Groups as in ISO 34503. Values are those that occurred, not those that the recipe permits; "
-      "in "
-      "brackets how many approaches had them. What is not varied has the value of the first "
-      "sampled "
-      "scenario.";
-  table.is_open = true;
-  table.columns = {{"group", "Group", ""},
-                   {"axis", "Condition", ""},
-                   {"is_varied", "Varied", ""},
-                   {"values", "Values", ""}};
+  Table table{
+      .key = "scope",
+      .title = "What the approaches cover",
+      .note =
+          "Groups as in ISO 34503. Values are those that occurred, not those that the recipe "
+          "permits; in brackets how many approaches had them. What is not varied has the value of "
+          "the first sampled scenario.",
+      .columns = ColumnsOf("group: Group; axis: Condition; is_varied: Varied; values: Values"),
+      .is_open = true};
   for (const Json& axis : Json::parse(kOddAxes)) {
     const auto keys = axis.at("keys").get<std::vector<std::string>>();
     bool is_varied = false;

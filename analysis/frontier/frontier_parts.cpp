@@ -29,14 +29,19 @@ void AddPart(const std::string& row, const PartDifference& part, Table& table) {
                         kToPercent * part.intensity.median});
 }
 
-Table PartsTable(const std::vector<RowResult>& results, ScenePart::Kind kind, Table table) {
-  table.columns.insert(table.columns.end(),
-                       {{"reference_echoes", "Reference", ""},
-                        {"missed_percent", "Missed", "%"},
-                        {"echoes", "Echoes", ""},
-                        {"false_percent", "False", "%"},
-                        {"range_median_mm", "Range error, median", "mm"},
-                        {"intensity_percent", "Intensity error, median", "%"}});
+// @param kind, what, column Of the parts: "class" and "class: Class".
+Table PartsTable(const std::vector<RowResult>& results,
+                 ScenePart::Kind kind,
+                 const std::string& what,
+                 const std::string& column) {
+  Table table = {
+      "by_" + what, "Errors by " + what,
+      "Shares are of the echoes at this range, of this class or of this object, with intervals "
+      "that take echoes as independent (Wilson).",
+      ColumnsOf("row: Row; " + column +
+                "; reference_echoes: Reference; missed_percent: Missed; echoes: Echoes; "
+                "false_percent: False; range_median_mm: Range error, median; "
+                "intensity_percent: Intensity error, median")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     for (const PartDifference& part : result.difference->parts) {
@@ -47,18 +52,13 @@ Table PartsTable(const std::vector<RowResult>& results, ScenePart::Kind kind, Ta
 }
 
 Table DetectionTable(const std::vector<RowResult>& results) {
-  Table table = {"detection_distances",
-                 "Detection distances",
+  Table table = {"detection_distances", "Detection distances",
                  "The distance from which on an object that comes nearer has " +
                      std::to_string(DetectionRule{}.min_points) +
                      " points in a frame, interpolated between frames. Absent where the first "
                      "frame has them already; 0 where no frame has them.",
-                 {{"row", "Row", ""},
-                  {"object", "Object", ""},
-                  {"reference_m", "Distance in the reference", "m"},
-                  {"distance_m", "Distance", "m"},
-                  {"most_points", "Most points of the reference", ""}},
-                 {}};
+                 ColumnsOf("row: Row; object: Object; reference_m: Distance in the reference; "
+                           "distance_m: Distance; most_points: Most points of the reference")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     for (const Approach& approach : result.difference->approaches) {
@@ -81,14 +81,12 @@ Chart ErrorByRangeChart(const std::vector<RowResult>& results,
                         const Table& by_range,
                         const std::string& column,
                         const std::string& title) {
-  Chart chart{
-      column + "_by_range",
-      title + " by range",
-      "The lowest line is the best row at that range; bands and bars are intervals of 95 %, which "
-      "take echoes as independent.",
-      {"Range", "m", false, {}},
-      {title, "%", false, {}},
-      {}};
+  Chart chart{column + "_by_range",
+              title + " by range",
+              "The lowest line is the best row at that range; bands and bars are intervals of 95 "
+              "%, which take echoes as independent.",
+              {"Range", "m"},
+              {title, "%", false}};
   for (const RowResult& result : results) {
     const RowGroup group = result.row.group;
     if (!result.difference || (group != RowGroup::kLadder && group != RowGroup::kChosen)) continue;
@@ -104,20 +102,10 @@ Chart ErrorByRangeChart(const std::vector<RowResult>& results,
 
 Section PartsSection(const std::vector<RowResult>& results) {
   Section section{.key = "parts", .title = "By range, class and object"};
-  const std::string note =
-      "Shares are of the echoes at this range, of this class or of this object, with intervals "
-      "that take echoes as independent (Wilson).";
-  section.tables = {
-      PartsTable(
-          results, ScenePart::Kind::kRangeBin,
-          {"by_range", "Errors by range", note, {{"row", "Row", ""}, {"range", "Range", "m"}}}),
-      PartsTable(
-          results, ScenePart::Kind::kClass,
-          {"by_class", "Errors by class", note, {{"row", "Row", ""}, {"class", "Class", ""}}}),
-      PartsTable(
-          results, ScenePart::Kind::kObject,
-          {"by_object", "Errors by object", note, {{"row", "Row", ""}, {"object", "Object", ""}}}),
-      DetectionTable(results)};
+  section.tables = {PartsTable(results, ScenePart::Kind::kRangeBin, "range", "range [m]: Range"),
+                    PartsTable(results, ScenePart::Kind::kClass, "class", "class: Class"),
+                    PartsTable(results, ScenePart::Kind::kObject, "object", "object: Object"),
+                    DetectionTable(results)};
   section.charts = {
       ErrorByRangeChart(results, section.tables.front(), "missed_percent", "Echoes missed"),
       ErrorByRangeChart(results, section.tables.front(), "false_percent", "False echoes")};
@@ -126,19 +114,13 @@ Section PartsSection(const std::vector<RowResult>& results) {
 }
 
 Table DetailTable(const LabelTable& labels, const std::vector<RowResult>& results) {
-  Table table = {"detail_by_range",
-                 "What scene detail auto changes",
+  Table table = {"detail_by_range", "What scene detail auto changes",
                  "How many more first echoes of their firings, and further ones, there are than in "
                  "the same row in full detail, and how much larger the first ones' mean intensity "
                  "is, by class and range, where full detail has 400 first echoes or more. 0 is no "
                  "change. Intervals are of 95 %, from the differences between frames.",
-                 {{"row", "Row", ""},
-                  {"class", "Class", ""},
-                  {"range", "Range", "m"},
-                  {"first_percent", "First echoes", "%"},
-                  {"further_percent", "Further echoes", "%"},
-                  {"intensity_percent", "Mean intensity", "%"}},
-                 {}};
+                 ColumnsOf("row: Row; class: Class; range [m]: Range; first_percent: First echoes; "
+                           "further_percent: Further echoes; intensity_percent: Mean intensity")};
   for (const RowResult& result : results) {
     for (const DetailDifference& difference : result.detail_differences) {
       const double from_m = kDetailBin_m * difference.bin;
@@ -161,9 +143,9 @@ std::optional<Section> DetailSection(const FrontierPlan& plan,
       .key = "scene_detail",
       .title = "Scene detail",
       .paragraphs = {Joined(
-          {"Rows with +auto_detail trace a scene as coarse as world.detail auto permits. "
-           "Their echoes are other ones, about as many and as strong, and cannot be matched with "
-           "those of the reference. Their differences here are statistical, over ",
+          {"Rows with +auto_detail trace a scene as coarse as world.detail auto permits. Their "
+           "echoes are other ones, about as many and as strong, and cannot be matched with those "
+           "of the reference. Their differences here are statistical, over ",
            CountText(plan.detail_frames.size()),
            " frames, and must not be compared with the errors of the other rows."})},
       .tables = {std::move(table)}};

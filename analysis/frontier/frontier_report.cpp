@@ -19,16 +19,11 @@ constexpr double kPercentOfAll = 100.0;
 
 // All errors of all rows, in SI units or in units for readers.
 Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
-  Table table = {"time_and_errors",
-                 "Time and errors",
+  Table table = {"time_and_errors", "Time and errors",
                  "Time of a frame, and as a multiple of the raw trace's. Errors are against the "
                  "reference; less is better.",
-                 {{"row", "Row", ""},
-                  {"group", "Group", ""},
-                  {"p50_ms", "Time p50", "ms"},
-                  {"p99_ms", "Time p99", "ms"},
-                  {"ratio_to_raw_trace", "Time x raw", ""}},
-                 {}};
+                 ColumnsOf("row: Row; group: Group; p50_ms: Time p50; p99_ms: Time p99; "
+                           "ratio_to_raw_trace: Time x raw")};
   for (const FrontierError& error : kFrontierErrors) {
     table.columns.push_back({is_si ? error.name : error.shown_name, error.title, error.unit});
   }
@@ -46,20 +41,13 @@ Table ErrorsTable(const std::vector<RowResult>& results, bool is_si) {
 
 Table FoundTable(const std::vector<RowResult>& results) {
   Table table = {
-      "found",
-      "What was found",
-      "Recall: of the reference's echoes, what the row has, too; precision: of the row's "
-      "echoes, what the reference has, too. Intervals take echoes as independent "
-      "(Wilson).",
-      {{"row", "Row", ""},
-       {"time_ratio", "Time x raw", ""},
-       {"recall_percent", "Recall", "%"},
-       {"precision_percent", "Precision", "%"},
-       {"wires_percent", "Wires", "%"},
-       {"further_percent", "Further echoes", "%"},
-       {"second_percent", "Second surfaces", "%"},
-       {"step_percent", "Steps", "%"}},
-      {}};
+      "found", "What was found",
+      "Recall: of the reference's echoes, what the row has, too; precision: of the row's echoes, "
+      "what the reference has, too. Intervals take echoes as independent (Wilson).",
+      ColumnsOf("row: Row; time_ratio: Time x raw; recall_percent: Recall; "
+                "precision_percent: Precision; wires_percent: Wires; "
+                "further_percent: Further echoes; second_percent: Second surfaces; "
+                "step_percent: Steps")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     const FrameDifference& d = *result.difference;
@@ -88,18 +76,12 @@ void AddPoints(const std::string& row,
 }
 
 Table TargetsTable(const std::vector<RowResult>& results) {
-  Table table = {"targets",
-                 "Points on persons and poles",
+  Table table = {"targets", "Points on persons and poles",
                  "Echoes of persons, and of poles, masts and signals, by their range, in bins of "
                  "50 m, the last without an end. The error in the table of errors is the mean of "
                  "|ratio - 1| over the bins with 20 points of the reference or more.",
-                 {{"row", "Row", ""},
-                  {"target", "Target", ""},
-                  {"from_m", "From", "m"},
-                  {"reference_points", "Reference", ""},
-                  {"points", "Points", ""},
-                  {"ratio", "Ratio", ""}},
-                 {}};
+                 ColumnsOf("row: Row; target: Target; from_m: From; reference_points: Reference; "
+                           "points: Points; ratio: Ratio")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     AddPoints(result.row.name, "persons", result.difference->persons, table);
@@ -109,12 +91,10 @@ Table TargetsTable(const std::vector<RowResult>& results) {
 }
 
 Table ParetoTable(const std::vector<RowResult>& results) {
-  Table table = {"pareto_fronts",
-                 "Pareto fronts",
+  Table table = {"pareto_fronts", "Pareto fronts",
                  "For each error the rows that no other row beats, the references apart: none is "
                  "as fast and as accurate and better in one of both.",
-                 {{"error", "Error", ""}, {"rows", "Rows", ""}},
-                 {}};
+                 ColumnsOf("error: Error; rows: Rows")};
   for (const FrontierError& error : kFrontierErrors) {
     const std::vector<std::string> names = ParetoFront(results, error);
     std::string rows;
@@ -150,8 +130,8 @@ Chart ErrorChart(const Table& errors, const FrontierError& error) {
       key,
       Joined({error.title, " against time"}),
       "Left and low is best: a row is worth its time where none lies both left of it and below.",
-      {"Time per frame / raw trace", "", true, {}},
-      {error.title, error.unit, false, {}},
+      {"Time per frame / raw trace", "", true},
+      {error.title, error.unit, false},
       {GroupSeries(errors, key, RowGroup::kLadder, "railcast"),
        GroupSeries(errors, key, RowGroup::kBruteForce, "brute force, rays a beam"),
        GroupSeries(errors, key, RowGroup::kBetween, "footprint without thin_conductors"),
@@ -197,16 +177,15 @@ Report MakeFrontierReport(const FrontierPlan& plan,
                           const LabelTable& labels,
                           const std::vector<RowResult>& results,
                           const std::string& command) {
-  Report report;
-  report.title = TitleOfRow(plan, circumstances.scenario);
-  report.command = command;
-  report.facts = {{"Scenario", circumstances.scenario},
-                  {"Scenario hash", circumstances.scenario_hash},
-                  {"Weather", circumstances.weather},
-                  {"Seed", std::to_string(circumstances.seed)},
-                  {"Machine", ProcessorName()},
-                  {"Version", Joined({"railcast ", circumstances.version})},
-                  {"Date", circumstances.date}};
+  Report report{.title = TitleOfRow(plan, circumstances.scenario),
+                .command = command,
+                .facts = {{"Scenario", circumstances.scenario},
+                          {"Scenario hash", circumstances.scenario_hash},
+                          {"Weather", circumstances.weather},
+                          {"Seed", std::to_string(circumstances.seed)},
+                          {"Machine", ProcessorName()},
+                          {"Version", Joined({"railcast ", circumstances.version})},
+                          {"Date", circumstances.date}}};
   for (const RowResult& result : results) {
     if (result.row.group != RowGroup::kLadder) continue;
     report.headlines.push_back({result.row.name, "x raw", result.ratio()});

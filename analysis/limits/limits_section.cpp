@@ -18,15 +18,13 @@ Section LimitsSection(const std::vector<ScenarioSpec>& sample, bool has_detector
     const bool is_auto = scenario.fidelity == Fidelity::kAuto;
     rungs.emplace(NameOf(is_auto ? Fidelity::kFootprint : scenario.fidelity));
   }
-  Table table;
-  table.key = "limits";
-  table.title = "What differs from reality";
-  table.note =
-      "On the rungs of these scenarios; docs/effects.md and docs/world.md of railcast have the "
-      "rest.";
-  table.is_open = true;
-  table.columns = {
-      {"real", "In reality", ""}, {"model", "Modelled", ""}, {"errs", "Which way it errs", ""}};
+  Table table{.key = "limits",
+              .title = "What differs from reality",
+              .note =
+                  "On the rungs of these scenarios; docs/effects.md and docs/world.md of railcast "
+                  "have the rest.",
+              .columns = ColumnsOf("real: In reality; model: Modelled; errs: Which way it errs"),
+              .is_open = true};
   for (const Json& row : Json::parse(kLimits)) {
     const bool is_due = std::ranges::any_of(
         row.at("rungs"), [&](const Json& rung) { return rungs.contains(rung.get<std::string>()); });

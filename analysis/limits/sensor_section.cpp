@@ -54,23 +54,19 @@ Section SensorSection(const std::vector<ScenarioSpec>& sample) {
   for (const Json& row : Json::parse(kValidatedSensors)) {
     compared.emplace(row.at("sensor").get<std::string>(), row);
   }
-  Table table;
-  table.key = "sensor";
-  table.title = "The sensor's preset against recordings";
-  table.note =
-      "On planes of one recording of each sensor, on halves of the scene that no parameter was "
-      "fitted to (docs/validation.md of railcast): error of the number of points over bins of "
-      "range, error of the intensities over cells, simulated over recorded noise, and the share of "
-      "firings on planes without a point. Nothing of these recordings is of railways, and none is "
-      "in rain or fog.";
-  table.is_open = true;
-  table.columns = {{"sensor", "Sensor", ""},
-                   {"state", "State", ""},
-                   {"points_error", "Error of points", ""},
-                   {"intensity_error", "Error of intensity", ""},
-                   {"noise_ratio", "Noise ratio", ""},
-                   {"holes_recorded", "Holes, recorded", ""},
-                   {"holes_simulated", "Holes, simulated", ""}};
+  Table table{
+      .key = "sensor",
+      .title = "The sensor's preset against recordings",
+      .note =
+          "On planes of one recording of each sensor, on halves of the scene that no parameter was "
+          "fitted to (docs/validation.md of railcast): error of the number of points over bins of "
+          "range, error of the intensities over cells, simulated over recorded noise, and the "
+          "share of firings on planes without a point. Nothing of these recordings is of railways, "
+          "and none is in rain or fog.",
+      .columns = ColumnsOf("sensor: Sensor; state: State; points_error: Error of points; "
+                           "intensity_error: Error of intensity; noise_ratio: Noise ratio; "
+                           "holes_recorded: Holes, recorded; holes_simulated: Holes, simulated"),
+      .is_open = true};
   std::set<std::pair<std::string, std::string>> seen;
   std::vector<LidarSpec> looked_at;  // A preset is read from its file for each comparison.
   for (const ScenarioSpec& scenario : sample) {

@@ -32,17 +32,14 @@ Table RangeTable(const PresetComparison& comparison) {
   Table table = {
       "preset_by_range",
       "By range",
-      "On the planes, a turn's points each; sigmas are robust. Of few turns: what changes "
-      "more slowly is in no interval.",
-      {{"range_m", "Range", "m"},
-       {"recorded", "Points recorded", ""},
-       {"simulated", "Points simulated", ""},
-       {"recorded_holes_percent", "Holes recorded", "%"},
-       {"simulated_holes_percent", "Holes simulated", "%"},
-       {"recorded_planes_mm", "About planes, recorded", "mm"},
-       {"simulated_planes_mm", "About planes, simulated", "mm"},
-       {"recorded_turns_mm", "From turn to turn, recorded", "mm"},
-       {"simulated_turns_mm", "From turn to turn, simulated", "mm"}},
+      "On the planes, a turn's points each; sigmas are robust. Of few turns: what "
+      "changes more slowly is in no interval.",
+      ColumnsOf("range_m: Range; recorded: Points recorded; simulated: Points simulated; "
+                "recorded_holes_percent: Holes recorded; simulated_holes_percent: Holes simulated; "
+                "recorded_planes_mm: About planes, recorded; "
+                "simulated_planes_mm: About planes, simulated; "
+                "recorded_turns_mm: From turn to turn, recorded; "
+                "simulated_turns_mm: From turn to turn, simulated"),
       {},
       true};
   const PlaneFigures& recorded = comparison.recorded;
@@ -59,21 +56,13 @@ Table RangeTable(const PresetComparison& comparison) {
 }
 
 Table CellTable(const PresetComparison& comparison) {
-  Table table = {"preset_intensity",
-                 "Intensity by piece, range and incidence",
-                 "Means of the middle three fifths of at least 15 points. A piece is made of "
-                 "neighbouring cells whose recorded intensities differ by less than a factor of "
-                 "1.3; the simulated ones are multiplied by one factor for each piece.",
-                 {{"turn", "Turn", ""},
-                  {"piece", "Piece", ""},
-                  {"plane", "Plane", ""},
-                  {"strip", "Strip", ""},
-                  {"kind", "Kind", ""},
-                  {"range_m", "Range", "m"},
-                  {"incidence_deg", "Incidence", "deg"},
-                  {"recorded", "Recorded", ""},
-                  {"simulated", "Simulated", ""}},
-                 {}};
+  Table table = {
+      "preset_intensity", "Intensity by piece, range and incidence",
+      "Means of the middle three fifths of at least 15 points. A piece is made of "
+      "neighbouring cells whose recorded intensities differ by less than a factor of "
+      "1.3; the simulated ones are multiplied by one factor for each piece.",
+      ColumnsOf("turn: Turn; piece: Piece; plane: Plane; strip: Strip; kind: Kind; range_m: Range; "
+                "incidence_deg: Incidence; recorded: Recorded; simulated: Simulated")};
   for (const IntensityCell& cell : LikePieces(comparison.intensity)) {
     table.rows.push_back({std::uint64_t{cell.turn}, std::uint64_t{cell.piece},
                           std::uint64_t{cell.place.plane}, std::uint64_t{cell.place.strip},
@@ -91,10 +80,7 @@ Section MakePlanesSection(const PresetComparison& comparison) {
        "from the same place with its own pattern, rung and weather. A beam meets a plane where the "
        "recorded firings of its direction did. Level planes below the sensor are asphalt, others "
        "concrete, with the reflectivities that give the recorded intensities; for the comparison "
-       "of "
-       "intensities, one reflectivity everywhere."},
-      {},
-      {}};
+       "of intensities, one reflectivity everywhere."}};
   Table table = RangeTable(comparison);
   for (const auto& [key, title, what, unit] :
        {std::array{"holes_percent", "Holes in planes", "Holes", "%"},
@@ -119,14 +105,14 @@ Report MakePresetReport(const PresetComparison& comparison,
                         const RecordingInfo& recording,
                         const ScenarioSpec& scenario,
                         const std::string& command) {
-  Report report;
-  report.title = "Preset " + scenario.lidar.name + " against " + ShownPath(recording.source);
-  report.command = command;
-  report.facts = {{"Recording", recording.kind},
-                  {"Rung", std::string(NameOf(scenario.fidelity))},
-                  {"Turns", NumberText(comparison.num_turns)},
-                  {"Planes", NumberText(comparison.num_planes)},
-                  {"Cells of intensity", NumberText(LikePieces(comparison.intensity).size())}};
+  Report report{
+      .title = "Preset " + scenario.lidar.name + " against " + ShownPath(recording.source),
+      .command = command,
+      .facts = {{"Recording", recording.kind},
+                {"Rung", std::string(NameOf(scenario.fidelity))},
+                {"Turns", NumberText(comparison.num_turns)},
+                {"Planes", NumberText(comparison.num_planes)},
+                {"Cells of intensity", NumberText(LikePieces(comparison.intensity).size())}}};
   if (comparison.gaps.num_pairs > 0) {
     report.facts.emplace_back("Pairs of returns", NumberText(comparison.gaps.num_pairs));
     report.facts.emplace_back("Nearest pair", ShortText(comparison.gaps.least_m) + " m");

@@ -76,9 +76,8 @@ ReceivedFiles::ReceivedFiles(const std::filesystem::path& directory) : directory
   }
   lines_.open(index);
   lines_.precision(std::numeric_limits<double>::max_digits10);
-  lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points,"
-            "end_time_ns,end_x,end_y,end_z,end_qx,end_qy,end_qz,end_qw,"
-            "first_arrival_ns,last_arrival_ns,latency_ns\n"
+  lines_ << "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points,end_time_ns,end_x,end_y,"
+            "end_z,end_qx,end_qy,end_qz,end_qw,first_arrival_ns,last_arrival_ns,latency_ns\n"
          << std::flush;
   if (!lines_) throw FileError(index, errno);
 }

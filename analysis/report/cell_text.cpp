@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -109,7 +110,40 @@ CellText EstimateText(const Estimate& estimate) {
   return text;
 }
 
+// What the unit of a key is that ends so; the first one that fits holds.
+constexpr std::string_view kUnitsByEnd[][2] = {
+    {"per_km", "1/km"},    {"per_m2", "1/m²"}, {"per_sr", "1/sr"}, {"_percent", "%"},
+    {"_permil", "permil"}, {"_kmph", "km/h"},  {"_mps", "m/s"},    {"_km", "km"},
+    {"_mm", "mm"},         {"_m2", "m²"},      {"_ms", "ms"},      {"_deg", "deg"},
+    {"_m", "m"},           {"_s", "s"}};
+
+TableColumn ColumnOfText(std::string_view text) {
+  const std::size_t colon = text.find(": ");
+  Check(colon != std::string_view::npos, "a column has a key and a title");
+  TableColumn column{std::string(text.substr(0, colon)), std::string(text.substr(colon + 2))};
+  if (const std::size_t bracket = column.key.find(" ["); bracket != std::string::npos) {
+    column.unit = column.key.substr(bracket + 2, column.key.size() - bracket - 3);
+    column.key.resize(bracket);
+    return column;
+  }
+  const auto* const unit = std::ranges::find_if(
+      kUnitsByEnd, [&](const auto& ended) { return column.key.ends_with(ended[0]); });
+  if (unit != std::end(kUnitsByEnd)) column.unit = (*unit)[1];
+  return column;
+}
+
 }  // namespace
+
+std::vector<TableColumn> ColumnsOf(std::string_view text) {
+  constexpr std::string_view kBetween = "; ";
+  std::vector<TableColumn> columns;
+  while (true) {
+    const std::size_t end = text.find(kBetween);
+    columns.push_back(ColumnOfText(text.substr(0, end)));
+    if (end == std::string_view::npos) return columns;
+    text.remove_prefix(end + kBetween.size());
+  }
+}
 
 std::string CountText(std::uint64_t count) {
   return WithSeparators(std::to_string(count));

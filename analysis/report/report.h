@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,6 +30,11 @@ struct TableColumn {
   std::string title{};  ///< Title for readers, without the unit: "Range".
   std::string unit{};   ///< "m"; empty if there is none.
 };
+
+/// Columns from a text such as "range_m: Range; points: Points". The unit follows from the key's
+/// end, as in any name: "m" for range_m, "%" for share_percent. Where it does not, it is in
+/// brackets: "auc [1]: Area". Defined in cell_text.cpp.
+[[nodiscard]] std::vector<TableColumn> ColumnsOf(std::string_view text);
 
 struct Table {
   std::string key{};    ///< Name of the CSV file, unique in a report: "dropout_by_range".

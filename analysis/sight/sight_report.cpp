@@ -32,8 +32,8 @@ Chart SightChart(const std::vector<SightPlace>& places, const SightSpec& spec) {
   Chart chart{.key = "sight",
               .title = "Sight along the track and the distance needed to stop",
               .caption =
-                  "A line has a gap where the route ends within the range, so that it is not "
-                  "known how far one could see on.",
+                  "A line has a gap where the route ends within the range, so that it is not known "
+                  "how far one could see on.",
               .x = ChainageAxis(),
               .y = {.title = "Distance along the track", .unit = "m"}};
   ChartSeries needed{.title = "needed", .style = SeriesStyle::kLine};
@@ -66,19 +66,12 @@ Table ShortTable(const std::vector<ShortSight>& parts) {
   Table table{.key = "short_sight",
               .title = "Where the sight is shorter than the distance needed",
               .note =
-                  "Each row is a part of the way on which the sight of one target ends at the "
-                  "same label; the figures are those of its place with least to spare. Range: "
-                  "nothing blocks as far as targets are sought.",
-              .columns = {{"height_m", "Target", "m"},
-                          {"from_m", "From", "m"},
-                          {"to_m", "To", "m"},
-                          {"blocker", "Blocked by", ""},
-                          {"sight_m", "Sight", "m"},
-                          {"needed_m", "Needed", "m"},
-                          {"spare_m", "To spare", "m"},
-                          {"at_m", "At", "m"},
-                          {"speed_kmph", "Speed", "km/h"},
-                          {"gradient_permil", "Gradient", "permil"}}};
+                  "Each row is a part of the way on which the sight of one target ends at the same "
+                  "label; the figures are those of its place with least to spare. Range: nothing "
+                  "blocks as far as targets are sought.",
+              .columns = ColumnsOf("height_m: Target; from_m: From; to_m: To; blocker: Blocked by; "
+                                   "sight_m: Sight; needed_m: Needed; spare_m: To spare; at_m: At; "
+                                   "speed_kmph: Speed; gradient_permil: Gradient")};
   table.is_open = true;
   for (const ShortSight& part : parts) {
     table.rows.push_back({part.height_m, part.from_s_m, part.to_s_m, part.blocker,
@@ -90,17 +83,13 @@ Table ShortTable(const std::vector<ShortSight>& parts) {
 }
 
 Table PlacesTable(const std::vector<SightPlace>& places, const SightSpec& spec) {
-  Table table{.key = "places",
-              .title = "Every place",
-              .columns = {{"frame", "Frame", ""},
-                          {"chainage_m", "Chainage", "m"},
-                          {"height_m", "Target", "m"},
-                          {"sight_m", "Sight", "m"},
-                          {"ended_by", "Ended by", ""},
-                          {"needed_m", "Needed", "m"},
-                          {"braking_distance_m", "Braking distance", "m"},
-                          {"speed_kmph", "Speed", "km/h"},
-                          {"gradient_permil", "Gradient", "permil"}}};
+  Table table{
+      .key = "places",
+      .title = "Every place",
+      .columns = ColumnsOf("frame: Frame; chainage_m: Chainage; height_m: Target; sight_m: Sight; "
+                           "ended_by: Ended by; needed_m: Needed; "
+                           "braking_distance_m: Braking distance; speed_kmph: Speed; "
+                           "gradient_permil: Gradient")};
   for (const SightPlace& place : places) {
     for (std::size_t i = 0; i < spec.heights_m.size(); ++i) {
       table.rows.push_back({std::uint64_t{place.frame}, place.chainage_m, spec.heights_m[i],
@@ -113,29 +102,28 @@ Table PlacesTable(const std::vector<SightPlace>& places, const SightSpec& spec) 
 
 Section RulesSection(const SightSpec& spec, double range_m) {
   const BrakingSpec& braking = spec.braking;
-  return {
-      .key = "rules",
-      .title = "How it is measured",
-      .paragraphs = {
-          "Targets " + NumberText(kTargetWidth_m) + " m wide stand on the track's axis, from " +
-              NumberText(kNearestTarget_m) + " m to " + NumberText(range_m) +
-              " m ahead of the sensor, one every " + NumberText(kTargetStep_m) +
-              " m of the route. One is seen if at least half of its face is in line of sight of "
-              "the sensor's place in its vehicle; more and more rays sample it until that changes "
-              "the sight by less than " +
-              NumberText(kTargetStep_m) +
-              " m. The sight is the distance of the last one before targets are hidden for " +
-              NumberText(kMostHidden_m) +
-              " m or to the end; what hides them for a shorter way, as a mast does, is passed "
-              "over.",
-          "It is geometry: the sensor's field of view, its resolution, weather and wires do not "
-          "count. Moving things stand where they are when the vehicle is at the place.",
-          "Needed is s = v t + v^2 / (2 (a + g i)) + margin, with t = " +
-              NumberText(braking.reaction_s) +
-              " s to full braking, a = " + NumberText(braking.deceleration_mps2) +
-              " m/s^2 on the level, a margin of " + NumberText(braking.margin_m) +
-              " m, and the mean gradient i of the track over the braking distance. v is " +
-              (spec.speed_mps ? "as given." : "the vehicle's own speed at the place.")}};
+  return {.key = "rules",
+          .title = "How it is measured",
+          .paragraphs = {
+              "Targets " + NumberText(kTargetWidth_m) + " m wide stand on the track's axis, from " +
+                  NumberText(kNearestTarget_m) + " m to " + NumberText(range_m) +
+                  " m ahead of the sensor, one every " + NumberText(kTargetStep_m) +
+                  " m of the route. One is seen if at least half of its face is in line of sight "
+                  "of the sensor's place in its vehicle; more and more rays sample it until that "
+                  "changes the sight by less than " +
+                  NumberText(kTargetStep_m) +
+                  " m. The sight is the distance of the last one before targets are hidden for " +
+                  NumberText(kMostHidden_m) +
+                  " m or to the end; what hides them for a shorter way, as a mast does, is passed "
+                  "over.",
+              "It is geometry: the sensor's field of view, its resolution, weather and wires do "
+              "not count. Moving things stand where they are when the vehicle is at the place.",
+              "Needed is s = v t + v^2 / (2 (a + g i)) + margin, with t = " +
+                  NumberText(braking.reaction_s) +
+                  " s to full braking, a = " + NumberText(braking.deceleration_mps2) +
+                  " m/s^2 on the level, a margin of " + NumberText(braking.margin_m) +
+                  " m, and the mean gradient i of the track over the braking distance. v is " +
+                  (spec.speed_mps ? "as given." : "the vehicle's own speed at the place.")}};
 }
 
 void AddSightHeadlines(const std::vector<SightPlace>& places,
@@ -188,16 +176,14 @@ Report MakeSightReport(const std::vector<SightPlace>& places,
                        const SightSpec& spec,
                        double range_m,
                        const std::string& command) {
-  Report report;
-  report.title = "Sight along the route";
-  report.command = command;
+  Report report{.title = "Sight along the route", .command = command};
   AddSightHeadlines(places, spec, report);
   const std::vector<ShortSight> parts = ShortSights(places, spec);
   Section sight{.key = "sight", .title = "Sight and braking distance"};
-  sight.paragraphs = {parts.empty() ? "The sight is nowhere known to be shorter than the distance "
-                                      "needed to stop."
-                                    : "Where the sight is shorter than the distance needed, the "
-                                      "train cannot stop before what it comes to see."};
+  sight.paragraphs = {
+      parts.empty() ? "The sight is nowhere known to be shorter than the distance needed to stop."
+                    : "Where the sight is shorter than the distance needed, the train cannot stop "
+                      "before what it comes to see."};
   sight.charts = {SightChart(places, spec)};
   sight.tables = {ShortTable(parts)};
   const std::vector<Chart> courses = {

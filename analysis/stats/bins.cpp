@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/stats/sums.h"
+
 namespace railcast {
 
 Bins::Bins(std::vector<double> edges) : edges_(std::move(edges)) {}
@@ -35,6 +37,42 @@ const Bins& FineRangeBins() {
 const Bins& IncidenceBins() {
   static const Bins bins({0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0});
   return bins;
+}
+
+ChartAxis DistanceAxis(const std::string& title) {
+  ChartAxis axis{title, "m"};
+  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
+    const std::string from = i == 0 ? "0" : NumberText(kBinDistances_m.at(i - 1));
+    axis.categories.push_back(
+        i < kBinDistances_m.size() ? from + "-" + NumberText(kBinDistances_m.at(i)) : "> " + from);
+  }
+  return axis;
+}
+
+std::vector<TableColumn> DistanceColumns(const std::string& before, const std::string& end) {
+  std::vector<TableColumn> columns = ColumnsOf(before);
+  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
+    std::string key = DistanceBinName(i) + end;
+    std::ranges::replace(key, ' ', '_');
+    columns.push_back({std::move(key), DistanceBinText(i), "m"});
+  }
+  return columns;
+}
+
+Cell GroupCell(GroupBy by, std::size_t group, const Names& names) {
+  switch (by) {
+    case GroupBy::kRange:
+      return RangeBins().span(group);
+    case GroupBy::kIncidence:
+      return IncidenceBins().span(group);
+    case GroupBy::kLabel:
+      return names.OfLabel(static_cast<std::uint32_t>(group));
+    case GroupBy::kMaterial:
+      return names.OfMaterial(static_cast<std::uint16_t>(group));
+    case GroupBy::kRing:
+      break;
+  }
+  return std::to_string(group);
 }
 
 }  // namespace railcast

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,22 +36,22 @@ class Bins {
 /// Bins of incidence in degrees, 10 wide.
 [[nodiscard]] const Bins& IncidenceBins();
 
-/// An axis of the bins of distance, with names that are short enough to stand below it: "10-25".
-[[nodiscard]] inline ChartAxis DistanceAxis(const std::string& title) {
-  ChartAxis axis{title, "m"};
-  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
-    const std::string from = i == 0 ? "0" : NumberText(kBinDistances_m.at(i - 1));
-    axis.categories.push_back(
-        i < kBinDistances_m.size() ? from + "-" + NumberText(kBinDistances_m.at(i)) : "> " + from);
-  }
-  return axis;
-}
+/// Numbers by bin of kBinDistances_m.
+using RangeCounts = std::array<std::uint64_t, kNumDistanceBins>;
 
-/// Adds each element of `others` to its counterpart; `sums` grows to the larger size.
-template <typename Sum>
-void AddEach(std::vector<Sum>& sums, const std::vector<Sum>& others) {
-  if (sums.size() < others.size()) sums.resize(others.size());
-  for (std::size_t i = 0; i < others.size(); ++i) sums[i].Add(others[i]);
+/// An axis of the bins of distance, with names that are short enough to stand below it: "10-25".
+[[nodiscard]] ChartAxis DistanceAxis(const std::string& title);
+
+/// A column for each bin of distance, "25_to_50" in m, after those of ColumnsOf(`before`).
+/// @param end Of their keys.
+[[nodiscard]] std::vector<TableColumn> DistanceColumns(const std::string& before,
+                                                       const std::string& end = "");
+
+/// A row with these numbers after what it is of.
+template <typename Numbers>
+[[nodiscard]] std::vector<Cell> RowOf(std::vector<Cell> row, const Numbers& numbers) {
+  row.insert(row.end(), numbers.begin(), numbers.end());
+  return row;
 }
 
 }  // namespace railcast

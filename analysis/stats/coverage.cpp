@@ -1,16 +1,15 @@
-#include "analysis/stats/coverage.h"
+#include "analysis/stats/statistics.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "analysis/report/chart_columns.h"
+#include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kSector_deg = 5.0;
 constexpr std::size_t kNumSectors = 72;
 
@@ -39,8 +38,8 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!std::isfinite(frame.range_m[slot])) continue;
     ++num_points;
-    const double azimuth_deg = kDegrees * std::atan2(static_cast<double>(frame.y[slot]),
-                                                     static_cast<double>(frame.x[slot]));
+    const double azimuth_deg = DegFromRad(
+        std::atan2(static_cast<double>(frame.y[slot]), static_cast<double>(frame.x[slot])));
     const auto sector = static_cast<std::size_t>((azimuth_deg + 180.0) / kSector_deg);
     ++sectors_[std::min(sector, kNumSectors - 1)];
   }
@@ -51,7 +50,7 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   if (rings_.size() < frame.rows) rings_.resize(frame.rows);
   for (std::size_t row = 0; row < frame.rows; ++row) {
     Ring& ring = rings_[row];
-    if (scan != nullptr) ring.elevation_deg.Add(kDegrees * scan->elevation_rad[row]);
+    if (scan != nullptr) ring.elevation_deg.Add(DegFromRad(scan->elevation_rad[row]));
     for (std::size_t column = 0; column < frame.columns; ++column) {
       const std::size_t slot = row * frame.width() + column * frame.returns;
       if (IsOnOwnVehicle(recorded, slot)) continue;
@@ -61,44 +60,22 @@ void Coverage::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   }
 }
 
-void Coverage::Add(const Coverage& other) {
-  num_points_ += other.num_points_;
-  points_.Add(other.points_);
-  cells_.Add(other.cells_);
-  if (rings_.size() < other.rings_.size()) rings_.resize(other.rings_.size());
-  for (std::size_t i = 0; i < other.rings_.size(); ++i) {
-    rings_[i].elevation_deg.Add(other.rings_[i].elevation_deg);
-    rings_[i].num_firings += other.rings_[i].num_firings;
-    rings_[i].num_points += other.rings_[i].num_points;
-  }
-  if (sectors_.size() < other.sectors_.size()) sectors_.resize(other.sectors_.size());
-  for (std::size_t i = 0; i < other.sectors_.size(); ++i) sectors_[i] += other.sectors_[i];
-}
-
 Section Coverage::MakeSection() const {
   Section section{"coverage",
                   "Coverage",
-                  {"Occupancy counts the squares of 1 m, seen from above, that hold a point."},
-                  {},
-                  {}};
-  Table frames = {
-      "frames",
-      "A frame",
-      "Means over frames; consecutive frames resemble each other, so that the intervals "
-      "are those of this stretch of line.",
-      {{"figure", "Figure", ""}, {"mean", "Mean", ""}},
-      {{std::string("points"), PointsPerFrame()},
-       {std::string("squares of 1 m with a point"), OccupiedCells()}}};
+                  {"Occupancy counts the squares of 1 m, seen from above, that hold a point."}};
+  Table frames = {"frames",
+                  "A frame",
+                  "Means over frames; consecutive frames resemble each other, so that the "
+                  "intervals are those of this stretch of line.",
+                  ColumnsOf("figure: Figure; mean: Mean"),
+                  {{std::string("points"), PointsPerFrame()},
+                   {std::string("squares of 1 m with a point"), OccupiedCells()}}};
   section.tables.push_back(std::move(frames));
 
-  Table rings = {"rings",
-                 "Rings",
-                 "Firings known to have met the own vehicle do not count.",
-                 {{"ring", "Ring", ""},
-                  {"elevation_deg", "Elevation", "deg"},
-                  {"firings", "Firings", ""},
-                  {"with_point_percent", "With a point", "%"}},
-                 {}};
+  Table rings = {"rings", "Rings", "Firings known to have met the own vehicle do not count.",
+                 ColumnsOf("ring: Ring; elevation_deg: Elevation; firings: Firings; "
+                           "with_point_percent: With a point")};
   for (std::size_t i = 0; i < rings_.size(); ++i) {
     rings.rows.push_back({std::uint64_t{i}, rings_[i].elevation_deg.PlainMean(),
                           rings_[i].num_firings,
@@ -114,12 +91,8 @@ Section Coverage::MakeSection() const {
     section.tables.push_back(std::move(rings));
   }
 
-  Table sectors = {
-      "azimuth",
-      "Azimuth",
-      "",
-      {{"azimuth_deg", "Azimuth, left positive", "deg"}, {"points", "Points a frame", ""}},
-      {}};
+  Table sectors = {"azimuth", "Azimuth", "",
+                   ColumnsOf("azimuth_deg: Azimuth, left positive; points: Points a frame")};
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     const double middle_deg = -180.0 + (static_cast<double>(i) + 0.5) * kSector_deg;
     const Estimate rate = PoissonRate(sectors_[i], static_cast<double>(num_frames()));

@@ -1,20 +1,18 @@
-#include "analysis/stats/density.h"
+#include "analysis/stats/statistics.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
+#include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
 #include "railcast/transform.h"
 
 namespace railcast {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Adds to the curve of a key; the map is only searched when the key changes.
 template <typename Key>
@@ -26,12 +24,7 @@ void AddToBand(std::map<Key, Density::Curve>& curves,
   if (!bin) return;
   Density::Curve& curve = curves[key];
   curve.resize(FineRangeBins().size());
-  curve[*bin].Add(count);
-}
-
-template <typename Key>
-void AddAll(std::map<Key, Density::Curve>& sums, const std::map<Key, Density::Curve>& others) {
-  for (const auto& [key, curve] : others) AddEach(sums[key], curve);
+  AddTo(curve[*bin], count);
 }
 
 Vector3 PointIn(const Frame& frame, std::size_t row, std::size_t column) {
@@ -80,8 +73,8 @@ std::optional<Place> LookAtPoint(const Frame& frame,
 }
 
 std::string AttitudeOf(const Vector3& normal) {
-  constexpr double kLevel_rad = 20.0 * kDegree;
-  constexpr double kUpright_rad = 70.0 * kDegree;
+  constexpr double kLevel_rad = RadFromDeg(20.0);
+  constexpr double kUpright_rad = RadFromDeg(70.0);
   const double tilt_rad = std::acos(std::min(1.0, std::abs(normal.normalized().z())));
   if (tilt_rad < kLevel_rad) return "level";
   return tilt_rad > kUpright_rad ? "upright" : "slanted";
@@ -96,15 +89,11 @@ std::uint64_t NumPoints(const Density::Curve& curve) {
 }
 
 Table LawTable(const NamedCurves& curves) {
-  Table table = {"density_laws",
-                 "Fitted power laws",
+  Table table = {"density_laws", "Fitted power laws",
                  "density = factor x range^exponent, from the bins with 10 points or more; samples "
                  "of the exponent are bins.",
-                 {{"surface", "Surface", ""},
-                  {"points", "Points", ""},
-                  {"exponent", "Exponent", ""},
-                  {"per_m2_at_10_m", "Density at 10 m", "1/m²"}},
-                 {}};
+                 ColumnsOf("surface: Surface; points: Points; exponent: Exponent; "
+                           "per_m2_at_10_m [1/m²]: Density at 10 m")};
   for (const auto& [name, curve] : curves) {
     const PowerLaw law = Density::LawOf(*curve);
     constexpr double kReference_m = 10.0;
@@ -114,17 +103,11 @@ Table LawTable(const NamedCurves& curves) {
 }
 
 Table CurveTable(const NamedCurves& curves) {
-  Table table = {
-      "density_by_range",
-      "Density by range",
-      "Intervals are those of counts of independent points (Garwood): wider than a regular "
-      "grid needs.",
-      {{"surface", "Surface", ""},
-       {"range_m", "Range", "m"},
-       {"area_m2", "Area seen", "m²"},
-       {"per_m2", "Density", "1/m²"},
-       {"per_sr", "Density", "1/sr"}},
-      {}};
+  Table table = {"density_by_range", "Density by range",
+                 "Intervals are those of counts of independent points (Garwood): wider than a "
+                 "regular grid needs.",
+                 ColumnsOf("surface: Surface; range_m: Range; area_m2: Area seen; per_m2: Density; "
+                           "per_sr: Density")};
   for (const auto& [name, curve] : curves) {
     for (std::size_t i = 0; i < curve->size(); ++i) {
       const Density::Count& count = (*curve)[i];
@@ -147,22 +130,13 @@ Chart CurveChart(NamedCurves curves) {
   return {"density_by_range",
           "Points per square metre of surface against range",
           "A line that falls more steeply than the others loses points: without losses a uniform "
-          "raster "
-          "gives -3 on level ground and -2 on faces met under one incidence.",
+          "raster gives -3 on level ground and -2 on faces met under one incidence.",
           {"Range", "m", true},
           {"Density", "1/m²", true},
           SeriesByName(CurveTable(curves), {"range_m", "per_m2", "", "surface"})};
 }
 
 }  // namespace
-
-void Density::Count::Add(const Count& other) {
-  num_firings += other.num_firings;
-  num_points += other.num_points;
-  area_m2 += other.area_m2;
-  solid_angle_sr += other.solid_angle_sr;
-  sum_of_logs += other.sum_of_logs;
-}
 
 PowerLaw Density::LawOf(const Curve& curve) {
   std::vector<CurvePoint> points;
@@ -216,13 +190,8 @@ void Density::AddFromPoints(const Frame& frame, const ScanTable& scan) {
   }
 }
 
-void Density::Add(const Density& other) {
-  AddAll(by_label_, other.by_label_);
-  AddAll(by_attitude_, other.by_attitude_);
-}
-
 Section Density::MakeSection(const Names& names) const {
-  Section section{"density", "Density against range", {}, {}, {}};
+  Section section{"density", "Density against range"};
   NamedCurves curves;
   for (const auto& [label, curve] : by_label_) curves.emplace_back(names.OfLabel(label), &curve);
   if (!by_label_.empty()) {
@@ -235,9 +204,7 @@ Section Density::MakeSection(const Names& names) const {
     section.paragraphs.emplace_back(
         "From the points alone: the area between a firing's four neighbours in the grid where they "
         "lie on one surface, with a point of its own on it or without any. Level: its normal is "
-        "within 20 deg of up (of the sensor's z "
-        "axis); "
-        "upright: beyond 70 deg.");
+        "within 20 deg of up (of the sensor's z axis); upright: beyond 70 deg.");
   }
   section.tables = {LawTable(curves), CurveTable(curves)};
   section.charts = {CurveChart(curves)};

@@ -105,23 +105,10 @@ std::size_t GradeOf(DifficultyScale scale, const RecordedObject& object, double 
       kPointLimits, [&](std::uint32_t most) { return object.points <= most; }));
 }
 
-void AddGrades(const Difficulty::Counts& counts, Difficulty::Counts& sums) {
-  for (std::size_t scale = 0; scale < counts.size(); ++scale) {
-    for (std::size_t grade = 0; grade < Difficulty::kMostGrades; ++grade) {
-      const Difficulty::Count& count = counts.at(scale).at(grade);
-      Difficulty::Count& sum = sums.at(scale).at(grade);
-      sum.objects += count.objects;
-      sum.points += count.points;
-      std::ranges::transform(count.by_distance, sum.by_distance, sum.by_distance.begin(),
-                             std::plus());
-    }
-  }
-}
-
 // Of all labels together.
 Difficulty::Counts Total(const std::map<std::string, Difficulty::Counts>& by_label) {
   Difficulty::Counts total{};
-  for (const auto& [label, counts] : by_label) AddGrades(counts, total);
+  for (const auto& [label, counts] : by_label) AddTo(total, counts);
   return total;
 }
 
@@ -137,22 +124,16 @@ void ForEachGrade(Visitor&& visit) {
 }
 
 Table GradesTable(const Difficulty::Counts& total) {
-  Table table = {"difficulty",
-                 "Objects and points by difficulty",
-                 "Objects are counted in each frame. Points: those on objects of the grade.",
-                 {{"scale", "Scale", ""},
-                  {"grade", "Grade", ""},
-                  {"objects", "Objects", ""},
-                  {"objects_percent", "Share of objects", "%"},
-                  {"points", "Points", ""},
-                  {"points_percent", "Share of points on objects", "%"}},
-                 {},
-                 true};
+  Table table = {
+      "difficulty",
+      "Objects and points by difficulty",
+      "Objects are counted in each frame. Points: those on objects of the grade.",
+      ColumnsOf("scale: Scale; grade: Grade; objects: Objects; objects_percent: Share of objects; "
+                "points: Points; points_percent: Share of points on objects"),
+      {},
+      true};
   Difficulty::Count all;  // The same in each scale.
-  for (const Difficulty::Count& count : total.front()) {
-    all.objects += count.objects;
-    all.points += count.points;
-  }
+  for (const Difficulty::Count& count : total.front()) AddTo(all, count);
   ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
     const Difficulty::Count& count = total.at(scale).at(grade);
     table.rows.push_back({std::move(title), std::move(name), count.objects,
@@ -163,15 +144,9 @@ Table GradesTable(const Difficulty::Counts& total) {
 }
 
 Table LabelGradesTable(const std::map<std::string, Difficulty::Counts>& by_label) {
-  Table table = {"difficulty_by_label",
-                 "Difficulty by label",
-                 "",
-                 {{"label", "Label", ""},
-                  {"scale", "Scale", ""},
-                  {"grade", "Grade", ""},
-                  {"objects", "Objects", ""},
-                  {"points", "Points", ""}},
-                 {}};
+  Table table = {
+      "difficulty_by_label", "Difficulty by label", "",
+      ColumnsOf("label: Label; scale: Scale; grade: Grade; objects: Objects; points: Points")};
   for (const auto& [label, counts] : by_label) {
     ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
       const Difficulty::Count& count = counts.at(scale).at(grade);
@@ -182,20 +157,12 @@ Table LabelGradesTable(const std::map<std::string, Difficulty::Counts>& by_label
 }
 
 Table DistanceGradesTable(const Difficulty::Counts& total) {
-  Table table = {"difficulty_by_distance",
-                 "Objects by difficulty and distance",
+  Table table = {"difficulty_by_distance", "Objects by difficulty and distance",
                  "By the distance of the box's middle.",
-                 {{"scale", "Scale", ""}, {"grade", "Grade", ""}},
-                 {}};
-  for (std::size_t bin = 0; bin < kNumDistanceBins; ++bin) {
-    std::string key = DistanceBinName(bin);
-    std::ranges::replace(key, ' ', '_');
-    table.columns.push_back({std::move(key), DistanceBinText(bin), "m"});
-  }
+                 DistanceColumns("scale: Scale; grade: Grade")};
   ForEachGrade([&](std::size_t scale, std::size_t grade, std::string title, std::string name) {
-    std::vector<Cell> row = {std::move(title), std::move(name)};
-    for (const std::uint64_t num : total.at(scale).at(grade).by_distance) row.emplace_back(num);
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(
+        RowOf({std::move(title), std::move(name)}, total.at(scale).at(grade).by_distance));
   });
   return table;
 }
@@ -207,10 +174,9 @@ Chart GradesChart(const Difficulty::Counts& total, std::size_t scale) {
                  std::string(text.title) + ", by distance",
                  "Of the objects at each distance.",
                  DistanceAxis("Distance"),
-                 {"Share of objects", "%"},
-                 {}};
+                 {"Share of objects", "%"}};
   for (std::size_t grade = 0; grade < Difficulty::kMostGrades; ++grade) {
-    ChartSeries series{std::string(text.grades.at(grade)), SeriesStyle::kLinePoints, {}};
+    ChartSeries series{std::string(text.grades.at(grade)), SeriesStyle::kLinePoints};
     for (std::size_t bin = 0; bin < kNumDistanceBins; ++bin) {
       std::uint64_t all = 0;
       for (const Difficulty::Count& count : total.at(scale)) all += count.by_distance.at(bin);
@@ -265,21 +231,15 @@ void Difficulty::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   }
 }
 
-void Difficulty::Add(const Difficulty& other) {
-  for (const auto& [label, counts] : other.by_label_) AddGrades(counts, by_label_[label]);
-}
-
 Section Difficulty::MakeSection() const {
   const Counts total = Total(by_label_);
-  Section section{"difficulty", "How hard objects are to detect", {}, {}, {}};
+  Section section{"difficulty", "How hard objects are to detect"};
   section.paragraphs = {
       "Objects that some beam would meet if nothing hid them, in each frame, by what data sets "
-      "grade "
-      "them by. KITTI's grades are for its images; here an object has the height that it has for a "
-      "camera like KITTI's which looks at it (40 px for easy, 25 px for the others), is partly "
-      "occluded from a hidden share of 0.1 and largely from 0.5, and truncated by the field of "
-      "view "
-      "of the lidar (15, 30 and 50 % at most). Each grade is without those before it.",
+      "grade them by. KITTI's grades are for its images; here an object has the height that it has "
+      "for a camera like KITTI's which looks at it (40 px for easy, 25 px for the others), is "
+      "partly occluded from a hidden share of 0.1 and largely from 0.5, and truncated by the field "
+      "of view of the lidar (15, 30 and 50 % at most). Each grade is without those before it.",
       "Truncation is the share of the box outside the sensor's field of view; of patterns that are "
       "no grid it is unknown and taken as none."};
   section.charts = {GradesChart(total, static_cast<std::size_t>(Scale::kKitti)),

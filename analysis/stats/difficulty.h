@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 
 #include "analysis/report/report.h"
+#include "analysis/stats/bins.h"
 #include "core/io/recording/scan_table.h"
-#include "core/io/run/dataset_files.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -42,7 +43,9 @@ class Difficulty {
   struct Count {
     std::uint64_t objects{};
     std::uint64_t points{};
-    std::array<std::uint64_t, kNumDistanceBins> by_distance{};  ///< Objects.
+    RangeCounts by_distance{};  ///< Objects.
+
+    static auto Sums(auto& of) { return std::tie(of.objects, of.points, of.by_distance); }
   };
   /// The grades of each scale, the first ones easiest.
   using Counts = std::array<std::array<Count, kMostGrades>, kNumScales>;
@@ -50,7 +53,7 @@ class Difficulty {
   /// @param scan Of the frame; null if it is not a grid: then truncation is not known, and grades
   ///   that ask for it take it as 0.
   void Add(const RecordedFrame& recorded, const ScanTable* scan);
-  void Add(const Difficulty& other);
+  static auto Sums(auto& of) { return std::tie(of.by_label_); }
 
   [[nodiscard]] bool is_empty() const { return by_label_.empty(); }
   [[nodiscard]] const std::map<std::string, Counts>& by_label() const { return by_label_; }
@@ -59,5 +62,9 @@ class Difficulty {
  private:
   std::map<std::string, Counts> by_label_;
 };
+
+/// Shares of the classes among objects with points, by OSDaR23's names, beside those among
+/// OSDaR23's own cuboids (osdar23_cuboids.json). Defined in osdar_balance.cpp.
+[[nodiscard]] Section MakeOsdarBalanceSection(const Difficulty& objects, const LabelTable& labels);
 
 }  // namespace railcast

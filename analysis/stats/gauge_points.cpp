@@ -1,4 +1,4 @@
-#include "analysis/stats/gauge_points.h"
+#include "analysis/stats/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,39 +32,19 @@ void GaugePoints::Add(const RecordedFrame& recorded, const FrameTrack& track) {
   num_frames_with_any_ += num_in_gauge > 0 ? 1U : 0U;
 }
 
-void GaugePoints::Add(const GaugePoints& other) {
-  const auto add = [](const RangeCounts& counts, RangeCounts& sums) {
-    std::ranges::transform(counts, sums, sums.begin(), std::plus());
-  };
-  for (const auto& [label, counts] : other.in_gauge_) add(counts, in_gauge_[label]);
-  add(other.all_, all_);
-  num_frames_ += other.num_frames_;
-  num_frames_with_any_ += other.num_frames_with_any_;
-}
-
 Section GaugePoints::MakeSection(const Names& names) const {
   Table table{.key = "points_in_gauge",
               .title = "Points in the gauge by label and range",
               .note = "The last row is the share of all points of the range, wherever they are.",
-              .columns = {{"label", "Label", ""}}};
-  for (std::size_t i = 0; i < kNumDistanceBins; ++i) {
-    std::string key = DistanceBinName(i);
-    std::ranges::replace(key, ' ', '_');
-    table.columns.push_back({std::move(key), DistanceBinText(i), "m"});
-  }
+              .columns = DistanceColumns("label: Label"),
+              .is_open = true};
   RangeCounts sums{};
   for (const auto& [label, counts] : in_gauge_) {
-    std::vector<Cell> row = {label == 0 ? "no label" : names.OfLabel(label)};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      row.emplace_back(counts[i]);
-      sums[i] += counts[i];
-    }
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(RowOf({label == 0 ? "no label" : names.OfLabel(label)}, counts));
+    AddTo(sums, counts);
   }
-  std::vector<Cell> shares = {"share, percent"};
+  std::vector<Cell>& shares = table.rows.emplace_back(1, "share, percent");
   for (std::size_t i = 0; i < sums.size(); ++i) shares.emplace_back(Percent(sums[i], all_[i]));
-  table.rows.push_back(std::move(shares));
-  table.is_open = true;
   const std::uint64_t num = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
   return {
       .key = "gauge",

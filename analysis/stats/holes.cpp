@@ -54,26 +54,14 @@ bool HasPoints(const Frame& frame, std::size_t column) {
   return false;
 }
 
-Table CountTable(const std::vector<Holes::Count>& counts, const Bins* bins) {
-  Table table;
-  table.columns = {{}, {"expected", "Expected", ""}, {"holes_percent", "Holes", "%"}};
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const auto& [num_expected, num_missing] = counts[i];
-    if (num_expected == 0) continue;
-    const Cell place = bins == nullptr ? Cell(std::to_string(i)) : Cell(bins->span(i));
-    table.rows.push_back({place, num_expected, PercentProportion(num_missing, num_expected)});
-  }
-  return table;
+Table HoleTable(const char* key, const char* title, const std::string& column) {
+  return {key, title, "", ColumnsOf(column + "; expected: Expected; holes_percent: Holes")};
 }
 
-Table SmoothTable(const SmoothHoles& smooth) {
-  std::vector<HoleCount> counts;
-  for (const SmoothHoles::Count& count : smooth.by_intensity()) counts.push_back(count.firings);
-  Table table = CountTable(counts, &SmoothHoles::Intensities());
-  table.key = "smooth_holes_by_intensity";
-  table.title = "Holes in smooth surfaces of one brightness";
-  table.columns.front() = {"intensity", "Intensity of the neighbours", ""};
-  return table;
+void AddRow(const Cell& name, const HoleCount& count, Table& table) {
+  if (count.num_expected == 0) return;
+  table.rows.push_back(
+      {name, count.num_expected, PercentProportion(count.num_missing, count.num_expected)});
 }
 
 }  // namespace
@@ -120,8 +108,6 @@ std::optional<double> RangeBetweenNeighbours_m(const Frame& frame,
 void Holes::Add(const RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
   if (!recorded.is_grid || frame.columns < 3) return;
-  by_range_.resize(RangeBins().size());
-  by_ring_.resize(std::max<std::size_t>(by_ring_.size(), frame.rows));
   std::vector<bool> has_points(frame.columns);
   for (std::size_t column = 0; column < frame.columns; ++column) {
     has_points[column] = HasPoints(frame, column);
@@ -145,17 +131,8 @@ void Holes::AddFiring(const Frame& frame, std::size_t row, std::size_t column) {
   if (!mean_m) return;
   const Count count{1, std::isfinite(Range_m(frame, row, column)) ? 0U : 1U};
   all_.Add(count);
-  by_ring_[row].Add(count);
-  if (const auto bin = RangeBins().Find(*mean_m)) by_range_[*bin].Add(count);
-}
-
-void Holes::Add(const Holes& other) {
-  num_firings_ += other.num_firings_;
-  num_points_ += other.num_points_;
-  all_.Add(other.all_);
-  AddEach(by_range_, other.by_range_);
-  AddEach(by_ring_, other.by_ring_);
-  smooth_.Add(other.smooth_);
+  groups_.Add(GroupBy::kRing, row, count);
+  groups_.Add(GroupBy::kRange, RangeBins().Find(*mean_m), count);
 }
 
 Section Holes::MakeSection() const {
@@ -165,43 +142,49 @@ Section Holes::MakeSection() const {
       {"From the points alone, as for any sensor: a firing whose two neighbours in its ring lie on "
        "one surface (ranges within 5 % or 0.1 m) should have met it, too; without a point it is a "
        "hole. Exact if losses are independent of each other, a lower bound where they cluster: "
-       "dark, "
-       "far and grazing patches. Columns without any point count as never fired, so that half a "
-       "turn is not half a loss; firings known to have met the own vehicle do not count. What the "
-       "sensor itself loses shows in smooth surfaces of one brightness: four points on either side "
-       "on a line to 3 cm, the brightest at most 1.5 times as bright as the darkest plus 0.01."},
-      {},
-      {}};
+       "dark, far and grazing patches. Columns without any point count as never fired, so that "
+       "half a turn is not half a loss; firings known to have met the own vehicle do not count. "
+       "What the sensor itself loses shows in smooth surfaces of one brightness: four points on "
+       "either side on a line to 3 cm, the brightest at most 1.5 times as bright as the darkest "
+       "plus 0.01."}};
 
   Table fill = {"grid",
                 "The grid",
                 "",
-                {{"figure", "Figure", ""}, {"num", "Firings", ""}, {"share_percent", "Share", "%"}},
+                ColumnsOf("figure: Figure; num: Firings; share_percent: Share"),
                 {{std::string("firings with a point (the rest: sky, too far, lost)"), num_firings_,
                   Scaled(Filled(), 100.0)},
                  {std::string("holes among firings between two points of one surface"),
                   all_.num_expected, Scaled(Share(), 100.0)}}};
   section.tables.push_back(std::move(fill));
-  Table by_range = CountTable(by_range_, &RangeBins());
-  by_range.key = "holes_by_range";
-  by_range.title = "Holes by range";
-  by_range.columns.front() = {"range_m", "Range of the neighbours", "m"};
-  section.charts.push_back(
-      {"holes_by_range",
-       "Holes in surfaces against range",
-       "Where the line rises, surfaces lose points: the share of the firings between two points of "
-       "one surface that have none.",
-       {"Range", "m"},
-       {"Holes", "%"},
-       {SeriesOf(by_range, {"range_m", "holes_percent"}, "holes")}});
+  const auto table_of = [&](GroupBy by, Table table) {
+    groups_.ForEach(by, Names(RecordingInfo{}),
+                    [&](const Cell& name, const Count& count) { AddRow(name, count, table); });
+    return table;
+  };
+  Table by_range = table_of(GroupBy::kRange, HoleTable("holes_by_range", "Holes by range",
+                                                       "range_m: Range of the neighbours"));
+  section.charts.push_back({"holes_by_range",
+                            "Holes in surfaces against range",
+                            "Where the line rises, surfaces lose points: the share of the firings "
+                            "between two points of one surface that have none.",
+                            {"Range", "m"},
+                            {"Holes", "%"},
+                            {SeriesOf(by_range, {"range_m", "holes_percent"}, "holes")}});
   section.tables.push_back(std::move(by_range));
-  if (!smooth_.by_intensity().empty()) section.tables.push_back(SmoothTable(smooth_));
-  if (by_ring_.empty()) return section;
-  Table by_ring = CountTable(by_ring_, nullptr);
-  by_ring.key = "holes_by_ring";
-  by_ring.title = "Holes by ring";
-  by_ring.columns.front() = {"ring", "Ring", ""};
-  section.tables.push_back(std::move(by_ring));
+  if (const auto& counts = smooth_.by_intensity(); !counts.empty()) {
+    Table smooth =
+        HoleTable("smooth_holes_by_intensity", "Holes in smooth surfaces of one brightness",
+                  "intensity: Intensity of the neighbours");
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      AddRow(SmoothHoles::Intensities().span(i), counts[i].firings, smooth);
+    }
+    section.tables.push_back(std::move(smooth));
+  }
+  if (has_rings_) {
+    section.tables.push_back(
+        table_of(GroupBy::kRing, HoleTable("holes_by_ring", "Holes by ring", "ring: Ring")));
+  }
   return section;
 }
 

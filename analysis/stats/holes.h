@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "analysis/report/report.h"
 #include "analysis/stats/bins.h"
+#include "analysis/stats/sums.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 
@@ -32,7 +34,7 @@ class SmoothHoles {
   /// the highest is at most 1.5 times the lowest plus a step of 0.01.
   /// @pre `frame` is a grid.
   void AddFiring(const Frame& frame, std::size_t row, std::size_t column);
-  void Add(const SmoothHoles& other) { AddEach(by_intensity_, other.by_intensity_); }
+  static auto Sums(auto& of) { return std::tie(of.by_intensity_); }
 
   struct Count {
     HoleCount firings;
@@ -76,8 +78,10 @@ class Holes {
  public:
   /// Frames that are not grids are skipped.
   void Add(const RecordedFrame& recorded);
-  void Add(const Holes& other);
-  void ForgetRings() { by_ring_.clear(); }
+  static auto Sums(auto& of) {
+    return std::tie(of.num_firings_, of.num_points_, of.all_, of.groups_, of.smooth_);
+  }
+  void ForgetRings() { has_rings_ = false; }
 
   using Count = HoleCount;
 
@@ -93,7 +97,8 @@ class Holes {
   std::uint64_t num_firings_{};  ///< In columns with points.
   std::uint64_t num_points_{};
   Count all_;
-  std::vector<Count> by_range_, by_ring_;
+  Grouped<Count> groups_;  ///< These by range and ring.
+  bool has_rings_ = true;
   SmoothHoles smooth_;
 };
 

@@ -12,6 +12,8 @@
 namespace railcast {
 namespace {
 
+constexpr double kMm = 1e3;
+
 Estimate PooledSigma(double squares, double degrees, std::uint64_t num_patches) {
   if (num_patches < kMinSamples) return NotEnough(num_patches);
   return ScaleEstimate(std::sqrt(squares / degrees), degrees, num_patches);
@@ -26,19 +28,13 @@ double MedianOfSigma(double degrees) {
 
 Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
   Table table = {
-      "noise_from_planes",
-      "Noise about local planes",
-      "Samples are patches of about 25 points. Robust: median over patches. Roughness counts "
-      "as noise.",
-      {{"range_m", "Range", "m"},
-       {"points", "Points", ""},
-       {"outliers_percent", "Outliers", "%"},
-       {"range_sigma_mm", "Along the beam", "mm"},
-       {"robust_range_sigma_mm", "Along the beam, robust", "mm"},
-       {"plane_sigma_mm", "Square to the plane", "mm"},
-       {"robust_plane_sigma_mm", "Square to the plane, robust", "mm"}},
-      {}};
-  constexpr double kMm = 1e3;
+      "noise_from_planes", "Noise about local planes",
+      "Samples are patches of about 25 points. Robust: median over patches. Roughness "
+      "counts as noise.",
+      ColumnsOf("range_m: Range; points: Points; outliers_percent: Outliers; "
+                "range_sigma_mm: Along the beam; robust_range_sigma_mm: Along the beam, robust; "
+                "plane_sigma_mm: Square to the plane; "
+                "robust_plane_sigma_mm: Square to the plane, robust")};
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
@@ -51,20 +47,15 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
 }
 
 Table PclTable(const std::vector<Noise::Planes>& planes) {
-  Table table = {"noise_by_pcl",
-                 "The same planes by PCL's own estimators",
-                 "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its "
-                 "normals from "
-                 "12 points each. Of one plane its normals spread by noise alone.",
-                 {{"range_m", "Range", "m"},
-                  {"plane_sigma_mm", "Square to the plane, PCL", "mm"},
-                  {"robust_plane_sigma_mm", "Square to the plane, as above", "mm"},
-                  {"turn_deg", "Between both planes", "deg"},
-                  {"normals_deg", "Spread of normals, PCL", "deg"},
-                  {"pcl_outliers_percent", "Outliers, PCL", "%"},
-                  {"outliers_percent", "Outliers, as above", "%"}},
-                 {}};
-  constexpr double kMm = 1e3;
+  Table table = {
+      "noise_by_pcl", "The same planes by PCL's own estimators",
+      "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its "
+      "normals from 12 points each. Of one plane its normals spread by noise alone.",
+      ColumnsOf(
+          "range_m: Range; plane_sigma_mm: Square to the plane, PCL; "
+          "robust_plane_sigma_mm: Square to the plane, as above; turn_deg: Between both planes; "
+          "normals_deg: Spread of normals, PCL; pcl_outliers_percent: Outliers, PCL; "
+          "outliers_percent: Outliers, as above")};
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     const std::uint64_t num_points = bin.num_points + bin.num_outliers;
@@ -79,41 +70,20 @@ Table PclTable(const std::vector<Noise::Planes>& planes) {
   return table;
 }
 
-Table TruthTable(const std::vector<Noise::Truth>& truth) {
-  Table table = {"noise_from_truth",
-                 "Measured less true range",
-                 "Of all points on surfaces.",
-                 {{"range_m", "Range", "m"},
-                  {"bias_mm", "Bias", "mm"},
-                  {"sigma_mm", "Standard deviation", "mm"},
-                  {"robust_sigma_mm", "Standard deviation, robust", "mm"}},
-                 {}};
-  constexpr double kMm = 1e3;
+Table TruthTable(const std::vector<Scatter>& truth) {
+  Table table = {"noise_from_truth", "Measured less true range", "Of all points on surfaces.",
+                 ColumnsOf("range_m: Range; bias_mm: Bias; sigma_mm: Standard deviation; "
+                           "robust_sigma_mm: Standard deviation, robust")};
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const Noise::Truth& bin = truth[i];
-    if (bin.errors_m.num() == 0) continue;
-    table.rows.push_back({RangeBins().span(i), Scaled(bin.errors_m.Mean(), kMm),
-                          Scaled(bin.errors_m.StandardDeviation(), kMm),
-                          Scaled(bin.robust_errors_m.RobustScale(), kMm)});
+    if (truth[i].num() == 0) continue;
+    table.rows.push_back({RangeBins().span(i), Scaled(truth[i].plain.Mean(), kMm),
+                          Scaled(truth[i].plain.StandardDeviation(), kMm),
+                          Scaled(truth[i].robust.RobustScale(), kMm)});
   }
   return table;
 }
 
 }  // namespace
-
-void Noise::Planes::Add(const Planes& other) {
-  degrees += other.degrees;
-  range_squares_m2 += other.range_squares_m2;
-  plane_squares_m2 += other.plane_squares_m2;
-  num_points += other.num_points;
-  num_outliers += other.num_outliers;
-  range_sigmas_m.Add(other.range_sigmas_m);
-  plane_sigmas_m.Add(other.plane_sigmas_m);
-  pcl_sigmas_m.Add(other.pcl_sigmas_m);
-  pcl_turns_rad.Add(other.pcl_turns_rad);
-  pcl_normals_rad.Add(other.pcl_normals_rad);
-  num_pcl_outliers += other.num_pcl_outliers;
-}
 
 Estimate Noise::Planes::RangeSigma_m() const {
   return PooledSigma(range_squares_m2, degrees, range_sigmas_m.num());
@@ -121,11 +91,6 @@ Estimate Noise::Planes::RangeSigma_m() const {
 
 Estimate Noise::Planes::PlaneSigma_m() const {
   return PooledSigma(plane_squares_m2, degrees, plane_sigmas_m.num());
-}
-
-void Noise::Truth::Add(const Truth& other) {
-  errors_m.Add(other.errors_m);
-  robust_errors_m.Add(other.robust_errors_m);
 }
 
 void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches) {
@@ -157,28 +122,18 @@ void Noise::Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& pa
     const double true_range_m = static_cast<double>(frame.true_range_m[slot]);
     const auto bin = RangeBins().Find(true_range_m);
     if (!bin) continue;
-    const double error_m = static_cast<double>(frame.range_m[slot]) - true_range_m;
-    truth_[*bin].errors_m.Add(error_m);
-    truth_[*bin].robust_errors_m.Add(error_m);
+    truth_[*bin].Add(static_cast<double>(frame.range_m[slot]) - true_range_m);
   }
 }
 
-void Noise::Add(const Noise& other) {
-  AddEach(planes_, other.planes_);
-  AddEach(truth_, other.truth_);
-}
-
 Section Noise::MakeSection() const {
-  Section section{
-      "noise",
-      "Range noise",
-      {"From small flat pieces of surface: RANSAC, then least squares without outliers, met under "
-       "less than 60 deg. Along the beam it is the range noise of a sensor that errs along its "
-       "beams; "
-       "square to the plane, that of positions that err alike in all directions, as the published "
-       "noise does. What is rough counts as noise: on ballast and grass this is an upper bound."},
-      {},
-      {}};
+  Section section{"noise",
+                  "Range noise",
+                  {"From small flat pieces of surface: RANSAC, then least squares without "
+                   "outliers, met under less than 60 deg. Along the beam it is the range noise of "
+                   "a sensor that errs along its beams; square to the plane, that of positions "
+                   "that err alike in all directions, as the published noise does. What is rough "
+                   "counts as noise: on ballast and grass this is an upper bound."}};
   const Table planes = NoisePlaneTable(planes_);
   Chart chart = {
       "noise_by_range",

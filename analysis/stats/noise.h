@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
-#include "analysis/estimate/streams.h"
-#include "analysis/report/report.h"
 #include "analysis/stats/plane_patches.h"
-#include "railcast/io/recording.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 
@@ -21,7 +20,7 @@ namespace railcast {
 class Noise {
  public:
   void Add(const RecordedFrame& recorded, const std::vector<PlanePatch>& patches);
-  void Add(const Noise& other);
+  static auto Sums(auto& of) { return std::tie(of.planes_, of.truth_); }
 
   /// Planes in one bin of range.
   struct Planes {
@@ -37,30 +36,27 @@ class Noise {
     LogHistogram pcl_sigmas_m, pcl_turns_rad, pcl_normals_rad;
     std::uint64_t num_pcl_outliers{};
 
-    void Add(const Planes& other);
+    static auto Sums(auto& of) {
+      return std::tie(of.degrees, of.range_squares_m2, of.plane_squares_m2, of.num_points,
+                      of.num_outliers, of.range_sigmas_m, of.plane_sigmas_m, of.pcl_sigmas_m,
+                      of.pcl_turns_rad, of.pcl_normals_rad, of.num_pcl_outliers);
+    }
     /// Pooled over the patches; not enough below kMinSamples patches.
     [[nodiscard]] Estimate RangeSigma_m() const;
     [[nodiscard]] Estimate PlaneSigma_m() const;
     [[nodiscard]] Estimate RobustRangeSigma_m() const { return range_sigmas_m.Median(); }
     [[nodiscard]] Estimate RobustPlaneSigma_m() const { return plane_sigmas_m.Median(); }
   };
-  /// Measured minus true range of the points on surfaces, in one bin of range.
-  struct Truth {
-    Moments errors_m;
-    LogHistogram robust_errors_m;
-
-    void Add(const Truth& other);
-  };
 
   /// By bin of RangeBins().
   [[nodiscard]] const std::vector<Planes>& planes() const { return planes_; }
-  /// Empty without the truth.
-  [[nodiscard]] const std::vector<Truth>& truth() const { return truth_; }
+  /// Measured minus true range of the points on surfaces, in m; empty without the truth.
+  [[nodiscard]] const std::vector<Scatter>& truth() const { return truth_; }
   [[nodiscard]] Section MakeSection() const;
 
  private:
   std::vector<Planes> planes_;
-  std::vector<Truth> truth_;
+  std::vector<Scatter> truth_;
 };
 
 }  // namespace railcast

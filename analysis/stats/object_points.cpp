@@ -1,4 +1,4 @@
-#include "analysis/stats/object_points.h"
+#include "analysis/stats/statistics.h"
 
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
@@ -40,7 +40,6 @@ void ObjectPoints::Add(const RecordedFrame& recorded) {
     if (!bin) continue;
     Object& sum = objects_[object.name];
     sum.label = object.label;
-    sum.bins.resize(RangeBins().size());
     sum.bins[*bin].points.Add(static_cast<double>(object.points));
     const auto met = counts.find(object.instance);
     if (met == counts.end()) continue;
@@ -49,44 +48,20 @@ void ObjectPoints::Add(const RecordedFrame& recorded) {
   }
 }
 
-void ObjectPoints::Add(const ObjectPoints& other) {
-  for (const auto& [name, object] : other.objects_) {
-    Object& sum = objects_[name];
-    sum.label = object.label;
-    sum.bins.resize(object.bins.size());
-    for (std::size_t i = 0; i < object.bins.size(); ++i) {
-      sum.bins[i].points.Add(object.bins[i].points);
-      sum.bins[i].num_met += object.bins[i].num_met;
-      sum.bins[i].num_returned += object.bins[i].num_returned;
-    }
-  }
-}
-
 Section ObjectPoints::MakeSection() const {
-  Section section{
-      "objects",
-      "Points on objects",
-      {"By the distance of the box's middle; frames in which the object is out of the sensor's "
-       "sight "
-       "even alone do not count."},
-      {},
-      {}};
+  Section section{"objects",
+                  "Points on objects",
+                  {"By the distance of the box's middle; frames in which the object is out of the "
+                   "sensor's sight even alone do not count."}};
   Table table = {
-      "object_points",
-      "Points on each object by distance",
+      "object_points", "Points on each object by distance",
       "Samples are frames. Returned: of the beams that met the object, those that came back.",
-      {{"object", "Object", ""},
-       {"label", "Label", ""},
-       {"distance_m", "Distance", "m"},
-       {"points", "Points a frame", ""},
-       {"returned_percent", "Returned", "%"}},
-      {}};
+      ColumnsOf("object: Object; label: Label; distance_m: Distance; points: Points a frame; "
+                "returned_percent: Returned")};
   for (const auto& [name, object] : objects_) {
-    for (std::size_t i = 0; i < object.bins.size(); ++i) {
-      const auto& [points, num_met, num_returned] = object.bins[i];
-      if (points.num() == 0) continue;
-      table.rows.push_back({name, object.label, RangeBins().span(i), points.Mean(),
-                            PercentProportion(num_returned, num_met)});
+    for (const auto& [bin, of] : object.bins) {
+      table.rows.push_back({name, object.label, RangeBins().span(bin), of.points.Mean(),
+                            PercentProportion(of.num_returned, of.num_met)});
     }
   }
   section.charts.push_back({"object_points",

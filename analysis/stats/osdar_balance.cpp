@@ -1,5 +1,3 @@
-#include "analysis/stats/osdar_balance.h"
-
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,6 +6,7 @@
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
+#include "analysis/stats/difficulty.h"
 
 namespace railcast {
 
@@ -54,18 +53,15 @@ Section MakeOsdarBalanceSection(const Difficulty& objects, const LabelTable& lab
       "Objects by class, beside OSDaR23",
       Joined({"Objects with points, counted in each frame. OSDaR23: cuboids of its lidar; ",
               osdar.at("source").get<std::string>(), "."}),
-      {{"class", "Class", ""},
-       {"objects", "Objects", ""},
-       {"objects_percent", "Share", "%"},
-       {"osdar23_cuboids", "OSDaR23", ""},
-       {"osdar23_percent", "Share in OSDaR23", "%"}},
+      ColumnsOf("class: Class; objects: Objects; objects_percent: Share; osdar23_cuboids: OSDaR23; "
+                "osdar23_percent: Share in OSDaR23"),
       {},
       true};
   for (const auto& [name, counts] : classes) {
     table.rows.push_back({name, counts.here, Percent(counts.here, all.here), counts.osdar,
                           Percent(counts.osdar, all.osdar)});
   }
-  Section section{"osdar_balance", "Objects beside OSDaR23", {}, {}, {}};
+  Section section{"osdar_balance", "Objects beside OSDaR23"};
   section.paragraphs = {
       "OSDaR23's shares are those of ten frames of one place, whose labels are at hand, and not of "
       "the whole data set. Its catenary poles have cuboids, whereas masts are no objects here. "
@@ -74,8 +70,7 @@ Section MakeOsdarBalanceSection(const Difficulty& objects, const LabelTable& lab
       {"osdar_balance",
        "Objects by class",
        "Where the bar of this data is much the shorter, a detector trained on it sees too few of "
-       "that "
-       "class.",
+       "that class.",
        {"", "", false, TextsOf(table, "class")},
        {"Share", "%"},
        {SeriesOf(table, {"class", "objects_percent"}, "here", SeriesStyle::kBars),

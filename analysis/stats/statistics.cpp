@@ -72,21 +72,6 @@ void Statistics::Add(const RecordedFrame& recorded, const ScanTable* scan) {
   velocity.Add(recorded);
 }
 
-void Statistics::Add(const Statistics& other) {
-  dropout.Add(other.dropout);
-  holes.Add(other.holes);
-  density.Add(other.density);
-  noise.Add(other.noise);
-  temporal_noise.Add(other.temporal_noise);
-  intensity.Add(other.intensity);
-  coverage.Add(other.coverage);
-  classes.Add(other.classes);
-  objects.Add(other.objects);
-  difficulty.Add(other.difficulty);
-  gauge.Add(other.gauge);
-  velocity.Add(other.velocity);
-}
-
 void Statistics::ForgetRings() {
   dropout.ForgetRings();
   holes.ForgetRings();
@@ -114,7 +99,7 @@ Statistics MeasureStatistics(Recording& recording,
       [&](const PairOfReaders& readers) { return MeasurePair(readers, fixed, track); });
   const auto sum = tbb::make_filter<Statistics, void>(tbb::filter_mode::serial_in_order,
                                                       [&](const Statistics& statistics) {
-                                                        all.Add(statistics);
+                                                        AddTo(all, statistics);
                                                         on_progress(all.coverage.num_frames());
                                                       });
   tbb::parallel_pipeline(max_pairs, read & measure & sum);

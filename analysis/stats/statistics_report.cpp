@@ -10,7 +10,6 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/osdar_balance.h"
 #include "core/base/text.h"
 
 namespace railcast {
@@ -72,8 +71,8 @@ void AddNoiseHeadline(const Noise& noise, Report& report) {
   const auto& truth = noise.truth();
   const auto& planes = noise.planes();
   if (!truth.empty()) {
-    const std::size_t bin = best_of(truth, [](const Noise::Truth& t) { return t.errors_m.num(); });
-    AddNoiseHeadline("Range noise", bin, truth[bin].robust_errors_m.RobustScale(), report);
+    const std::size_t bin = best_of(truth, [](const Scatter& t) { return t.num(); });
+    AddNoiseHeadline("Range noise", bin, truth[bin].robust.RobustScale(), report);
   } else if (!planes.empty()) {
     const std::size_t bin =
         best_of(planes, [](const Noise::Planes& p) { return p.range_sigmas_m.num(); });
@@ -89,7 +88,7 @@ void AddVelocityHeadline(const Velocity& velocity, Report& report) {
   const auto bin = static_cast<std::size_t>(best - sums.begin());
   report.headlines.push_back(
       {Joined({"Noise of velocity, ", SpanText(RangeBins().span(bin)), " m"}), "m/s",
-       best->robust_errors_mps.RobustScale()});
+       best->errors_mps.robust.RobustScale()});
 }
 
 // Uses the surface with the most points.

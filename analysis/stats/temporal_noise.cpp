@@ -48,17 +48,12 @@ bool HasMoved(const RecordedFrame& earlier, const RecordedFrame& later) {
          Eigen::AngleAxisd(motion.linear()).angle() > kStill_rad;
 }
 
-void TemporalNoise::Bin::Add(const Bin& other) {
-  differences_m.Add(other.differences_m);
-  robust_differences_m.Add(other.robust_differences_m);
-}
-
 Estimate TemporalNoise::Bin::Sigma_m() const {
-  return Scaled(differences_m.StandardDeviation(), 1.0 / std::numbers::sqrt2);
+  return Scaled(differences_m.plain.StandardDeviation(), 1.0 / std::numbers::sqrt2);
 }
 
 Estimate TemporalNoise::Bin::RobustSigma_m() const {
-  return Scaled(robust_differences_m.RobustScale(), 1.0 / std::numbers::sqrt2);
+  return Scaled(differences_m.robust.RobustScale(), 1.0 / std::numbers::sqrt2);
 }
 
 void TemporalNoise::Add(const RecordedFrame& earlier,
@@ -99,23 +94,14 @@ void TemporalNoise::Add(const RecordedFrame& earlier,
       const double difference_m =
           RangeAt_m(later, row, column) - range_m - offset * 0.5 * (*slope_m + *later_slope_m);
       const auto bin = RangeBins().Find(range_m);
-      if (!bin) continue;
-      bins_[*bin].differences_m.Add(difference_m);
-      bins_[*bin].robust_differences_m.Add(difference_m);
+      if (bin) bins_[*bin].differences_m.Add(difference_m);
     }
   }
 }
 
-void TemporalNoise::Add(const TemporalNoise& other) {
-  num_pairs_ += other.num_pairs_;
-  num_moved_ += other.num_moved_;
-  num_without_pose_ += other.num_without_pose_;
-  AddEach(bins_, other.bins_);
-}
-
 Section TemporalNoise::MakeSection() const {
   constexpr double kMm = 1e3;
-  Section section{"temporal_noise", "Temporal noise", {}, {}, {}};
+  Section section{"temporal_noise", "Temporal noise"};
   std::string found = std::to_string(num_pairs_);
   found += " pairs of frames took part";
   if (num_moved_ > 0) {
@@ -139,13 +125,10 @@ Section TemporalNoise::MakeSection() const {
         "Few pairs: their firings are many, but they share a few moments. What changes more slowly "
         "(warming up, vibration) is not in these intervals.");
   }
-  Table table = {"temporal_noise",
-                 "Range noise between frames of a standing sensor",
+  Table table = {"temporal_noise", "Range noise between frames of a standing sensor",
                  "Standard deviation of the differences of paired firings / sqrt(2).",
-                 {{"range_m", "Range", "m"},
-                  {"sigma_mm", "Standard deviation", "mm"},
-                  {"robust_sigma_mm", "Standard deviation, robust", "mm"}},
-                 {}};
+                 ColumnsOf("range_m: Range; sigma_mm: Standard deviation; "
+                           "robust_sigma_mm: Standard deviation, robust")};
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     if (bins_[i].differences_m.num() == 0) continue;
     table.rows.push_back({RangeBins().span(i), Scaled(bins_[i].Sigma_m(), kMm),

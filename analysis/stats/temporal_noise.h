@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
-#include "analysis/estimate/streams.h"
-#include "analysis/report/report.h"
+#include "analysis/stats/sums.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/io/recording.h"
 
@@ -29,14 +29,15 @@ class TemporalNoise {
            const RecordedFrame& later,
            const ScanTable* earlier_scan,
            const ScanTable* later_scan);
-  void Add(const TemporalNoise& other);
+  static auto Sums(auto& of) {
+    return std::tie(of.num_pairs_, of.num_moved_, of.num_without_pose_, of.bins_);
+  }
 
   /// Differences in one bin of range.
   struct Bin {
-    Moments differences_m;
-    LogHistogram robust_differences_m;
+    Scatter differences_m;
 
-    void Add(const Bin& other);
+    static auto Sums(auto& of) { return std::tie(of.differences_m); }
     [[nodiscard]] Estimate Sigma_m() const;
     [[nodiscard]] Estimate RobustSigma_m() const;
   };

@@ -1,4 +1,4 @@
-#include "analysis/stats/velocity.h"
+#include "analysis/stats/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,21 +14,17 @@ namespace {
 constexpr double kFastest_mps = 1000.0;
 
 Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
-  Table table = {"velocity_by_range",
-                 "Velocity by range",
-                 "",
-                 {{"range_m", "Range", "m"},
-                  {"points", "Points", ""},
-                  {"share_percent", "Share with a velocity", "%"},
-                  {"mean_mps", "Mean", "m/s"}},
-                 {}};
+  std::string columns =
+      "range_m: Range; points: Points; share_percent: Share with a velocity; mean_mps: Mean";
   if (has_truth) {
-    table.note = "Bias and standard deviations are those of measured less true velocity.";
-    table.columns.insert(table.columns.end(),
-                         {{"bias_mps", "Bias", "m/s"},
-                          {"sigma_mps", "Standard deviation", "m/s"},
-                          {"robust_sigma_mps", "Standard deviation, robust", "m/s"}});
+    columns +=
+        "; bias_mps: Bias; sigma_mps: Standard deviation; "
+        "robust_sigma_mps: Standard deviation, robust";
   }
+  Table table = {
+      "velocity_by_range", "Velocity by range",
+      has_truth ? "Bias and standard deviations are those of measured less true velocity." : "",
+      ColumnsOf(columns)};
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const Velocity::Sum& sum = sums[i];
     if (sum.num_points == 0) continue;
@@ -36,8 +32,8 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
                              PercentProportion(sum.measured_mps.num(), sum.num_points),
                              sum.measured_mps.Mean()};
     if (has_truth) {
-      row.insert(row.end(), {sum.errors_mps.Mean(), sum.errors_mps.StandardDeviation(),
-                             sum.robust_errors_mps.RobustScale()});
+      row.insert(row.end(), {sum.errors_mps.plain.Mean(), sum.errors_mps.plain.StandardDeviation(),
+                             sum.errors_mps.robust.RobustScale()});
     }
     table.rows.push_back(std::move(row));
   }
@@ -45,13 +41,8 @@ Table VelocityTable(const std::vector<Velocity::Sum>& sums, bool has_truth) {
 }
 
 Table DistributionTable(const std::map<std::int64_t, std::uint64_t>& distribution) {
-  Table table = {"velocities",
-                 "Points by velocity",
-                 "",
-                 {{"velocity_mps", "Velocity", "m/s"},
-                  {"points", "Points", ""},
-                  {"share_percent", "Share", "%"}},
-                 {}};
+  Table table = {"velocities", "Points by velocity", "",
+                 ColumnsOf("velocity_mps: Velocity; points: Points; share_percent: Share")};
   std::uint64_t num_all = 0;
   for (const auto& [bin, num] : distribution) num_all += num;
   for (const auto& [bin, num] : distribution) {
@@ -63,13 +54,6 @@ Table DistributionTable(const std::map<std::int64_t, std::uint64_t>& distributio
 }
 
 }  // namespace
-
-void Velocity::Sum::Add(const Sum& other) {
-  num_points += other.num_points;
-  measured_mps.Add(other.measured_mps);
-  errors_mps.Add(other.errors_mps);
-  robust_errors_mps.Add(other.robust_errors_mps);
-}
 
 void Velocity::Add(const RecordedFrame& recorded) {
   if (!recorded.Has("radial_velocity_mps")) return;
@@ -88,17 +72,8 @@ void Velocity::Add(const RecordedFrame& recorded) {
     Sum& sum = by_range_[*bin];
     sum.measured_mps.Add(measured_mps);
     if (!has_truth) continue;
-    const double error_mps =
-        measured_mps - static_cast<double>(frame.true_radial_velocity_mps[slot]);
-    sum.errors_mps.Add(error_mps);
-    sum.robust_errors_mps.Add(error_mps);
+    sum.errors_mps.Add(measured_mps - static_cast<double>(frame.true_radial_velocity_mps[slot]));
   }
-}
-
-void Velocity::Add(const Velocity& other) {
-  has_truth_ = has_truth_ || other.has_truth_;
-  AddEach(by_range_, other.by_range_);
-  for (const auto& [bin, num] : other.distribution_) distribution_[bin] += num;
 }
 
 Section Velocity::MakeSection() const {
@@ -110,9 +85,8 @@ Section Velocity::MakeSection() const {
                   {VelocityTable(by_range_, has_truth_), DistributionTable(distribution_)}};
   if (has_truth_) {
     section.paragraphs.emplace_back(
-        "Frames hold the truth. A velocity that the sensor folds is wrong by the whole span; "
-        "false echoes have no true velocity and are left out. The robust figure hardly knows "
-        "either.");
+        "Frames hold the truth. A velocity that the sensor folds is wrong by the whole span; false "
+        "echoes have no true velocity and are left out. The robust figure hardly knows either.");
     const Table& table = section.tables.front();
     section.charts.push_back(
         {"velocity_noise_by_range",

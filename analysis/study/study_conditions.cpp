@@ -39,18 +39,14 @@ struct Condition {
 };
 
 Table LevelTable(const std::vector<Observation>& observations, const std::vector<Factor>& factors) {
-  Table table;
-  table.key = "conditions";
-  table.title = "By what is drawn";
-  table.note =
-      "Each factor by itself, over all values of the others. Distances need 60 approaches.";
-  table.is_open = true;
-  table.columns = {{"factor", "Factor", ""},
-                   {"value", "Value", ""},
-                   {"approaches", "Approaches", ""},
-                   {"in_time_percent", "In time", "%"},
-                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
-                   {"curve_d90_m", "Curve: 0.9 at", "m"}};
+  Table table{
+      .key = "conditions",
+      .title = "By what is drawn",
+      .note = "Each factor by itself, over all values of the others. Distances need 60 approaches.",
+      .columns = ColumnsOf("factor: Factor; value: Value; approaches: Approaches; "
+                           "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; "
+                           "curve_d90_m: Curve: 0.9 at"),
+      .is_open = true};
   for (const Factor& factor : factors) {
     std::vector<Condition> cells(factor.levels.size());
     for (std::size_t i = 0; i < observations.size(); ++i) {
@@ -110,17 +106,15 @@ Table FailingTable(const std::vector<Observation>& observations,
   std::ranges::stable_sort(pairs, {},
                            [](const Pair& pair) { return pair.cell.in_time_percent().high; });
   pairs.resize(std::min(pairs.size(), kMostPairs));
-  Table table;
-  table.key = "failing";
-  table.title = "In which it fails";
-  table.note =
-      "Two values together with at least ten approaches, of which a smaller share is in time than "
-      "of all, beyond the 95 % interval; the worst ten. Some 2.5 % of all pairs are so by chance.";
-  table.is_open = true;
-  table.columns = {{"one", "Value", ""},
-                   {"other", "With", ""},
-                   {"approaches", "Approaches", ""},
-                   {"in_time_percent", "In time", "%"}};
+  Table table{.key = "failing",
+              .title = "In which it fails",
+              .note =
+                  "Two values together with at least ten approaches, of which a smaller share is "
+                  "in time than of all, beyond the 95 % interval; the worst ten. Some 2.5 % of all "
+                  "pairs are so by chance.",
+              .columns = ColumnsOf(
+                  "one: Value; other: With; approaches: Approaches; in_time_percent: In time"),
+              .is_open = true};
   for (const Pair& pair : pairs) {
     table.rows.push_back({pair.one, pair.other, pair.cell.num, pair.cell.in_time_percent()});
   }
@@ -149,28 +143,24 @@ Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num
                           NumberText(num_observations) + " approaches)."};
     return section;
   }
-  Table table;
-  table.key = "factors";
-  table.title = "Weights of the factors";
-  table.note =
-      "Likelihood ratios in one logistic regression of detected or not, at the distance of each "
-      "inspection, on all factors: twice the fall of the log-likelihood without the factor, and "
-      "how "
-      "probable as much is by chance.";
-  table.is_open = true;
-  table.columns = {{"factor", "Factor", ""},
-                   {"degrees", "Degrees of freedom", ""},
-                   {"ratio", "Likelihood ratio", ""},
-                   {"p_value", "By chance", ""},
-                   {"share_percent", "Share", "%"}};
-  Chart chart{.key = "factors",
-              .title = "Which factor matters",
-              .caption =
-                  "Shares of the sum of the factors' likelihood ratios; the distance itself "
-                  "is left out.",
-              .x = {.title = "Factor"},
-              .y = {.title = "Share", .unit = "%"}};
-  ChartSeries bars{"share", SeriesStyle::kBars, {}};
+  Table table{.key = "factors",
+              .title = "Weights of the factors",
+              .note =
+                  "Likelihood ratios in one logistic regression of detected or not, at the "
+                  "distance of each inspection, on all factors: twice the fall of the "
+                  "log-likelihood without the factor, and how probable as much is by chance.",
+              .columns = ColumnsOf("factor: Factor; degrees: Degrees of freedom; "
+                                   "ratio: Likelihood ratio; p_value: By chance; "
+                                   "share_percent: Share"),
+              .is_open = true};
+  Chart chart{
+      .key = "factors",
+      .title = "Which factor matters",
+      .caption =
+          "Shares of the sum of the factors' likelihood ratios; the distance itself is left out.",
+      .x = {.title = "Factor"},
+      .y = {.title = "Share", .unit = "%"}};
+  ChartSeries bars{"share", SeriesStyle::kBars};
   for (const FactorWeight& weight : weights) {
     table.rows.push_back({weight.name, std::uint64_t{weight.degrees}, weight.ratio, weight.p_value,
                           100.0 * weight.share});

@@ -82,14 +82,14 @@ Chart PlacementChart(const std::vector<PlacedView>& views) {
   Chart chart{.key = "placement",
               .title = "Which placement detects first",
               .caption =
-                  "Mean distance of detection with its interval; placements in the order of "
-                  "the first target.",
+                  "Mean distance of detection with its interval; placements in the order of the "
+                  "first target.",
               .x = {.title = "Placement"},
               .y = {.title = "Distance of detection", .unit = "m"}};
   std::map<std::string, std::size_t> place_of;
   for (const PlacedView& view : views) {
     if (chart.series.empty() || chart.series.back().title != view.target) {
-      chart.series.push_back({view.target, SeriesStyle::kBars, {}});
+      chart.series.push_back({view.target, SeriesStyle::kBars});
     }
     if (!place_of.contains(view.placement)) {
       if (place_of.size() == kMostPlacements) continue;
@@ -114,20 +114,17 @@ Section PlacementSection(const std::vector<Observation>& observations,
   Section section{.key = "placement", .title = "Placement"};
   if (of_sensor.empty()) return section;
   const std::vector<PlacedView> views = ViewsOf(observations, of_sensor);
-  Table table;
-  table.key = "placement";
-  table.title = "Sensors and mounts";
-  table.note =
-      "Every combination of what the recipe draws for the sensor, over all values of everything "
-      "else. Means are over the approaches that detect; distances with confidence need 60.";
-  table.is_open = true;
-  table.columns = {{"target", "Target", ""},
-                   {"placement", "Placement", ""},
-                   {"approaches", "Approaches", ""},
-                   {"detected", "Detected", ""},
-                   {"in_time_percent", "In time", "%"},
-                   {"distance_m", "Detected at, mean", "m"},
-                   {"d90_95_m", "0.9 with 95 % confidence at", "m"}};
+  Table table{.key = "placement",
+              .title = "Sensors and mounts",
+              .note =
+                  "Every combination of what the recipe draws for the sensor, over all values of "
+                  "everything else. Means are over the approaches that detect; distances with "
+                  "confidence need 60.",
+              .columns = ColumnsOf("target: Target; placement: Placement; approaches: Approaches; "
+                                   "detected: Detected; in_time_percent: In time; "
+                                   "distance_m: Detected at, mean; "
+                                   "d90_95_m: 0.9 with 95 % confidence at"),
+              .is_open = true};
   for (const PlacedView& view : views) {
     table.rows.push_back({view.target, view.placement, view.num, view.num_detected,
                           PercentProportion(view.num_in_time, view.num_decided),

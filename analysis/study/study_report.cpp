@@ -64,19 +64,17 @@ std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& s
 
 // Each target that a driver's distance is published for.
 Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardsticks) {
-  Table table;
-  table.key = "beside_driver";
-  table.title = "Beside the driver";
-  table.note =
-      "The driver's distance is about where objects were noticed, which no confidence is given "
-      "for; d90/95 is what 90 % of the approaches reach. Farther than the driver if it is above "
-      "100 %.";
-  table.is_open = true;
-  table.columns = {{"target", "Target", ""},
-                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
-                   {"driver_m", "Driver", "m"},
-                   {"of_driver_percent", "Of the driver's distance", "%"},
-                   {"source", "Source", ""}};
+  Table table{
+      .key = "beside_driver",
+      .title = "Beside the driver",
+      .note =
+          "The driver's distance is about where objects were noticed, which no confidence is given "
+          "for; d90/95 is what 90 % of the approaches reach. Farther than the driver if it is "
+          "above 100 %.",
+      .columns = ColumnsOf("target: Target; d90_95_m: 0.9 with 95 % confidence at; "
+                           "driver_m: Driver; of_driver_percent: Of the driver's distance; "
+                           "source: Source"),
+      .is_open = true};
   for (const TargetResult& target : targets) {
     for (const Json& row : yardsticks) {
       const auto what = row.at("what").get<std::string>();
@@ -94,16 +92,12 @@ Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardstic
 
 Section YardsticksSection(const std::vector<TargetResult>& targets) {
   const Json yardsticks = Json::parse(kYardsticks);
-  Table table;
-  table.key = "yardsticks";
-  table.title = "Published distances of detection";
-  table.note = "Other objects, places and weather than here: for the order of magnitude.";
-  table.is_open = true;
-  table.columns = {{"what", "What", ""},
-                   {"who", "By", ""},
-                   {"distance_m", "Distance", "m"},
-                   {"how", "How measured", ""},
-                   {"source", "Source", ""}};
+  Table table{.key = "yardsticks",
+              .title = "Published distances of detection",
+              .note = "Other objects, places and weather than here: for the order of magnitude.",
+              .columns = ColumnsOf(
+                  "what: What; who: By; distance_m: Distance; how: How measured; source: Source"),
+              .is_open = true};
   for (const Json& row : yardsticks) {
     table.rows.push_back({row.at("what").get<std::string>(), row.at("who").get<std::string>(),
                           row.at("distance_m").get<double>(), row.at("how").get<std::string>(),
@@ -127,16 +121,14 @@ std::vector<Observation> WorstOf(const std::vector<Observation>& observations) {
 }
 
 Section WorstSection(const std::vector<Observation>& worst, const std::string& folder) {
-  Table table;
-  table.key = "worst";
-  table.title = "The worst approaches";
-  table.note =
-      "Not detected, or with the least to spare. The command makes its frames and opens "
-      "the one in which it is detected, or that of the closest point.";
-  table.is_open = true;
-  table.columns = {
-      {"scenario", "Scenario", ""}, {"object", "Object", ""}, {"distance_m", "Detected at", "m"},
-      {"needed_m", "Needed", "m"},  {"drawn", "Drawn", ""},   {"command", "Command", ""}};
+  Table table{.key = "worst",
+              .title = "The worst approaches",
+              .note =
+                  "Not detected, or with the least to spare. The command makes its frames and "
+                  "opens the one in which it is detected, or that of the closest point.",
+              .columns = ColumnsOf("scenario: Scenario; object: Object; distance_m: Detected at; "
+                                   "needed_m: Needed; drawn: Drawn; command: Command"),
+              .is_open = true};
   for (const Observation& each : worst) {
     const StudiedObject& object = *each.object;
     const std::string place = folder + "/" + KeptFolder(kWorstFolder, each.approach->scenario);
@@ -157,10 +149,9 @@ Report MakeStudyReport(const StudySpec& study,
                        const StudyResult& result,
                        const std::vector<Observation>& observations,
                        const std::string& command) {
-  Report report;
-  report.title = study.question.empty() ? "A study of detection" : study.question;
-  report.command = command;
-  report.facts = FactsOfStudy(study, result);
+  Report report{.title = study.question.empty() ? "A study of detection" : study.question,
+                .command = command,
+                .facts = FactsOfStudy(study, result)};
   const std::vector<TargetResult> targets = TargetsOf(observations);
   for (const TargetResult& target : targets) {
     report.headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",

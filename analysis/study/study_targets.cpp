@@ -56,27 +56,22 @@ std::string AnswerOf(const TargetResult& target) {
 }
 
 Section VerdictSection(const std::vector<TargetResult>& targets) {
-  Table table;
-  table.key = "verdicts";
-  table.title = "Is it detected before the distance that the train needs?";
-  table.note =
-      "Yes if 90 % are detected, with 95 % confidence, by the greatest distance needed, and no if "
-      "with the same confidence they are not, both by the ranks of all distances of detection; "
-      "between the two, it is not shown. The curve is that of hit and miss (MIL-HDBK-1823A), which "
-      "inspects each approach once. The share in time is of the approaches that did not begin too "
-      "near to tell.";
-  table.is_open = true;
-  table.columns = {{"target", "Target", ""},
-                   {"answer", "Detected in time", ""},
-                   {"approaches", "Approaches", ""},
-                   {"detected", "Detected", ""},
-                   {"in_time_percent", "In time", "%"},
-                   {"d90_95_m", "0.9 with 95 % confidence at", "m"},
-                   {"curve_d90_m", "Curve: 0.9 at", "m"},
-                   {"curve_d90_95_m", "Curve: with 95 % confidence", "m"},
-                   {"most_needed_m", "Needed, at most", "m"},
-                   {"least_detected_at_m", "Detected at, at least", "m"},
-                   {"asymptote", "Asymptote", ""}};
+  Table table{
+      .key = "verdicts",
+      .title = "Is it detected before the distance that the train needs?",
+      .note =
+          "Yes if 90 % are detected, with 95 % confidence, by the greatest distance needed, and no "
+          "if with the same confidence they are not, both by the ranks of all distances of "
+          "detection; between the two, it is not shown. The curve is that of hit and miss "
+          "(MIL-HDBK-1823A), which inspects each approach once. The share in time is of the "
+          "approaches that did not begin too near to tell.",
+      .columns = ColumnsOf(
+          "target: Target; answer: Detected in time; approaches: Approaches; detected: Detected; "
+          "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; "
+          "curve_d90_m: Curve: 0.9 at; curve_d90_95_m: Curve: with 95 % confidence; "
+          "most_needed_m: Needed, at most; least_detected_at_m: Detected at, at least; "
+          "asymptote: Asymptote"),
+      .is_open = true};
   for (const TargetResult& target : targets) {
     const std::uint64_t num = target.inspections.size();
     table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,

@@ -1,4 +1,4 @@
-#include "analysis/stats/class_balance.h"
+#include "analysis/stats/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ TEST(ClassBalance, CountsByRangeWithSharesOfTheRange) {
 
 TEST(ClassBalance, OfPartsIsThatOfTheWhole) {
   ClassBalance sum = MadeBalance();
-  sum.Add(MadeBalance());
+  AddTo(sum, MadeBalance());
   const Section section = MadeSection(sum);
   EXPECT_EQ(std::get<std::uint64_t>(section.tables.at(0).rows.at(0).at(1)), 8U);
   EXPECT_EQ(std::get<std::uint64_t>(section.tables.at(0).rows.at(0).at(3)), 4U);

@@ -78,17 +78,16 @@ TEST_F(DatasetOverviewTest, AgreesWithTheIndex) {
     without_objects += has_points ? 0 : 1;
   }
   EXPECT_EQ(overview.num_scenarios, 2U);
-  EXPECT_EQ(overview.num_frames, frames);
-  EXPECT_EQ(overview.num_points, points);
-  EXPECT_EQ(overview.frames_without_objects, without_objects);
-  const auto person =
-      std::ranges::find(overview.types, "person", &DatasetOverview::TypeCounts::name);
-  ASSERT_NE(person, overview.types.end());
-  EXPECT_EQ(person->objects, persons.size());
-  EXPECT_EQ(person->in_frames, in_frames);
-  EXPECT_EQ(person->by_distance[0], near);
-  EXPECT_EQ(std::accumulate(person->by_occlusion.begin(), person->by_occlusion.end(), 0U),
-            in_frames);
+  const DatasetReportRecord& report = overview.report;
+  EXPECT_EQ(report.num_frames, frames);
+  EXPECT_EQ(report.counts.points, points);
+  EXPECT_EQ(report.frames_without_objects, without_objects);
+  ASSERT_TRUE(report.objects.contains("person"));
+  const TypeCountsRecord& person = report.objects.at("person");
+  EXPECT_EQ(person.objects, persons.size());
+  EXPECT_EQ(person.in_frames, in_frames);
+  EXPECT_EQ(person.by_distance[0], near);
+  EXPECT_EQ(std::accumulate(person.by_occlusion.begin(), person.by_occlusion.end(), 0U), in_frames);
 }
 
 TEST_F(DatasetOverviewTest, RefusesAReportThatChangedSinceItWasWritten) {

@@ -11,21 +11,26 @@ DatasetOverview MadeOverview() {
   DatasetOverview overview;
   overview.source = "out/set";
   overview.num_scenarios = 4;
-  overview.num_frames = 8;
-  overview.num_points = 1000;
-  overview.frames_without_objects = 2;
-  overview.parts = {{"test", 1, 2, 100}, {"train", 2, 4, 700}, {"val", 1, 2, 200}};
-  overview.classes = {{"ground", 400, 8}, {"rail", 600, 6}};
-  DatasetOverview::TypeCounts cow{.name = "cow", .objects = 1, .in_frames = 2, .with_points = 1};
+  DatasetReportRecord& report = overview.report;
+  report.num_frames = 8;
+  report.counts.points = 1000;
+  report.frames_without_objects = 2;
+  report.splits = {{"test", {1, 2, 100}}, {"train", {2, 4, 700}}, {"val", {1, 2, 200}}};
+  report.labels = {{"ground", {400, 0.4, 8}}, {"rail", {600, 0.6, 6}}};
+  TypeCountsRecord& cow = report.objects["cow"];
+  cow.objects = 1;
+  cow.in_frames = 2;
+  cow.with_points = 1;
   cow.points = 7;
   cow.by_distance[1] = 2;
   cow.points_by_distance[1] = 7;
-  cow.by_occlusion = {1, 0, 0, 0, 1, 0};
-  overview.types = {cow, {.name = "person", .objects = 3, .in_frames = 5}};
-  overview.weathers = {{"dry", 3}, {"rain", 1}};
-  overview.drawn = {{"season", {{"open", 4}}}};
-  overview.frames_by_base = {{"line.json", 8}};
-  overview.frames_by_sensor = {{"VLP-16", 6}, {"HDL-32E", 2}};
+  cow.by_occlusion[0] = cow.by_occlusion[4] = 1;
+  report.objects["person"].objects = 3;
+  report.objects["person"].in_frames = 5;
+  report.weathers = {{"dry", 3}, {"rain", 1}};
+  report.drawn = {{"season", {{"open", 4}}}};
+  report.frames_by_base = {{"line.json", 8}};
+  report.frames_by_sensor = {{"VLP-16", 6}, {"HDL-32E", 2}};
   return overview;
 }
 

@@ -1,4 +1,4 @@
-#include "analysis/stats/density.h"
+#include "analysis/stats/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "analysis/stats/osdar_balance.h"
 #include "railcast/lidar.h"
 #include "tests/support/scan_once.h"
 
@@ -90,7 +89,7 @@ TEST(Difficulty, LeavesOutWhatIsOutOfSight) {
 
 TEST(Difficulty, SumsUpFrames) {
   Difficulty sum = OfObjects({PersonAt(20.0, 0.0, 7)});
-  sum.Add(OfObjects({PersonAt(20.0, 0.0, 8), PersonAt(30.0, 0.6, 1)}));
+  AddTo(sum, OfObjects({PersonAt(20.0, 0.0, 8), PersonAt(30.0, 0.6, 1)}));
   EXPECT_EQ(ObjectsByGrade(sum, Difficulty::Scale::kKitti),
             (std::vector<std::uint64_t>{2, 0, 1, 0, 0}));
   EXPECT_EQ(sum.by_label().at("person").at(0).at(0).points, 15U);
@@ -137,7 +136,7 @@ TEST(OsdarBalance, CountsObjectsWithPointsByClass) {
   Difficulty objects = OfObjects({PersonAt(20.0, 0.0, 7), PersonAt(20.0, 0.0, 0)});
   RecordedObject box = PersonAt(20.0, 0.0, 3);
   box.label = "object";
-  objects.Add(OfObjects({box, box, box}));
+  AddTo(objects, OfObjects({box, box, box}));
   const Section section = MakeOsdarBalanceSection(objects, MadeLabels());
   std::map<std::string, const std::vector<Cell>*> rows;
   for (const auto& row : section.tables.at(0).rows) rows[std::get<std::string>(row[0])] = &row;

@@ -1,4 +1,4 @@
-#include "analysis/stats/dropout.h"
+#include "analysis/stats/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "analysis/stats/coverage.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/names.h"
 #include "railcast/io/recording.h"
@@ -96,7 +95,7 @@ TEST(Dropout, OfPartsIsThatOfTheWhole) {
   whole.Add(Record(ScanWithDropout(0.1, 1)));
   parts.Add(Record(ScanWithDropout(0.1, 0)));
   second.Add(Record(ScanWithDropout(0.1, 1)));
-  parts.Add(second);
+  AddTo(parts, second);
   EXPECT_EQ(parts.Share().value, whole.Share().value);
   EXPECT_EQ(parts.Share().num, whole.Share().num);
   const Names names{RecordingInfo{}};

@@ -1,4 +1,4 @@
-#include "analysis/stats/gauge_points.h"
+#include "analysis/stats/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ TEST(GaugePoints, AreCountedByLabelAndRange) {
   GaugePoints other;
   other.Add(FrameAbove({{{20.0, -1.0, 0.0}, 2}}), MadeTrack());
   other.Add(FrameAbove({{{20.0, 0.0, -2.6}, 2}}), MadeTrack());
-  one.Add(other);
+  AddTo(one, other);
   std::vector<Label> labels(2);
   labels[0].id = 1;
   labels[0].name = "person";

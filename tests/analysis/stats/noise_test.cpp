@@ -6,7 +6,7 @@
 #include <string>
 
 #include "analysis/stats/bins.h"
-#include "analysis/stats/intensity.h"
+#include "analysis/stats/statistics.h"
 #include "analysis/stats/temporal_noise.h"
 #include "core/base/random.h"
 #include "tests/analysis/recorded_frames.h"
@@ -107,11 +107,11 @@ TEST_P(RangeNoise, IsExactFromTheTruth) {
   const double sigma_m = GetParam();
   NoisyWall wall(25.0F, sigma_m, NoiseShape::kBeam);
   const Noise noise = MeasureNoise(wall);
-  const Noise::Truth& bin = noise.truth()[RangeBins().Find(25.0).value()];
+  const Scatter& bin = noise.truth()[RangeBins().Find(25.0).value()];
   // The tolerance is four standard errors for 300,000 samples or more.
-  EXPECT_NEAR(bin.errors_m.StandardDeviation().value / sigma_m, 1.0, 0.006);
-  EXPECT_NEAR(bin.robust_errors_m.RobustScale().value / sigma_m, 1.0, 0.015);
-  EXPECT_NEAR(bin.errors_m.Mean().value / sigma_m, 0.0, 0.01);
+  EXPECT_NEAR(bin.plain.StandardDeviation().value / sigma_m, 1.0, 0.006);
+  EXPECT_NEAR(bin.robust.RobustScale().value / sigma_m, 1.0, 0.015);
+  EXPECT_NEAR(bin.plain.Mean().value / sigma_m, 0.0, 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(FromMillimetresToDecimetres,
@@ -208,7 +208,7 @@ TEST(TemporalNoise, CorrectsForColumnsBesideEachOther) {
   const TemporalNoise::Bin& bin = noise.bins()[RangeBins().Find(28.0).value()];
   ASSERT_GT(bin.differences_m.num(), 1000U);
   EXPECT_NEAR(bin.Sigma_m().value / 0.015, 1.0, 0.07);
-  EXPECT_NEAR(bin.differences_m.Mean().value, 0.0, 0.002);
+  EXPECT_NEAR(bin.differences_m.plain.Mean().value, 0.0, 0.002);
 }
 
 TEST(TemporalNoise, IsNotWhatAllBeamsShare) {
@@ -259,7 +259,7 @@ TEST(Intensity, OfALambertianFallsWithTheCosine) {
   const std::size_t bin = IncidenceBins().Find(25.0).value();
   // The reflectivity is 0.5; the bin's mean lies between the values at its ends.
   for (const Intensity* intensity : {&exact, &from_planes}) {
-    const Estimate mean = intensity->by_incidence()[bin].plain.Mean();
+    const Estimate mean = intensity->groups().Of(GroupBy::kIncidence).at(bin).plain.Mean();
     EXPECT_GT(mean.value, 0.5 * std::cos(30.0 * 3.14159265 / 180.0));
     EXPECT_LT(mean.value, 0.5 * std::cos(20.0 * 3.14159265 / 180.0));
   }

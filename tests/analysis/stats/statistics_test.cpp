@@ -68,9 +68,9 @@ TEST(Statistics, AreTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(one.temporal_noise.num_pairs(), 3U);
   int num_compared = 0;
   for (std::size_t i = 0; i < one.noise.truth().size(); ++i) {
-    const Estimate bias_m = one.noise.truth()[i].errors_m.Mean();
+    const Estimate bias_m = one.noise.truth()[i].plain.Mean();
     if (!bias_m.is_enough()) continue;
-    ExpectSame(bias_m, two.noise.truth()[i].errors_m.Mean());
+    ExpectSame(bias_m, two.noise.truth()[i].plain.Mean());
     ++num_compared;
   }
   EXPECT_GT(num_compared, 2);
