@@ -1,7 +1,5 @@
-#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <string>
 
 #include "analysis/card/dataset_card.h"
 #include "analysis/commands.h"

@@ -1,16 +1,12 @@
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "analysis/commands.h"
-#include "analysis/detectors/collected_lines.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
+#include "analysis/detectors/reported_detections.h"
 #include "core/io/net/udp.h"
 #include "core/io/stream/arrivals.h"
 #include "core/io/unfinished_file.h"

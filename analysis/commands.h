@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <set>
-#include <string>
 #include <thread>
 #include <vector>
 

@@ -1,9 +1,7 @@
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/compare/ablation.h"
@@ -11,8 +9,6 @@
 #include "analysis/compare/comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/recording/with_topic.h"
 #include "core/io/run/scenario_identity.h"

@@ -1,16 +1,12 @@
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/detect_options.h"
 #include "analysis/detectability/detect_report.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"

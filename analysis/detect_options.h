@@ -8,6 +8,9 @@
 
 namespace railcast {
 
+/// Adds --reaction-s, --deceleration-mps2 and --margin-m.
+void AddBrakingOptions(ProgramOptions& command, BrakingSpec& braking);
+
 /// The options that say when an object is detected, and how a train brakes for it.
 struct RuleOptions {
   DetectSpec spec;

@@ -1,15 +1,12 @@
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "analysis/commands.h"
 #include "analysis/dossier/dossier_report.h"
-#include "analysis/dossier/print_page.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
+#include "analysis/study/finished_study.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 

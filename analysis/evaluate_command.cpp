@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/detect_options.h"
@@ -15,8 +12,6 @@
 #include "analysis/detectors/run_evaluation.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"

@@ -1,19 +1,14 @@
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/fit/fit.h"
 #include "analysis/fit/fit_report.h"
 #include "analysis/fit/proof.h"
 #include "analysis/fit/recorded_trials.h"
-#include "analysis/report/cell_text.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/with_topic.h"
 #include "core/io/run/run_folder.h"

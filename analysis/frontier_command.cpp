@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,10 +7,9 @@
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/kept_frontier.h"
 #include "analysis/frontier/measure.h"
-#include "analysis/report/draw.h"
+#include "analysis/report/formats.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
 #include "core/fidelity/sample_frames.h"
 #include "core/io/run/scenario_identity.h"

@@ -1,9 +1,7 @@
 #include <signal.h>
 
 #include <chrono>
-#include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -14,9 +12,7 @@
 
 #include "analysis/commands.h"
 #include "analysis/receive/receive_report.h"
-#include "core/base/error.h"
 #include "core/io/write_file.h"
-#include "core/program/program.h"
 #include "core/program/progress_line.h"
 #include "railcast/io/udp_grabber.h"
 

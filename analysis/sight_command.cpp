@@ -1,14 +1,12 @@
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "analysis/braking_options.h"
 #include "analysis/commands.h"
+#include "analysis/detect_options.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "analysis/sight/sight_report.h"
-#include "core/base/text.h"
+#include "analysis/sight/sight.h"
 #include "core/base/units.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"

@@ -1,19 +1,13 @@
 #include <algorithm>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
-#include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"

@@ -1,10 +1,8 @@
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/report/output.h"
@@ -12,9 +10,7 @@
 #include "analysis/study/kept_files.h"
 #include "analysis/study/run_study.h"
 #include "analysis/study/study_report.h"
-#include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"

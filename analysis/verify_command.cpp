@@ -1,16 +1,12 @@
 #include <algorithm>
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "analysis/commands.h"
-#include "core/base/text.h"
 #include "core/io/run/sensors_record.h"
-#include "core/io/run/sequence_files.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/insertion_verification.h"
 #include "core/io/verify/scenario_verification.h"

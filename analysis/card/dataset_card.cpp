@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "analysis/limits/limit_sections.h"
-#include "analysis/report/cell_text.h"
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "core/base/error.h"

@@ -1,6 +1,4 @@
 #include <cstdint>
-#include <filesystem>
-#include <string>
 #include <utility>
 
 #include "analysis/card/dataset_card.h"

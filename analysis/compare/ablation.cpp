@@ -3,12 +3,10 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "analysis/stats/bins.h"
 #include "core/base/error.h"
 #include "core/detect/detector/effect_table.h"
-#include "railcast/effects.h"
 
 namespace railcast {
 namespace {

@@ -1,8 +1,6 @@
 #include "analysis/compare/cloud_figures.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "analysis/stats/bins.h"
 

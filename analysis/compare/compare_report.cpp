@@ -1,9 +1,7 @@
 #include "analysis/compare/compare_report.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "analysis/compare/intensity_factor.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"

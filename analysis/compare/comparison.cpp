@@ -9,7 +9,6 @@
 #include <memory>
 #include <utility>
 
-#include "analysis/compare/cloud_figures.h"
 #include "analysis/report/cell_text.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,4 +1,4 @@
-#include "analysis/compare/intensity_factor.h"
+#include "analysis/compare/compare_report.h"
 
 #include <algorithm>
 #include <array>

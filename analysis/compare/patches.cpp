@@ -1,9 +1,8 @@
-#include "analysis/compare/patches.h"
+#include "analysis/compare/told_apart.h"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <span>

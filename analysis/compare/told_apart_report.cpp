@@ -1,7 +1,3 @@
-#include <algorithm>
-#include <string>
-#include <utility>
-
 #include "analysis/compare/compare_report.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"

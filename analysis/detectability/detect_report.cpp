@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "analysis/detectability/detection_probability.h"
-#include "analysis/detectability/object_detection.h"
-#include "core/base/error.h"
 #include "core/base/text.h"
 
 namespace railcast {

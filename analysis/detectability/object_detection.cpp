@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <ranges>
-#include <span>
 #include <utility>
 
 #include "core/base/error.h"

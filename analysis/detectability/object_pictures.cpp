@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <utility>
 
 #include "analysis/pictures/grid_pictures.h"
 #include "core/base/text.h"

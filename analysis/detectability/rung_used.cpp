@@ -1,4 +1,4 @@
-#include "analysis/detectability/rung_used.h"
+#include "analysis/detectability/detect_report.h"
 
 #include <algorithm>
 

@@ -1,5 +1,3 @@
-#include "analysis/detectors/collected_lines.h"
-
 #include "analysis/detectors/reported_detections.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

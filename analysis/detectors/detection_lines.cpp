@@ -1,5 +1,3 @@
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "analysis/detectors/reported_detections.h"

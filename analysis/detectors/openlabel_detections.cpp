@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <cstdint>
-#include <map>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "analysis/detectors/reported_detections.h"

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/write_file.h"
 #include "core/scenario/json_text.h"

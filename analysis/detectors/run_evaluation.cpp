@@ -1,8 +1,6 @@
 #include "analysis/detectors/run_evaluation.h"
 
 #include <algorithm>
-#include <set>
-#include <span>
 #include <utility>
 
 #include "core/io/recording/recorded_motion.h"

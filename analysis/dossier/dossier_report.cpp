@@ -2,11 +2,9 @@
 
 #include <utility>
 
-#include "analysis/dossier/dossier_sections.h"
 #include "analysis/limits/limit_sections.h"
 #include "analysis/study/study_factors.h"
 #include "analysis/study/study_report.h"
-#include "analysis/study/study_targets.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 

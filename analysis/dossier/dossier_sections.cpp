@@ -1,10 +1,10 @@
-#include "analysis/dossier/dossier_sections.h"
+#include "analysis/dossier/dossier_report.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "analysis/report/processor.h"
+#include "analysis/report/provenance.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "analysis/dossier/model_error.h"
+#include "analysis/dossier/dossier_report.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "analysis/dossier/model_error.h"
+#include "analysis/dossier/dossier_report.h"
 #include "analysis/estimate/streams.h"
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"

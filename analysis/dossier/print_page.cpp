@@ -1,10 +1,8 @@
-#include "analysis/dossier/print_page.h"
+#include "analysis/dossier/dossier_report.h"
 
-#include <string>
 #include <string_view>
 
 #include "analysis/report/program_output.h"
-#include "analysis/report/report_scratch.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/io/write_file.h"

@@ -4,11 +4,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <string>
 #include <utility>
 
-#include "analysis/dossier/dossier_sections.h"
-#include "analysis/study/drawn_keys.h"
+#include "analysis/dossier/dossier_report.h"
+#include "analysis/study/study_factors.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <nlopt.hpp>
-#include <utility>
 
 #include "core/base/error.h"
 

@@ -101,4 +101,51 @@ struct RankInterval {
 /// the plain standard deviation (Rousseeuw and Croux 1993, JASA 88).
 [[nodiscard]] Estimate RobustScale(std::vector<double>& samples);
 
+/// A point of a curve: y at x, with the relative standard error of y (1 / sqrt(count)
+/// for a count).
+struct CurvePoint {
+  double x{};
+  double y{};
+  double relative_error{};
+};
+
+/// y = factor x^exponent.
+struct PowerLaw {
+  Estimate exponent;  ///< Its num is the number of points that took part.
+  double factor{};
+
+  /// y at x on the fitted line; not enough where the exponent is not.
+  [[nodiscard]] Estimate At(double x) const;
+
+  // The quantities from which At() computes its interval.
+  double middle{};  ///< Weighted mean of log x.
+  double
+      /// Half the interval of log y there, which is independent of that of the exponent.
+      middle_error{};
+};
+
+/// Fits a straight line through (log x, log y), weighted by 1 / relative_error^2.
+/// The interval is Student's, from the points' scatter about the line or from
+/// their own errors, whichever is wider. Points whose x or y is not > 0 are ignored; fewer than
+/// kMinCurvePoints are not enough.
+[[nodiscard]] PowerLaw FitPowerLaw(const std::vector<CurvePoint>& points);
+
+inline constexpr std::size_t kMinCurvePoints = 4;
+
+/// Where the value lies that 90 % of a population exceed, each side with 95 % confidence.
+struct ToleranceLimits {
+  double low = std::numeric_limits<double>::quiet_NaN();   ///< NaN with fewer than 29 values.
+  double high = std::numeric_limits<double>::quiet_NaN();  ///< NaN with fewer than 2 values.
+};
+
+/// The limits by the ranks of a sample, whatever its distribution (Wilks 1941, Annals of
+/// Mathematical Statistics 12): the k-th smallest value is a lower limit if fewer than k of n
+/// values lie below the true one in at most 5 % of all samples, so that 29 values all exceed it, 46
+/// all but one, 61 all but two.
+///
+///   const double d90_95_m = LimitsExceededBy90Percent(detected_m).low;
+///
+/// @param values Independent of each other; of what never happened, any value below all others.
+[[nodiscard]] ToleranceLimits LimitsExceededBy90Percent(std::vector<double> values);
+
 }  // namespace railcast

@@ -1,8 +1,6 @@
 #include "analysis/estimate/logistic_model.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/error.h"

@@ -1,4 +1,4 @@
-#include "analysis/estimate/random_forest.h"
+#include "analysis/estimate/two_sample.h"
 
 #include <tbb/parallel_for.h>
 

@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/estimate/estimate.h"
-
 namespace railcast {
 namespace {
 

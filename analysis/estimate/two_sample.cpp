@@ -6,8 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "analysis/estimate/random_forest.h"
-#include "analysis/estimate/streams.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
 

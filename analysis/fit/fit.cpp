@@ -6,9 +6,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <functional>
-#include <vector>
 
-#include "analysis/estimate/estimate.h"
 #include "core/base/units.h"
 #include "railcast/effects.h"
 

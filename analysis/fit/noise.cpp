@@ -1,12 +1,10 @@
-#include "analysis/fit/noise.h"
+#include "analysis/fit/fit.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
-#include "analysis/estimate/estimate.h"
 #include "analysis/estimate/streams.h"
 
 namespace railcast {

@@ -4,18 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "analysis/stats/column_finder.h"
 #include "analysis/stats/holes.h"
+#include "analysis/stats/noise.h"
 #include "analysis/stats/plane_patches.h"
-#include "analysis/stats/temporal_noise.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {

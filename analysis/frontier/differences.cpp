@@ -4,8 +4,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "analysis/detectability/object_detection.h"
-
 namespace railcast {
 namespace {
 

@@ -3,9 +3,8 @@
 
 #include "analysis/frontier/frontier_report.h"
 #include "analysis/frontier/pareto.h"
-#include "analysis/report/processor.h"
+#include "analysis/report/provenance.h"
 #include "analysis/stats/names.h"
-#include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
 
 namespace railcast {

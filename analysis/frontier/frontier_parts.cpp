@@ -1,7 +1,6 @@
 // The tables and charts of errors by range, by class and by object, and the table of what scene
 // detail `auto` changes.
 #include <algorithm>
-#include <map>
 
 #include "analysis/detectability/object_detection.h"
 #include "analysis/frontier/frontier_report.h"

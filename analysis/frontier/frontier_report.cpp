@@ -8,7 +8,6 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/report/formats.h"
-#include "analysis/report/processor.h"
 #include "analysis/report/provenance.h"
 
 namespace railcast {

@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/fidelity/beam_steps.h"
-#include "core/fidelity/frame_comparison.h"
 
 namespace railcast {
 namespace {

@@ -1,11 +1,10 @@
-#include "analysis/frontier/rows.h"
+#include "analysis/frontier/measure.h"
 
 #include <algorithm>
 #include <sstream>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "railcast/effects.h"
 
 namespace railcast {
 namespace {

@@ -1,14 +1,11 @@
-#include "analysis/preset/intensity_cells.h"
+#include "analysis/preset/preset_comparison.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <set>
 #include <tuple>
 #include <utility>
-
-#include "analysis/estimate/estimate.h"
 
 namespace railcast {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -7,17 +8,160 @@
 #include <string>
 #include <vector>
 
+#include "analysis/estimate/estimate.h"
 #include "analysis/estimate/streams.h"
-#include "analysis/preset/intensity_cells.h"
-#include "analysis/preset/replay.h"
-#include "analysis/preset/seen_planes.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/noise.h"
-#include "analysis/stats/temporal_noise.h"
+#include "core/io/recording/scan_table.h"
+#include "railcast/frame.h"
 #include "railcast/io/recording.h"
+#include "railcast/scenario.h"
+#include "railcast/transform.h"
 
 namespace railcast {
+
+/// A large plane in a recorded turn, in the sensor's axes.
+struct SeenPlane {
+  Vector3 middle_m = Vector3::Zero();  ///< Mean of its points; lies in the plane.
+  Vector3 normal = Vector3::UnitZ();   ///< Unit vector of either sign.
+  std::size_t num_points{};
+
+  /// Range at which a ray from the sensor, or from a place in it, meets the plane; infinite or
+  /// negative if it does not.
+  [[nodiscard]] double RangeAlong_m(const Vector3& direction,
+                                    const Vector3& origin_m = Vector3::Zero()) const {
+    return normal.dot(middle_m - origin_m) / normal.dot(direction);
+  }
+  /// Whether it is level within 20 deg and below the sensor.
+  [[nodiscard]] bool is_ground() const;
+};
+
+/// The planes of a recorded turn, and which of its firings must have met which of them.
+struct SeenPlanes {
+  /// SeenPlanes::plane of a firing that met no plane, or something else.
+  static constexpr std::uint8_t kNone = 0xFF;
+
+  ScanTable scan;
+  std::vector<SeenPlane> planes;
+  std::vector<std::uint8_t> plane;  ///< By row x scan.columns + column: index into `planes`.
+
+  [[nodiscard]] std::uint8_t PlaneOf(std::size_t row, std::size_t column) const {
+    return plane[row * scan.columns + column];
+  }
+};
+
+/// A piece of a plane in which one kind of surface is met in one way: on level ground 5 deg of
+/// azimuth and a bin of FineRangeBins(), on others 6 deg of elevation, a side of the foot of the
+/// perpendicular, and 5 deg of incidence.
+struct PlaneCell {
+  std::size_t plane{};
+  std::size_t strip{};
+  std::size_t step{};  ///< Rises along the strip.
+
+  auto operator<=>(const PlaneCell&) const = default;
+};
+
+/// The cell in which a ray from the sensor meets a plane.
+/// @param direction Unit vector.
+[[nodiscard]] PlaneCell CellOf(const SeenPlanes& seen, std::size_t plane, const Vector3& direction);
+
+/// The firings of a turn that take part: all, or every second sector of 30 deg, so that what was
+/// fitted to one half can be asked of the other.
+enum class Sectors { kAll, kEven, kOdd };
+
+/// Finds the planes of a turn, at most 24, each of at least 0.4 % of its points: the best of many
+/// planes along the surface about a point (Fischler and Bolles 1981, with LocalNormal()), then
+/// least squares. Only points about which the surface lies as the plane does, to 26 deg, count.
+///
+/// A point belongs to a plane if it lies within 4 cm + 1.5 mm a metre of it, within 10 % of the
+/// range at which its ray meets the plane, and in a run of at least 8 such points of its ring,
+/// about half of which or more the surface lies as the plane does. Firings without a point belong
+/// to the plane of the points on either side if these are at most 5 firings away.
+[[nodiscard]] SeenPlanes FindSeenPlanes(const Frame& frame,
+                                        const ScanTable& scan,
+                                        Sectors sectors = Sectors::kAll);
+
+/// The points of a cell.
+struct CellPoints {
+  std::vector<float> intensities;
+  Moments range_m;
+  Moments incidence_deg;
+
+  /// Mean of the middle three fifths of the intensities: neither markings nor the steps of whole
+  /// percent decide it. NaN without points.
+  [[nodiscard]] double MiddleIntensity() const;
+};
+
+/// A cell of a plane as it was recorded and as it was simulated with one reflectivity everywhere.
+struct IntensityCell {
+  std::uint32_t turn{};
+  PlaneCell place;
+  bool is_ground{};
+  double range_m{};
+  double incidence_deg{};
+  double recorded{};
+  double simulated{};
+  std::size_t piece{};  ///< See LikePieces().
+};
+
+/// The cells of a turn that have at least 15 points on both sides and a recorded intensity of at
+/// least 0.02, below which a step of whole percent is half of it or more.
+[[nodiscard]] std::vector<IntensityCell> ComparableCells(
+    const std::map<PlaneCell, CellPoints>& recorded,
+    const std::map<PlaneCell, CellPoints>& simulated,
+    const SeenPlanes& seen,
+    std::uint32_t turn);
+
+/// Changes from one cell to the next beyond this factor are another material's. No law between a
+/// level one and Lambert's changes by more than 1.19 over a quarter of an octave.
+inline constexpr double kLikeFactor = 1.3;
+
+/// Puts cells together into pieces of one material: neighbours, along a strip (the next step, or
+/// the one after it if that is empty) or across, whose recorded intensities differ by less than
+/// `like`, belong to one piece. Returns the cells of the pieces that have at least three steps of
+/// range (or incidence), with simulated intensities that are multiplied by one factor for each
+/// piece.
+[[nodiscard]] std::vector<IntensityCell> LikePieces(const std::vector<IntensityCell>& cells,
+                                                    double like = kLikeFactor);
+
+/// Puts the cells of each piece together that are at the same range (or incidence): one cell for
+/// each step of the piece, with the mean recorded and the mean simulated intensity. Spots and lanes
+/// of a material even out, incidence does not.
+/// @param pieces From LikePieces().
+[[nodiscard]] std::vector<IntensityCell> MeansOfSteps(const std::vector<IntensityCell>& pieces);
+
+/// What is left of the ground's intensity as a power of range: the exponent of R in recorded over
+/// simulated, the median over neighbouring cells of a strip. No cut decides it, and other materials
+/// do not as long as more than half of the neighbours are of one. The interval is that of a
+/// median of independent pairs; turns repeat each other and count as one.
+[[nodiscard]] Estimate RangeExponentLeft(const std::vector<IntensityCell>& cells);
+
+/// Simulates a scenario's sensor before the planes that a real sensor has seen: the beams of its
+/// own pattern, with the effects of its own rung and weather, meet a plane where the recorded
+/// firings of that direction did, and nothing elsewhere. Planes below the sensor that are level are
+/// made of `asphalt`, all others of `concrete`, with the reflectivities given for their cells.
+class Replay {
+ public:
+  /// @param scenario One sensor whose channels have the recording's elevations; materials `asphalt`
+  ///   and `concrete`.
+  /// @throws InputError if it lacks these materials.
+  explicit Replay(const ScenarioSpec& scenario);
+
+  /// @param reflectivities Of cells; those not named have that of the nearest cell before them.
+  /// @pre There is at least one.
+  /// @returns The frame; `instance` is the index of the plane + 1.
+  [[nodiscard]] Frame Scan(const SeenPlanes& seen,
+                           const std::map<PlaneCell, double>& reflectivities,
+                           std::uint32_t frame_index) const;
+
+  /// The directions of the firings.
+  [[nodiscard]] const ScanTable& scan() const { return scan_; }
+
+ private:
+  const ScenarioSpec scenario_;
+  ScanTable scan_;
+};
 
 /// What was measured on planes: of the recording, or of its replay.
 struct PlaneFigures {

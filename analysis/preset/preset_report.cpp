@@ -1,7 +1,6 @@
 #include "analysis/preset/preset_comparison.h"
 
 #include <array>
-#include <string>
 #include <utility>
 
 #include "analysis/report/chart_columns.h"

@@ -1,12 +1,10 @@
-#include "analysis/preset/replay.h"
+#include "analysis/preset/preset_comparison.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.h"
 #include "core/scene/empty_world.h"

@@ -1,17 +1,13 @@
-#include "analysis/preset/seen_planes.h"
+#include "analysis/preset/preset_comparison.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <optional>
 
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"
-#include "core/io/recording/scan_table.h"
 #include "core/points/point_spread.h"
-#include "railcast/frame.h"
-#include "railcast/transform.h"
 
 namespace railcast {
 namespace {

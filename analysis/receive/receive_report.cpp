@@ -7,7 +7,6 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <system_error>
 

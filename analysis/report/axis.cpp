@@ -1,7 +1,6 @@
-#include "analysis/report/axis.h"
+#include "analysis/report/chart_script.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>

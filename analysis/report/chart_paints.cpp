@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <set>
 
 #include "analysis/report/chart_script.h"

@@ -1,10 +1,8 @@
 #include "analysis/report/chart_script.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "analysis/report/cell_text.h"
 

@@ -1,14 +1,12 @@
-#include "analysis/report/draw.h"
+#include "analysis/report/formats.h"
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
 #include "analysis/report/program_output.h"
-#include "analysis/report/report_scratch.h"
 #include "core/base/error.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"

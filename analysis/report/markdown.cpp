@@ -1,6 +1,3 @@
-#include <string>
-#include <string_view>
-
 #include "analysis/report/cell_text.h"
 #include "analysis/report/formats.h"
 

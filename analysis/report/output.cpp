@@ -4,12 +4,9 @@
 #include <limits>
 #include <optional>
 #include <set>
-#include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "analysis/report/draw.h"
 #include "analysis/report/formats.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

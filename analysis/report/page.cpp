@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cstdlib>
@@ -8,7 +7,6 @@
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_script.h"
 #include "analysis/report/formats.h"
-#include "analysis/report/paper.h"
 #include "core/base/error.h"
 
 namespace railcast {

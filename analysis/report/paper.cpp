@@ -1,5 +1,3 @@
-#include "analysis/report/paper.h"
-
 #include <algorithm>
 #include <limits>
 

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <system_error>
+
+#include "core/base/input_file.h"
 
 namespace railcast {
 
@@ -9,5 +15,27 @@ namespace railcast {
 /// @param package Debian's package that has the program.
 /// @throws InputError if the program is not found or fails; it says that the numbers are written.
 [[nodiscard]] std::string ProgramOutput(const std::string& command, const std::string& package);
+
+/// A folder for files that exist while a report is made, removed with all of them.
+class ReportScratch {
+ public:
+  /// @throws InputError if the system refuses.
+  ReportScratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "railcast-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw FileError(name, errno);
+    path_ = name;
+  }
+  ReportScratch(const ReportScratch&) = delete;
+  ReportScratch& operator=(const ReportScratch&) = delete;
+  ~ReportScratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace railcast

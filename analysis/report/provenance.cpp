@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <ctime>
-#include <functional>
+#include <fstream>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -118,6 +118,14 @@ void AddProvenance(const std::vector<RecordingInfo>& sources,
                    Report& report) {
   for (auto& fact : OriginFacts(sources)) report.facts.push_back(std::move(fact));
   for (auto& fact : MakerFacts(version)) report.facts.push_back(std::move(fact));
+}
+
+std::string ProcessorName() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
 }
 
 }  // namespace railcast

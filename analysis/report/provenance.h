@@ -45,4 +45,8 @@ void AddProvenance(const std::vector<RecordingInfo>& sources,
                    const std::string& version,
                    Report& report);
 
+/// Returns the processor's name as Linux gives it, "Intel(R) Xeon(R) CPU @ 2.20GHz"; "unknown"
+/// where it gives none, as on ARM.
+[[nodiscard]] std::string ProcessorName();
+
 }  // namespace railcast

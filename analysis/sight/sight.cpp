@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
-#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/text.h"

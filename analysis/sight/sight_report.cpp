@@ -1,6 +1,5 @@
-#include "analysis/sight/sight_report.h"
+#include "analysis/sight/sight.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "core/base/text.h"

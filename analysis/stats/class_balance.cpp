@@ -1,10 +1,7 @@
-#include "analysis/estimate/estimate.h"
 #include "analysis/stats/statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <utility>
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"

@@ -1,7 +1,6 @@
 #include "analysis/stats/statistics.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "analysis/report/chart_columns.h"
 #include "core/base/units.h"

@@ -1,7 +1,5 @@
 #include "analysis/stats/dataset_overview.h"
 
-#include <string_view>
-
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/record/read_record.h"
@@ -25,31 +23,27 @@ void CheckAgrees(const std::string& place,
                    std::string(kDatasetManifestFile) + " says" + Got(got));
 }
 
-DatasetManifestRecord ReadDatasetManifest(const fs::path& directory) {
-  const fs::path file = directory / kDatasetManifestFile;
-  const std::string manifest = ReadFileWhole(file);
-  CheckManifestHash(manifest, ShownPath(file));
-  return ReadRecord<DatasetManifestRecord>(WithoutManifestHash(manifest), ShownPath(file));
-}
-
 std::string ReadNamedFile(const fs::path& directory,
                           const DatasetManifestRecord& manifest,
                           std::string_view name) {
-  for (const auto& [known, hash] : manifest.files) {
-    if (known == name) return ReadHashedFile(directory, {known, hash, {}}, kDatasetManifestFile);
-  }
-  throw InputError(ShownPath(directory / kDatasetManifestFile) + ": /files_xxh3: must name " +
-                   std::string(name));
+  const std::string hash = HashOf(name, manifest.files, directory / kDatasetManifestFile);
+  return ReadHashedFile(directory, {std::string(name), hash, {}}, kDatasetManifestFile);
 }
 
 }  // namespace
 
 std::string ReadDatasetFile(const fs::path& directory, std::string_view name) {
-  return ReadNamedFile(directory, ReadDatasetManifest(directory), name);
+  return ReadNamedFile(
+      directory,
+      ReadRecord<DatasetManifestRecord>(ReadManifestText(directory / kDatasetManifestFile),
+                                        ShownPath(directory / kDatasetManifestFile)),
+      name);
 }
 
 DatasetOverview ReadDatasetOverview(const fs::path& directory) {
-  const DatasetManifestRecord manifest = ReadDatasetManifest(directory);
+  const DatasetManifestRecord manifest =
+      ReadRecord<DatasetManifestRecord>(ReadManifestText(directory / kDatasetManifestFile),
+                                        ShownPath(directory / kDatasetManifestFile));
   const std::string place = ShownPath(directory / kReportFile);
   const auto report =
       ReadRecord<DatasetReportRecord>(ReadNamedFile(directory, manifest, kReportFile), place);

@@ -2,7 +2,6 @@
 #include "analysis/stats/dataset_overview.h"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 #include <vector>
 

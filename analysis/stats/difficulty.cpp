@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "analysis/estimate/estimate.h"
-#include "analysis/report/cell_text.h"
 #include "analysis/report/chart_columns.h"
-#include "analysis/stats/bins.h"
 
 namespace railcast {
 namespace {

@@ -1,12 +1,7 @@
 #include "analysis/stats/statistics.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numeric>
-#include <utility>
 
-#include "analysis/estimate/estimate.h"
 #include "analysis/report/cell_text.h"
 #include "analysis/stats/bins.h"
 #include "core/base/error.h"

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include <Eigen/Core>
 
 #include "analysis/report/chart_columns.h"
-#include "analysis/stats/bins.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {

@@ -1,8 +1,5 @@
 #include "analysis/stats/statistics.h"
 
-#include <cmath>
-#include <string>
-
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
 #include "core/base/units.h"

@@ -5,7 +5,6 @@
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
-#include "analysis/stats/plane_patches.h"
 #include "core/base/units.h"
 #include "core/io/recording/firing_truth.h"
 

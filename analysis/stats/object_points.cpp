@@ -5,7 +5,6 @@
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {
-
 namespace {
 
 /// Firings that met an object, and those of them that returned a point.

@@ -1,7 +1,4 @@
-#include <cstdint>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/report/cell_text.h"

@@ -8,7 +8,6 @@
 #include <pcl/features/impl/normal_3d.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,7 +17,6 @@
 #include "core/points/nearest_points.h"
 #include "core/points/point_alignment.h"
 #include "core/points/point_spread.h"
-#include "railcast/transform.h"
 
 namespace railcast {
 namespace {

@@ -1,9 +1,6 @@
 #include "analysis/stats/statistics.h"
 
 #include <algorithm>
-#include <map>
-#include <string>
-#include <utility>
 
 #include "analysis/pictures/grid_pictures.h"
 #include "core/base/text.h"

@@ -4,7 +4,6 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <optional>
-#include <utility>
 
 #include "analysis/stats/plane_patches.h"
 #include "railcast/lidar.h"

@@ -11,12 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/estimate/power_law.h"
+#include "analysis/estimate/estimate.h"
 #include "analysis/stats/difficulty.h"
 #include "analysis/stats/holes.h"
 #include "analysis/stats/noise.h"
 #include "analysis/stats/sums.h"
-#include "analysis/stats/temporal_noise.h"
 #include "core/io/cloud/track_fields.h"
 #include "railcast/outcome.h"
 

@@ -1,11 +1,6 @@
 #include "analysis/stats/statistics.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "analysis/report/cell_text.h"
 #include "analysis/report/provenance.h"

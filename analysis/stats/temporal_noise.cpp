@@ -1,4 +1,4 @@
-#include "analysis/stats/temporal_noise.h"
+#include "analysis/stats/noise.h"
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,6 @@
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"
 #include "analysis/stats/column_finder.h"
-#include "analysis/stats/plane_patches.h"
 
 namespace railcast {
 namespace {

@@ -1,8 +1,6 @@
 #include "analysis/stats/statistics.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "analysis/report/chart_columns.h"
 #include "analysis/stats/bins.h"

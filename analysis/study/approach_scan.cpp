@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <span>
-#include <string>
-#include <utility>
 
 #include "analysis/study/approach_record.h"
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "railcast/lidar.h"
 
 namespace railcast {

@@ -1,7 +1,4 @@
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "analysis/study/study_spec.h"
 #include "core/base/error.h"

@@ -1,13 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "analysis/detectors/alarm_report.h"
 #include "analysis/estimate/streams.h"

@@ -1,14 +1,8 @@
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "analysis/detectability/inspections.h"
-#include "analysis/estimate/detection_curve.h"
+#include "analysis/detectability/detection_probability.h"
 #include "analysis/estimate/estimate.h"
 #include "analysis/study/study_report.h"
 #include "core/base/text.h"

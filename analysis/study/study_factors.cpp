@@ -1,19 +1,19 @@
 #include "analysis/study/study_factors.h"
 
+#include <nlohmann/json.hpp>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <functional>
 #include <iomanip>
-#include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <utility>
 
-#include "analysis/detectability/inspections.h"
+#include "analysis/detectability/detection_probability.h"
 #include "analysis/estimate/logistic_model.h"
 #include "core/base/text.h"
 
@@ -172,6 +172,18 @@ Design DesignOf(const std::vector<Observation>& observations, const std::vector<
   return design;
 }
 
+void AddKeysOf(const Json& option, std::set<std::string>& keys) {
+  const Json draws = option.value("draws", Json::object());
+  const Json set = option.value("set", Json::object());
+  for (const auto& [pointer, value] : draws.items()) keys.insert(pointer);
+  for (const auto& [pointer, value] : set.items()) {
+    keys.insert(pointer);
+    if (!value.is_object()) continue;
+    const Json leaves = value.flatten();
+    for (const auto& [below, leaf] : leaves.items()) keys.insert(pointer + below);
+  }
+}
+
 }  // namespace
 
 std::vector<Observation> ObservationsOf(const std::vector<ApproachRecord>& approaches) {
@@ -254,6 +266,20 @@ std::vector<FactorWeight> WeighFactors(const std::vector<Observation>& observati
   }
   std::ranges::stable_sort(weights, std::greater<>(), &FactorWeight::ratio);
   return weights;
+}
+
+std::set<std::string> DrawnKeys(const std::string& name, const Json& recipe) {
+  std::set<std::string> keys = {name};
+  const Json none = Json::array();
+  for (const Json& group : recipe.value("groups", none)) {
+    if (group.value("name", std::string()) != name) continue;
+    for (const Json& option : group.value("options", none)) AddKeysOf(option, keys);
+  }
+  return keys;
+}
+
+bool IsAtOrBelow(const std::string& pointer, const std::string& key) {
+  return pointer.starts_with(key) && (pointer.size() == key.size() || pointer[key.size()] == '/');
 }
 
 }  // namespace railcast

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/estimate/detection_curve.h"
 #include "analysis/study/approach_record.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 
@@ -58,5 +59,14 @@ struct FactorWeight {
 /// @return The greatest ratio first; empty with fewer than 10 observations for each coefficient.
 [[nodiscard]] std::vector<FactorWeight> WeighFactors(const std::vector<Observation>& observations,
                                                      const std::vector<Factor>& factors);
+
+/// The keys of scenarios that something drawn changes: "/weather/visibility_m".
+/// @param name As records of approaches have it: a pointer stands for itself, the name of a group
+///   for all that its options set or draw.
+/// @param recipe The recipe's file.
+[[nodiscard]] std::set<std::string> DrawnKeys(const std::string& name, const Json& recipe);
+
+/// Whether a pointer is a key or lies below it.
+[[nodiscard]] bool IsAtOrBelow(const std::string& pointer, const std::string& key);
 
 }  // namespace railcast

@@ -1,18 +1,12 @@
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
-#include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
-#include "analysis/detectability/inspections.h"
+#include "analysis/detectability/detection_probability.h"
 #include "analysis/estimate/streams.h"
-#include "analysis/study/drawn_keys.h"
+#include "analysis/study/study_factors.h"
 #include "analysis/study/study_report.h"
-#include "core/base/text.h"
 
 namespace railcast {
 namespace {

@@ -8,7 +8,6 @@
 #include "analysis/detectors/alarm_report.h"
 #include "analysis/detectors/evaluate_report.h"
 #include "analysis/study/kept_files.h"
-#include "analysis/study/study_targets.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -7,7 +7,7 @@
 
 #include "analysis/detectability/object_detection.h"
 #include "analysis/detectors/cluster_detector.h"
-#include "analysis/detectors/gauge_ahead.h"
+#include "analysis/detectors/detection.h"
 
 namespace railcast {
 

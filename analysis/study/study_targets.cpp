@@ -1,15 +1,12 @@
-#include "analysis/study/study_targets.h"
+#include "analysis/study/study_report.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "analysis/detectability/detect_report.h"
 #include "analysis/detectability/detection_probability.h"
-#include "analysis/detectability/inspections.h"
-#include "analysis/estimate/tolerance_limit.h"
+#include "analysis/estimate/estimate.h"
 #include "core/base/text.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "analysis/frontier/rows.h"
+#include "analysis/frontier/measure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,3 @@
-#include "analysis/detectability/rung_used.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/detectors/box_overlap.h"
+#include "analysis/detectors/detection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,3 @@
-#include "analysis/detectors/collected_lines.h"
-
 #include <gtest/gtest.h>
 
 #include <string>

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "analysis/dossier/dossier_sections.h"
 #include "analysis/limits/limit_sections.h"
-#include "analysis/report/processor.h"
+#include "analysis/report/provenance.h"
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"
 #include "tests/analysis/report/browser.h"

@@ -7,7 +7,6 @@
 #include <random>
 #include <vector>
 
-#include "analysis/estimate/power_law.h"
 #include "analysis/estimate/streams.h"
 
 namespace railcast {

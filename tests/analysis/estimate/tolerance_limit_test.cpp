@@ -1,4 +1,4 @@
-#include "analysis/estimate/tolerance_limit.h"
+#include "analysis/estimate/estimate.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "analysis/estimate/logistic_model.h"
-#include "analysis/estimate/random_forest.h"
 #include "analysis/estimate/streams.h"
 
 namespace railcast {

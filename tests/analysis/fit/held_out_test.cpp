@@ -13,7 +13,6 @@
 
 #include "analysis/estimate/estimate.h"
 #include "analysis/fit/fit.h"
-#include "analysis/fit/noise.h"
 #include "analysis/fit/recorded_trials.h"
 #include "tests/analysis/fit/real_capture.h"
 

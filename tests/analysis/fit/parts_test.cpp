@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "analysis/fit/fit.h"
-#include "analysis/fit/noise.h"
 #include "analysis/fit/recorded_trials.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "analysis/report/chart_script.h"
-#include "analysis/report/draw.h"
+#include "analysis/report/formats.h"
 #include "core/base/error.h"
 #include "core/io/write_file.h"
 #include "tests/analysis/report/made_report.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "analysis/sight/sight_report.h"
 #include "core/base/units.h"
 #include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/landform/landform.h"

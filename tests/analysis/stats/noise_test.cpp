@@ -7,7 +7,6 @@
 
 #include "analysis/stats/bins.h"
 #include "analysis/stats/statistics.h"
-#include "analysis/stats/temporal_noise.h"
 #include "core/base/random.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/support/analytic_meshes.h"

@@ -1,5 +1,3 @@
-#include "analysis/study/study_targets.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
