@@ -19,7 +19,7 @@ ROOM_ORDERS = {
     "core/rail": "base line network motion chunk survey clearance track landform structures ground catenary objects traffic "
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
-    "core/io": ". image cloud record run velodyne hesai pcap net ouster ros mcap bag osi dds stream recording verify".split(),
+    "core/io": ". image cloud record run velodyne hesai spinning pcap net ouster ros mcap bag osi dds stream recording verify".split(),
     "generator": ". run check sequence insert live replay trace world dataset survey import python".split(),
     "generator/insert": ". plan firings clouds packets run".split(),
     "generator/import": "map fit heights lines network structures .".split(),
