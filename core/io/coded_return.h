@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/io/field_layout.h"
+
 namespace railcast {
 
 /// One return as a packet encodes it; all zeros if there is none.
@@ -10,6 +12,12 @@ struct CodedReturn {
   std::uint16_t distance{};
   std::uint8_t reflectivity{};
 };
+
+/// Writes a return as packets have it.
+inline void StoreCoded(const CodedReturn& coded, char* place) {
+  StoreAt<std::uint16_t>(place, coded.distance);
+  StoreAt<std::uint8_t>(place + sizeof coded.distance, coded.reflectivity);
+}
 
 /// Returns a range in whole units; 0 if there is none, or if it lies beyond 65535 units.
 [[nodiscard]] inline std::uint16_t CodedDistance(float range_m, double unit_m) {

@@ -2,18 +2,12 @@
 
 #include "core/base/text.h"
 #include "core/io/coded_return.h"
-#include "core/io/field_layout.h"
 
 namespace railcast {
 namespace {
 
 CodedReturn CodedAt(const char* place) {
   return {LoadAt<std::uint16_t>(place), LoadAt<std::uint8_t>(place + sizeof(std::uint16_t))};
-}
-
-void StoreCoded(const CodedReturn& coded, char* place) {
-  StoreAt<std::uint16_t>(place, coded.distance);
-  StoreAt<std::uint8_t>(place + sizeof coded.distance, coded.reflectivity);
 }
 
 CodedReturn CodeOf(const EditedReturn& edited,

@@ -7,10 +7,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_encoder.h"
 #include "core/io/ouster/ouster_encoder.h"
+#include "core/io/spinning/spinning_encoder.h"
 #include "core/io/stream/stream_encoder.h"
-#include "core/io/velodyne/velodyne_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"
@@ -84,11 +83,9 @@ SensorStream::SensorStream(SensorStreamSpec spec,
 
 std::unique_ptr<FrameEncoder> MakePacketEncoder(Protocol protocol, const LidarSpec& lidar) {
   if (protocol == Protocol::kOuster) return MakeOusterEncoder(lidar);
-  const std::string_view name = NameOf(protocol);
-  if (const HesaiModel* const model = FindHesaiModel(name)) {
-    return MakeHesaiEncoder(*model, lidar.scan, lidar.receiver.return_mode);
-  }
-  return MakeVelodyneEncoder(name, lidar.scan, lidar.receiver.return_mode);
+  const SpinningModel* const model = FindSpinningModel(NameOf(protocol));
+  Check(model != nullptr, "the packets of the protocol are known");
+  return MakeSpinningEncoder(*model, lidar.scan, lidar.receiver.return_mode);
 }
 
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {

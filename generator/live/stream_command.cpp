@@ -11,7 +11,7 @@
 #include "core/base/text.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
-#include "core/io/velodyne/calibration_xml.h"
+#include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/hesai/at128_decoder.h"
-#include "core/io/hesai/hesai_decoder.h"
-#include "core/io/hesai/hesai_packet.h"
 #include "core/io/recording/packet_recording.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/spinning/spinning_decoder.h"
+#include "core/io/spinning/spinning_packet.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
@@ -33,28 +32,24 @@ void CheckTurn(const SensorTurn& turn, std::size_t num_rings) {
 }
 
 // Splits the bytes into packets; the last one may be truncated.
-template <typename Decoder>
-void DecodeAll(Decoder decoder,
-               std::size_t packet_size,
-               std::size_t num_rings,
-               std::span<const char> bytes) {
+void DecodeAll(const SpinningModel& model, std::span<const char> bytes) {
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
-    const auto packet = bytes.first(std::min(bytes.size(), packet_size));
+    const auto packet = bytes.first(std::min(bytes.size(), model.packet_size));
     (void)decoder.Decode(packet, turns);
     bytes = bytes.subspan(packet.size());
   }
   turns.push_back(decoder.TakeUnfinished());
-  for (const SensorTurn& turn : turns) CheckTurn(turn, num_rings);
+  for (const SensorTurn& turn : turns) CheckTurn(turn, model.channels.size());
 }
 
 // With the right checksums of all packets, which an input does not have by chance.
-std::vector<char> WithChecksums(std::span<const HesaiCheckedBytes> checked,
-                                std::size_t packet_size,
-                                std::span<const char> bytes) {
+std::vector<char> WithChecksums(const SpinningModel& model, std::span<const char> bytes) {
   std::vector<char> packets(bytes.begin(), bytes.end());
-  for (std::size_t end = packet_size; end <= packets.size(); end += packet_size) {
-    StoreHesaiChecksums(checked, std::span(packets).first(end).last(packet_size));
+  const std::size_t size = model.packet_size;
+  for (std::size_t end = size; end <= packets.size(); end += size) {
+    StoreChecksums(model, std::span(packets).first(end).last(size));
   }
   return packets;
 }
@@ -144,18 +139,17 @@ RAILCAST_FUZZ_TARGET(capture) {
   const std::size_t letter = letters.find(static_cast<char>(data[0]));
   const std::size_t number = data[0] - std::size_t{'0'};
   const std::size_t model = letter < letters.size() ? letter : number;
-  if (model < railcast::HesaiModels().size()) {
-    const railcast::HesaiModel& hesai = railcast::HesaiModels()[model];
-    railcast::DecodeAll(railcast::HesaiDecoder(hesai), hesai.layout.packet_size,
-                        hesai.channels.size(),
-                        railcast::WithChecksums(railcast::HesaiCheckedBytesOf(hesai.layout),
-                                                hesai.layout.packet_size, bytes));
+  // Hesai's stand side by side.
+  const auto first =
+      std::ranges::find(railcast::SpinningModels(), "Pandar64", &railcast::SpinningModel::name);
+  if (model < 10) {
+    const railcast::SpinningModel& hesai = *(first + static_cast<std::ptrdiff_t>(model));
+    railcast::DecodeAll(hesai, railcast::WithChecksums(hesai, bytes));
   } else if (data[0] == 'a') {
     const auto correction =
         std::make_shared<const railcast::At128Correction>(railcast::CorrectionFile({}));
-    railcast::DecodeAll(
-        railcast::At128Decoder(correction), railcast::kAt128PacketSize, railcast::kAt128Lasers,
-        railcast::WithChecksums(railcast::kAt128CheckedBytes, railcast::kAt128PacketSize, bytes));
+    const railcast::SpinningModel at128 = railcast::At128Model(correction);
+    railcast::DecodeAll(at128, railcast::WithChecksums(at128, bytes));
   } else if (data[0] == 'c') {
     railcast::UseCorrection(bytes);
   } else {

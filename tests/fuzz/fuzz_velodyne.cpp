@@ -9,25 +9,17 @@
 
 #include "core/base/error.h"
 #include "core/io/pcap/pcap_reader.h"
-#include "core/io/velodyne/calibration_xml.h"
-#include "core/io/velodyne/velodyne_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
 
-constexpr std::array<std::string_view, 5> kFormats = {"vlp16", "hdl32e", "vlp32c", "hdl64e",
-                                                      "vls128"};
-
-VelodyneDecoder MakeDecoder(std::string_view format) {
-  const VelodyneModel& model =
-      format == "vls128" ? Vls128Model() : *FindVelodyneFormat(format).model;
-  if (!model.has_own_angles) return VelodyneDecoder(model);
-  return {model, std::vector<LaserCalibration>(model.lasers.size(), {.elevation_deg = 1.0})};
-}
+constexpr std::array<std::string_view, 5> kNames = {"VLP-16", "HDL-32E", "VLP-32C", "HDL-64E",
+                                                    "VLS-128"};
 
 void CheckVelodyneTurn(const SensorTurn& turn) {
-  Check(turn.points.size() <= (std::size_t{1} << 20U) + 64, "a turn has an end");
+  Check(turn.num_columns() <= (std::size_t{1} << 14U) + 1, "a turn has an end");
   for (const TurnPoint& point : turn.points) {
     Check(point.range_m > 0.0F && point.range_m < 263.0F, "a range is within the format");
     Check(point.azimuth_rad >= 0.0F && point.azimuth_rad < 6.2832F, "an azimuth is of one turn");
@@ -38,11 +30,12 @@ void CheckVelodyneTurn(const SensorTurn& turn) {
 }
 
 // Splits the bytes into packets; the last one may be truncated.
-void DecodePackets(std::string_view format, std::span<const char> bytes) {
-  VelodyneDecoder decoder = MakeDecoder(format);
+void DecodePackets(std::string_view name, std::span<const char> bytes) {
+  const SpinningModel& model = ModelNamed(name);
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   while (!bytes.empty()) {
-    const auto packet = bytes.first(std::min(bytes.size(), kVelodynePacketSize));
+    const auto packet = bytes.first(std::min(bytes.size(), model.packet_size));
     (void)decoder.Decode(packet, turns);
     bytes = bytes.subspan(packet.size());
   }
@@ -54,13 +47,13 @@ void ReadVelodyneCapture(std::span<const char> bytes) {
   std::FILE* const stream =
       ::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb");  // Mode "r" does not write.
   if (stream == nullptr) return;
-  std::vector<VelodyneDecoder> decoders;
-  for (const std::string_view format : kFormats) decoders.push_back(MakeDecoder(format));
+  std::vector<SpinningDecoder> decoders;
+  for (const std::string_view name : kNames) decoders.emplace_back(ModelNamed(name));
   std::vector<SensorTurn> turns;
   try {
     PcapReader reader(stream, "fuzz");
     while (const auto datagram = reader.Next()) {
-      for (VelodyneDecoder& decoder : decoders) (void)decoder.Decode(datagram->payload, turns);
+      for (SpinningDecoder& decoder : decoders) (void)decoder.Decode(datagram->payload, turns);
     }
   } catch (const InputError&) {
   }
@@ -76,7 +69,7 @@ RAILCAST_FUZZ_TARGET(velodyne) {
   if (size == 0) return 0;
   const std::span bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   if (data[0] >= '0' && data[0] <= '4') {
-    railcast::DecodePackets(railcast::kFormats.at(data[0] - std::size_t{'0'}), bytes);
+    railcast::DecodePackets(railcast::kNames.at(data[0] - std::size_t{'0'}), bytes);
   } else {
     railcast::ReadVelodyneCapture(bytes);
   }

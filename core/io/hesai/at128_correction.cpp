@@ -6,8 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/hesai/hesai_model.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/io/field_layout.h"
 
 namespace railcast {
 namespace {
@@ -17,6 +16,7 @@ namespace {
 // field, i32 the azimuth and i32 the elevation of each laser; then, in steps of the resolution /
 // 100 deg, 180 x i8 the shifts of each laser's azimuth and 180 x i8 of its elevation; SHA-256
 // (HesaiLidar_SDK_2.0, udp4_3_parser.cc; a cloud of tier4/nebula agrees).
+constexpr std::uint16_t kFileFlag = 0xFFEE;
 constexpr std::size_t kCorrectionHead = 16;
 constexpr std::size_t kFileSize = 47'176;
 constexpr double kStepsPerDeg = 25'600.0;
@@ -27,7 +27,7 @@ void CheckFile(std::span<const char> bytes) {
   if (bytes.size() != kFileSize) {
     throw InputError("must be 47176 bytes" + Got(bytes.size()));
   }
-  if (LoadAt<std::uint16_t>(bytes.data()) != kHesaiFlag) {
+  if (LoadAt<std::uint16_t>(bytes.data()) != kFileFlag) {
     throw InputError("must begin with EE FF" + Got(LoadAt<std::uint16_t>(bytes.data())));
   }
   const auto check = [&](std::size_t place, std::uint8_t expected, const std::string& what) {

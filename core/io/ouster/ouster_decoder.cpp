@@ -17,6 +17,13 @@ constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 /// Later times, some 146 years, are no times of a sensor; sums and differences of others fit.
 constexpr std::uint64_t kMostTime_ns = std::uint64_t{1} << 62U;
 
+std::optional<std::string> RefuseNumber(const char* name, std::uint64_t got, std::uint64_t wanted) {
+  if (got == wanted) return std::nullopt;
+  return std::string(name) + " must be " + NumberText(wanted) + Got(got);
+}
+
+}  // namespace
+
 std::vector<ChannelSpec> ChannelsOf(const OusterMetadata& metadata) {
   std::vector<ChannelSpec> channels;
   for (const OusterBeam& beam : metadata.beams) {
@@ -24,13 +31,6 @@ std::vector<ChannelSpec> ChannelsOf(const OusterMetadata& metadata) {
   }
   return channels;
 }
-
-std::optional<std::string> RefuseNumber(const char* name, std::uint64_t got, std::uint64_t wanted) {
-  if (got == wanted) return std::nullopt;
-  return std::string(name) + " must be " + NumberText(wanted) + Got(got);
-}
-
-}  // namespace
 
 OusterDecoder::OusterDecoder(const OusterMetadata& metadata)
     : metadata_(metadata), layout_(metadata), is_seen_(metadata.columns_per_frame) {

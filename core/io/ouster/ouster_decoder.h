@@ -11,9 +11,13 @@
 #include "core/io/sensor_turn.h"
 #include "core/io/turn_edit.h"
 #include "core/scenario/ouster_metadata.h"
+#include "railcast/lidar.h"
 #include "railcast/transform.h"
 
 namespace railcast {
+
+/// The lasers of a sensor, as those of others, in the order of its beams.
+[[nodiscard]] std::vector<ChannelSpec> ChannelsOf(const OusterMetadata& metadata);
 
 /// Turns the lidar packets of an Ouster sensor into points in the sensor's axes.
 ///

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/io/hesai/hesai_model.h"
-#include "core/io/hesai/hesai_packet.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/spinning/spinning_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 #include "core/scenario/json_rules.h"
@@ -17,7 +16,6 @@
 namespace railcast {
 namespace {
 
-constexpr std::string_view kAt128Name = "AT128";
 constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 float IntensityOf(const TurnPoint& point, IntensityBytes bytes) {
@@ -95,13 +93,10 @@ std::span<const char> FirstPacket(std::span<const char> payload, std::size_t siz
 }
 
 CaptureSensor OusterSensor(const OusterMetadata& metadata) {
-  std::vector<ChannelSpec> channels;
-  for (const OusterBeam& beam : metadata.beams) {
-    channels.push_back({beam.altitude_deg, beam.azimuth_deg, 0.0});
-  }
   return {.name = metadata.product_line.empty() ? "an Ouster sensor" : metadata.product_line,
           .packet_size = OusterPacketSize(metadata),
-          .shape = ShapeOfTurns(channels, IntensityBytes::kVelodyne, BeamsOfOuster(metadata)),
+          .shape = ShapeOfTurns(ChannelsOf(metadata), IntensityBytes::kVelodyne,
+                                BeamsOfOuster(metadata)),
           .decoder = OusterDecoder(metadata)};
 }
 
@@ -119,37 +114,29 @@ bool LooksLikeOuster(std::span<const char> payload) {
   return false;
 }
 
+CaptureSensor SensorOf(const SpinningModel& model) {
+  return {.name = model.name,
+          .packet_size = model.packet_size,
+          .shape = ShapeOfTurns(model.channels, model.intensity, BeamsOfSpinning(model)),
+          .decoder = SpinningDecoder(model)};
+}
+
 /// A sensor of each kind that can be decoded, without any packet so far.
 std::vector<CaptureSensor> ReadableSensors(
     const std::optional<OusterMetadata>& metadata = std::nullopt) {
   std::vector<CaptureSensor> sensors;
-  for (const VelodyneModel* model : ModelsWithoutCalibration()) {
-    sensors.push_back(
-        {.name = std::string(model->name),
-         .packet_size = kVelodynePacketSize,
-         .shape = ShapeOfTurns(model->lasers, IntensityBytes::kVelodyne, BeamsOfVelodyne(*model)),
-         .decoder = VelodyneDecoder(*model)});
-  }
-  for (const HesaiModel& model : HesaiModels()) {
-    sensors.push_back({.name = std::string(model.name),
-                       .packet_size = model.layout.packet_size,
-                       .shape = ShapeOfTurns(model.channels,
-                                             model.has_reflectivity ? IntensityBytes::kPercent
-                                                                    : IntensityBytes::kUnknown,
-                                             BeamsOfHesai(model)),
-                       .decoder = HesaiDecoder(model)});
+  for (const SpinningModel& model : SpinningModels()) {
+    if (model.is_read) sensors.push_back(SensorOf(model));
   }
   if (metadata) sensors.push_back(OusterSensor(*metadata));
   return sensors;
 }
 
-CaptureSensor At128Of(const std::shared_ptr<const At128Correction>& correction) {
-  return {.name = std::string(kAt128Name),
-          .packet_size = kAt128PacketSize,
-          .shape = ShapeOfTurns(At128Channels(*correction), IntensityBytes::kPercent,
-                                BeamsOfAt128(correction)),
-          .decoder = At128Decoder(correction)};
-}
+// Of Velodyne's packets.
+constexpr std::size_t kVelodynePacketSize = 1206;
+constexpr std::size_t kVelodyneBlockSize = 100;
+constexpr std::uint16_t kLowerBlockFlag = 0xEEFF;  ///< Lasers 0 to 31.
+constexpr std::uint16_t kUpperBlockFlag = 0xDDFF;  ///< Lasers 32 to 63.
 
 /// Whether this begins with a packet of Hesai's Pandar40P: 10 blocks of 124 bytes, each with the
 /// flag of Velodyne's blocks, and a tail of 22 bytes (Hesai, Pandar40P user manual, "point cloud
@@ -169,7 +156,7 @@ bool IsPandar40P(std::span<const char> payload) {
 /// not one of those.
 std::string NameOfStranger(std::span<const char> payload) {
   constexpr std::size_t kLeastHesaiHeader = 8;
-  if (IsAt128Packet(payload)) {
+  if (HasHeaderOf(ModelNamed(kAt128Name), payload)) {
     return "packets of an AT128, whose correction file must be beside the capture, with its name "
            "and .dat";
   }
@@ -189,11 +176,11 @@ std::string NameOfStranger(std::span<const char> payload) {
     return {};
   }
   if (IsPandar40P(payload)) return "damaged packets of Hesai's Pandar40P";
-  const auto id = LoadAt<std::uint8_t>(payload.data() + kModelPlace);
+  const auto id = LoadAt<std::uint8_t>(payload.data() + kVelodynePacketSize - 1);
   for (const OtherModel& model : kOtherModels) {
     if (model.id == id) return std::string(model.name);
   }
-  if (LoadAt<std::uint16_t>(payload.data() + kBlockSize) == kUpperBlockFlag) {
+  if (LoadAt<std::uint16_t>(payload.data() + kVelodyneBlockSize) == kUpperBlockFlag) {
     return "HDL-64E, whose packets lack its calibration";
   }
   return "Velodyne packets of model byte " + NumberText(id);
@@ -269,8 +256,8 @@ SensorFinder::SensorFinder(const CaptureMetadata& beside)
 
 std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   if (num_datagrams_++ == 0) first_size_ = payload.size();
-  if (load_correction_ && IsAt128Packet(payload)) {
-    if (const auto correction = load_correction_()) return At128Of(correction);
+  if (load_correction_ && HasHeaderOf(ModelNamed(kAt128Name), payload)) {
+    if (const auto correction = load_correction_()) return SensorOf(At128Model(correction));
   }
   for (std::size_t i = 0; i < probes_.size(); ++i) {
     const std::span<const char> packet = FirstPacket(payload, probes_[i].packet_size);

@@ -10,24 +10,15 @@
 #include <variant>
 #include <vector>
 
-#include "core/io/hesai/at128_decoder.h"
-#include "core/io/hesai/hesai_decoder.h"
 #include "core/io/ouster/ouster_decoder.h"
 #include "core/io/recording/capture_metadata.h"
 #include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
-#include "core/io/velodyne/velodyne_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
-
-/// The meaning of a spinning sensor's intensity bytes.
-enum class IntensityBytes {
-  kVelodyne,  ///< Reflectivity as defined in velodyne_packet.h.
-  kPercent,
-  kUnknown  ///< No reflectivity: frames have the bytes as the foreign field "intensity_byte".
-};
 
 /// The rows of a sensor's frames.
 struct TurnShape {
@@ -51,7 +42,7 @@ struct TurnShape {
 /// The byte of a frame's intensity; nothing if it is not known what bytes mean.
 [[nodiscard]] std::optional<std::uint8_t> ByteOfIntensity(float intensity, IntensityBytes bytes);
 
-using TurnDecoder = std::variant<VelodyneDecoder, HesaiDecoder, At128Decoder, OusterDecoder>;
+using TurnDecoder = std::variant<SpinningDecoder, OusterDecoder>;
 
 /// A sensor whose packets can be decoded.
 struct CaptureSensor {

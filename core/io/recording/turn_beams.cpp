@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/hesai/at128_decoder.h"
+#include "core/io/ouster/ouster_decoder.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {
@@ -14,10 +14,9 @@ namespace {
 
 /// How a row of a spinning sensor is aimed.
 struct RowAim {
-  double elevation_rad{};
+  double elevation_deg{};
   double azimuth_deg{};  ///< Clockwise, added to the rotor's.
-  double turned_us{};    ///< For how long the rotor has turned on since its stated azimuth.
-  std::size_t loop{};
+  PacketFiring firing;
 };
 
 /// @param azimuth_rad Clockwise.
@@ -26,53 +25,36 @@ Vector3 DirectionOf(double azimuth_rad, double elevation_rad) {
   return {level * std::cos(azimuth_rad), -level * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-BeamOfAims BeamsOfRows(std::vector<RowAim> rows) {
-  return [rows = std::move(rows)](std::span<const TurnAim> loops, std::uint32_t row_index) {
-    const RowAim& row = rows[row_index];
-    const TurnAim& aim = loops[row.loop];
-    const double azimuth_deg =
-        aim.azimuth_deg + row.azimuth_deg + aim.speed_deg_per_us * row.turned_us;
-    return RecordedBeam{.direction = DirectionOf(RadFromDeg(azimuth_deg), row.elevation_rad)};
+}  // namespace
+
+BeamOfAims BeamsOfSpinning(const SpinningModel& model) {
+  std::vector<RowAim> rows(model.channels.size());
+  std::size_t next = 0;
+  for (const PacketFiring& firing : FiringsOf(model, model.channels)) {
+    const ChannelSpec& channel = model.channels[next++];
+    rows[firing.row] = {channel.elevation_deg, channel.azimuth_deg, firing};
+  }
+  return [rows = std::move(rows), correction = model.correction](std::span<const TurnAim> loops,
+                                                                 std::uint32_t row_index) {
+    auto [elevation_deg, azimuth_deg, firing] = rows[row_index];
+    const TurnAim& aim = loops[firing.loop];
+    azimuth_deg = aim.azimuth_deg + azimuth_deg + aim.speed_deg_per_us * firing.turned_us;
+    if (correction) {
+      const std::size_t field = correction->FieldAt(aim.azimuth_deg);
+      const auto direction = correction->At(aim.azimuth_deg, field, firing.laser);
+      azimuth_deg = direction.azimuth_deg;
+      elevation_deg = direction.elevation_deg;
+    }
+    return RecordedBeam{.direction =
+                            DirectionOf(RadFromDeg(azimuth_deg), RadFromDeg(elevation_deg))};
   };
 }
 
-}  // namespace
-
-BeamOfAims BeamsOfVelodyne(const VelodyneModel& model) {
-  const std::vector<std::uint16_t> rows = RowsByElevation(model.lasers);
-  std::vector<RowAim> aims(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ChannelSpec& laser = model.lasers[i];
-    aims[rows[i]] = {RadFromDeg(laser.elevation_deg), laser.azimuth_deg, laser.time_us, 0};
-  }
-  return BeamsOfRows(std::move(aims));
-}
-
-BeamOfAims BeamsOfHesai(const HesaiModel& model) {
-  const std::vector<std::uint16_t> rows = RowsByElevation(model.channels);
-  std::vector<RowAim> aims(rows.size());
-  std::size_t next = 0;
-  for (std::size_t loop = 0; loop < model.loops.size(); ++loop) {
-    const double loop_us = 1e-3 * static_cast<double>(model.loop_ns) * static_cast<double>(loop);
-    for (std::size_t i = 0; i < model.loops[loop].size(); ++i, ++next) {
-      const ChannelSpec& channel = model.channels[next];
-      const double turned_us = model.turned_us ? *model.turned_us + channel.time_us - loop_us : 0.0;
-      aims[rows[next]] = {RadFromDeg(channel.elevation_deg), channel.azimuth_deg, turned_us, loop};
-    }
-  }
-  return BeamsOfRows(std::move(aims));
-}
-
 BeamOfAims BeamsOfOuster(const OusterMetadata& metadata) {
-  std::vector<ChannelSpec> channels;
-  for (const OusterBeam& beam : metadata.beams) {
-    channels.push_back({beam.altitude_deg, beam.azimuth_deg, 0.0});
-  }
+  const std::vector<ChannelSpec> channels = ChannelsOf(metadata);
   const std::vector<std::uint16_t> rows = RowsByElevation(channels);
-  std::vector<RowAim> aims(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    aims[rows[i]] = {RadFromDeg(channels[i].elevation_deg), channels[i].azimuth_deg, 0.0, 0};
-  }
+  std::vector<ChannelSpec> aims(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) aims[rows[i]] = channels[i];
   return [aims = std::move(aims), origin_m = metadata.beam_origin_m,
           sensor_from_lidar = metadata.sensor_from_lidar](std::span<const TurnAim> loops,
                                                           std::uint32_t row) {
@@ -81,21 +63,8 @@ BeamOfAims BeamsOfOuster(const OusterMetadata& metadata) {
     const Vector3 origin_in_lidar_m(origin_m[0] * std::cos(rotor_rad),
                                     -origin_m[0] * std::sin(rotor_rad), origin_m[1]);
     return RecordedBeam{
-        sensor_from_lidar.linear() * DirectionOf(azimuth_rad, aims[row].elevation_rad),
+        sensor_from_lidar.linear() * DirectionOf(azimuth_rad, RadFromDeg(aims[row].elevation_deg)),
         sensor_from_lidar * origin_in_lidar_m};
-  };
-}
-
-BeamOfAims BeamsOfAt128(const std::shared_ptr<const At128Correction>& correction) {
-  const std::vector<std::uint16_t> rows = RowsByElevation(At128Channels(*correction));
-  std::vector<std::size_t> laser_of_row(rows.size());
-  for (std::size_t laser = 0; laser < rows.size(); ++laser) laser_of_row[rows[laser]] = laser;
-  return [=](std::span<const TurnAim> loops, std::uint32_t row) {
-    const double block_deg = loops[0].azimuth_deg;
-    const auto [azimuth_deg, elevation_deg] =
-        correction->At(block_deg, correction->FieldAt(block_deg), laser_of_row[row]);
-    return RecordedBeam{.direction =
-                            DirectionOf(RadFromDeg(azimuth_deg), RadFromDeg(elevation_deg))};
   };
 }
 

@@ -1,8 +1,7 @@
-#include "core/io/velodyne/calibration_xml.h"
-
 #include <cstddef>
 
 #include "core/base/text.h"
+#include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 namespace {

@@ -17,10 +17,6 @@ constexpr char kPulseLocked = 2;
 
 }  // namespace
 
-std::uint32_t MicrosecondsPastHour(std::int64_t time_ns) {
-  return static_cast<std::uint32_t>(time_ns / 1000 % kUsPerHour);
-}
-
 std::string GprmcSentence(std::int64_t time_ns) {
   using std::chrono::days;
   const std::chrono::sys_seconds time{
@@ -50,7 +46,7 @@ void AppendPositionPacket(std::int64_t time_ns, std::int64_t clock_ahead_ns, Dat
   const std::size_t offset = datagrams.bytes.size();
   datagrams.bytes.resize(offset + kPositionPacketSize);
   char* const packet = datagrams.bytes.data() + offset;
-  StoreAt<std::uint32_t>(packet + kClockPlace, MicrosecondsPastHour(clock_ns));
+  StoreAt<std::uint32_t>(packet + kClockPlace, clock_ns / 1000 % kUsPerHour);
   packet[kPulsePlace] = kPulseLocked;
   const std::string sentence = GprmcSentence(clock_ns);
   sentence.copy(packet + kSentencePlace, sentence.size());

@@ -19,8 +19,9 @@ constexpr std::int64_t kMostChecksum = 0xFFFF;
 /// What a capture's sensor cannot be decoded without.
 std::vector<std::filesystem::path> FilesBeside(const DatagramPlace& capture,
                                                const CaptureSensor& sensor) {
-  if (std::holds_alternative<OusterDecoder>(sensor.decoder)) return {capture.beside.file};
-  if (!std::holds_alternative<At128Decoder>(sensor.decoder)) return {};
+  const auto* const spinning = std::get_if<SpinningDecoder>(&sensor.decoder);
+  if (spinning == nullptr) return {capture.beside.file};
+  if (!spinning->model().correction) return {};
   std::filesystem::path correction = capture.file;
   return {correction.replace_extension(".dat")};
 }

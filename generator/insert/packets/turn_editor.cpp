@@ -84,11 +84,8 @@ std::vector<EditedPacket> TurnEditor::TakeEdited(const SensorTurn& turn) {
   for (; !packets_.empty() && first_packet_ <= last; ++first_packet_) {
     HeldPacket& packet = packets_.front();
     if (packet.before) {
-      std::visit(
-          [&](const auto& decoder) {
-            if constexpr (requires { decoder.Seal(packet.bytes); }) decoder.Seal(packet.bytes);
-          },
-          reader_.sensor().decoder);
+      std::visit([&](const auto& decoder) { decoder.Seal(packet.bytes); },
+                 reader_.sensor().decoder);
       edited.push_back({packet.datagram, packet.offset, *packet.before, packet.bytes});
       packet.before.reset();
     }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/hesai/hesai_model.h"
 #include "core/io/pcap/pcap_writer.h"
+#include "core/io/spinning/spinning_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
 #include "tests/analysis/fit/real_capture.h"
@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(FiringFinder,
 class FiringsOfHesai : public testing::TestWithParam<const char*> {};
 
 TEST_P(FiringsOfHesai, AreThoseOfThePackets) {
-  const HesaiModel& model = *FindHesaiModel(GetParam());
+  const SpinningModel& model = *FindSpinningModel(GetParam());
   const MadeScan scan(ReadSensor(FileOf(model)));
   const std::vector<Frame> frames = {scan.MakeFrame(0), scan.MakeFrame(1), scan.MakeFrame(2)};
   const TemporaryDirectory directory;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/hesai/hesai_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
@@ -75,7 +75,7 @@ TEST(LivePackets, ArriveAtADecoder) {
   const std::string scenario = ScenarioWith("xt16", folder.path());
   UdpReceiver receiver(kAnyLoopbackPort);
   Stream stream(scenario + " --protocol xt16 --duration 0.3 --to " + EndpointText(receiver.at()));
-  HesaiDecoder decoder(*FindHesaiModel("xt16"));
+  SpinningDecoder decoder(*FindSpinningModel("xt16"));
   std::vector<SensorTurn> turns;
   // Three frames of 2000 columns, 8 in a packet.
   for (int i = 0; i < 750; ++i) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/hesai/hesai_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "railcast/io/stream.h"
 #include "tests/core/io/net/ipv6_loopback.h"
@@ -60,13 +60,13 @@ TEST(StreamAddresses, MayDifferFromSensorToSensor) {
                                         {"xt16", Quote(side.at())}});
   Stream stream(scenario + " --duration 0.2 --multicast-hops 2");
   EXPECT_TRUE(front.Next(kPatience_ms).value().is_complete());
-  HesaiDecoder xt16(*FindHesaiModel("xt16"));
+  SpinningDecoder xt16(*FindSpinningModel("xt16"));
   std::vector<SensorTurn> turns;
   for (int i = 0; i < 70; ++i) {
     const auto from_group = group.Receive(kPatience_ms);
     ASSERT_TRUE(from_group.has_value());
     const std::string bytes(from_group->bytes.begin(), from_group->bytes.end());
-    EXPECT_EQ(bytes.size(), kVelodynePacketSize);
+    EXPECT_EQ(bytes.size(), 1206U);
     const auto from_host = host.Receive(kPatience_ms);
     ASSERT_TRUE(from_host.has_value());
     EXPECT_EQ(std::string(from_host->bytes.begin(), from_host->bytes.end()), bytes);
@@ -147,7 +147,7 @@ double AheadOfDay_s(const std::string& clock) {
       folder.path(),
       {{"xt16", Quote(receiver.at())}, {"vlp16", "\"127.0.0.1:" + FreePort() + "\""}});
   Stream stream(scenario + " --duration 0.2 --clock " + clock);
-  HesaiDecoder decoder(*FindHesaiModel("xt16"));
+  SpinningDecoder decoder(*FindSpinningModel("xt16"));
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(receiver.Receive(kPatience_ms).value().bytes, turns), std::nullopt);
   const auto now = std::chrono::system_clock::now().time_since_epoch();

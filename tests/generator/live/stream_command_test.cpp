@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/hesai/hesai_model.h"
-#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/spinning/spinning_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
@@ -158,10 +157,10 @@ TEST(Stream, KnowsTheProtocolsAndPortsThatScenariosName) {
     const bool has_own_ports = protocol == Protocol::kRailcast || protocol == Protocol::kOuster ||
                                protocol == Protocol::kRos2;
     if (has_own_ports) continue;
-    const HesaiModel* const hesai = FindHesaiModel(name);
-    EXPECT_EQ(hesai != nullptr ? hesai->protocol : FindVelodyneFormat(name).name, name);
+    const SpinningModel& model = *FindSpinningModel(name);
+    EXPECT_EQ(model.protocol, name);
     EXPECT_EQ(DefaultPort(protocol), kVelodyneDataPort);
-    EXPECT_EQ(PositionPort(protocol).has_value(), hesai == nullptr);
+    EXPECT_EQ(PositionPort(protocol).has_value(), model.date_place == 0);
   }
 }
 

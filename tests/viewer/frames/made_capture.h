@@ -14,7 +14,8 @@ namespace railcast {
 /// Writes a capture of `num_frames` turns of a VLP-16.
 inline void WriteCapture(const std::filesystem::path& file, std::uint32_t num_frames) {
   const MadeScan scan(ReadSensor("vlp16"));
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("vlp16"), scan.spec(), ReturnMode::kStrongest);
   PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
   Datagrams datagrams;
   for (std::uint32_t i = 0; i < num_frames; ++i) {

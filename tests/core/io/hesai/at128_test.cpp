@@ -13,8 +13,9 @@
 #include "core/base/input_file.h"
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
-#include "core/io/hesai/at128_decoder.h"
 #include "core/io/pcap/pcap_writer.h"
+#include "core/io/spinning/spinning_decoder.h"
+#include "core/io/spinning/spinning_packet.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
@@ -64,7 +65,7 @@ std::vector<char> MadeAt128Packet(double block_deg, std::uint8_t mode = 0x37) {
   packet[1070] = static_cast<char>(mode);
   const std::string date = {123, 3, 24, 10, 0, 0};
   std::ranges::copy(date, packet.begin() + 1072);
-  StoreHesaiChecksums(kAt128CheckedBytes, packet);
+  StoreChecksums(ModelNamed("AT128"), packet);
   return packet;
 }
 
@@ -80,7 +81,7 @@ TEST(At128Decoder, PlacesAPointByItsBlockAndTheUnitsCorrection) {
   file[ShiftPlace(false, 5, 32)] = 4;
   file[ShiftPlace(true, 5, 32)] = -6;
   file[ShiftPlace(true, 5, 33)] = -2;
-  At128Decoder decoder(CorrectionOf(file));
+  SpinningDecoder decoder(At128Model(CorrectionOf(file)));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(MadeAt128Packet(65.0), turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
@@ -105,8 +106,8 @@ TEST(At128Decoder, CountsSecondsWhereThereIsNoDate) {
   std::vector<char> packet = MadeAt128Packet(65.0);
   const std::vector<std::uint8_t> seconds = {0, 0, 0x64, 0x1D, 0x75, 0x20};  // 1679652128.
   std::ranges::copy(seconds, packet.begin() + 1072);
-  StoreHesaiChecksums(kAt128CheckedBytes, packet);
-  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  StoreChecksums(ModelNamed("AT128"), packet);
+  SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
   EXPECT_EQ(decoder.TakeUnfinished().stamp_ns,
@@ -114,7 +115,7 @@ TEST(At128Decoder, CountsSecondsWhereThereIsNoDate) {
 }
 
 TEST(At128Decoder, EndsATurnWhereTheNextMirrorBegins) {
-  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   for (const double block_deg : {100.0, 139.95, 200.0, 300.0, 10.0, 30.0}) {
     ASSERT_EQ(decoder.Decode(MadeAt128Packet(block_deg), turns), std::nullopt);
@@ -129,8 +130,8 @@ TEST(At128Decoder, EndsATurnWhereTheNextMirrorBegins) {
 TEST(At128Decoder, TakesTwoBlocksForOneColumnInDualMode) {
   std::vector<char> packet = MadeAt128Packet(65.0, 0x39);
   StoreAt<std::uint16_t>(packet.data() + 12 + 515 + 3 + 4 * 5, 2000);
-  StoreHesaiChecksums(kAt128CheckedBytes, packet);
-  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  StoreChecksums(ModelNamed("AT128"), packet);
+  SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
@@ -141,12 +142,12 @@ TEST(At128Decoder, TakesTwoBlocksForOneColumnInDualMode) {
 }
 
 TEST(At128Decoder, RefusesWhatIsNoPacketOfIts) {
-  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   const auto said = [&](std::size_t place, char byte) {
     std::vector<char> packet = MadeAt128Packet(65.0);
     packet[place] = byte;
-    StoreHesaiChecksums(kAt128CheckedBytes, packet);
+    StoreChecksums(ModelNamed("AT128"), packet);
     return decoder.Decode(packet, turns).value_or("");
   };
   EXPECT_EQ(decoder.Decode({}, turns), "must be 1118 bytes (got 0)");
@@ -158,7 +159,7 @@ TEST(At128Decoder, RefusesWhatIsNoPacketOfIts) {
 }
 
 TEST(At128Decoder, RefusesPacketsOfWhichAByteIsWrong) {
-  At128Decoder decoder(CorrectionOf(MadeCorrection()));
+  SpinningDecoder decoder(At128Model(CorrectionOf(MadeCorrection())));
   std::vector<SensorTurn> turns;
   const std::vector<char> right = MadeAt128Packet(65.0);
   // In the blocks, their checksum, the tail, its number and its checksum; then in the header and

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_model.h"
+#include "core/io/spinning/spinning_model.h"
 #include "tests/support/hesai_bag.h"
 
 namespace railcast {
@@ -24,7 +24,7 @@ struct SeenLaser {
 };
 
 /// The angles of each laser.
-std::vector<ChannelSpec> LasersOf(const HesaiModel& model) {
+std::vector<ChannelSpec> LasersOf(const SpinningModel& model) {
   std::vector<ChannelSpec> lasers(128);
   std::size_t channel = 0;
   for (const auto& loop : model.loops) {
@@ -66,7 +66,7 @@ class E4xCloud : public testing::Test {
     seen.nearest_m = std::min(seen.nearest_m, range_m);
   }
 
-  const HesaiModel& model_ = *FindHesaiModel("pandar128e4x");
+  const SpinningModel& model_ = *FindSpinningModel("pandar128e4x");
   const std::vector<ChannelSpec> lasers_ = LasersOf(model_);
   std::vector<SeenLaser> seen_ = std::vector<SeenLaser>(128);
   std::size_t num_strangers_{};
@@ -94,16 +94,15 @@ TEST_F(E4xCloud, HasEachLaserInTheAzimuthStatesOfTheTable) {
 
 // This sensor stands among near things: most lasers report something at their limit.
 TEST_F(E4xCloud, HasNothingNearerThanTheTablesLimits) {
-  const HesaiNearLimits& limits = *model_.near_limits;
   // One unit of the ranges.
   constexpr double kSame_m = 0.0041;
   std::size_t num_at_limit = 0;
   for (std::size_t laser = 0; laser < 128; ++laser) {
     if (seen_[laser].nearest_m > 1e6) continue;
-    const bool is_near = std::ranges::count(limits.near_lasers, laser) > 0;
-    const double limit_m = is_near ? limits.near_m : limits.far_m;
+    const bool is_near = std::ranges::count(model_.near_lasers, laser) > 0;
+    const double limit_m = is_near ? model_.near_m : model_.far_m;
     EXPECT_GE(seen_[laser].nearest_m, limit_m - kSame_m) << laser;
-    EXPECT_EQ(seen_[laser].nearest_m < limits.far_m - kSame_m, is_near) << laser;
+    EXPECT_EQ(seen_[laser].nearest_m < model_.far_m - kSame_m, is_near) << laser;
     num_at_limit += seen_[laser].nearest_m < limit_m + 0.1;
   }
   EXPECT_GT(num_at_limit, 90U);

@@ -1,4 +1,4 @@
-#include "core/io/hesai/hesai_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ std::size_t AzimuthPlace(std::size_t block) {
   return DistancePlace(Pandar64Model(), block, 0) - sizeof(std::uint16_t);
 }
 
-SensorTurn Decoded(const std::vector<char>& packet, const HesaiModel& model = Pandar64Model()) {
-  HesaiDecoder decoder(model);
+SensorTurn Decoded(const std::vector<char>& packet, const SpinningModel& model = Pandar64Model()) {
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   EXPECT_TRUE(turns.empty());
@@ -27,7 +27,7 @@ SensorTurn Decoded(const std::vector<char>& packet, const HesaiModel& model = Pa
 }
 
 TEST(HesaiModel, HasTheChannelsOfTheSensorsFile) {
-  for (const HesaiModel& model : HesaiModels()) {
+  for (const SpinningModel& model : HesaiModels()) {
     std::string name(model.protocol);
     std::ranges::replace(name, '-', '_');
     const ScanSpec sensor = ReadSensor(name);
@@ -80,7 +80,7 @@ TEST(Pandar64Decoder, TakesTwoBlocksForOneCycleInDualMode) {
 }
 
 TEST(Pandar64Decoder, EndsATurnWhereTheAzimuthFalls) {
-  HesaiDecoder decoder(Pandar64Model());
+  SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
   for (int i = 0; i < 3; ++i) EXPECT_EQ(decoder.Decode(MadePacket(), turns), std::nullopt);
   EXPECT_EQ(turns.size(), 2U);
@@ -92,7 +92,7 @@ TEST(Pandar64Decoder, CutsTheTurnOfARotorThatStandsStill) {
   for (std::size_t block = 0; block < 6; ++block) {
     StoreAt<std::uint16_t>(packet.data() + AzimuthPlace(block), 7);
   }
-  HesaiDecoder decoder(Pandar64Model());
+  SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
   for (int i = 0; turns.empty() && i < 10'000; ++i) {
     ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -105,23 +105,23 @@ template <typename Number>
 std::string RefusalOfPacketWith(std::size_t place, Number number) {
   std::vector<char> packet = MadePacket(Pandar64Model(), kMadeDual);
   StoreAt<Number>(packet.data() + place, number);
-  HesaiDecoder decoder(Pandar64Model());
+  SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
   return decoder.Decode(packet, turns).value_or("");
 }
 
 TEST(Pandar64Decoder, RefusesWhatIsNoPacketOfIts) {
   using Byte = std::uint8_t;
-  HesaiDecoder decoder(Pandar64Model());
+  SpinningDecoder decoder(Pandar64Model());
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode({}, turns), "must be 1198 bytes (got 0)");
   EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(0, 0xEEFF), "flag must be 65518 (got 61183)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(2, 40), "lasers must be 64 (got 40)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(3, 8), "blocks must be 6 (got 8)");
   EXPECT_EQ(RefusalOfPacketWith<Byte>(5, 0), "distance unit must be > 0 (got 0)");
-  EXPECT_EQ(RefusalOfPacketWith<std::uint32_t>(Pandar64Model().layout.tail.time_place, 1'000'000),
+  EXPECT_EQ(RefusalOfPacketWith<std::uint32_t>(Pandar64Model().time_place, 1'000'000),
             "microseconds of the second must be < 1000000 (got 1000000)");
-  EXPECT_EQ(RefusalOfPacketWith<Byte>(Pandar64Model().layout.tail.mode_place, 0x3A),
+  EXPECT_EQ(RefusalOfPacketWith<Byte>(Pandar64Model().mode_place, 0x3A),
             "return mode must be 51, 55, 56, 57, 59 or 60 (got 58)");
   EXPECT_EQ(RefusalOfPacketWith<std::uint16_t>(AzimuthPlace(2), 36'000),
             "block 2: azimuth must be <= 35999 (got 36000)");

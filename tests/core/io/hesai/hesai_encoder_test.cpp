@@ -1,4 +1,4 @@
-#include "core/io/hesai/hesai_encoder.h"
+#include "core/io/spinning/spinning_encoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_decoder.h"
-#include "core/io/hesai/hesai_packet.h"
+#include "core/io/spinning/spinning_decoder.h"
+#include "core/io/spinning/spinning_packet.h"
 #include "tests/core/io/hesai/made_packet.h"
 #include "tests/core/io/hesai/sent_turns.h"
 #include "tests/core/io/message_of.h"
@@ -28,23 +28,22 @@ constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
 
 class HesaiRoundTrip : public testing::TestWithParam<SentAs> {
  protected:
-  const HesaiModel& model_ = *FindHesaiModel(GetParam().protocol);
+  const SpinningModel& model_ = *FindSpinningModel(GetParam().protocol);
   const MadeScan scan_{ReadSensor(FileOf(model_))};
   const std::uint32_t returns_ = GetParam().mode == ReturnMode::kDual ? 2 : 1;
 
   /// Whether the sensor can say a range.
   [[nodiscard]] bool IsSaid(float range_m, std::uint8_t laser) const {
-    if (!model_.near_limits) return !std::isnan(range_m);
-    const HesaiNearLimits& limits = *model_.near_limits;
-    const bool sees_near = std::ranges::count(limits.near_lasers, laser) > 0;
-    return range_m >= static_cast<float>(sees_near ? limits.near_m : limits.far_m);
+    if (model_.near_m == 0.0) return !std::isnan(range_m);
+    const bool sees_near = std::ranges::count(model_.near_lasers, laser) > 0;
+    return range_m >= static_cast<float>(sees_near ? model_.near_m : model_.far_m);
   }
 
   /// The most by which a point may be off: half a unit of range, half a unit of the block's
   /// azimuth, and where decoders do not turn the rotor on, half the turn during a cycle's firings.
   [[nodiscard]] double Tolerance_m(double range_m) const {
     double azimuth_deg = 0.0051;
-    if (!model_.turned_us) {
+    if (model_.turns_azimuths) {
       azimuth_deg += 0.0018 * std::ranges::max(model_.channels, {}, &ChannelSpec::time_us).time_us;
     }
     return 0.0021 + range_m * RadFromDeg(azimuth_deg);
@@ -121,7 +120,7 @@ TEST_P(HesaiRoundTrip, GivesThePointsOfTheFrames) {
     before += static_cast<std::uint32_t>(turn.num_columns());
   }
   // A packet may lack its end.
-  EXPECT_NEAR(before, 2.0 * frames[0].columns, static_cast<double>(model_.layout.blocks));
+  EXPECT_NEAR(before, 2.0 * frames[0].columns, static_cast<double>(model_.blocks));
   const std::vector<std::uint16_t> rows = RowsByElevation(model_.channels);
   std::size_t num_expected = 0;
   std::size_t channel = 0;
@@ -152,7 +151,7 @@ std::uint8_t Byte(std::span<const char> packet, std::size_t place) {
 
 // The offsets are written out, so that they are not those of the table.
 TEST(Pandar128e4xPacket, IsLaidOutAsItsMakerSays) {
-  const HesaiModel& model = *FindHesaiModel("pandar128e4x");
+  const SpinningModel& model = *FindSpinningModel("pandar128e4x");
   const MadeScan scan(ReadSensor("pandar128e4x"));
   Frame frame = scan.MakeFrame(0);
   const Datagrams datagrams = Encoded(model, scan, {frame});
@@ -186,7 +185,7 @@ std::uint16_t DistanceIn(std::span<const char> packet, std::size_t block, std::s
 // The central lasers fire in both states, groups of four of the others in turn: 96 in each block,
 // with which the 36,000 blocks a second make the 3,456,000 points of the data sheet.
 TEST(Pandar128e4xPacket, HasLasersInTurnInItsBlocks) {
-  const HesaiModel& model = *FindHesaiModel("pandar128e4x");
+  const SpinningModel& model = *FindSpinningModel("pandar128e4x");
   const MadeScan scan(ReadSensor("pandar128e4x"));
   Frame frame = scan.MakeFrame(0);
   std::ranges::fill(frame.range_m, 20.0F);
@@ -208,7 +207,7 @@ TEST(Pandar128e4xPacket, HasLasersInTurnInItsBlocks) {
 /// The raw distance of laser 40 (which sees from 1.4 m on) or laser 45 (from 0.3 m on) of a firing
 /// with this outcome.
 std::uint16_t RawDistance(std::size_t laser, Outcome outcome, float range_m) {
-  const HesaiModel& model = *FindHesaiModel("pandar128e4x-standard");
+  const SpinningModel& model = *FindSpinningModel("pandar128e4x-standard");
   static const MadeScan scan(ReadSensor("pandar128e4x_standard"));
   static Frame frame = scan.MakeFrame(0);
   const std::size_t slot = scan.RowOf(laser) * std::size_t{frame.width()};
@@ -239,7 +238,7 @@ TEST(Pandar128e4xPacket, SaysWhyThereIsNoPoint) {
 }
 
 TEST(Pandar128e4xPacket, SaysItOnceForBothReturns) {
-  const HesaiModel& model = *FindHesaiModel("pandar128e4x-standard");
+  const SpinningModel& model = *FindSpinningModel("pandar128e4x-standard");
   const MadeScan scan(ReadSensor("pandar128e4x_standard"));
   Frame frame = scan.MakeFrame(0, 2);
   const std::size_t slot = scan.RowOf(40) * std::size_t{frame.width()};
@@ -264,7 +263,7 @@ TEST(Pandar128e4xPacket, SaysItOnceForBothReturns) {
 // A second slot without a further echo does not say that nothing came back from what the first one
 // says was too near.
 TEST(Pandar128e4xPacket, SaysInBothReturnsWhatWasTooNear) {
-  const HesaiModel& model = *FindHesaiModel("pandar128e4x-standard");
+  const SpinningModel& model = *FindSpinningModel("pandar128e4x-standard");
   const MadeScan scan(ReadSensor("pandar128e4x_standard"));
   for (const std::uint32_t returns : {1U, 2U}) {
     Frame frame = scan.MakeFrame(0, returns);
@@ -285,7 +284,7 @@ TEST(Pandar128e4xPacket, SaysInBothReturnsWhatWasTooNear) {
 
 // A frame of an XT32M, 2000 columns of 6 blocks, leaves a packet with 2 blocks.
 TEST(HesaiEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
-  const HesaiModel& model = *FindHesaiModel("xt32m");
+  const SpinningModel& model = *FindSpinningModel("xt32m");
   const MadeScan scan(ReadSensor("xt32m"));
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < 5; ++i) frames.push_back(scan.MakeFrame(i));
@@ -309,7 +308,7 @@ TEST(HesaiEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
 }
 
 TEST(HesaiEncoder, StatesTheTimeAndDateOfItsStamp) {
-  const HesaiModel& model = Xt32Model();
+  const SpinningModel& model = Xt32Model();
   const MadeScan scan(ReadSensor("xt32"));
   Frame frame = scan.MakeFrame(0);
   constexpr std::int64_t kDay_ns = 86'400'000'000'000;
@@ -343,12 +342,13 @@ TEST(HesaiEncoder, SaysReflectivityInPercent) {
 std::string HesaiFitSaid(const std::string& protocol,
                          const std::string& sensor,
                          ReturnMode return_mode = ReturnMode::kStrongest) {
-  return MessageOf(
-      [&] { (void)MakeHesaiEncoder(*FindHesaiModel(protocol), ReadSensor(sensor), return_mode); });
+  return MessageOf([&] {
+    (void)MakeSpinningEncoder(*FindSpinningModel(protocol), ReadSensor(sensor), return_mode);
+  });
 }
 
 TEST(HesaiFit, TakesTheSensorsThatShip) {
-  for (const HesaiModel& model : HesaiModels()) {
+  for (const SpinningModel& model : HesaiModels()) {
     for (const ReturnMode mode :
          {ReturnMode::kStrongest, ReturnMode::kFirst, ReturnMode::kLast, ReturnMode::kDual}) {
       EXPECT_EQ(HesaiFitSaid(std::string(model.protocol), FileOf(model), mode), "no error");
@@ -357,7 +357,7 @@ TEST(HesaiFit, TakesTheSensorsThatShip) {
 }
 
 TEST(HesaiFit, SaysWhatDoesNotFit) {
-  EXPECT_EQ(FindHesaiModel("vlp16"), nullptr);
+  EXPECT_EQ(FindSpinningModel("vlp-16"), nullptr);
   EXPECT_EQ(HesaiFitSaid("pandar128e4x", "pandar128e4x_standard"),
             "--protocol pandar128e4x: /lidar/scan/pattern/channels: must be 192 as Pandar128E4X "
             "has (got 128)");

@@ -1,4 +1,4 @@
-#include "core/io/hesai/hesai_packet.h"
+#include "core/io/spinning/spinning_packet.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_decoder.h"
 #include "core/io/pcap/pcap_reader.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 #include "tests/core/io/hesai/made_packet.h"
@@ -42,8 +42,8 @@ Packets PacketsOf(const std::filesystem::path& capture) {
 /// What the decoder finds in the packets of whole cycles, as packets again.
 class Remade {
  public:
-  Remade(const HesaiModel& model, const Packets& packets) : model_(model), packets_(packets) {
-    HesaiDecoder decoder(model);
+  Remade(const SpinningModel& model, const Packets& packets) : model_(model), packets_(packets) {
+    SpinningDecoder decoder(model);
     std::vector<SensorTurn> turns;
     for (const std::vector<char>& packet : packets) {
       EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -64,12 +64,11 @@ class Remade {
 
   [[nodiscard]] std::vector<char> Packet(std::size_t index) const {
     const std::vector<char>& real = packets_[index];
-    const HesaiTail& tail = model_.layout.tail;
-    const auto mode = static_cast<std::uint8_t>(real[tail.mode_place]);
+    const auto mode = static_cast<std::uint8_t>(real[model_.mode_place]);
     const std::size_t in_group = model_.IsDual(mode) ? 2 : 1;
-    const bool has_last_second = mode == kHesaiFirstAndLast && !model_.has_last_first;
-    HesaiPacket packet(model_, mode);
-    const std::size_t groups = model_.layout.blocks / in_group;
+    const bool has_last_second = mode == kFirstAndLastMode && !model_.has_last_first;
+    SpinningPacket packet(model_, mode);
+    const std::size_t groups = model_.blocks / in_group;
     std::int64_t loop_ns = 0;
     for (std::size_t group = 0; group < groups; ++group) {
       const std::size_t number = index * groups + group;
@@ -86,18 +85,22 @@ class Remade {
         const auto& [point_column, point_loop, laser, return_index] = key;
         if (point_column != column || point_loop != loop) continue;
         const std::size_t first = has_last_second ? 1 : 0;
-        packet.SetReturn(group * in_group + (return_index ^ first), laser, coded);
+        packet.SetReturn(model_.ReturnPlace(group * in_group + (return_index ^ first), laser),
+                         coded);
         const bool is_repeated =
             return_index == 0 && in_group == 2 &&
             !returns_.contains({point_column, point_loop, laser, std::size_t{1}});
-        if (is_repeated) packet.SetReturn(group * in_group + (1 - first), laser, coded);
+        if (is_repeated) {
+          packet.SetReturn(model_.ReturnPlace(group * in_group + (1 - first), laser), coded);
+        }
       }
     }
-    const auto bytes = packet.Close(
-        {.time_ns = loop_ns - model_.stated_loop_ns,
-         .speed_rpm = LoadAt<std::uint16_t>(real.data() + tail.speed_place),
-         .sequence =
-             tail.sequence_place ? LoadAt<std::uint32_t>(real.data() + *tail.sequence_place) : 0});
+    const auto bytes =
+        packet.Close({.time_ns = loop_ns - model_.stated_loop_ns,
+                      .speed_rpm = LoadAt<std::uint16_t>(real.data() + model_.speed_place),
+                      .sequence = model_.sequence_place > 0
+                                      ? LoadAt<std::uint32_t>(real.data() + model_.sequence_place)
+                                      : 0});
     return {bytes.begin(), bytes.end()};
   }
 
@@ -109,10 +112,11 @@ class Remade {
     const auto distance = static_cast<std::uint16_t>(std::lround(point.range_m / 0.004F));
     returns_[{point.column, loop, point.laser, point.return_index}] = {distance, point.intensity};
     const double speed_deg_per_us =
-        6e-6 * LoadAt<std::uint16_t>(packets_[0].data() + model_.layout.tail.speed_place);
+        6e-6 * LoadAt<std::uint16_t>(packets_[0].data() + model_.speed_place);
     const ChannelSpec& spec = model_.channels[channel];
     const double loop_us = 1e-3 * static_cast<double>(model_.loop_ns) * static_cast<double>(loop);
-    const double turned_us = model_.turned_us ? *model_.turned_us + spec.time_us - loop_us : 0.0;
+    const double turned_us =
+        model_.turns_azimuths ? 0.0 : model_.turned_us + spec.time_us - loop_us;
     const double azimuth_deg = DegFromRad(static_cast<double>(point.azimuth_rad)) -
                                spec.azimuth_deg - speed_deg_per_us * turned_us;
     const std::int64_t units = std::llround(100.0 * azimuth_deg);
@@ -120,7 +124,7 @@ class Remade {
         static_cast<std::uint16_t>((units + 36'000) % 36'000);
   }
 
-  const HesaiModel& model_;
+  const SpinningModel& model_;
   const Packets& packets_;
   bool is_one_turn_{};
   SensorTurn turn_;
@@ -131,15 +135,14 @@ class Remade {
 
 /// Where a real packet has something that the decoder keeps: not the reflectivity of what is no
 /// return, and not that the second return of two is missing rather than a repetition of the first.
-std::vector<bool> KeptReturns(const HesaiModel& model, const std::vector<char>& real) {
-  const HesaiLayout& layout = model.layout;
+std::vector<bool> KeptReturns(const SpinningModel& model, const std::vector<char>& real) {
   std::vector<bool> kept(real.size(), false);
-  const bool is_dual = model.IsDual(static_cast<std::uint8_t>(real[layout.tail.mode_place]));
+  const bool is_dual = model.IsDual(static_cast<std::uint8_t>(real[model.mode_place]));
   const auto distance = [&](std::size_t block, std::size_t laser) {
     return LoadAt<std::uint16_t>(real.data() + DistancePlace(model, block, laser));
   };
-  for (std::size_t block = 0; block < layout.blocks; ++block) {
-    for (std::size_t laser = 0; laser < layout.lasers; ++laser) {
+  for (std::size_t block = 0; block < model.blocks; ++block) {
+    for (std::size_t laser = 0; laser < model.lasers; ++laser) {
       const bool is_return = distance(block, laser) > 0;
       const bool is_missing =
           is_dual && block % 2 == 1 && !is_return && distance(block - 1, laser) > 0;
@@ -156,26 +159,25 @@ std::vector<bool> KeptReturns(const HesaiModel& model, const std::vector<char>& 
 /// of the sensor, and the checksums that depend on these.
 /// @param states_time Whether the packet is the one whose time the decoder keeps, the first of a
 ///   cycle.
-std::vector<bool> OwnBytes(const HesaiModel& model,
+std::vector<bool> OwnBytes(const SpinningModel& model,
                            const std::vector<char>& real,
                            bool states_time) {
-  const HesaiLayout& layout = model.layout;
   std::vector<bool> own = KeptReturns(model, real);
   const auto mark = [&](std::size_t place, std::size_t size) {
     std::fill_n(own.begin() + static_cast<std::ptrdiff_t>(place), size, true);
   };
-  mark(0, layout.header_size());
-  if (layout.header_size() == 12) own[4] = own[5] = false;
-  for (std::size_t block = 0; block < layout.blocks; ++block) {
-    mark(layout.BlockPlace(block), layout.block_head_size());
+  mark(0, model.header_size);
+  if (model.header_size == 12) own[4] = own[5] = false;
+  for (std::size_t block = 0; block < model.blocks; ++block) {
+    mark(model.BlockPlace(block), model.block_head_size());
   }
-  mark(layout.tail.mode_place, 1);
-  mark(layout.tail.speed_place, 2);
-  mark(layout.tail.date_place, 6);
-  if (states_time) mark(layout.tail.time_place, 4);
-  mark(layout.tail.factory_place, 1);
-  if (layout.tail.sequence_place) mark(*layout.tail.sequence_place, 4);
-  if (layout.loop_place) mark(*layout.loop_place, 1);
+  mark(model.mode_place, 1);
+  mark(model.speed_place, 2);
+  mark(model.date_place, 6);
+  if (states_time) mark(model.time_place, 4);
+  mark(model.factory_place, 1);
+  if (model.sequence_place > 0) mark(model.sequence_place, 4);
+  if (model.loop_place > 0) mark(model.loop_place, 1);
   return own;
 }
 
@@ -210,7 +212,7 @@ TEST_P(HesaiPacketOf, ARealCaptureIsRemadeByteByByte) {
   const auto& [name, first, per_cycle, num_expected] = GetParam();
   if (const std::string why = WhyNoCapture(name); !why.empty()) GTEST_SKIP() << why;
   const Packets packets = RealPackets(name);
-  const HesaiModel& model = ModelOfSize(name, packets[0].size());
+  const SpinningModel& model = ModelOfSize(name, packets[0].size());
   std::size_t num_packets = 0;
   std::size_t num_bytes = 0;
   std::size_t num_different = 0;

@@ -64,7 +64,7 @@ class HesaiWindow : public testing::TestWithParam<SentAs> {};
 
 // Three turns, of which a packet may lack the end.
 TEST_P(HesaiWindow, HasThePacketsOfAWholeTurnThatHoldFirings) {
-  const HesaiModel& model = *FindHesaiModel(GetParam().protocol);
+  const SpinningModel& model = *FindSpinningModel(GetParam().protocol);
   const std::uint32_t returns = GetParam().mode == ReturnMode::kDual ? 2 : 1;
   const MadeScan whole(ReadSensor(FileOf(model)));
   ScanSpec spec = whole.spec();
@@ -93,10 +93,10 @@ TEST_P(HesaiWindow, HasThePacketsOfAWholeTurnThatHoldFirings) {
   std::size_t num_points = 0;
   for (const SensorTurn& turn : turns_of_some) num_points += turn.points.size();
   EXPECT_EQ(points.size(), num_points) << "no point is outside of the window";
-  if (!model.layout.tail.sequence_place) return;
+  if (model.sequence_place == 0) return;
   for (std::size_t i = 0; i < some.items.size(); ++i) {
     const char* const packet = some.BytesOf(some.items[i]).data();
-    ASSERT_EQ(LoadAt<std::uint32_t>(packet + *model.layout.tail.sequence_place), i);
+    ASSERT_EQ(LoadAt<std::uint32_t>(packet + model.sequence_place), i);
   }
 }
 
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Models, HesaiWindow, testing::ValuesIn(Sendings()), [](
 });
 
 TEST(HesaiWindowPackets, AreNumberedAsIfNoFrameWereLeftOut) {
-  const HesaiModel& model = *FindHesaiModel("xt32");
+  const SpinningModel& model = *FindSpinningModel("xt32");
   ScanSpec spec = ReadSensor("xt32");
   std::get<SpinningSpec>(spec.pattern).azimuth_window_deg = {{100.0, 131.0}};
   const MadeScan scan(spec);
@@ -117,8 +117,8 @@ TEST(HesaiWindowPackets, AreNumberedAsIfNoFrameWereLeftOut) {
     const Datagrams datagrams = Encoded(model, scan, frames);
     std::vector<std::uint32_t> numbers;
     for (const Datagrams::Item& item : datagrams.items) {
-      numbers.push_back(LoadAt<std::uint32_t>(datagrams.BytesOf(item).data() +
-                                              *model.layout.tail.sequence_place));
+      numbers.push_back(
+          LoadAt<std::uint32_t>(datagrams.BytesOf(item).data() + model.sequence_place));
     }
     return numbers;
   };

@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "tests/core/io/hesai/made_packet.h"
 
 namespace railcast {
 namespace {
 
 /// A packet of which one laser measures 1 m in all blocks, and no other anything.
-std::vector<char> PacketOf(const HesaiModel& model, std::size_t laser, std::uint8_t mode) {
+std::vector<char> PacketOf(const SpinningModel& model, std::size_t laser, std::uint8_t mode) {
   std::vector<char> packet = MadePacket(model, mode);
-  for (std::size_t block = 0; block < model.layout.blocks; ++block) {
+  for (std::size_t block = 0; block < model.blocks; ++block) {
     StoreAt<std::uint16_t>(packet.data() + DistancePlace(model, block, 0), 0);
     StoreAt<std::uint16_t>(packet.data() + DistancePlace(model, block, laser), 250);
   }
@@ -24,7 +24,7 @@ std::vector<char> PacketOf(const HesaiModel& model, std::size_t laser, std::uint
 // Laser 31 fires 6 + 31 x 1.512 us after the command to fire, in which the rotor turns by 0.190
 // deg.
 TEST(Xt32Decoder, AddsTheRotorsTurnUntilTheLaserFires) {
-  HesaiDecoder decoder(Xt32Model());
+  SpinningDecoder decoder(Xt32Model());
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(PacketOf(Xt32Model(), 31, kMadeStrongest), turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
@@ -42,7 +42,7 @@ TEST(Xt32Decoder, AddsTheRotorsTurnUntilTheLaserFires) {
 TEST(Xt32Decoder, CountsTimeFromTheCommandToFireTheLastBlock) {
   for (const auto& [mode, cycles] :
        {std::pair{kMadeStrongest, std::int64_t{8}}, std::pair{kMadeDual, std::int64_t{4}}}) {
-    HesaiDecoder decoder(Xt32Model());
+    SpinningDecoder decoder(Xt32Model());
     std::vector<SensorTurn> turns;
     ASSERT_EQ(decoder.Decode(PacketOf(Xt32Model(), 31, mode), turns), std::nullopt);
     const SensorTurn turn = decoder.TakeUnfinished();
@@ -56,28 +56,28 @@ TEST(Xt32Decoder, CountsTimeFromTheCommandToFireTheLastBlock) {
 TEST(Xt32Decoder, RefusesAnotherProtocol) {
   std::vector<char> packet = MadePacket(Xt32Model());
   packet[3] = 2;
-  HesaiDecoder decoder(Xt32Model());
+  SpinningDecoder decoder(Xt32Model());
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(packet, turns), "protocol must be 6.1 (got 6.2)");
 }
 
 /// A dual packet of a loop, 1 or 2: laser 64 fires in both.
 std::vector<char> LoopPacket(std::size_t loop, std::uint16_t azimuth, std::uint32_t time_us) {
-  const HesaiModel& model = Qt128Model();
+  const SpinningModel& model = Qt128Model();
   std::vector<char> packet = PacketOf(model, 64, kMadeDual);
   for (std::size_t block = 0; block < 2; ++block) {
     StoreAt<std::uint16_t>(packet.data() + DistancePlace(model, block, 0) - 2, azimuth);
   }
-  packet[*model.layout.loop_place] = loop == 1 ? 1 : 0;
-  StoreAt<std::uint32_t>(packet.data() + model.layout.tail.time_place, time_us);
+  packet[model.loop_place] = loop == 1 ? 1 : 0;
+  StoreAt<std::uint32_t>(packet.data() + model.time_place, time_us);
   return packet;
 }
 
 SensorTurn TurnOf(const std::vector<std::vector<char>>& packets) {
-  HesaiDecoder decoder(Qt128Model());
+  SpinningDecoder decoder(Qt128Model());
   std::vector<SensorTurn> turns;
   for (std::vector<char> packet : packets) {
-    StoreHesaiChecksums(HesaiCheckedBytesOf(Qt128Model().layout), packet);
+    StoreChecksums(Qt128Model(), packet);
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   }
   EXPECT_TRUE(turns.empty());
@@ -86,7 +86,7 @@ SensorTurn TurnOf(const std::vector<std::vector<char>>& packets) {
 
 TEST(Qt128Decoder, RefusesAPacketWithAWrongChecksum) {
   const std::vector<char> packet = MadePacket(Qt128Model());
-  HesaiDecoder decoder(Qt128Model());
+  SpinningDecoder decoder(Qt128Model());
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
   // A byte that no checksum covers, and one that each of the three does, or is one.
@@ -127,7 +127,7 @@ TEST(Qt128Decoder, LeavesOutACycleThatLacksALoop) {
 
 TEST(Qt128Decoder, TakesTheBlocksOfASinglePacketForBothLoops) {
   std::vector<char> packet = PacketOf(Qt128Model(), 64, kMadeStrongest);
-  packet[*Qt128Model().layout.loop_place] = 1;
+  packet[Qt128Model().loop_place] = 1;
   const SensorTurn turn = TurnOf({packet});
   ASSERT_EQ(turn.num_columns(), 1U);
   ASSERT_EQ(turn.points.size(), 2U);

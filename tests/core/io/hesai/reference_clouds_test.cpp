@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "core/base/units.h"
-#include "core/io/hesai/hesai_decoder.h"
 #include "core/io/pcap/pcap_reader.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "railcast/transform.h"
 #include "tests/core/io/hesai/made_packet.h"
 #include "tests/support/hesai_bag.h"
@@ -43,9 +43,9 @@ double NearestOf(const Cells& cells, const pcl::PointXYZ& point) {
   return nearest_m;
 }
 
-std::vector<SensorTurn> TurnsOf(const std::filesystem::path& capture, const HesaiModel& model) {
+std::vector<SensorTurn> TurnsOf(const std::filesystem::path& capture, const SpinningModel& model) {
   PcapReader reader(capture);
-  HesaiDecoder decoder(model);
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   while (const auto datagram = reader.Next()) {
     EXPECT_EQ(decoder.Decode(datagram->payload, turns), std::nullopt);
@@ -99,7 +99,7 @@ TEST(HesaiReference, Pandar64GivesTheSamePoints) {
 
 struct Reference {
   const char* name;
-  const HesaiModel* model;
+  const SpinningModel* model;
   std::size_t turn;
   std::size_t num_points;  ///< Of the cloud, which for QT128 lacks what is nearer than 0.3 m.
   std::size_t num_ours;
@@ -116,8 +116,8 @@ TEST_P(HesaiReferenceOf, GivesTheSamePointsWhenTheRotorWaits) {
   const auto& [name, model, turn, num_points, num_ours] = GetParam();
   if (const std::string why = WhyNoHesaiBag(name); !why.empty()) GTEST_SKIP() << why;
   const TemporaryDirectory folder;
-  HesaiModel waiting = *model;
-  waiting.turned_us.reset();
+  SpinningModel waiting = *model;
+  waiting.turns_azimuths = true;
   const auto turns = TurnsOf(CaptureOfHesaiBag(name, folder), waiting);
   EXPECT_EQ(turns.at(turn).points.size(), num_ours);
   // The lasers of QT128 look up to 10.2 deg aside.

@@ -8,33 +8,34 @@
 #include <string>
 #include <vector>
 
-#include "core/io/hesai/hesai_decoder.h"
-#include "core/io/hesai/hesai_encoder.h"
+#include "core/io/spinning/spinning_decoder.h"
+#include "core/io/spinning/spinning_encoder.h"
+#include "tests/core/io/hesai/made_packet.h"
 #include "tests/core/io/velodyne/made_scan.h"
 
 namespace railcast {
 
 /// The name of the sensor's file without its extension.
-inline std::string FileOf(const HesaiModel& model) {
+inline std::string FileOf(const SpinningModel& model) {
   std::string name(model.protocol);
   std::ranges::replace(name, '-', '_');
   return name;
 }
 
 /// Returns the packets of these frames.
-inline Datagrams Encoded(const HesaiModel& model,
+inline Datagrams Encoded(const SpinningModel& model,
                          const MadeScan& scan,
                          const std::vector<Frame>& frames,
                          ReturnMode mode = ReturnMode::kStrongest) {
-  const auto encoder = MakeHesaiEncoder(model, scan.spec(), mode);
+  const auto encoder = MakeSpinningEncoder(model, scan.spec(), mode);
   Datagrams datagrams;
   for (const Frame& frame : frames) encoder->Encode(frame, datagrams);
   return datagrams;
 }
 
 /// Returns the turns in these datagrams, the last of which may be unfinished.
-inline std::vector<SensorTurn> TurnsIn(const HesaiModel& model, const Datagrams& datagrams) {
-  HesaiDecoder decoder(model);
+inline std::vector<SensorTurn> TurnsIn(const SpinningModel& model, const Datagrams& datagrams) {
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   for (const Datagrams::Item& item : datagrams.items) {
     EXPECT_EQ(decoder.Decode(datagrams.BytesOf(item), turns), std::nullopt);
@@ -57,7 +58,7 @@ inline void PrintTo(const SentAs& sending, std::ostream* out) {
 inline std::vector<SentAs> Sendings() {
   std::vector<SentAs> sendings;
   std::string last;
-  for (const HesaiModel& model : HesaiModels()) {
+  for (const SpinningModel& model : HesaiModels()) {
     if (model.protocol == last) continue;
     last = model.protocol;
     for (const ReturnMode mode : {ReturnMode::kStrongest, ReturnMode::kDual}) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/base/units.h"
+#include "core/io/field_layout.h"
 #include "core/io/ouster/ouster_decoder.h"
 #include "core/io/ouster/pose_motion.h"
 #include "core/io/velodyne/velodyne_packet.h"

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/io/hesai/hesai_encoder.h"
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/recording/capture_sensor.h"
-#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/spinning/spinning_encoder.h"
+#include "core/io/spinning/spinning_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
@@ -46,7 +46,7 @@ TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
   const auto frames = ReadAll(file);
   ASSERT_EQ(frames.size(), 3U);
   // The greatest range that a packet can hold.
-  const double max_m = 65535.5 * FindVelodyneFormat(format).model->distance_unit_m;
+  const double max_m = 65535.5 * 1e-3 * FindSpinningModel(format)->unit_mm;
   const auto is_sent = [&](float range_m) { return static_cast<double>(range_m) < max_m; };
   // The last packet would end with the beginning of a further frame, so the last frame is cut
   // short.
@@ -289,7 +289,8 @@ TEST(CaptureRecording, WithoutAKnownPacketSaysWhatWasFound) {
 
 TEST(CaptureRecording, LeavesOutPacketsWithAWrongChecksumAndCountsThem) {
   const ScanSpec scan = ReadSensor("qt128");
-  const auto encoder = MakeHesaiEncoder(*FindHesaiModel("qt128"), scan, ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("qt128"), scan, ReturnMode::kStrongest);
   Datagrams datagrams;
   encoder->Encode(MadeScan(scan).MakeFrame(0), datagrams);
   ASSERT_EQ(datagrams.items.size(), 450U);
@@ -314,7 +315,8 @@ TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {
   const MadeScan scan(ReadSensor("vlp16"));
   Datagrams datagrams;
   for (const char byte : {'a', 'b'}) AddDatagram(std::string(100, byte), datagrams);
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("vlp16"), scan.spec(), ReturnMode::kStrongest);
   encoder->Encode(scan.MakeFrame(0), datagrams);
   const TemporaryDirectory directory;
   WriteDatagrams(directory.path() / "a.pcap", datagrams);

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "core/base/input_file.h"
-#include "core/io/hesai/hesai_encoder.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/velodyne/velodyne_encoder.h"
+#include "core/io/spinning/spinning_encoder.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/support/sensor_file.h"
@@ -71,17 +70,11 @@ bool CanSend(const std::string& protocol, const std::string& preset) {
   const auto json = nlohmann::json::parse(ReadFileWhole(file));
   if (json["scan"]["pattern"]["type"] != "spinning" || protocol == "ouster") return false;
   const ScanSpec scan = ReadSensor(preset);
-  const HesaiModel* const hesai = FindHesaiModel(protocol);
-  return std::ranges::any_of(std::vector{ReturnMode::kStrongest, ReturnMode::kDual},
-                             [&](ReturnMode mode) {
-                               return MessageOf([&] {
-                                        if (hesai != nullptr) {
-                                          (void)MakeHesaiEncoder(*hesai, scan, mode);
-                                        } else {
-                                          (void)MakeVelodyneEncoder(protocol, scan, mode);
-                                        }
-                                      }) == "no error";
-                             });
+  const SpinningModel& model = *FindSpinningModel(protocol);
+  return std::ranges::any_of(
+      std::vector{ReturnMode::kStrongest, ReturnMode::kDual}, [&](ReturnMode mode) {
+        return MessageOf([&] { (void)MakeSpinningEncoder(model, scan, mode); }) == "no error";
+      });
 }
 
 TEST(SensorsPage, HasARowForEachPreset) {

@@ -1,4 +1,4 @@
-#include "core/io/velodyne/calibration_xml.h"
+#include "core/io/velodyne/velodyne_packet.h"
 
 #include <gtest/gtest.h>
 

@@ -10,11 +10,22 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
-#include "core/io/velodyne/velodyne_encoder.h"
+#include "core/io/spinning/spinning_encoder.h"
 #include "core/scan/spinning_pattern.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
+
+// A Velodyne data packet, as its manual has it (VLP-16 user manual 63-9243, chapter 9).
+inline constexpr std::size_t kVelodynePacketSize = 1206;
+inline constexpr std::size_t kBlocksPerPacket = 12;
+inline constexpr std::size_t kBlockSize = 100;
+inline constexpr std::size_t kAzimuthPlace = 2;  ///< In a block.
+inline constexpr std::size_t kReturnsPlace = 4;  ///< In a block.
+inline constexpr std::size_t kReturnSize = 3;
+inline constexpr std::size_t kTimePlace = 1200;
+inline constexpr std::size_t kModePlace = 1204;
+inline constexpr std::size_t kModelPlace = 1205;
 
 /// Returns the name of the sensor's file for a format.
 [[nodiscard]] inline std::string_view SensorOf(std::string_view format) {
@@ -97,7 +108,8 @@ class MadeScan {
 [[nodiscard]] inline Datagrams EncodeAll(std::string_view format,
                                          const MadeScan& scan,
                                          const std::vector<Frame>& frames) {
-  const auto encoder = MakeVelodyneEncoder(format, scan.spec(), ReturnModeOfFormat(format));
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel(format), scan.spec(), ReturnModeOfFormat(format));
   Datagrams datagrams;
   for (const Frame& frame : frames) encoder->Encode(frame, datagrams);
   return datagrams;

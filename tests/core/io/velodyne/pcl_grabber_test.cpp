@@ -15,8 +15,7 @@
 
 #include "core/io/net/udp.h"
 #include "core/io/pcap/pcap_writer.h"
-#include "core/io/velodyne/calibration_xml.h"
-#include "core/io/velodyne/velodyne_model.h"
+#include "core/io/spinning/spinning_model.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
@@ -48,10 +47,9 @@ struct ExpectedPoint {
 std::vector<ExpectedPoint> PclPoints(std::string_view format,
                                      const MadeScan& scan,
                                      const Frame& frame) {
-  const VelodyneFormat found = FindVelodyneFormat(format);
-  const VelodyneModel& model = *found.model;
+  const SpinningModel& model = *FindSpinningModel(format);
   const auto step = static_cast<std::uint32_t>(model.cycles_per_block());
-  const std::size_t blocks_per_group = model.blocks_per_cycle() * (found.is_dual ? 2U : 1U);
+  const std::size_t blocks_per_group = model.blocks_per_loop() * (format == "vlp16-dual" ? 2U : 1U);
   const std::size_t groups_per_packet = kBlocksPerPacket / blocks_per_group;
   const std::size_t groups_per_frame = frame.columns / step;
   const auto azimuth = [&](std::size_t group) {
@@ -59,7 +57,7 @@ std::vector<ExpectedPoint> PclPoints(std::string_view format,
   };
   const auto distance = [&](std::size_t slot) {
     const double units =
-        std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
+        std::floor(static_cast<double>(frame.range_m[slot]) / (1e-3 * model.unit_mm) + 0.5);
     return units < 65536.0 ? units : 0.0;  // NaN gives 0, too.
   };
   std::vector<ExpectedPoint> points;
@@ -99,11 +97,11 @@ void ExpectFrame(const Sweep& sweep,
                  std::string_view format,
                  const MadeScan& scan,
                  const Frame& frame) {
-  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  const SpinningModel& model = *FindSpinningModel(format);
   const auto expected = PclPoints(format, scan, frame);
   ASSERT_EQ(sweep.size(), expected.size());
   // Half a unit plus the float32 rounding of coordinates of up to 131 m.
-  const double range_tolerance_m = 0.5 * model.distance_unit_m + 5e-5;
+  const double range_tolerance_m = 0.5 * (1e-3 * model.unit_mm) + 5e-5;
   // PCL assumes one azimuth for a firing cycle, during which the rotor turns until the last laser.
   const double last_us =
       std::ranges::max(scan.spinning().channels, {}, &ChannelSpec::time_us).time_us;

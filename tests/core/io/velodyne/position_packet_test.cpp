@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/units.h"
+#include "core/io/field_layout.h"
 #include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {

@@ -11,7 +11,7 @@
 
 #include "core/base/units.h"
 #include "core/io/pcap/pcap_reader.h"
-#include "core/io/velodyne/velodyne_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 #include "core/scenario/sensors.h"
 #include "railcast/transform.h"
 
@@ -24,9 +24,9 @@ std::filesystem::path VelodyneCapture(const char* name) {
 constexpr double kHalfTurn_deg = 180.0;
 
 std::vector<SensorTurn> DecodeCapture(const std::filesystem::path& file,
-                                      const VelodyneModel& model) {
+                                      const SpinningModel& model) {
   PcapReader reader(file);
-  VelodyneDecoder decoder(model);
+  SpinningDecoder decoder(model);
   std::vector<SensorTurn> turns;
   while (const auto datagram = reader.Next()) {
     EXPECT_EQ(datagram->destination_port, kVelodyneDataPort);
@@ -43,16 +43,16 @@ struct Measured {
   double azimuth_deg{};
 };
 
-Measured MeasuredOf(const pcl::PointXYZ& point, const VelodyneModel& model) {
+Measured MeasuredOf(const pcl::PointXYZ& point, const SpinningModel& model) {
   const Vector3 place_m(static_cast<double>(point.x), static_cast<double>(point.y),
                         static_cast<double>(point.z));
   const double range_m = place_m.norm();
   const double elevation_deg = DegFromRad(std::asin(place_m.z() / range_m));
-  const auto laser = std::ranges::min_element(model.lasers, {}, [&](const ChannelSpec& channel) {
+  const auto laser = std::ranges::min_element(model.channels, {}, [&](const ChannelSpec& channel) {
     return std::abs(channel.elevation_deg - elevation_deg);
   });
-  return {.laser = static_cast<std::uint8_t>(laser - model.lasers.begin()),
-          .distance = std::lround(range_m / model.distance_unit_m),
+  return {.laser = static_cast<std::uint8_t>(laser - model.channels.begin()),
+          .distance = std::lround(range_m / (1e-3 * model.unit_mm)),
           .azimuth_deg = -DegFromRad(std::atan2(place_m.y(), place_m.x()))};
 }
 
@@ -73,18 +73,18 @@ struct Comparison {
 };
 
 /// When Nebula takes a laser to fire, since the start of its cycle.
-double TheirTime_us(std::uint8_t laser, const VelodyneModel& model) {
+double TheirTime_us(std::uint8_t laser, const SpinningModel& model) {
   // 2.304 us x laser, also for VLP-32C, whose lasers fire in pairs.
-  return model.blocks_per_cycle() == 1 ? 2.304 * laser : model.lasers[laser].time_us;
+  return model.blocks_per_loop() == 1 ? 2.304 * laser : model.channels[laser].time_us;
 }
 
 /// Nebula turns a laser's azimuth until TheirTime_us(), except in the last block of a packet, where
 /// it does not turn it. Returns the difference that remains under either rule.
 std::pair<double, double> LeftOver_deg(double their_deg,
                                        const TurnPoint& ours,
-                                       const VelodyneModel& model) {
+                                       const SpinningModel& model) {
   constexpr double kTurn_deg_per_us = 3600e-6;  // The captures were made at 600 rpm.
-  const double our_time_us = model.lasers[ours.laser].time_us;
+  const double our_time_us = model.channels[ours.laser].time_us;
   const double late_us =
       ours.return_index * model.cycle_us * static_cast<double>(model.cycles_per_block());
   const double apart_deg =
@@ -101,13 +101,13 @@ std::pair<double, double> LeftOver_deg(double their_deg,
 
 Comparison Compare(const pcl::PointCloud<pcl::PointXYZ>& theirs,
                    const std::vector<TurnPoint>& ours,
-                   const VelodyneModel& model) {
+                   const SpinningModel& model) {
   // The packet and the other decoder both round azimuths to 0.01 deg, and so is the step to the
   // next block rounded, from which that decoder derives the speed.
   constexpr double kTolerance_deg = 0.04;
   std::map<std::pair<std::uint8_t, long>, std::vector<TurnPoint>> by_measurement;
   for (const TurnPoint& point : ours) {
-    const long distance = std::lround(static_cast<double>(point.range_m) / model.distance_unit_m);
+    const long distance = std::lround(static_cast<double>(point.range_m) / (1e-3 * model.unit_mm));
     by_measurement[{point.laser, distance}].push_back(point);
   }
   std::size_t num_last_block = 0;
@@ -155,7 +155,7 @@ std::ostream& operator<<(std::ostream& out, const Comparison& c) {
 TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
   const auto file = VelodyneCapture("vlp16_dual.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
-  const VelodyneModel& model = *FindVelodyneFormat("vlp16").model;
+  const SpinningModel& model = *FindSpinningModel("vlp16");
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
   ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp16_dual_decoded.pcd").string(), theirs), 0);
@@ -173,7 +173,7 @@ TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
 TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   const auto file = VelodyneCapture("vlp32c_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
-  const VelodyneModel& model = *FindVelodyneFormat("vlp32c").model;
+  const SpinningModel& model = *FindSpinningModel("vlp32c");
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
   ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp32c_single_decoded.pcd").string(), theirs), 0);
@@ -202,7 +202,7 @@ TEST(RealCapture, HasTheTimesOfTheBlocksBehindTheGapOfItsWindow) {
   const auto file = VelodyneCapture("vlp32c_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   std::size_t num_gaps = 0;
-  for (const SensorTurn& turn : DecodeCapture(file, *FindVelodyneFormat("vlp32c").model)) {
+  for (const SensorTurn& turn : DecodeCapture(file, *FindSpinningModel("vlp32c"))) {
     for (std::size_t i = 1; i < turn.num_columns(); ++i) {
       const double cycles =
           static_cast<double>(turn.column_time_ns[i] - turn.column_time_ns[i - 1]) / 55'296.0;
@@ -221,7 +221,7 @@ TEST(RealCapture, HasTheTimesOfTheBlocksBehindTheGapOfItsWindow) {
 TEST(RealCapture, DecodesVls128AsNebulaDoes) {
   const auto file = VelodyneCapture("vls128_single.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
-  const VelodyneModel& model = Vls128Model();
+  const SpinningModel& model = ModelNamed("VLS-128");
   const auto turns = DecodeCapture(file, model);
   pcl::PointCloud<pcl::PointXYZ> theirs;
   ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vls128_single_decoded.pcd").string(), theirs), 0);

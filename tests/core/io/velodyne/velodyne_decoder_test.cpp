@@ -1,4 +1,4 @@
-#include "core/io/velodyne/velodyne_decoder.h"
+#include "core/io/spinning/spinning_decoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,18 +21,13 @@
 namespace railcast {
 namespace {
 
-VelodyneDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
-  const VelodyneModel& model = *FindVelodyneFormat(format).model;
-  if (!model.has_own_angles) return VelodyneDecoder(model);
-  std::vector<LaserCalibration> calibration;
-  for (const ChannelSpec& channel : scan.spinning().channels) {
-    calibration.push_back(
-        {.elevation_deg = channel.elevation_deg, .azimuth_deg = channel.azimuth_deg});
-  }
-  return {model, calibration};
+SpinningDecoder DecoderOf(std::string_view format, const MadeScan& scan) {
+  SpinningModel model = *FindSpinningModel(format);
+  if (model.has_own_angles) model.channels = scan.spinning().channels;
+  return SpinningDecoder(model);
 }
 
-std::vector<SensorTurn> DecodeAll(VelodyneDecoder& decoder, const Datagrams& datagrams) {
+std::vector<SensorTurn> DecodeAll(SpinningDecoder& decoder, const Datagrams& datagrams) {
   std::vector<SensorTurn> turns;
   for (const auto& packet : DataPackets(datagrams)) {
     EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
@@ -50,11 +45,11 @@ struct Expected {
 /// Returns the slots that packets hold, in the order of the packets.
 std::vector<Expected> PointsOf(const Frame& frame,
                                const MadeScan& scan,
-                               const VelodyneModel& model) {
+                               const SpinningModel& model) {
   std::vector<Expected> points;
   const auto units = [&](std::size_t slot) {
     const double distance =
-        std::floor(static_cast<double>(frame.range_m[slot]) / model.distance_unit_m + 0.5);
+        std::floor(static_cast<double>(frame.range_m[slot]) / (1e-3 * model.unit_mm) + 0.5);
     return distance < 65536.0 ? distance : 0.0;  // NaN gives 0, too.
   };
   for (std::uint32_t column = 0; column < frame.columns; ++column) {
@@ -87,11 +82,11 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
   const std::string_view format = std::get<0>(GetParam());
   const Window& window_deg = std::get<1>(GetParam());
   const MadeScan scan(InWindow(ReadSensor(std::string(SensorOf(format))), window_deg));
-  const VelodyneModel& model = *FindVelodyneFormat(format).model;
+  const SpinningModel& model = *FindSpinningModel(format);
   const std::uint32_t returns = format == "vlp16-dual" ? 2 : 1;
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < 3; ++i) frames.push_back(scan.MakeFrame(i, returns));
-  VelodyneDecoder decoder = DecoderOf(format, scan);
+  SpinningDecoder decoder = DecoderOf(format, scan);
   const auto turns = DecodeAll(decoder, EncodeAll(format, scan, frames));
   ASSERT_EQ(turns.size(), 2U);  // The third turn would end where a fourth begins.
   // A packet that spans two frames has a single time and speed, so it does not account for the gap
@@ -116,7 +111,7 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
       ASSERT_EQ(points[i].ring, frame.ring[slot]);
       ASSERT_EQ(points[i].return_index, expected[i].return_index);
       ASSERT_EQ(points[i].intensity, ReflectivityByte(frame.intensity[slot]));
-      ASSERT_NEAR(points[i].range_m, frame.range_m[slot], 0.5 * model.distance_unit_m + 2e-5);
+      ASSERT_NEAR(points[i].range_m, frame.range_m[slot], 0.5 * (1e-3 * model.unit_mm) + 2e-5);
       const std::int64_t fired_ns = turns[t].stamp_ns + points[i].time_ns - frame.stamp_ns;
       ASSERT_LT(std::abs(fired_ns - frame.time_ns[slot]), time_tolerance_ns);
       const double azimuth_deg = DegFromRad(static_cast<double>(points[i].azimuth_rad));
@@ -125,7 +120,7 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
       const Eigen::Vector3f decoded_m(points[i].x, points[i].y, points[i].z);
       const Eigen::Vector3f true_m(frame.x[slot], frame.y[slot], frame.z[slot]);
       ASSERT_LT(static_cast<double>((decoded_m - true_m).norm()),
-                model.distance_unit_m +
+                (1e-3 * model.unit_mm) +
                     static_cast<double>(true_m.norm()) * RadFromDeg(kAzimuthTolerance_deg));
     }
   }
@@ -171,7 +166,7 @@ std::vector<char> SoundPacket(std::string_view format = "vlp16") {
 
 std::string Refusal(std::string_view format, std::span<const char> packet) {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
-  VelodyneDecoder decoder = DecoderOf(format, scan);
+  SpinningDecoder decoder = DecoderOf(format, scan);
   std::vector<SensorTurn> turns;
   std::string refusal = decoder.Decode(packet, turns).value_or("");
   if (!refusal.empty()) {
@@ -213,10 +208,11 @@ TEST(VelodyneDecoder, RefusesWhatIsNoPacketOfItsModel) {
 // A cycle of VLS-128 takes four blocks. Laser 127 fires 17 slots after laser 0, one slot of 2.665
 // us for each group of eight and one of maintenance, in which the rotor turns by 0.16 deg.
 TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
+  constexpr std::array<std::uint16_t, 4> kFlags = {0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
   std::vector<char> packet(kVelodynePacketSize, '\0');
   for (std::size_t block = 0; block < kBlocksPerPacket; ++block) {
     char* const place = packet.data() + block * kBlockSize;
-    StoreAt<std::uint16_t>(place, kBlockFlags[block % 4]);
+    StoreAt<std::uint16_t>(place, kFlags[block % 4]);
     StoreAt<std::uint16_t>(place + kAzimuthPlace, static_cast<std::uint16_t>(19 * (block / 4)));
   }
   StoreAt<std::uint8_t>(packet.data() + kModePlace, kStrongestMode);
@@ -227,7 +223,7 @@ TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
   };
   set_distance(0, 0);
   set_distance(3, 31);
-  VelodyneDecoder decoder(Vls128Model());
+  SpinningDecoder decoder(ModelNamed("VLS-128"));
   std::vector<SensorTurn> turns;
   ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);
   const SensorTurn turn = decoder.TakeUnfinished();
@@ -242,26 +238,26 @@ TEST(VelodyneDecoder, TakesTheLasersOfAVls128FromFourBlocks) {
               360.0 - 6.354 + turned_deg, 1e-4);
   StoreAt<std::uint16_t>(packet.data() + 2 * kBlockSize, 0xEEFF);
   EXPECT_EQ(decoder.Decode(packet, turns), "block 2: flag must be 52479 (got 61183)");
-  StoreAt<std::uint8_t>(packet.data() + kModePlace, kDualMode);
+  StoreAt<std::uint8_t>(packet.data() + kModePlace, kLastAndStrongestMode);
   EXPECT_EQ(decoder.Decode(packet, turns), "return mode must be 55 or 56 (got 57)");
 }
 
 TEST(VelodyneDecoder, KnowsTheLasersOfAVls128AsItsSensorFileDoes) {
   const auto spinning = std::get<SpinningSpec>(ReadSensor("vls128").pattern);
-  const VelodyneModel& model = Vls128Model();
+  const SpinningModel& model = ModelNamed("VLS-128");
   EXPECT_EQ(spinning.cycle_us, model.cycle_us);
-  ASSERT_EQ(spinning.channels.size(), model.lasers.size());
-  for (std::size_t i = 0; i < model.lasers.size(); ++i) {
-    EXPECT_EQ(spinning.channels[i].elevation_deg, model.lasers[i].elevation_deg) << i;
-    EXPECT_EQ(spinning.channels[i].azimuth_deg, model.lasers[i].azimuth_deg) << i;
+  ASSERT_EQ(spinning.channels.size(), model.channels.size());
+  for (std::size_t i = 0; i < model.channels.size(); ++i) {
+    EXPECT_EQ(spinning.channels[i].elevation_deg, model.channels[i].elevation_deg) << i;
+    EXPECT_EQ(spinning.channels[i].azimuth_deg, model.channels[i].azimuth_deg) << i;
     // The file has microseconds to three places.
-    EXPECT_NEAR(spinning.channels[i].time_us, model.lasers[i].time_us, 0.0005001) << i;
+    EXPECT_NEAR(spinning.channels[i].time_us, model.channels[i].time_us, 0.0005001) << i;
   }
 }
 
 TEST(VelodyneDecoder, CountsOnOverTheHour) {
   std::vector<char> packet = SoundPacket();
-  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  SpinningDecoder decoder(*FindSpinningModel("vlp16"));
   std::vector<SensorTurn> turns;
   // Every packet begins at azimuth 0, so each is a turn.
   for (const std::uint32_t time_us : {3'599'900'000U, 0U, 100'000U, 50'000U, 2'000'000'000U}) {
@@ -278,7 +274,7 @@ TEST(VelodyneDecoder, CountsOnOverTheHour) {
 
 TEST(VelodyneDecoder, SurvivesAClockThatLeaps) {
   std::vector<char> packet = SoundPacket();
-  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  SpinningDecoder decoder(*FindSpinningModel("vlp16"));
   std::vector<SensorTurn> turns;
   std::int64_t last_ns = 0;
   for (std::uint32_t i = 0; i < 25'000; ++i) {
@@ -299,7 +295,7 @@ TEST(VelodyneDecoder, CutsTheTurnOfARotorThatStandsStill) {
   for (std::size_t block = 0; block < 12; ++block) {
     StoreAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace, 100);
   }
-  VelodyneDecoder decoder(*FindVelodyneFormat("vlp16").model);
+  SpinningDecoder decoder(*FindSpinningModel("vlp16"));
   std::vector<SensorTurn> turns;
   for (int i = 0; turns.empty() && i < 10'000; ++i) {
     ASSERT_EQ(decoder.Decode(packet, turns), std::nullopt);

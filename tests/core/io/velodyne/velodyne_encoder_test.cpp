@@ -1,4 +1,4 @@
-#include "core/io/velodyne/velodyne_encoder.h"
+#include "core/io/spinning/spinning_encoder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +35,8 @@ std::uint32_t TimeIn(std::span<const char> packet) {
 
 TEST(VelodyneEncoder, CompletesWithTheNextFrameWhatAFrameLeaves) {
   const MadeScan scan(ReadSensor("vlp16"));
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("vlp16"), scan.spec(), ReturnMode::kStrongest);
   std::vector<std::size_t> num_packets;
   Datagrams datagrams;
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -213,14 +214,16 @@ TEST(VelodyneEncoder, StampsAWholeDayOfFrames) {
   spec.rate_hz = 10.0;
   const MadeScan scan(spec);
   const ScanPattern pattern = BuildScanPattern(spec);
-  const auto encoder = MakeVelodyneEncoder("vlp16", spec, ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("vlp16"), spec, ReturnMode::kStrongest);
   Frame frame = scan.MakeFrame(0);
   Datagrams datagrams;
   // Every 1001st frame of 24 h.
   for (std::uint32_t index = 0; index < 864'000; index += 1001) {
     frame.stamp_ns = pattern.StampNs(index);
     datagrams.Clear();
-    MakeVelodyneEncoder("vlp16", spec, ReturnMode::kStrongest)->Encode(frame, datagrams);
+    MakeSpinningEncoder(*FindSpinningModel("vlp16"), spec, ReturnMode::kStrongest)
+        ->Encode(frame, datagrams);
     ASSERT_EQ(TimeIn(DataPackets(datagrams)[0]), index * 100'000LL % 3'600'000'000) << index;
   }
 }
@@ -242,7 +245,8 @@ TEST(VelodyneEncoder, LetsAPacketLeaveAtItsLastFiring) {
 TEST(VelodyneEncoder, SaysItsTimeOnceASecond) {
   const MadeScan scan(ReadSensor("vlp16"));
   Frame frame = scan.MakeFrame(0);
-  const auto encoder = MakeVelodyneEncoder("vlp16", scan.spec(), ReturnMode::kStrongest);
+  const auto encoder =
+      MakeSpinningEncoder(*FindSpinningModel("vlp16"), scan.spec(), ReturnMode::kStrongest);
   Datagrams datagrams;
   for (std::int64_t index = 5; index < 26; ++index) {
     frame.stamp_ns = index * 100'000'000;

@@ -101,7 +101,7 @@ fs::path Captured(const Datagrams& datagrams, const fs::path& file, bool is_ipv6
 }
 
 Datagrams HesaiPackets(const SentAs& sending) {
-  const HesaiModel& model = *FindHesaiModel(sending.protocol);
+  const SpinningModel& model = *FindSpinningModel(sending.protocol);
   const MadeScan scan(ReadSensor(FileOf(model)));
   const std::uint32_t returns = sending.mode == ReturnMode::kDual ? 2 : 1;
   return Encoded(model, scan, {scan.MakeFrame(0, returns), scan.MakeFrame(1, returns)},
@@ -111,7 +111,7 @@ Datagrams HesaiPackets(const SentAs& sending) {
 Datagrams VelodynePackets(const std::string& format) {
   const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
   const ReturnMode mode = ReturnModeOfFormat(format);
-  const auto encoder = MakeVelodyneEncoder(format, scan.spec(), mode);
+  const auto encoder = MakeSpinningEncoder(*FindSpinningModel(format), scan.spec(), mode);
   Datagrams datagrams;
   for (const std::uint32_t i : {0U, 1U}) {
     encoder->Encode(scan.MakeFrame(i, mode == ReturnMode::kDual ? 2 : 1), datagrams);
