@@ -20,16 +20,13 @@ namespace {
 constexpr std::uint16_t kDetectionsPort = 27402;
 
 struct CollectOptions {
-  std::string at = "127.0.0.1:" + NumberText(kDetectionsPort);
-  std::optional<std::string> from;
-  std::optional<double> duration_s;
-  std::optional<std::uint64_t> num_frames;
+  ListenOptions listen{.at = "127.0.0.1:" + NumberText(kDetectionsPort)};
   std::filesystem::path out;
 };
 
 std::optional<Endpoint> WantedSender(const CollectOptions& options) {
-  if (!options.from) return std::nullopt;
-  return AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
+  if (!options.listen.from) return std::nullopt;
+  return AtPlace("--from: ", [&] { return ParseEndpoint(*options.listen.from, 0); });
 }
 
 /// Lines are appended to the unfinished file as they come, so that they are there however the
@@ -100,8 +97,8 @@ class Collecting {
   const CollectOptions& options_;
   FollowedSender sender_;
   std::uint64_t num_wanted_ =
-      options_.num_frames.value_or(std::numeric_limits<std::uint64_t>::max());
-  std::chrono::steady_clock::time_point end_ = EndAfter(options_.duration_s);
+      options_.listen.num_frames.value_or(std::numeric_limits<std::uint64_t>::max());
+  std::chrono::steady_clock::time_point end_ = EndAfter(options_.listen.duration_s);
   CollectedLines lines_;
   std::optional<UnfinishedFile> file_;  ///< From the first line on.
   std::uint64_t num_strangers_ = 0;
@@ -120,7 +117,7 @@ int RunCollect(const CollectOptions& options) {
   RefuseKeptLines(options.out);
   CheckCanWrite(options.out);
   Collecting collecting(options);
-  UdpReceiver receiver(ParseEndpoint(options.at, kDetectionsPort));
+  UdpReceiver receiver(ParseEndpoint(options.listen.at, kDetectionsPort));
   CatchStopSignals();
   std::cout << "listening at " << EndpointText(receiver.at()) << std::endl;
   ErrorList faults;
@@ -143,20 +140,7 @@ void AddCollect(ProgramOptions& app, ProgramCommand& command) {
       "collect",
       "Listen to your object detector, which sends a datagram for each frame of a live stream, and "
       "write its detections as a file for evaluate; until Ctrl-C");
-  collect
-      .AddOption("ADDRESS", options->at,
-                 "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
-                 "multicast group what is sent to it")
-      .ShowDefault();
-  collect
-      .AddOption("--from", options->from,
-                 "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
-      .Check(NonEmpty());
-  collect
-      .AddOption("--duration", options->duration_s, "Seconds after which to end; default: no end")
-      .Check(Number({1e-3, 1e9}));
-  collect.AddOption("--frames", options->num_frames, "Frames after which to end; default: no end")
-      .Check(Whole({1}));
+  AddListenOptions(collect, options->listen);
   collect
       .AddOption("--out", options->out,
                  "File to write: JSON lines (docs/evaluate.md); until the end FILE.part")

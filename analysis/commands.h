@@ -3,7 +3,9 @@
 #include <tbb/global_control.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <thread>
 #include <vector>
@@ -56,6 +58,17 @@ void AddReceive(ProgramOptions& app, ProgramCommand& command);
                                            : std::size_t{std::thread::hardware_concurrency()};
   return {tbb::global_control::max_allowed_parallelism, most};
 }
+
+/// What is listened to, and how long.
+struct ListenOptions {
+  std::string at;  ///< Address and port.
+  std::optional<std::string> from{};
+  std::optional<double> duration_s{};
+  std::optional<std::uint64_t> num_frames{};
+};
+
+/// Adds ADDRESS, --from, --duration and --frames. Defined in receive_command.cpp.
+void AddListenOptions(ProgramOptions& command, ListenOptions& options);
 
 /// Checks that no source is given twice, since its samples would be counted twice and the intervals
 /// would be too narrow.

@@ -14,10 +14,6 @@ constexpr double kPercent = 100.0;
 // More lines than this in one chart cannot be told apart.
 constexpr std::size_t kMaxLines = 7;
 
-Estimate Percentage(std::uint64_t num, std::uint64_t num_all) {
-  return Scaled(Proportion(num, num_all), kPercent);
-}
-
 std::string NameOf(const EffectStudy& study) {
   if (study.rung) return Joined({InWords(study.effect), " (on ", NameOf(*study.rung), ")"});
   return Joined({InWords(study.effect), study.is_in_scenario ? "" : " (switched on)"});
@@ -52,16 +48,17 @@ Chart ChangedChart(const std::vector<const EffectStudy*>& studies) {
                  "What each effect changes",
                  "The longest bars are the effects that matter most here: beams whose position, "
                  "intensity, range or outcome differ in any bit, and those whose outcome differs.",
-                 {"", ""},
+                 {},
                  {"Share of beams", "%"},
                  {{"anything", SeriesStyle::kBars}, {"outcome", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : studies) {
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
     const BeamChanges& beams = study->beams;
-    chart.series[0].points.push_back(PointAt(x, Percentage(NumChanged(*study), beams.num_beams)));
+    chart.series[0].points.push_back(
+        PointAt(x, PercentProportion(NumChanged(*study), beams.num_beams)));
     chart.series[1].points.push_back(
-        PointAt(x, Percentage(beams.num_outcome_changed, beams.num_beams)));
+        PointAt(x, PercentProportion(beams.num_outcome_changed, beams.num_beams)));
   }
   return chart;
 }
@@ -71,20 +68,16 @@ Chart ReturnsChart(const std::vector<const EffectStudy*>& studies) {
                  "Points that each effect takes away and adds",
                  "The longest bars are the effects that cost or give most points, in percent of "
                  "those without the effect.",
-                 {"", ""},
+                 {},
                  {"Points", "%"},
                  {{"taken away", SeriesStyle::kBars}, {"added", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : studies) {
     const auto x = static_cast<double>(chart.x.categories.size());
     chart.x.categories.push_back(NameOf(*study));
     const BeamChanges& beams = study->beams;
-    const auto num_without = static_cast<double>(beams.num_both + beams.num_removed);
-    const auto share = [&](std::uint64_t num) {
-      return num_without == 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                                : kPercent * static_cast<double>(num) / num_without;
-    };
-    chart.series[0].points.push_back({x, share(beams.num_removed)});
-    chart.series[1].points.push_back({x, share(beams.num_added)});
+    const std::uint64_t num_without = beams.num_both + beams.num_removed;
+    chart.series[0].points.push_back({x, Percent(beams.num_removed, num_without)});
+    chart.series[1].points.push_back({x, Percent(beams.num_added, num_without)});
   }
   return chart;
 }
@@ -95,22 +88,22 @@ Table EffectsTable(const std::vector<EffectStudy>& studies) {
       "Without the effect against with it, the same draws. Identical beams are the same in every "
       "bit of position, intensity, range and outcome. Points moved and intensities changed are of "
       "those that are there both times.",
-      ColumnsOf("effect: Effect; in_scenario: In the scenario; beams: Beams; "
-                "identical_percent: Identical beams; outcome_percent: Outcome changed; "
-                "points_taken: Points taken away; points_added: Points added; "
-                "moved_percent: Points moved; moved_median_m: Moved by, median; "
-                "moved_95_m: Moved by, 95 %; intensity_percent: Intensity changed; "
-                "intensity_median: Intensity changed by, median; "
-                "intensity_95: Intensity changed by, 95 %")};
+      ColumnsOf("effect: Effect; in_scenario: In the scenario; beams: Beams; identical_percent: "
+                "Identical beams; outcome_percent: Outcome changed; points_taken: Points taken "
+                "away; points_added: Points added; moved_percent: Points moved; moved_median_m: "
+                "Moved by, median; moved_95_m: Moved by, 95 %; intensity_percent: Intensity "
+                "changed; intensity_median: Intensity changed by, median; intensity_95: Intensity "
+                "changed by, 95 %")};
   for (const EffectStudy& study : studies) {
     const BeamChanges& beams = study.beams;
     constexpr double kShare = 0.95;
     table.rows.push_back(
         {study.effect, WhereStudied(study), beams.num_beams,
-         Percentage(beams.num_identical, beams.num_beams),
-         Percentage(beams.num_outcome_changed, beams.num_beams), beams.num_removed, beams.num_added,
-         Percentage(beams.num_moved, beams.num_both), beams.moved_m.Median(),
-         beams.moved_m.Quantile(kShare), Percentage(beams.num_intensity_changed, beams.num_both),
+         PercentProportion(beams.num_identical, beams.num_beams),
+         PercentProportion(beams.num_outcome_changed, beams.num_beams), beams.num_removed,
+         beams.num_added, PercentProportion(beams.num_moved, beams.num_both),
+         beams.moved_m.Median(), beams.moved_m.Quantile(kShare),
+         PercentProportion(beams.num_intensity_changed, beams.num_both),
          beams.intensity_change.Median(), beams.intensity_change.Quantile(kShare)});
   }
   return table;
@@ -121,12 +114,11 @@ Table FrameToFrameTable(const std::vector<EffectStudy>& studies) {
   Table table = {
       "frames", "What each effect changes, from frame to frame",
       "Shares of a frame's beams: those whose outcome changed, and points taken away or added.",
-      ColumnsOf("effect: Effect; frames: Frames; outcome_least_percent: Outcome changed, least; "
-                "outcome_median_percent: Outcome changed, median; "
-                "outcome_most_percent: Outcome changed, most; "
-                "points_least_percent: Points taken or added, least; "
-                "points_median_percent: Points taken or added, median; "
-                "points_most_percent: Points taken or added, most")};
+      ColumnsOf(
+          "effect: Effect; frames: Frames; outcome_least_percent: Outcome changed, least; "
+          "outcome_median_percent: Outcome changed, median; outcome_most_percent: Outcome changed, "
+          "most; points_least_percent: Points taken or added, least; points_median_percent: Points "
+          "taken or added, median; points_most_percent: Points taken or added, most")};
   for (const EffectStudy& study : studies) {
     std::vector<Cell> row = {study.effect, study.frames.size()};
     for (const auto share : {&FrameChanges::outcome, &FrameChanges::points}) {
@@ -184,8 +176,8 @@ Chart RangeChart(const std::vector<EffectStudy>& studies,
     for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
       const BeamChanges::RangeBin& counts = study->beams.range_bins[bin];
       if (counts.num_beams == 0) continue;
-      series.points.push_back(
-          PointAt(RangeBins().middle(bin), Percentage(counts.*num_changed, counts.num_beams)));
+      series.points.push_back(PointAt(RangeBins().middle(bin),
+                                      PercentProportion(counts.*num_changed, counts.num_beams)));
     }
     chart.series.push_back(std::move(series));
   }
@@ -210,7 +202,7 @@ Section RangeSection(const std::vector<EffectStudy>& studies) {
     std::vector<Cell> row = {RangeBins().span(bin)};
     for (const EffectStudy& study : studies) {
       const BeamChanges::RangeBin& counts = study.beams.range_bins[bin];
-      row.emplace_back(Percentage(counts.num_changed, counts.num_beams));
+      row.emplace_back(PercentProportion(counts.num_changed, counts.num_beams));
     }
     table.rows.push_back(std::move(row));
   }
@@ -253,7 +245,8 @@ Table TransitionsTable(const std::vector<EffectStudy>& studies) {
       for (std::size_t to = 0; to < BeamChanges::kNumOutcomes; ++to) {
         if (from == to || row[to] == 0) continue;
         table.rows.push_back({study.effect, InWords(kOutcomeNames[from]),
-                              InWords(kOutcomeNames[to]), row[to], Percentage(row[to], num_from)});
+                              InWords(kOutcomeNames[to]), row[to],
+                              PercentProportion(row[to], num_from)});
       }
     }
   }
@@ -275,8 +268,8 @@ Chart CloudChart(const std::vector<EffectStudy>& studies,
                  title,
                  "The longest bar is the effect that changes the cloud most; effects in the order "
                  "of the beams that they change.",
-                 {"", ""},
-                 {title, unit, false},
+                 {},
+                 {title, unit},
                  {{"", SeriesStyle::kBars}}};
   for (const EffectStudy* const study : Sorted(studies, NumChanged)) {
     const Cell mean = MeanOverPairs(study->clouds, metric);
@@ -297,13 +290,11 @@ Section CloudsSection(const std::vector<EffectStudy>& studies) {
       CloudChart(studies, "density_aware_chamfer", "Density-aware Chamfer distance", "")};
   Table table = {"clouds", "Metrics of clouds, means over frames", "", ColumnsOf("effect: Effect")};
   if (!studies.empty()) {
-    for (const PairMetric& metric : studies.front().clouds.metrics()) {
-      table.columns.push_back({metric.key, metric.title, metric.unit});
-    }
+    std::ranges::copy(studies.front().clouds.metrics(), std::back_inserter(table.columns));
   }
   for (const EffectStudy& study : studies) {
     std::vector<Cell> row = {study.effect};
-    for (const PairMetric& metric : study.clouds.metrics()) {
+    for (const TableColumn& metric : study.clouds.metrics()) {
       row.push_back(MeanOverPairs(study.clouds, metric.key));
     }
     table.rows.push_back(std::move(row));
@@ -324,7 +315,7 @@ Report MakeAblationReport(const std::vector<EffectStudy>& studies,
     if (NumOutcomeChanged(*study) == 0 || report.headlines.size() == kMaxHeadlines) break;
     report.headlines.push_back(
         {Joined({"Beams with another outcome by ", NameOf(*study)}), "%",
-         Percentage(study->beams.num_outcome_changed, study->beams.num_beams)});
+         PercentProportion(study->beams.num_outcome_changed, study->beams.num_beams)});
   }
   report.sections = {EffectsSection(studies), RangeSection(studies), OutcomesSection(studies),
                      CloudsSection(studies)};

@@ -1,8 +1,10 @@
 #include "analysis/compare/cloud_figures.h"
 
 #include <algorithm>
+#include <array>
 
 #include "analysis/stats/bins.h"
+#include "analysis/stats/sums.h"
 
 namespace railcast {
 namespace {
@@ -17,22 +19,6 @@ std::int64_t BinOfIntensity(double intensity) {
 // One term of an entropy in bits: -p log2 p.
 double Bits(double share) {
   return share > 0.0 ? -share * std::log2(share) : 0.0;
-}
-
-// Visits the bins of both histograms in ascending order: visit(bin, count of a, count of b).
-template <typename Visitor>
-void ForEachBin(const Histogram& a, const Histogram& b, Visitor&& visit) {
-  auto at_a = a.counts().begin();
-  auto at_b = b.counts().begin();
-  while (at_a != a.counts().end() || at_b != b.counts().end()) {
-    const bool is_a =
-        at_b == b.counts().end() || (at_a != a.counts().end() && at_a->first <= at_b->first);
-    const bool is_b =
-        at_a == a.counts().end() || (at_b != b.counts().end() && at_b->first <= at_a->first);
-    visit(is_a ? at_a->first : at_b->first, is_a ? at_a->second : 0, is_b ? at_b->second : 0);
-    if (is_a) ++at_a;
-    if (is_b) ++at_b;
-  }
 }
 
 // Points beyond this, as a faulty foreign file may hold, share the last bin.
@@ -98,16 +84,6 @@ BinnedCloud EmptyBins() {
   return {std::vector<BinnedCloud::Bin>(RangeBins().size())};
 }
 
-void AddTo(BinnedCloud& sum, const BinnedCloud& cloud) {
-  for (std::size_t i = 0; i < sum.bins.size(); ++i) {
-    sum.bins[i].num_points += cloud.bins[i].num_points;
-    sum.bins[i].num_intensities += cloud.bins[i].num_intensities;
-    sum.bins[i].intensity_sum += cloud.bins[i].intensity_sum;
-    sum.bins[i].num_velocities += cloud.bins[i].num_velocities;
-    sum.bins[i].velocity_sum_mps += cloud.bins[i].velocity_sum_mps;
-  }
-}
-
 double PointsOf(const BinnedCloud::Bin& bin) {
   return static_cast<double>(bin.num_points);
 }
@@ -129,43 +105,18 @@ struct Mean {
 
 }  // namespace
 
-Histogram::Histogram(std::vector<std::int64_t> bins) : num_(bins.size()) {
-  std::sort(bins.begin(), bins.end());
-  for (const std::int64_t bin : bins) {
-    if (counts_.empty() || counts_.back().first != bin) counts_.emplace_back(bin, 0);
-    ++counts_.back().second;
-  }
-}
-
-void Histogram::Add(const Histogram& other) {
-  std::vector<std::pair<std::int64_t, std::uint64_t>> sums;
-  sums.reserve(std::max(counts_.size(), other.counts_.size()));
-  ForEachBin(*this, other, [&](std::int64_t bin, std::uint64_t ours, std::uint64_t theirs) {
-    sums.emplace_back(bin, ours + theirs);
-  });
-  counts_ = std::move(sums);
-  num_ += other.num_;
-}
-
 double JensenShannonDivergence(const Histogram& a, const Histogram& b) {
   if (a.num() == 0 || b.num() == 0) return std::numeric_limits<double>::quiet_NaN();
   const auto num_a = static_cast<double>(a.num());
   const auto num_b = static_cast<double>(b.num());
+  std::map<std::int64_t, std::array<double, 2>> shares;
+  for (const auto& [bin, count] : a.counts()) shares[bin][0] = static_cast<double>(count) / num_a;
+  for (const auto& [bin, count] : b.counts()) shares[bin][1] = static_cast<double>(count) / num_b;
   double divergence = 0.0;
-  ForEachBin(a, b, [&](std::int64_t, std::uint64_t count_a, std::uint64_t count_b) {
-    const double p = static_cast<double>(count_a) / num_a;
-    const double q = static_cast<double>(count_b) / num_b;
-    divergence += Bits(0.5 * (p + q)) - 0.5 * (Bits(p) + Bits(q));
-  });
+  for (const auto& [bin, share] : shares) {
+    divergence += Bits(0.5 * (share[0] + share[1])) - 0.5 * (Bits(share[0]) + Bits(share[1]));
+  }
   return std::clamp(divergence, 0.0, 1.0);
-}
-
-void CloudHistograms::Add(const CloudHistograms& other) {
-  range.Add(other.range);
-  intensity.Add(other.intensity);
-  ring.Add(other.ring);
-  velocity.Add(other.velocity);
-  occupancy.Add(other.occupancy);
 }
 
 CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
@@ -186,9 +137,9 @@ CloudHistograms HistogramsOf(const ComparedCloud& cloud) {
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return {Histogram(std::move(ranges)), Histogram(std::move(intensities)),
+  return {Histogram(ranges), Histogram(intensities),
           Histogram(std::vector<std::int64_t>(cloud.rings.begin(), cloud.rings.end())),
-          Histogram(std::move(velocities)), Histogram(std::move(cells))};
+          Histogram(velocities), Histogram(cells)};
 }
 
 double IntensityOfBin(std::int64_t bin) {
@@ -267,6 +218,19 @@ BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b) {
   return {kPercentOf * points.value(), kPercentOf * intensity.value(), velocity_mps.value()};
 }
 
+std::vector<double> DistributionFigures(const CloudHistograms& a,
+                                        const CloudHistograms& b,
+                                        const BinErrors& errors) {
+  return {JensenShannonDivergence(a.range, b.range),
+          JensenShannonDivergence(a.intensity, b.intensity),
+          JensenShannonDivergence(a.ring, b.ring),
+          JensenShannonDivergence(a.velocity, b.velocity),
+          JensenShannonDivergence(a.occupancy, b.occupancy),
+          errors.points,
+          errors.intensity,
+          errors.velocity_mps};
+}
+
 BinSums::BinSums() : bins_(RangeBins().size()), sum_a_(EmptyBins()), sum_b_(EmptyBins()) {}
 
 void BinSums::Add(const BinnedCloud& a, const BinnedCloud& b) {
@@ -289,8 +253,8 @@ void BinSums::Add(const BinnedCloud& a, const BinnedCloud& b) {
     bin.velocity_b_mps.Add(velocity_b_mps);
     bin.velocity_change_mps.Add(velocity_b_mps - velocity_a_mps);
   }
-  AddTo(sum_a_, a);
-  AddTo(sum_b_, b);
+  AddTo(sum_a_.bins, a.bins);
+  AddTo(sum_b_.bins, b.bins);
 }
 
 }  // namespace railcast

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "analysis/estimate/streams.h"
@@ -49,17 +50,16 @@ class Histogram {
  public:
   Histogram() = default;
   /// Each element adds one count to its bin.
-  explicit Histogram(std::vector<std::int64_t> bins);
-
-  void Add(const Histogram& other);
-  [[nodiscard]] std::uint64_t num() const { return num_; }
-  /// Ascending by bin.
-  [[nodiscard]] const std::vector<std::pair<std::int64_t, std::uint64_t>>& counts() const {
-    return counts_;
+  explicit Histogram(const std::vector<std::int64_t>& bins) : num_(bins.size()) {
+    for (const std::int64_t bin : bins) ++counts_[bin];
   }
+  static auto Sums(auto& of) { return std::tie(of.counts_, of.num_); }
+
+  [[nodiscard]] std::uint64_t num() const { return num_; }
+  [[nodiscard]] const std::map<std::int64_t, std::uint64_t>& counts() const { return counts_; }
 
  private:
-  std::vector<std::pair<std::int64_t, std::uint64_t>> counts_;
+  std::map<std::int64_t, std::uint64_t> counts_;
   std::uint64_t num_{};
 };
 
@@ -77,7 +77,9 @@ struct CloudHistograms {
   /// Bird's-eye occupancy: a cell of 1 m x 1 m counts once per frame if it holds any point.
   Histogram occupancy;
 
-  void Add(const CloudHistograms& other);
+  static auto Sums(auto& of) {
+    return std::tie(of.range, of.intensity, of.ring, of.velocity, of.occupancy);
+  }
 };
 
 [[nodiscard]] CloudHistograms HistogramsOf(const ComparedCloud& cloud);
@@ -140,6 +142,10 @@ struct BinnedCloud {
     std::uint64_t num_velocities{};
     double velocity_sum_mps{};
 
+    static auto Sums(auto& of) {
+      return std::tie(of.num_points, of.num_intensities, of.intensity_sum, of.num_velocities,
+                      of.velocity_sum_mps);
+    }
     /// NaN where fewer than kMinSamples points have an intensity.
     [[nodiscard]] double MeanIntensity() const;
     /// NaN where fewer than kMinSamples points have a velocity.
@@ -161,6 +167,11 @@ struct BinErrors {
 };
 
 [[nodiscard]] BinErrors ErrorsOf(const BinnedCloud& a, const BinnedCloud& b);
+
+/// The divergences and errors, in the order of PairMetrics() (comparison.h).
+[[nodiscard]] std::vector<double> DistributionFigures(const CloudHistograms& a,
+                                                      const CloudHistograms& b,
+                                                      const BinErrors& errors);
 
 /// Sums over pairs of frames, bin by bin.
 class BinSums {

@@ -17,24 +17,9 @@ constexpr double kNanosecondsPerSecond = 1e9;
 std::size_t IndexOf(const Comparison& comparison, const std::string& metric) {
   const auto& metrics = comparison.metrics();
   const auto at = std::find_if(metrics.begin(), metrics.end(),
-                               [&](const PairMetric& m) { return m.key == metric; });
+                               [&](const TableColumn& m) { return m.key == metric; });
   Check(at != metrics.end(), "a metric is one of PairMetrics()");
   return static_cast<std::size_t>(at - metrics.begin());
-}
-
-// The divergence of the histograms over all frames together.
-double OfAllPairs(const Comparison& comparison, const std::string& metric) {
-  const CloudHistograms& a = comparison.histograms_a();
-  const CloudHistograms& b = comparison.histograms_b();
-  if (metric == "jsd_range") return JensenShannonDivergence(a.range, b.range);
-  if (metric == "jsd_intensity") return JensenShannonDivergence(a.intensity, b.intensity);
-  if (metric == "jsd_ring") return JensenShannonDivergence(a.ring, b.ring);
-  if (metric == "jsd_velocity") return JensenShannonDivergence(a.velocity, b.velocity);
-  if (metric == "jsd_occupancy") return JensenShannonDivergence(a.occupancy, b.occupancy);
-  if (metric == "mape_points_percent") return comparison.bins().Errors().points;
-  if (metric == "mape_intensity_percent") return comparison.bins().Errors().intensity;
-  if (metric == "velocity_error_mps") return comparison.bins().Errors().velocity_mps;
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 bool HasVelocities(const Comparison& comparison) {
@@ -62,9 +47,7 @@ Table PairsTable(const Comparison& comparison) {
                      : Joined({"One of ", std::to_string(comparison.pair_stride()), " pairs."}),
                  ColumnsOf("frame_a: Frame of A; frame_b: Frame of B; stamp_a_s: Stamp of A; "
                            "stamp_b_s: Stamp of B; points_a: Points of A; points_b: Points of B")};
-  for (const PairMetric& metric : comparison.metrics()) {
-    table.columns.push_back({metric.key, metric.title, metric.unit});
-  }
+  std::ranges::copy(comparison.metrics(), std::back_inserter(table.columns));
   for (const PairFigures& pair : comparison.pairs()) {
     std::vector<Cell> row = {std::uint64_t{pair.index_a},
                              std::uint64_t{pair.index_b},
@@ -131,7 +114,7 @@ ChartSeries Shares(const Histogram& histogram,
                    double (*x_of_bin)(std::int64_t)) {
   constexpr double kPercent = 100.0;
   ChartSeries series{title, style};
-  std::int64_t next = histogram.counts().empty() ? 0 : histogram.counts().front().first;
+  std::int64_t next = histogram.counts().empty() ? 0 : histogram.counts().begin()->first;
   for (const auto& [bin, count] : histogram.counts()) {
     // Empty bins are zeros; in a line only the ends of each run of empty bins are needed.
     if (bin > next) series.points.push_back({x_of_bin(next), 0.0});
@@ -152,116 +135,95 @@ double AsNumber(std::int64_t bin) {
 }
 
 Section DistributionsSection(const Comparison& comparison) {
-  const CloudHistograms& a = comparison.histograms_a();
-  const CloudHistograms& b = comparison.histograms_b();
   Section section{.key = "distributions",
                   .title = "How points are distributed",
                   .paragraphs = {"Shares of all points of all pairs. The divergences in the table "
                                  "of metrics compare these "
                                  "distributions: 0 bit is the same, 1 bit has nothing in common."}};
-  const ChartAxis share = {"Share of points", "%"};
-  section.charts.push_back(
-      {"ranges",
+  const auto add = [&](Chart chart, Histogram CloudHistograms::*of,
+                       double (*x_of_bin)(std::int64_t), SeriesStyle style = SeriesStyle::kLine) {
+    chart.y = {"Share of points", "%"};
+    chart.series = {Shares(comparison.histograms_a().*of, "A", style, x_of_bin),
+                    Shares(comparison.histograms_b().*of, "B", style, x_of_bin)};
+    section.charts.push_back(std::move(chart));
+  };
+  add({"ranges",
        "Ranges",
        "Where the lines part, one cloud has more of its points at that range; bins of 1 m.",
-       {"Range", "m"},
-       share,
-       {Shares(a.range, "A", SeriesStyle::kLine, MiddleOfMetre),
-        Shares(b.range, "B", SeriesStyle::kLine, MiddleOfMetre)}});
-  section.charts.push_back({"intensities",
-                            "Intensities",
-                            "Lines of one shape beside each other differ by a scale; bins of an "
-                            "eighth octave, what is 0.001 or less in the first.",
-                            {"Intensity", "", true},
-                            share,
-                            {Shares(a.intensity, "A", SeriesStyle::kLine, IntensityOfBin),
-                             Shares(b.intensity, "B", SeriesStyle::kLine, IntensityOfBin)}});
-  section.charts.push_back(
-      {"rings",
+       {"Range", "m"}},
+      &CloudHistograms::range, MiddleOfMetre);
+  add({"intensities",
+       "Intensities",
+       "Lines of one shape beside each other differ by a scale; bins of an eighth octave, what is "
+       "0.001 or less in the first.",
+       {"Intensity", "", true}},
+      &CloudHistograms::intensity, IntensityOfBin);
+  add({"rings",
        "Rings",
        "Where the lines part, one cloud has more of its points on that ring; ring 0 looks lowest.",
-       {"Ring", ""},
-       share,
-       {Shares(a.ring, "A", SeriesStyle::kLinePoints, AsNumber),
-        Shares(b.ring, "B", SeriesStyle::kLinePoints, AsNumber)}});
+       {"Ring", ""}},
+      &CloudHistograms::ring, AsNumber, SeriesStyle::kLinePoints);
   if (HasVelocities(comparison)) {
-    section.charts.push_back(
-        {"velocities",
+    add({"velocities",
          "Velocities along the beams",
          "Where the lines part, one cloud has more of its points at that velocity; bins of 1 m/s.",
-         {"Velocity", "m/s"},
-         share,
-         {Shares(a.velocity, "A", SeriesStyle::kLine, MiddleOfMetre),
-          Shares(b.velocity, "B", SeriesStyle::kLine, MiddleOfMetre)}});
+         {"Velocity", "m/s"}},
+        &CloudHistograms::velocity, MiddleOfMetre);
   }
   return section;
 }
 
-struct BinColumn {
-  const char* key;
-  const char* title;
-  const char* unit;
-  Moments BinSums::Bin::*moments;
-  double factor = 1.0;
-};
-
-constexpr BinColumn kBinColumns[] = {
-    {"points_a", "Points of A a frame", "", &BinSums::Bin::points_a},
-    {"points_b", "Points of B a frame", "", &BinSums::Bin::points_b},
-    {"points_change_percent", "Change of points", "%", &BinSums::Bin::points_change, 100.0},
-    {"intensity_a", "Mean intensity of A", "", &BinSums::Bin::intensity_a},
-    {"intensity_b", "Mean intensity of B", "", &BinSums::Bin::intensity_b},
-    {"intensity_change_percent", "Change of mean intensity", "%", &BinSums::Bin::intensity_change,
-     100.0},
-};
-
-constexpr BinColumn kVelocityColumns[] = {
-    {"velocity_a_mps", "Mean velocity of A", "m/s", &BinSums::Bin::velocity_a_mps},
-    {"velocity_b_mps", "Mean velocity of B", "m/s", &BinSums::Bin::velocity_b_mps},
-    {"velocity_change_mps", "Change of mean velocity", "m/s", &BinSums::Bin::velocity_change_mps},
-};
-
-Chart BinChart(const Table& table, const BinColumn& a, const BinColumn& b, const ChartAxis& y) {
-  return {std::string(a.key).substr(0, std::string_view(a.key).find('_')) + "_by_range",
+// @param what "points", in keys.
+Chart BinChart(const Table& table,
+               const std::string& what,
+               const ChartAxis& y,
+               const std::string& unit = "") {
+  return {what + "_by_range",
           y.title,
           "Where the lines part, the recordings differ at that range by more than their bands.",
           {"Range", "m", true},
           y,
-          {SeriesOf(table, {"range_m", a.key}, "A"), SeriesOf(table, {"range_m", b.key}, "B")}};
+          {SeriesOf(table, {"range_m", Joined({what, "_a", unit})}, "A"),
+           SeriesOf(table, {"range_m", Joined({what, "_b", unit})}, "B")}};
 }
 
 Section BinsSection(const Comparison& comparison) {
+  constexpr double kPercent = 100.0;
   Section section{
       .key = "bins",
       .title = "Points and intensity by distance",
-      .paragraphs = {"Changes are (B - A) / A, as means over pairs in which A has at least 10 "
-                     "points in the bin. "
-                     "MAPE is the mean of their absolute values over bins (Haider et al. 2022)."}};
-  Table table = {"by_range", "By distance", "", ColumnsOf("range_m: Range")};
-  std::vector<BinColumn> columns(std::begin(kBinColumns), std::end(kBinColumns));
+      .paragraphs = {
+          "Changes are (B - A) / A, as means over pairs in which A has at least 10 points in the "
+          "bin. MAPE is the mean of their absolute values over bins (Haider et al. 2022)."}};
+  std::string columns =
+      "range_m: Range; points_a: Points of A a frame; points_b: Points of B a frame; "
+      "points_change_percent: Change of points; intensity_a: Mean intensity of A; "
+      "intensity_b: Mean intensity of B; intensity_change_percent: Change of mean intensity";
   const bool has_velocities = HasVelocities(comparison);
   if (has_velocities) {
-    columns.insert(columns.end(), std::begin(kVelocityColumns), std::end(kVelocityColumns));
+    columns +=
+        "; velocity_a_mps: Mean velocity of A; velocity_b_mps: Mean velocity of B; "
+        "velocity_change_mps: Change of mean velocity";
     section.paragraphs.emplace_back(
         "Velocities, which may be 0, change by B - A itself, and their error is the mean of its "
         "absolute values over bins.");
   }
-  for (const BinColumn& column : columns) {
-    table.columns.push_back({column.key, column.title, column.unit});
-  }
-  for (std::size_t bin = 0; bin < RangeBins().size(); ++bin) {
-    const BinSums::Bin& sums = comparison.bins().bins()[bin];
-    std::vector<Cell> row = {RangeBins().span(bin)};
-    for (const BinColumn& column : columns) {
-      row.emplace_back(Scaled((sums.*(column.moments)).Mean(), column.factor));
+  Table table = {"by_range", "By distance", "", ColumnsOf(columns)};
+  for (std::size_t i = 0; i < RangeBins().size(); ++i) {
+    const BinSums::Bin& bin = comparison.bins().bins()[i];
+    table.rows.push_back({RangeBins().span(i), bin.points_a.Mean(), bin.points_b.Mean(),
+                          Scaled(bin.points_change.Mean(), kPercent), bin.intensity_a.Mean(),
+                          bin.intensity_b.Mean(), Scaled(bin.intensity_change.Mean(), kPercent)});
+    if (!has_velocities) continue;
+    for (const Moments& moments :
+         {bin.velocity_a_mps, bin.velocity_b_mps, bin.velocity_change_mps}) {
+      table.rows.back().emplace_back(moments.Mean());
     }
-    table.rows.push_back(std::move(row));
   }
-  section.charts = {BinChart(table, kBinColumns[0], kBinColumns[1], {"Points a frame", "", true}),
-                    BinChart(table, kBinColumns[3], kBinColumns[4], {"Mean intensity", ""})};
+  section.charts = {BinChart(table, "points", {"Points a frame", "", true}),
+                    BinChart(table, "intensity", {"Mean intensity", ""})};
   if (has_velocities) {
-    section.charts.push_back(
-        BinChart(table, kVelocityColumns[0], kVelocityColumns[1], {"Mean velocity", "m/s"}));
+    section.charts.push_back(BinChart(table, "velocity", {"Mean velocity", "m/s"}, "_mps"));
   }
   section.tables = {std::move(table)};
   return section;
@@ -301,14 +263,19 @@ Table MetricsTable(const Comparison& comparison) {
                  "drive's mean is narrower than that of drives.",
                  ColumnsOf("metric: Metric; unit: Unit; mean: Mean over pairs; least: Least; "
                            "largest: Largest; all_pairs: All pairs as one")};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> of_all(IndexOf(comparison, "jsd_range"), none);
+  std::ranges::copy(DistributionFigures(comparison.histograms_a(), comparison.histograms_b(),
+                                        comparison.bins().Errors()),
+                    std::back_inserter(of_all));
+  of_all.resize(comparison.metrics().size(), none);
   for (std::size_t i = 0; i < comparison.metrics().size(); ++i) {
-    const PairMetric& metric = comparison.metrics()[i];
+    const TableColumn& metric = comparison.metrics()[i];
     const Comparison::Summary& summary = comparison.summaries()[i];
     const bool is_any = summary.moments.num() > 0;
-    const double none = std::numeric_limits<double>::quiet_NaN();
     table.rows.push_back({metric.title, metric.unit, MeanOverPairs(comparison, metric.key),
                           is_any ? summary.least : none, is_any ? summary.largest : none,
-                          OfAllPairs(comparison, metric.key)});
+                          of_all[i]});
   }
   return table;
 }
@@ -330,7 +297,7 @@ Report MakeCompareReport(const Comparison& comparison,
   for (const char* const key :
        {"density_aware_chamfer", "mape_points_percent", "chamfer_m", "hausdorff95_m", "jsd_range",
         "jsd_intensity", "jsd_occupancy", "mape_intensity_percent"}) {
-    const PairMetric& metric = comparison.metrics()[IndexOf(comparison, key)];
+    const TableColumn& metric = comparison.metrics()[IndexOf(comparison, key)];
     report.headlines.push_back({metric.title, metric.unit, MeanOverPairs(comparison, key)});
   }
   if (comparison.registers()) {

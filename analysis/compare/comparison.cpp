@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analysis/report/cell_text.h"
+#include "analysis/stats/sums.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
@@ -147,37 +148,31 @@ std::string PairingName(Pairing pairing) {
   return pairing == Pairing::kIndex ? "index" : "stamp";
 }
 
-std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m, bool registers) {
-  std::vector<PairMetric> metrics = {
-      {"chamfer_m", "Chamfer distance", "m"},
-      {"chamfer_squares_m2", "Chamfer distance of squares", "m²"},
-      {"a_to_b_m", "Mean distance of A from B", "m"},
-      {"b_to_a_m", "Mean distance of B from A", "m"},
-      {"hausdorff_m", "Hausdorff distance", "m"},
-      {"hausdorff95_m", "Hausdorff distance of 95 %", "m"},
-      {"density_aware_chamfer", "Density-aware Chamfer distance", ""},
-  };
+std::vector<TableColumn> PairMetrics(const std::vector<double>& distances_m, bool registers) {
+  std::string text =
+      "chamfer_m: Chamfer distance; chamfer_squares_m2: Chamfer distance of squares; a_to_b_m: "
+      "Mean distance of A from B; b_to_a_m: Mean distance of B from A; hausdorff_m: Hausdorff "
+      "distance; hausdorff95_m: Hausdorff distance of 95 %; density_aware_chamfer: Density-aware "
+      "Chamfer distance";
   for (const double distance_m : distances_m) {
     const std::string distance = NumberText(distance_m);
-    const std::string key = Joined({"_", distance, "_m"});
-    const std::string title = Joined({" within ", distance, " m"});
-    metrics.push_back({Joined({"precision_percent", key}), Joined({"Precision", title}), "%"});
-    metrics.push_back({Joined({"recall_percent", key}), Joined({"Recall", title}), "%"});
-    metrics.push_back({Joined({"f_score_percent", key}), Joined({"F-score", title}), "%"});
+    const std::string rest = Joined({"_percent_", distance, "_m [%]: "});
+    const std::string within = Joined({" within ", distance, " m"});
+    text += Joined({"; precision", rest, "Precision", within, "; recall", rest, "Recall", within,
+                    "; f_score", rest, "F-score", within});
   }
-  metrics.push_back({"jsd_range", "Divergence of ranges", "bit"});
-  metrics.push_back({"jsd_intensity", "Divergence of intensities", "bit"});
-  metrics.push_back({"jsd_ring", "Divergence of rings", "bit"});
-  metrics.push_back({"jsd_velocity", "Divergence of velocities", "bit"});
-  metrics.push_back({"jsd_occupancy", "Divergence of bird's-eye occupancy", "bit"});
-  metrics.push_back({"mape_points_percent", "MAPE of points", "%"});
-  metrics.push_back({"mape_intensity_percent", "MAPE of mean intensity", "%"});
-  metrics.push_back({"velocity_error_mps", "Mean absolute error of mean velocity", "m/s"});
-  if (!registers) return metrics;
-  metrics.push_back({"registration_residual_m", "Residual of the registration", "m"});
-  metrics.push_back({"registration_shift_m", "Shift by the registration", "m"});
-  metrics.push_back({"registration_turn_deg", "Turn by the registration", "deg"});
-  return metrics;
+  text +=
+      "; jsd_range [bit]: Divergence of ranges; jsd_intensity [bit]: Divergence of intensities; "
+      "jsd_ring [bit]: Divergence of rings; jsd_velocity [bit]: Divergence of velocities; "
+      "jsd_occupancy [bit]: Divergence of bird's-eye occupancy; mape_points_percent: MAPE of "
+      "points; mape_intensity_percent: MAPE of mean intensity; velocity_error_mps: Mean absolute "
+      "error of mean velocity";
+  if (registers) {
+    text +=
+        "; registration_residual_m: Residual of the registration; registration_shift_m: Shift by "
+        "the registration; registration_turn_deg: Turn by the registration";
+  }
+  return ColumnsOf(text);
 }
 
 double Comparison::Summary::Mean() const {
@@ -201,16 +196,10 @@ Comparison::Part Comparison::Compare(const RecordedFrame& a, const RecordedFrame
             HistogramsOf(cloud_b),
             BinnedByRange(cloud_a),
             BinnedByRange(cloud_b)};
-  const CloudHistograms& in_a = part.histograms_a;
-  const CloudHistograms& in_b = part.histograms_b;
-  const BinErrors errors = ErrorsOf(part.bins_a, part.bins_b);
   std::vector<double>& values = part.figures.values;
-  values.insert(values.end(), {JensenShannonDivergence(in_a.range, in_b.range),
-                               JensenShannonDivergence(in_a.intensity, in_b.intensity),
-                               JensenShannonDivergence(in_a.ring, in_b.ring),
-                               JensenShannonDivergence(in_a.velocity, in_b.velocity),
-                               JensenShannonDivergence(in_a.occupancy, in_b.occupancy),
-                               errors.points, errors.intensity, errors.velocity_mps});
+  std::ranges::copy(
+      DistributionFigures(part.histograms_a, part.histograms_b, ErrorsOf(part.bins_a, part.bins_b)),
+      std::back_inserter(values));
   if (laid) {
     const Eigen::AngleAxisd turn(laid->onto_from_cloud.linear());
     values.insert(values.end(), {laid->residual_m, laid->onto_from_cloud.translation().norm(),
@@ -229,8 +218,8 @@ void Comparison::Add(const Part& part) {
     summary.least = std::min(summary.least, value);
     summary.largest = std::max(summary.largest, value);
   }
-  histograms_a_.Add(part.histograms_a);
-  histograms_b_.Add(part.histograms_b);
+  AddTo(histograms_a_, part.histograms_a);
+  AddTo(histograms_b_, part.histograms_b);
   bins_.Add(part.bins_a, part.bins_b);
   if (num_pairs_++ % stride_ != 0) return;
   pairs_.push_back(part.figures);

@@ -10,6 +10,7 @@
 #include "analysis/compare/cloud_figures.h"
 #include "analysis/compare/told_apart.h"
 #include "analysis/estimate/streams.h"
+#include "analysis/report/report.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -65,17 +66,11 @@ class FramePairs {
 /// "index" or "stamp".
 [[nodiscard]] std::string PairingName(Pairing pairing);
 
-/// A figure that is computed for every pair of frames.
-struct PairMetric {
-  std::string key;    ///< "chamfer_m"
-  std::string title;  ///< "Chamfer distance"
-  std::string unit;
-};
-
-/// All metrics, in the order of PairFigures::values.
+/// The figures that are computed for every pair of frames, in the order of PairFigures::values, as
+/// columns of a table.
 /// @param registers Whether the clouds were registered, of which the last ones are.
-[[nodiscard]] std::vector<PairMetric> PairMetrics(const std::vector<double>& distances_m,
-                                                  bool registers = false);
+[[nodiscard]] std::vector<TableColumn> PairMetrics(const std::vector<double>& distances_m,
+                                                   bool registers = false);
 
 /// The figures of one pair of frames.
 struct PairFigures {
@@ -101,7 +96,7 @@ class Comparison {
   [[nodiscard]] Part Compare(const RecordedFrame& a, const RecordedFrame& b) const;
   void Add(const Part& part);
 
-  [[nodiscard]] const std::vector<PairMetric>& metrics() const { return metrics_; }
+  [[nodiscard]] const std::vector<TableColumn>& metrics() const { return metrics_; }
   [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
   [[nodiscard]] bool registers() const { return registers_; }
   [[nodiscard]] std::uint64_t num_pairs() const { return num_pairs_; }
@@ -126,7 +121,7 @@ class Comparison {
  private:
   std::vector<double> distances_m_;
   bool registers_;
-  std::vector<PairMetric> metrics_;
+  std::vector<TableColumn> metrics_;
   std::vector<Summary> summaries_;
   std::vector<PairFigures> pairs_;
   std::uint64_t num_pairs_{}, stride_ = 1;

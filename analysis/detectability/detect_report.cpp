@@ -69,10 +69,9 @@ Table RunTable(const std::vector<DetectRun>& runs) {
       .note =
           "At once, or begun too near: the run's first frames show the object, which may be seen "
           "from farther off.",
-      .columns = ColumnsOf("seed: Seed; object: Object; outcome: Outcome; "
-                           "detected_at_m: Detected at; speed_kmph: Speed; "
-                           "gradient_permil: Gradient; braking_distance_m: Braking distance; "
-                           "needed_m: Needed; spare_m: To spare")};
+      .columns = ColumnsOf("seed: Seed; object: Object; outcome: Outcome; detected_at_m: Detected "
+                           "at; speed_kmph: Speed; gradient_permil: Gradient; braking_distance_m: "
+                           "Braking distance; needed_m: Needed; spare_m: To spare")};
   for (const DetectRun& run : runs) {
     for (const auto& [name, detection] : run.detections) {
       const bool is_judged = detection.is_in_way && detection.fate != Fate::kNeverApproached;

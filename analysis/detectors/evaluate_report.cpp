@@ -37,30 +37,25 @@ Table EvaluatedRunTable(const std::vector<EvaluatedRun>& runs,
                         const std::vector<RecordingInfo>& infos) {
   Table table{.key = "runs",
               .title = "Each run",
-              .columns = ColumnsOf("run: Run; weather: Weather; driven_m: Driven; "
-                                   "false_alarms: False alarms; object: Object; outcome: Outcome; "
-                                   "detected_at_m: Detected at; needed_m: Needed; "
-                                   "spare_m: To spare")};
+              .columns = ColumnsOf("run: Run; weather: Weather; driven_m: Driven; false_alarms: "
+                                   "False alarms; object: Object; outcome: Outcome; detected_at_m: "
+                                   "Detected at; needed_m: Needed; spare_m: To spare")};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const EvaluatedRun& run = runs[i];
     const std::vector<Cell> head = {ShownPath(run.run.source),
                                     WeatherText(infos[i].scenario->weather), run.driven_m,
                                     std::uint64_t{run.alarms.size()}};
     const std::size_t num_before = table.rows.size();
+    const auto add = [&](const std::vector<Cell>& rest) {
+      std::ranges::copy(rest, std::back_inserter(table.rows.emplace_back(head)));
+    };
     for (const auto& [name, detection] : run.run.detections) {
       if (!detection.is_in_way || detection.fate == Fate::kNeverApproached) continue;
-      std::vector<Cell>& row = table.rows.emplace_back(head);
-      for (const Cell& cell : std::vector<Cell>{name, FateText(detection), detection.distance_m,
-                                                detection.needed_m, detection.spare_m()}) {
-        row.push_back(cell);
-      }
+      add({name, FateText(detection), detection.distance_m, detection.needed_m,
+           detection.spare_m()});
     }
-    if (table.rows.size() > num_before) continue;
-    std::vector<Cell>& row = table.rows.emplace_back(head);
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    for (const Cell& cell : std::vector<Cell>{std::string(), std::string(), kNone, kNone, kNone}) {
-      row.push_back(cell);
-    }
+    if (table.rows.size() == num_before) add({std::string(), std::string(), kNone, kNone, kNone});
   }
   return table;
 }

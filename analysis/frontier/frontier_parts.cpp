@@ -33,14 +33,13 @@ Table PartsTable(const std::vector<RowResult>& results,
                  ScenePart::Kind kind,
                  const std::string& what,
                  const std::string& column) {
-  Table table = {
-      "by_" + what, "Errors by " + what,
-      "Shares are of the echoes at this range, of this class or of this object, with intervals "
-      "that take echoes as independent (Wilson).",
-      ColumnsOf("row: Row; " + column +
-                "; reference_echoes: Reference; missed_percent: Missed; echoes: Echoes; "
-                "false_percent: False; range_median_mm: Range error, median; "
-                "intensity_percent: Intensity error, median")};
+  Table table = {"by_" + what, "Errors by " + what,
+                 "Shares are of the echoes at this range, of this class or of this object, with "
+                 "intervals that take echoes as independent (Wilson).",
+                 ColumnsOf("row: Row; " + column +
+                           "; reference_echoes: Reference; missed_percent: Missed; echoes: Echoes; "
+                           "false_percent: False; range_median_mm: Range error, median; "
+                           "intensity_percent: Intensity error, median")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     for (const PartDifference& part : result.difference->parts) {

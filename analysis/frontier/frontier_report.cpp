@@ -43,10 +43,9 @@ Table FoundTable(const std::vector<RowResult>& results) {
       "found", "What was found",
       "Recall: of the reference's echoes, what the row has, too; precision: of the row's echoes, "
       "what the reference has, too. Intervals take echoes as independent (Wilson).",
-      ColumnsOf("row: Row; time_ratio: Time x raw; recall_percent: Recall; "
-                "precision_percent: Precision; wires_percent: Wires; "
-                "further_percent: Further echoes; second_percent: Second surfaces; "
-                "step_percent: Steps")};
+      ColumnsOf("row: Row; time_ratio: Time x raw; recall_percent: Recall; precision_percent: "
+                "Precision; wires_percent: Wires; further_percent: Further echoes; second_percent: "
+                "Second surfaces; step_percent: Steps")};
   for (const RowResult& result : results) {
     if (!result.difference) continue;
     const FrameDifference& d = *result.difference;

@@ -31,14 +31,13 @@ Table RangeTable(const PresetComparison& comparison) {
   Table table = {
       "preset_by_range",
       "By range",
-      "On the planes, a turn's points each; sigmas are robust. Of few turns: what "
-      "changes more slowly is in no interval.",
+      "On the planes, a turn's points each; sigmas are robust. Of few turns: what changes more "
+      "slowly is in no interval.",
       ColumnsOf("range_m: Range; recorded: Points recorded; simulated: Points simulated; "
                 "recorded_holes_percent: Holes recorded; simulated_holes_percent: Holes simulated; "
-                "recorded_planes_mm: About planes, recorded; "
-                "simulated_planes_mm: About planes, simulated; "
-                "recorded_turns_mm: From turn to turn, recorded; "
-                "simulated_turns_mm: From turn to turn, simulated"),
+                "recorded_planes_mm: About planes, recorded; simulated_planes_mm: About planes, "
+                "simulated; recorded_turns_mm: From turn to turn, recorded; simulated_turns_mm: "
+                "From turn to turn, simulated"),
       {},
       true};
   const PlaneFigures& recorded = comparison.recorded;
@@ -57,9 +56,9 @@ Table RangeTable(const PresetComparison& comparison) {
 Table CellTable(const PresetComparison& comparison) {
   Table table = {
       "preset_intensity", "Intensity by piece, range and incidence",
-      "Means of the middle three fifths of at least 15 points. A piece is made of "
-      "neighbouring cells whose recorded intensities differ by less than a factor of "
-      "1.3; the simulated ones are multiplied by one factor for each piece.",
+      "Means of the middle three fifths of at least 15 points. A piece is made of neighbouring "
+      "cells whose recorded intensities differ by less than a factor of 1.3; the simulated ones "
+      "are multiplied by one factor for each piece.",
       ColumnsOf("turn: Turn; piece: Piece; plane: Plane; strip: Strip; kind: Kind; range_m: Range; "
                 "incidence_deg: Incidence; recorded: Recorded; simulated: Simulated")};
   for (const IntensityCell& cell : LikePieces(comparison.intensity)) {

@@ -1,6 +1,7 @@
 #include "analysis/report/formats.h"
 
 #include <array>
+#include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
 #include <string_view>
 
@@ -20,13 +21,6 @@ namespace {
 std::string GnuplotOutput(const std::filesystem::path& script, const std::string& settings) {
   return ProgramOutput("gnuplot -e \"" + settings + "\" " + ShellWord(script.string()),
                        "gnuplot-nox");
-}
-
-void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size())) {
-    text.replace(at, from.size(), to);
-  }
 }
 
 // Erases every part of the text from `from` to the end of the next `to`.
@@ -151,13 +145,13 @@ std::string CleanSvg(const std::string& gnuplot_svg, const std::string& prefix) 
   EraseAll(text, "<desc>", "</desc>");
   EraseAll(text, "<filter", "</filter>");
   EraseAll(text, " id=\"gnuplot_", "\"");
-  ReplaceAll(text, " color=\"black\"", "");
-  ReplaceAll(text, " color=\"white\"", "");
-  ReplaceAll(text, "\"black\"", "\"currentColor\"");
-  ReplaceAll(text, " shape-rendering='crispEdges'", "");
-  ReplaceAll(text, "fill = '", "fill='");
-  ReplaceAll(text, "#gp", "#" + prefix + "-gp");
-  ReplaceAll(text, "id='gp", "id='" + prefix + "-gp");
+  boost::replace_all(text, " color=\"black\"", "");
+  boost::replace_all(text, " color=\"white\"", "");
+  boost::replace_all(text, "\"black\"", "\"currentColor\"");
+  boost::replace_all(text, " shape-rendering='crispEdges'", "");
+  boost::replace_all(text, "fill = '", "fill='");
+  boost::replace_all(text, "#gp", "#" + prefix + "-gp");
+  boost::replace_all(text, "id='gp", "id='" + prefix + "-gp");
   EraseEmptyGroups(text);
   return text;
 }

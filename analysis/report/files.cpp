@@ -1,7 +1,9 @@
 #include "analysis/report/formats.h"
 
 #include <cmath>
+#include <iomanip>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "analysis/report/cell_text.h"
 #include "core/base/text.h"
@@ -92,12 +94,9 @@ Json JsonOf(const Section& section) {
 
 std::string CsvText(const std::string& text) {
   if (text.find_first_of("\",\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += c;
-    quoted += c;
-  }
-  return quoted += '"';
+  std::ostringstream quoted;
+  quoted << std::quoted(text, '"', '"');
+  return quoted.str();
 }
 
 std::string CsvNumber(double value) {

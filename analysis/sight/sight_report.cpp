@@ -86,9 +86,8 @@ Table PlacesTable(const std::vector<SightPlace>& places, const SightSpec& spec) 
       .key = "places",
       .title = "Every place",
       .columns = ColumnsOf("frame: Frame; chainage_m: Chainage; height_m: Target; sight_m: Sight; "
-                           "ended_by: Ended by; needed_m: Needed; "
-                           "braking_distance_m: Braking distance; speed_kmph: Speed; "
-                           "gradient_permil: Gradient")};
+                           "ended_by: Ended by; needed_m: Needed; braking_distance_m: Braking "
+                           "distance; speed_kmph: Speed; gradient_permil: Gradient")};
   for (const SightPlace& place : places) {
     for (std::size_t i = 0; i < spec.heights_m.size(); ++i) {
       table.rows.push_back({std::uint64_t{place.frame}, place.chainage_m, spec.heights_m[i],

@@ -61,9 +61,8 @@ Table SplitTable(const DatasetReportRecord& report) {
   Table table = {"dataset_parts",
                  "Parts",
                  "",
-                 ColumnsOf("part: Part; scenarios: Scenarios; frames: Frames; "
-                           "frames_percent: Share of frames; points: Points; "
-                           "points_percent: Share of points"),
+                 ColumnsOf("part: Part; scenarios: Scenarios; frames: Frames; frames_percent: "
+                           "Share of frames; points: Points; points_percent: Share of points"),
                  {},
                  true};
   // Validation comes before the test, not after it as in the alphabet.
@@ -81,8 +80,8 @@ Table SplitTable(const DatasetReportRecord& report) {
 Table ClassesTable(const DatasetReportRecord& report) {
   Table table = {"dataset_classes", "Balance of classes",
                  "Frames: those with a point of the label.",
-                 ColumnsOf("label: Label; points: Points; points_percent: Share of points; "
-                           "frames: Frames; frames_percent: Share of frames")};
+                 ColumnsOf("label: Label; points: Points; points_percent: Share of points; frames: "
+                           "Frames; frames_percent: Share of frames")};
   const auto points_of = [](const auto& of) { return of.second.points; };
   for (const auto& [label, of] : GreatestFirst(report.labels, points_of)) {
     table.rows.push_back({label, of.points, Percent(of.points, report.counts.points), of.frames,
@@ -95,9 +94,8 @@ Table TypesTable(const std::vector<TypeCounts>& types) {
   Table table = {"dataset_objects",
                  "Objects by type",
                  "All but the first number count an object in each frame.",
-                 ColumnsOf("type: Type; objects: Distinct; in_frames: In frames; "
-                           "with_points: With points; with_points_percent: With points; "
-                           "points: Points"),
+                 ColumnsOf("type: Type; objects: Distinct; in_frames: In frames; with_points: With "
+                           "points; with_points_percent: With points; points: Points"),
                  {},
                  true};
   for (const auto& [name, type] : types) {

@@ -28,12 +28,11 @@ double MedianOfSigma(double degrees) {
 Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
   Table table = {
       "noise_from_planes", "Noise about local planes",
-      "Samples are patches of about 25 points. Robust: median over patches. Roughness "
-      "counts as noise.",
-      ColumnsOf("range_m: Range; points: Points; outliers_percent: Outliers; "
-                "range_sigma_mm: Along the beam; robust_range_sigma_mm: Along the beam, robust; "
-                "plane_sigma_mm: Square to the plane; "
-                "robust_plane_sigma_mm: Square to the plane, robust")};
+      "Samples are patches of about 25 points. Robust: median over patches. Roughness counts as "
+      "noise.",
+      ColumnsOf("range_m: Range; points: Points; outliers_percent: Outliers; range_sigma_mm: Along "
+                "the beam; robust_range_sigma_mm: Along the beam, robust; plane_sigma_mm: Square "
+                "to the plane; robust_plane_sigma_mm: Square to the plane, robust")};
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     if (bin.num_points == 0) continue;
@@ -48,13 +47,12 @@ Table NoisePlaneTable(const std::vector<Noise::Planes>& planes) {
 Table PclTable(const std::vector<Noise::Planes>& planes) {
   Table table = {
       "noise_by_pcl", "The same planes by PCL's own estimators",
-      "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its "
-      "normals from 12 points each. Of one plane its normals spread by noise alone.",
+      "Medians over patches, from the same points: PCL's plane by RANSAC, fitted; its normals from "
+      "12 points each. Of one plane its normals spread by noise alone.",
       ColumnsOf(
-          "range_m: Range; plane_sigma_mm: Square to the plane, PCL; "
-          "robust_plane_sigma_mm: Square to the plane, as above; turn_deg: Between both planes; "
-          "normals_deg: Spread of normals, PCL; pcl_outliers_percent: Outliers, PCL; "
-          "outliers_percent: Outliers, as above")};
+          "range_m: Range; plane_sigma_mm: Square to the plane, PCL; robust_plane_sigma_mm: Square "
+          "to the plane, as above; turn_deg: Between both planes; normals_deg: Spread of normals, "
+          "PCL; pcl_outliers_percent: Outliers, PCL; outliers_percent: Outliers, as above")};
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Noise::Planes& bin = planes[i];
     const std::uint64_t num_points = bin.num_points + bin.num_outliers;

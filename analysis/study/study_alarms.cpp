@@ -104,9 +104,8 @@ Table TargetTable(const std::vector<ApproachRecord>& approaches) {
           "driven in these approaches, with exact intervals.",
       .columns = ColumnsOf(
           "target: Target; condition: Condition; approaches: Approaches; detected: Detected; "
-          "in_time: In time; least_detected_at_m: Detected at, at least; "
-          "mean_detected_at_m: On average; alarms_at_objects: Alarms at objects; "
-          "per_km: Other false alarms per km"),
+          "in_time: In time; least_detected_at_m: Detected at, at least; mean_detected_at_m: On "
+          "average; alarms_at_objects: Alarms at objects; per_km: Other false alarms per km"),
       .is_open = true};
   const TargetGroups groups = GroupTargets(approaches);
   const std::set<std::string> telling = TellingConditions(groups);
@@ -131,9 +130,9 @@ Table ConditionAlarmTable(const std::vector<ApproachRecord>& approaches) {
   Table table{
       .key = "false_alarms",
       .title = "False alarms in each condition",
-      .columns = ColumnsOf("condition: Condition; approaches: Approaches; driven_km: Driven; "
-                           "alarms_at_objects: Alarms at objects; alarms: Other alarms; "
-                           "per_km: Other alarms per km"),
+      .columns = ColumnsOf(
+          "condition: Condition; approaches: Approaches; driven_km: Driven; alarms_at_objects: "
+          "Alarms at objects; alarms: Other alarms; per_km: Other alarms per km"),
       .is_open = true};
   std::map<std::string, ApproachGroup> groups;
   for (const ApproachRecord& approach : approaches) {

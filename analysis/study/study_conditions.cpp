@@ -12,42 +12,22 @@ namespace {
 
 constexpr double kUnknown_m = std::numeric_limits<double>::quiet_NaN();
 
-/// The observations of a condition.
-struct Condition {
-  std::uint64_t num{};
-  std::uint64_t num_decided{};
-  std::uint64_t num_in_time{};
-  std::vector<Inspection> inspections;
-  std::vector<double> detected_m;
-
-  void Add(const Observation& each) {
-    ++num;
-    if (!each.object->is_undecided()) ++num_decided;
-    if (each.object->is_in_time()) ++num_in_time;
-    inspections.push_back(each.inspection);
-    detected_m.push_back(each.object->detected_m());
-  }
-  [[nodiscard]] Estimate in_time_percent() const {
-    return PercentProportion(num_in_time, num_decided);
-  }
-};
-
 Table LevelTable(const std::vector<Observation>& observations, const std::vector<Factor>& factors) {
   Table table{
       .key = "conditions",
       .title = "By what is drawn",
       .note = "Each factor by itself, over all values of the others. Distances need 60 approaches.",
-      .columns = ColumnsOf("factor: Factor; value: Value; approaches: Approaches; "
-                           "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; "
-                           "curve_d90_m: Curve: 0.9 at"),
+      .columns =
+          ColumnsOf("factor: Factor; value: Value; approaches: Approaches; in_time_percent: In "
+                    "time; d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: 0.9 at"),
       .is_open = true};
   for (const Factor& factor : factors) {
-    std::vector<Condition> cells(factor.levels.size());
+    std::vector<ObservedGroup> cells(factor.levels.size());
     for (std::size_t i = 0; i < observations.size(); ++i) {
       cells[factor.level_of[i]].Add(observations[i]);
     }
     for (std::size_t level = 0; level < cells.size(); ++level) {
-      const Condition& cell = cells[level];
+      const ObservedGroup& cell = cells[level];
       if (cell.num == 0) continue;
       double d90_m = kUnknown_m;
       if (cell.num >= DetectionFit::kMinTargets) d90_m = FitDetection(cell.inspections).d90_m;
@@ -62,7 +42,7 @@ Table LevelTable(const std::vector<Observation>& observations, const std::vector
 struct Pair {
   std::string one;
   std::string other;
-  Condition cell;
+  ObservedGroup cell;
 };
 
 std::vector<Pair> PairsOf(const std::vector<Observation>& observations,
@@ -71,7 +51,7 @@ std::vector<Pair> PairsOf(const std::vector<Observation>& observations,
   for (std::size_t a = 0; a < factors.size(); ++a) {
     for (std::size_t b = a + 1; b < factors.size(); ++b) {
       const std::size_t num_b = factors[b].levels.size();
-      std::vector<Condition> cells(factors[a].levels.size() * num_b);
+      std::vector<ObservedGroup> cells(factors[a].levels.size() * num_b);
       for (std::size_t i = 0; i < observations.size(); ++i) {
         cells[factors[a].level_of[i] * num_b + factors[b].level_of[i]].Add(observations[i]);
       }
@@ -91,7 +71,7 @@ std::vector<Pair> PairsOf(const std::vector<Observation>& observations,
 Table FailingTable(const std::vector<Observation>& observations,
                    const std::vector<Factor>& factors) {
   constexpr std::size_t kMostPairs = 10;
-  Condition all;
+  ObservedGroup all;
   for (const Observation& each : observations) all.Add(each);
   const double usual = all.in_time_percent().value;
   std::vector<Pair> pairs = PairsOf(observations, factors);
@@ -143,9 +123,8 @@ Section FactorsSection(const std::vector<FactorWeight>& weights, std::size_t num
                   "Likelihood ratios in one logistic regression of detected or not, at the "
                   "distance of each inspection, on all factors: twice the fall of the "
                   "log-likelihood without the factor, and how probable as much is by chance.",
-              .columns = ColumnsOf("factor: Factor; degrees: Degrees of freedom; "
-                                   "ratio: Likelihood ratio; p_value: By chance; "
-                                   "share_percent: Share"),
+              .columns = ColumnsOf("factor: Factor; degrees: Degrees of freedom; ratio: Likelihood "
+                                   "ratio; p_value: By chance; share_percent: Share"),
               .is_open = true};
   Chart chart{
       .key = "factors",

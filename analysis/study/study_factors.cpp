@@ -186,6 +186,18 @@ void AddKeysOf(const Json& option, std::set<std::string>& keys) {
 
 }  // namespace
 
+void ObservedGroup::Add(const Observation& each) {
+  const StudiedObject& object = *each.object;
+  ++num;
+  num_decided += object.is_undecided() ? 0U : 1U;
+  num_in_time += object.is_in_time() ? 1U : 0U;
+  detected_m.push_back(object.detected_m());
+  inspections.push_back(each.inspection);
+  if (!object.is_detected) return;
+  ++num_detected;
+  distance_m.Add(object.distance_m);
+}
+
 std::vector<Observation> ObservationsOf(const std::vector<ApproachRecord>& approaches) {
   std::map<std::string, std::vector<Observation>> by_target;
   for (const ApproachRecord& approach : approaches) {
@@ -236,10 +248,7 @@ std::vector<FactorWeight> WeighFactors(const std::vector<Observation>& observati
   }
   const std::vector<std::size_t> used = IndependentColumns(all);
   if (observations.size() < kLeastPerCoefficient * used.size()) return {};
-  Eigen::MatrixXd x(all.rows(), static_cast<Eigen::Index>(used.size()));
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    x.col(static_cast<Eigen::Index>(i)) = all.col(static_cast<Eigen::Index>(used[i]));
-  }
+  const Eigen::MatrixXd x = all(Eigen::all, used);
   Eigen::VectorXd y(all.rows());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     y[static_cast<Eigen::Index>(i)] = static_cast<double>(observations[i].inspection.num_detected);

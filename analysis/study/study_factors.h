@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/estimate/detection_curve.h"
+#include "analysis/estimate/streams.h"
 #include "analysis/study/approach_record.h"
 #include "core/scenario/json_text.h"
 
@@ -27,6 +28,22 @@ struct Factor {
   std::vector<std::string> levels;
   std::vector<std::size_t> level_of;  ///< By observation.
   std::vector<double> numbers;        ///< By observation; empty if they are no numbers.
+};
+
+/// Observations that have something in common.
+struct ObservedGroup {
+  std::uint64_t num{};
+  std::uint64_t num_detected{};
+  std::uint64_t num_decided{};
+  std::uint64_t num_in_time{};
+  Moments distance_m;              ///< Of the detections.
+  std::vector<double> detected_m;  ///< Of each approach; 0 without detection.
+  std::vector<Inspection> inspections;
+
+  void Add(const Observation& each);
+  [[nodiscard]] Estimate in_time_percent() const {
+    return PercentProportion(num_in_time, num_decided);
+  }
 };
 
 /// All observations of a study's approaches, each target inspected once in each of its approaches.

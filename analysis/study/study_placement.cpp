@@ -15,13 +15,7 @@ namespace {
 struct PlacedView {
   std::string placement;
   std::string target;
-  std::uint64_t num{};
-  std::uint64_t num_detected{};
-  std::uint64_t num_decided{};
-  std::uint64_t num_in_time{};
-  Moments distance_m;
-  std::vector<double> detected_m;
-  double d90_95_m = std::numeric_limits<double>::quiet_NaN();
+  ObservedGroup seen;
 };
 
 bool ChangesSensor(const Factor& factor, const Json& recipe) {
@@ -47,26 +41,18 @@ std::vector<PlacedView> ViewsOf(const std::vector<Observation>& observations,
                                 const std::vector<const Factor*>& factors) {
   std::map<std::pair<std::string, std::string>, PlacedView> views;
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    const StudiedObject& object = *observations[i].object;
+    const std::string target = observations[i].object->Target();
     const std::string placement = PlacementOf(i, factors);
-    PlacedView& view = views[{object.Target(), placement}];
+    PlacedView& view = views[{target, placement}];
     view.placement = placement;
-    view.target = object.Target();
-    ++view.num;
-    if (object.is_detected) ++view.num_detected;
-    if (!object.is_undecided()) ++view.num_decided;
-    if (object.is_in_time()) ++view.num_in_time;
-    if (object.is_detected) view.distance_m.Add(object.distance_m);
-    view.detected_m.push_back(object.detected_m());
+    view.target = target;
+    view.seen.Add(observations[i]);
   }
   std::vector<PlacedView> sorted;
-  for (auto& [key, view] : views) {
-    view.d90_95_m = DistanceOf90With95(view.detected_m);
-    sorted.push_back(std::move(view));
-  }
+  for (auto& [key, view] : views) sorted.push_back(std::move(view));
   std::ranges::stable_sort(sorted, [](const PlacedView& one, const PlacedView& other) {
     if (one.target != other.target) return one.target < other.target;
-    return one.distance_m.PlainMean() > other.distance_m.PlainMean();
+    return one.seen.distance_m.PlainMean() > other.seen.distance_m.PlainMean();
   });
   return sorted;
 }
@@ -91,7 +77,7 @@ Chart PlacementChart(const std::vector<PlacedView>& views) {
       chart.x.categories.push_back(view.placement);
     }
     chart.series.back().points.push_back(
-        PointAt(static_cast<double>(place_of.at(view.placement)), view.distance_m.Mean()));
+        PointAt(static_cast<double>(place_of.at(view.placement)), view.seen.distance_m.Mean()));
   }
   return chart;
 }
@@ -115,14 +101,14 @@ Section PlacementSection(const std::vector<Observation>& observations,
                   "everything else. Means are over the approaches that detect; distances with "
                   "confidence need 60.",
               .columns = ColumnsOf("target: Target; placement: Placement; approaches: Approaches; "
-                                   "detected: Detected; in_time_percent: In time; "
-                                   "distance_m: Detected at, mean; "
-                                   "d90_95_m: 0.9 with 95 % confidence at"),
+                                   "detected: Detected; in_time_percent: In time; distance_m: "
+                                   "Detected at, mean; d90_95_m: 0.9 with 95 % confidence at"),
               .is_open = true};
   for (const PlacedView& view : views) {
-    table.rows.push_back({view.target, view.placement, view.num, view.num_detected,
-                          PercentProportion(view.num_in_time, view.num_decided),
-                          view.distance_m.Mean(), view.d90_95_m});
+    const ObservedGroup& seen = view.seen;
+    table.rows.push_back({view.target, view.placement, seen.num, seen.num_detected,
+                          seen.in_time_percent(), seen.distance_m.Mean(),
+                          DistanceOf90With95(seen.detected_m)});
   }
   section.tables = {std::move(table)};
   section.charts = {PlacementChart(views)};

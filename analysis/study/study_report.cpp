@@ -70,9 +70,8 @@ Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardstic
           "The driver's distance is about where objects were noticed, which no confidence is given "
           "for; d90/95 is what 90 % of the approaches reach. Farther than the driver if it is "
           "above 100 %.",
-      .columns = ColumnsOf("target: Target; d90_95_m: 0.9 with 95 % confidence at; "
-                           "driver_m: Driver; of_driver_percent: Of the driver's distance; "
-                           "source: Source"),
+      .columns = ColumnsOf("target: Target; d90_95_m: 0.9 with 95 % confidence at; driver_m: "
+                           "Driver; of_driver_percent: Of the driver's distance; source: Source"),
       .is_open = true};
   for (const TargetResult& target : targets) {
     for (const Json& row : yardsticks) {

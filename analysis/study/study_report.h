@@ -17,11 +17,7 @@ namespace railcast {
 struct TargetResult {
   std::string name{};
   std::string type{};  ///< Of its first object.
-  std::vector<Inspection> inspections{};
-  std::vector<double> detected_m{};  ///< Of each approach; 0 without detection.
-  std::uint64_t num_detected{};
-  std::uint64_t num_in_time{};
-  std::uint64_t num_undecided{};
+  ObservedGroup seen{};
   double least_distance_m = std::numeric_limits<double>::quiet_NaN();  ///< Of the detections.
   double most_needed_m = std::numeric_limits<double>::quiet_NaN();
   /// Of the distances of detection; NaN with fewer approaches than a fit takes, or where so many
@@ -31,7 +27,7 @@ struct TargetResult {
   double d90_at_most_m = std::numeric_limits<double>::quiet_NaN();
   DetectionFit fit{};  ///< Of its distances, all are NaN with fewer inspections than it takes.
 
-  [[nodiscard]] bool has_fit() const { return inspections.size() >= DetectionFit::kMinTargets; }
+  [[nodiscard]] bool has_fit() const { return seen.num >= DetectionFit::kMinTargets; }
 };
 
 /// By name.

@@ -18,16 +18,12 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
   for (const Observation& each : observations) {
     const StudiedObject& object = *each.object;
     TargetResult& target = by_target[object.Target()];
-    if (target.inspections.empty()) target.type = object.type;
-    target.inspections.push_back(each.inspection);
-    target.num_detected += object.is_detected ? 1U : 0U;
-    target.num_in_time += object.is_in_time() ? 1U : 0U;
-    target.num_undecided += object.is_undecided() ? 1U : 0U;
+    if (target.seen.num == 0) target.type = object.type;
+    target.seen.Add(each);
     if (object.is_detected && !object.is_from_start) {
       target.least_distance_m = std::fmin(target.least_distance_m, object.distance_m);
     }
     target.most_needed_m = std::fmax(target.most_needed_m, object.needed_m);
-    target.detected_m.push_back(object.detected_m());
     at_most_m[object.Target()].push_back(
         object.is_undecided() ? std::numeric_limits<double>::infinity() : object.detected_m());
   }
@@ -35,8 +31,8 @@ std::vector<TargetResult> TargetsOf(const std::vector<Observation>& observations
   for (auto& [name, target] : by_target) {
     target.name = name;
     if (target.has_fit()) {
-      target.fit = FitDetection(target.inspections);
-      target.d90_95_m = DistanceOf90With95(target.detected_m);
+      target.fit = FitDetection(target.seen.inspections);
+      target.d90_95_m = DistanceOf90With95(target.seen.detected_m);
       target.d90_at_most_m = LimitsExceededBy90Percent(at_most_m[name]).high;
     }
     results.push_back(std::move(target));
@@ -64,17 +60,15 @@ Section VerdictSection(const std::vector<TargetResult>& targets) {
           "approaches that did not begin too near to tell.",
       .columns = ColumnsOf(
           "target: Target; answer: Detected in time; approaches: Approaches; detected: Detected; "
-          "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; "
-          "curve_d90_m: Curve: 0.9 at; curve_d90_95_m: Curve: with 95 % confidence; "
-          "most_needed_m: Needed, at most; least_detected_at_m: Detected at, at least; "
-          "asymptote: Asymptote"),
+          "in_time_percent: In time; d90_95_m: 0.9 with 95 % confidence at; curve_d90_m: Curve: "
+          "0.9 at; curve_d90_95_m: Curve: with 95 % confidence; most_needed_m: Needed, at most; "
+          "least_detected_at_m: Detected at, at least; asymptote: Asymptote"),
       .is_open = true};
   for (const TargetResult& target : targets) {
-    const std::uint64_t num = target.inspections.size();
-    table.rows.push_back({target.name, AnswerOf(target), num, target.num_detected,
-                          PercentProportion(target.num_in_time, num - target.num_undecided),
-                          target.d90_95_m, target.fit.d90_m, target.fit.d90_95_m,
-                          target.most_needed_m, target.least_distance_m,
+    const ObservedGroup& seen = target.seen;
+    table.rows.push_back({target.name, AnswerOf(target), seen.num, seen.num_detected,
+                          seen.in_time_percent(), target.d90_95_m, target.fit.d90_m,
+                          target.fit.d90_95_m, target.most_needed_m, target.least_distance_m,
                           target.has_fit() ? AsymptoteCell(target.fit) : Cell(std::string())});
   }
   Section section{.key = "verdict", .title = "Verdict"};
@@ -82,7 +76,7 @@ Section VerdictSection(const std::vector<TargetResult>& targets) {
   for (const TargetResult& target : targets) {
     if (!target.has_fit() || section.charts.size() >= kMaxCharts) continue;
     section.charts.push_back(
-        ProbabilityChart(target.name, target.detected_m, target.inspections, target.fit));
+        ProbabilityChart(target.name, target.seen.detected_m, target.seen.inspections, target.fit));
   }
   return section;
 }

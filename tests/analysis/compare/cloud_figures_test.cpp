@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "analysis/stats/bins.h"
+#include "analysis/stats/sums.h"
 #include "tests/analysis/compare/made_clouds.h"
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/support/run_command.h"
@@ -163,8 +164,8 @@ TEST(JensenShannonDivergence, IsNotKnownOfNothing) {
 
 TEST(Histogram, AddsUp) {
   Histogram sum({5, -3, 5});
-  sum.Add(Histogram({-3, 8}));
-  const std::vector<std::pair<std::int64_t, std::uint64_t>> expected = {{-3, 2}, {5, 2}, {8, 1}};
+  AddTo(sum, Histogram({-3, 8}));
+  const std::map<std::int64_t, std::uint64_t> expected = {{-3, 2}, {5, 2}, {8, 1}};
   EXPECT_EQ(sum.counts(), expected);
   EXPECT_EQ(sum.num(), 5U);
 }
@@ -180,7 +181,7 @@ TEST(CloudHistograms, CountACellOnceHoweverManyPointsItHolds) {
 TEST(CloudHistograms, PutAnyIntensityIntoABinNearIt) {
   for (const float intensity : {0.002F, 0.1F, 0.5F, 1.0F, 37.0F, 255.0F}) {
     const CloudHistograms found = HistogramsOf(MadeCloud({{1, 0, 0, intensity}}));
-    const double middle = IntensityOfBin(found.intensity.counts()[0].first);
+    const double middle = IntensityOfBin(found.intensity.counts().begin()->first);
     EXPECT_NEAR(middle / static_cast<double>(intensity), 1.0, 0.05) << intensity;
   }
 }
@@ -239,7 +240,7 @@ TEST(BinErrors, OfVelocitiesWantTenInABin) {
 }
 
 TEST(CloudHistograms, PutVelocitiesIntoBinsOfOneMetrePerSecond) {
-  using Counts = std::vector<std::pair<std::int64_t, std::uint64_t>>;
+  using Counts = std::map<std::int64_t, std::uint64_t>;
   const std::vector<MadePoint> points = {{1, 0, 0, 0.5F, 0, -0.5F},
                                          {2, 0, 0, 0.5F, 0, 0.0F},
                                          {3, 0, 0, 0.5F, 0, 0.99F},

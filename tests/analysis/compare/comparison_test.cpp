@@ -160,7 +160,7 @@ std::vector<MadePoint> Moved(std::vector<MadePoint> points, const Transform& mot
 }
 
 double ValueOf(const Comparison& comparison, const std::vector<double>& values, const char* key) {
-  const auto at = std::ranges::find(comparison.metrics(), key, &PairMetric::key);
+  const auto at = std::ranges::find(comparison.metrics(), key, &TableColumn::key);
   return values.at(static_cast<std::size_t>(at - comparison.metrics().begin()));
 }
 
