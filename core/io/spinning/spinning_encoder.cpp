@@ -190,6 +190,7 @@ class SpinningEncoder final : public FrameEncoder {
         returns_(return_mode == ReturnMode::kDual ? 2 : 1),
         unit_m_(1e-3 * model.unit_mm),
         least_(model.least_distance()),
+        byte_of_(model.intensity == IntensityBytes::kVelodyne ? ReflectivityByte : PercentByte),
         other_place_(model.blocks_per_loop() * model.block_size()),
         loops_(FiringsOfLoops(model, FiringsOf(model, pattern.channels))),
         groups_(GroupsOf(model, pattern, rate_hz, FiringsOf(model, pattern.channels))),
@@ -244,9 +245,7 @@ class SpinningEncoder final : public FrameEncoder {
       if (reason != HesaiNoPoint::kNotFired) return {DistanceOf(reason), 0};
     }
     if (distance == 0) return {};
-    const float intensity = frame.intensity[slot];
-    const bool is_percent = model_.intensity != IntensityBytes::kVelodyne;
-    return {distance, is_percent ? PercentByte(intensity) : ReflectivityByte(intensity)};
+    return {distance, byte_of_(frame.intensity[slot])};
   }
 
   /// Why a laser that fired has no point, or kNotFired if it has one.
@@ -308,7 +307,8 @@ class SpinningEncoder final : public FrameEncoder {
   std::uint16_t speed_rpm_;
   std::size_t returns_;
   double unit_m_;
-  std::uint16_t least_;      ///< Raw distance that is one.
+  std::uint16_t least_;  ///< Raw distance that is one.
+  std::uint8_t (*byte_of_)(float intensity);
   std::size_t other_place_;  ///< Of the second return, from the first on.
   std::vector<std::vector<GroupFiring>> loops_;
   std::vector<EncodedGroup> groups_;  ///< Of a turn.
