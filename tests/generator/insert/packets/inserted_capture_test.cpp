@@ -32,7 +32,7 @@ class InsertedCapture : public testing::TestWithParam<const char*> {
   void SetUp() override {
     const MadeScan scan(ReadSensor(std::string(SensorOf(GetParam()))));
     const ReturnMode mode = ReturnModeOfFormat(GetParam());
-    const auto encoder = MakeVelodyneEncoder(GetParam(), scan.spec(), mode);
+    const auto encoder = MakeSpinningEncoder(*FindSpinningModel(GetParam()), scan.spec(), mode);
     Datagrams datagrams;
     for (const std::uint32_t i : {0U, 1U, 2U}) {
       encoder->Encode(scan.MakeFrame(i, mode == ReturnMode::kDual ? 2 : 1), datagrams);
