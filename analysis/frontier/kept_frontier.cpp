@@ -60,15 +60,16 @@ void WriteKept(const fs::path& file, const std::string& bytes) {
   WriteFileWhole(file, bytes + ContentHash(bytes));
 }
 
-std::string ReadKept(const fs::path& file) {
+// Returns nothing if the file is not there as it was written.
+std::optional<std::string> ReadKept(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
   std::string bytes = ReadFileWhole(file);
   const std::size_t hash_size = ContentHash("").size();
   const std::size_t size = bytes.size() < hash_size ? 0 : bytes.size() - hash_size;
   const std::string hash = bytes.substr(size);
   bytes.resize(size);
   if (ContentHash(bytes) == hash) return bytes;
-  throw InputError(ShownPath(file) +
-                   ": must be as frontier wrote it; remove the folder to begin anew");
+  return std::nullopt;
 }
 
 std::string BytesOf(const Frame& frame) {
@@ -104,7 +105,7 @@ Value Kept(const fs::path& file,
            const std::function<std::string(const Value&)>& write,
            const std::function<Value(const std::string&)>& read) {
   if (file.empty()) return make();
-  if (fs::exists(file)) return read(ReadKept(file));
+  if (const auto bytes = ReadKept(file)) return read(*bytes);
   Value value = make();
   WriteKept(file, write(value));
   return value;

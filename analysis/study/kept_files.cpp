@@ -87,12 +87,10 @@ void KeepFiles(const StudySpec& study,
 
 std::vector<std::filesystem::path> CheckKeptFiles(const std::filesystem::path& directory) {
   const std::filesystem::path manifest = directory / kManifestFile;
-  const std::string text = ReadFileWhole(manifest);
-  CheckManifestHash(text, ShownPath(manifest));
   ErrorList faults;
   std::vector<std::filesystem::path> sample;
   const auto record =
-      ReadRecord<StudyManifestRecord>(WithoutManifestHash(text), ShownPath(manifest));
+      ReadRecord<StudyManifestRecord>(ReadManifestText(manifest), ShownPath(manifest));
   for (const auto& [name, hash] : record.files) {
     (void)CompareHash(directory / name, hash, std::string(kManifestFile), faults);
     if (name.starts_with(std::string(kSampleFolder) + "/") && name.ends_with(kScenarioFile)) {

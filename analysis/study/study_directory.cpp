@@ -1,15 +1,20 @@
 #include "analysis/study/study_directory.h"
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "analysis/study/kept_files.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
+#include "core/io/run/folder_identity.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 
@@ -24,26 +29,45 @@ StudyRecord WithShard(StudyRecord identity, const Shard& shard) {
   return identity;
 }
 
-// What another value of a key means.
+// What another value of a key of study.json means.
 std::string StudyDifference(const std::string& key, const Json& found, const Json& ours) {
   if (key == "study_xxh3") return "holds another study";
   if (key == "recipe_xxh3" || key == "bases_xxh3" || key == "files_xxh3" || key == "frames") {
     return "holds the same study of another recipe, of other bases or of other files";
   }
-  return "holds a study whose " + key + " is " + ShownText(found.dump()) + " (got " +
-         ShownText(ours.dump()) + ")";
+  return "holds another study: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
-// @param other What to do about it.
-void CheckSameStudy(const fs::path& directory, const StudyRecord& ours, const std::string& other) {
-  const Json found = Json::parse(RecordText(ReadStudyRecord(directory)));
-  Json all = Json::parse(RecordText(ours));
-  for (const auto& [key, value] : found.items()) all.emplace(key, nullptr);
-  for (const auto& [key, value] : all.items()) {
-    const Json theirs = found.value(key, Json());
-    if (theirs == value) continue;
-    throw InputError(ShownPath(directory) + ": " + StudyDifference(key, theirs, value) + other);
+void CheckIsSameStudy(const fs::path& directory,
+                      const StudyRecord& ours,
+                      const std::string& advice = "choose another --out") {
+  CheckIsSame({.file = directory / kStudyFile, .text = RecordText(ours), .advice = advice},
+              StudyDifference);
+}
+
+// Refuses what a study and its report have not written, and removes what they have left unfinished.
+void RefuseStrangers(const fs::path& directory) {
+  const std::set<std::string, std::less<>> known = {std::string(kStudyFile),
+                                                    std::string(kApproachesFile),
+                                                    std::string(kManifestFile),
+                                                    std::string(kWorstFolder),
+                                                    std::string(kSampleFolder),
+                                                    "inputs",
+                                                    "csv",
+                                                    "charts",
+                                                    "report.html",
+                                                    "report.json"};
+  std::vector<fs::path> unfinished;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    const bool is_unfinished =
+        entry.path().extension() == kUnfinishedSuffix && !entry.is_directory();
+    const fs::path name = is_unfinished ? entry.path().stem() : entry.path().filename();
+    if (!known.contains(name.string())) {
+      RefuseStranger(directory, entry.path().filename().string());
+    }
+    if (is_unfinished) unfinished.push_back(entry.path());
   }
+  for (const fs::path& file : unfinished) fs::remove(file);
 }
 
 }  // namespace
@@ -53,14 +77,10 @@ StudyDirectory::StudyDirectory(fs::path directory, StudyRecord identity, const S
   lock_.emplace(directory_);
   const StudyRecord ours = WithShard(std::move(identity), shard);
   if (fs::exists(directory_ / kStudyFile)) {
-    CheckSameStudy(directory_, ours, "; choose another --out");
+    CheckIsSameStudy(directory_, ours);
+    RefuseStrangers(directory_);
   } else {
-    if (!fs::is_empty(directory_)) {
-      throw InputError(
-          "--out: must be a new or an empty folder, or that of a study to continue (got " +
-          ShownPath(directory_) + ")");
-    }
-    WriteFileWhole(directory_ / kStudyFile, RecordFile(ours));
+    BeginFolder({.file = directory_ / kStudyFile, .text = RecordFile(ours)}, "a study");
   }
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
   num_done_ = lines.Skip(shard.NumOf(ours.num_scenarios));
@@ -99,7 +119,7 @@ void MergeStudies(const std::vector<fs::path>& shards,
   for (const fs::path& folder : shards) {
     const auto shard = ParseShard(ReadStudyRecord(folder).shard);
     if (!shard) throw InputError(ShownPath(folder) + ": must be a shard of the study");
-    CheckSameStudy(folder, WithShard(identity, *shard), "");
+    CheckIsSameStudy(folder, WithShard(identity, *shard), "choose another shard");
     if (num_shards == 0) num_shards = shard->of;
     ScenarioLines lines(folder / kApproachesFile, *shard);
     lines.Pause();

@@ -69,10 +69,6 @@ std::string WithLineHash(std::string_view object) {
   return line += kEnd;
 }
 
-bool HasLineHash(std::string_view line) {
-  return line.find(kBegin) != std::string_view::npos;
-}
-
 std::string WithoutLineHash(std::string_view line) {
   const std::size_t begin = line.rfind(kBegin);
   if (begin == std::string_view::npos) return std::string(line);

@@ -30,9 +30,6 @@ struct FileHash {
 /// @param line As WithLineHash() returned it, without a line end.
 [[nodiscard]] std::string LineHashFault(std::string_view line);
 
-/// Whether a line has a hash of itself. Those of older programs have none.
-[[nodiscard]] bool HasLineHash(std::string_view line);
-
 /// The line as it was before WithLineHash(), if it has a hash.
 [[nodiscard]] std::string WithoutLineHash(std::string_view line);
 

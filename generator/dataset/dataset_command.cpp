@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
@@ -125,6 +126,7 @@ int RunDatasetCommand(DatasetOptions options) {
                               StopRequested};
   const DatasetResult result = RunDataset(recipe, options.choices, hooks);
   line.End();
+  std::cerr << ShownLines(MendedText(result.changed));
   std::cout << SummaryOfRun(recipe, result, options);
   if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command continues\n";

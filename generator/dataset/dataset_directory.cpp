@@ -1,6 +1,5 @@
 #include "generator/dataset/dataset_directory.h"
 
-#include <iterator>
 #include <utility>
 
 #include "core/base/error.h"
@@ -9,6 +8,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/folder_identity.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
@@ -19,82 +19,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What another value of a key means.
+// What another value of a key of dataset.json means.
 std::string DatasetDifference(const std::string& key, const Json& found, const Json& ours) {
-  if (key == "recipe_xxh3") return "holds a data set of another recipe;";
-  if (key == "bases_xxh3") return "holds a data set of the same recipe with other bases;";
+  if (key == "recipe_xxh3") return "holds a data set of another recipe";
+  if (key == "bases_xxh3") return "holds a data set of the same recipe with other bases";
   if (key == "files_xxh3") {
-    return "holds a data set of the same recipe with other contents of the files that it names;";
+    return "holds a data set of the same recipe with other contents of the files that it names";
   }
-  if (key == "version") {
-    return "must be continued by the railcast that began it, " + ShownText(found.dump()) +
-           " (got " + ShownText(ours.dump()) + "); use that one, or";
-  }
-  if (key == "embree") {
-    return "must be continued with the Embree that it was begun with, " + ShownText(found.dump()) +
-           " (got " + ShownText(ours.dump()) + ");";
-  }
-  if (key == "isa") {
-    return "must be continued with the instruction set that it was begun with, " +
-           ShownText(found.dump()) + " (got " + ShownText(ours.dump()) + "); add --isa, or";
-  }
-  return "holds another data set: its " + key + " is " + ShownText(found.dump()) + " (got " +
-         ShownText(ours.dump()) + ");";
-}
-
-// Whether a folder holds no more than the beginning of its first file, which a run that was killed
-// leaves.
-bool HoldsOnlyBeginningOf(const fs::path& unfinished, const std::string& text) {
-  const fs::directory_iterator entry(unfinished.parent_path());
-  if (entry == fs::directory_iterator()) return false;
-  if (entry->path() != unfinished || !entry->is_regular_file() || entry->is_symlink()) return false;
-  return std::next(entry) == fs::directory_iterator() &&
-         text.starts_with(ReadFileWhole(unfinished));
+  return "holds another data set: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
 }  // namespace
 
 DatasetRecord RecordOf(const DatasetSpec& spec) {
-  return {.version = spec.version,
-          .embree = spec.embree_version,
-          .isa = spec.isa,
-          .recipe_hash = ContentHash(spec.recipe),
-          .base_hashes = spec.base_hashes,
-          .num_scenarios = spec.num_scenarios,
-          .format = spec.format,
-          .fields = spec.fields,
-          .is_merged = spec.is_merged,
-          .files_hash = spec.files_hash,
-          .shard = spec.shard.is_whole() ? "" : ShardText(spec.shard)};
+  DatasetRecord record = spec.record;
+  if (!spec.shard.is_whole()) record.shard = ShardText(spec.shard);
+  return record;
 }
 
 DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   const fs::path& directory = spec_.directory;
   lock_.emplace(directory);
-  const fs::path unfinished =
-      directory / (std::string(kDatasetFile) + std::string(kUnfinishedSuffix));
-  if (fs::exists(directory / kDatasetFile)) {
-    CheckSameDataset();
+  const FolderIdentity identity{.file = directory / kDatasetFile,
+                                .text = RecordFile(RecordOf(spec_)),
+                                .is_complete = fs::exists(directory / kDatasetManifestFile)};
+  if (fs::exists(identity.file)) {
+    CheckIsSame(identity, DatasetDifference);
   } else {
-    const std::string text = RecordFile(RecordOf(spec_));
-    if (!fs::is_empty(directory) && !HoldsOnlyBeginningOf(unfinished, text)) {
-      throw InputError(
-          "--out: must be a new or an empty folder, or that of a data set to continue "
-          "(got " +
-          ShownPath(directory) + ")");
-    }
-    WriteFileWhole(directory / kDatasetFile, text);
+    BeginFolder(identity, "a data set");
   }
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
-  if (!is_complete_) WriteFileWhole(directory / kRecipeFile, spec_.recipe);
-  ScenarioLines lines(directory / kScenariosFile, spec_.shard);
-  if (is_complete_) {
-    const std::uint32_t num_scenarios = spec_.shard.NumOf(spec_.num_scenarios);
-    for (; num_done_ < num_scenarios; ++num_done_) static_cast<void>(lines.Need());
-  } else {
-    num_done_ = lines.Skip();
-    lines_.emplace(directory / kScenariosFile, lines.size());
-  }
+  num_done_ = ScenarioLines(directory / kScenariosFile, spec_.shard)
+                  .Skip(spec_.shard.NumOf(spec_.record.num_scenarios));
   num_found_ = num_done_;
 }
 
@@ -102,9 +58,12 @@ bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
   const fs::path& directory = spec_.directory;
   if (is_complete_) {
     const auto show = [&](double share) { static_cast<void>(goes_on(share)); };
-    RefuseChanged(directory, VerifyDataset(directory, show));
-    return true;
+    changed_ = FaultsToMend(directory, VerifyDataset(directory, show));
+    if (changed_.empty()) return true;
+    fs::remove(directory / kDatasetManifestFile);
+    is_complete_ = false;
   }
+  WriteFileWhole(directory / kRecipeFile, spec_.recipe);
   ScenarioLines lines(directory / kScenariosFile, spec_.shard);
   std::optional<std::uint32_t> first_hole;
   std::uint64_t size = 0;
@@ -113,17 +72,14 @@ bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
       kept_.clear();
       return false;
     }
-    const std::uint64_t before = lines.size();
     const PlacedLine line = lines.Need();
     const std::uint32_t scenario = spec_.shard.ScenarioAt(i);
     const bool is_whole = VerifyScenario(directory, scenario, line).faults.empty();
     if (is_whole && first_hole) kept_.emplace(i, WithoutLineHash(line.text));
-    if (is_whole || first_hole) continue;
-    first_hole = i;
-    size = before;
+    if (!is_whole && !first_hole) first_hole = i;
+    if (!first_hole) size = lines.size();
   }
-  if (!first_hole) return true;
-  num_done_ = *first_hole;
+  num_done_ = first_hole.value_or(num_found_);
   lines_.emplace(directory / kScenariosFile, size);
   return true;
 }
@@ -131,20 +87,6 @@ bool DatasetDirectory::Check(const std::function<bool(double share)>& goes_on) {
 const std::string* DatasetDirectory::Kept(std::uint32_t i) const {
   const auto found = kept_.find(i);
   return found == kept_.end() ? nullptr : &found->second;
-}
-
-void DatasetDirectory::CheckSameDataset() const {
-  const fs::path file = spec_.directory / kDatasetFile;
-  const Json found = Json::parse(ReadFileWhole(file), nullptr, false);
-  if (!found.is_object()) throw InputError(ShownPath(file) + ": is damaged: is no JSON object");
-  Json ours = Json::parse(RecordText(RecordOf(spec_)));
-  if (found.contains("shard") && !ours.contains("shard")) ours["shard"] = nullptr;
-  for (const auto& [key, value] : ours.items()) {
-    const Json other = found.value(key, Json());
-    if (other == value) continue;
-    throw InputError(ShownPath(spec_.directory) + ": " + DatasetDifference(key, other, value) +
-                     " choose another --out");
-  }
 }
 
 void DatasetDirectory::Append(const std::string& record) {

@@ -18,20 +18,12 @@ namespace railcast {
 /// Everything that the bytes of a data set depend on.
 struct DatasetSpec {
   std::filesystem::path directory;
-  std::string version;         ///< ProgramVersion().
-  std::string embree_version;  ///< EmbreeVersion().
-  std::string isa;             ///< IsaInUse() of the trace.
-  std::string recipe;          ///< Its text.
-  std::vector<std::string> base_hashes;
-  std::string files_hash;  ///< HashOfRecipeFiles().
-  std::uint32_t num_scenarios{};
-  std::string format;
-  std::string fields;
-  bool is_merged{};  ///< Whether the clouds of several sensors are merged, too.
+  std::string recipe;    ///< Its text.
+  DatasetRecord record;  ///< Of the whole data set.
   Shard shard;
 };
 
-/// dataset.json of a data set.
+/// dataset.json of a data set or a shard.
 [[nodiscard]] DatasetRecord RecordOf(const DatasetSpec& spec);
 
 /// A folder with a data set, complete or unfinished: dataset.json, recipe.json, scenarios.jsonl
@@ -40,8 +32,8 @@ struct DatasetSpec {
 class DatasetDirectory {
  public:
   /// Creates the folder, or opens it and finds out how far its run has got.
-  /// @throws InputError if it holds anything else, belongs to another data set, is complete but has
-  ///   a line that was changed since, or is being written by another process.
+  /// @throws InputError if it holds anything else, belongs to another data set, or is being written
+  ///   by another process.
   explicit DatasetDirectory(DatasetSpec spec);
 
   /// Whether manifest.json exists.
@@ -49,13 +41,15 @@ class DatasetDirectory {
   /// Number of the shard's scenarios that are done.
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
   [[nodiscard]] const DatasetSpec& spec() const { return spec_; }
+  /// What was not as it was written in a complete data set, a line each, once it is checked.
+  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
 
-  /// Reads all that is there against its hashes: a data set that is complete must be so as it was
-  /// written. Else the scenarios from the first one on that is not count as not done, and those of
-  /// them that are whole as kept.
+  /// Reads all that is there against its hashes. The scenarios from the first one on that is not as
+  /// it was written count as not done, and those of them that are whole as kept; a data set is
+  /// complete only if all is whole.
   /// @param goes_on Called with the share that is read, in [0, 1]; returns false to stop.
   /// @return False if it was stopped; then nothing has changed.
-  /// @throws InputError with a line for each fault of a complete data set.
+  /// @throws InputError if a complete data set holds files of others.
   [[nodiscard]] bool Check(const std::function<bool(double share)>& goes_on);
   /// Whether the shard's i-th scenario was done when the folder was opened.
   [[nodiscard]] bool WasDone(std::uint32_t i) const { return i < num_found_; }
@@ -69,8 +63,6 @@ class DatasetDirectory {
   void Sync();
 
  private:
-  void CheckSameDataset() const;
-
   DatasetSpec spec_;
   std::optional<FolderLock> lock_;
   std::optional<LineFile> lines_;
@@ -78,6 +70,7 @@ class DatasetDirectory {
   std::uint32_t num_done_ = 0;
   std::map<std::uint32_t, std::string> kept_;
   bool is_complete_ = false;
+  std::vector<std::string> changed_;
 };
 
 }  // namespace railcast

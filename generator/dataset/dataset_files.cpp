@@ -63,11 +63,11 @@ class NewFile {
 std::string ManifestText(const DatasetSpec& spec,
                          const std::string& sequences,
                          const DatasetReportRecord& report) {
-  DatasetManifestRecord manifest{.version = spec.version,
-                                 .num_scenarios = spec.num_scenarios,
+  DatasetManifestRecord manifest{.version = spec.record.version,
+                                 .num_scenarios = spec.record.num_scenarios,
                                  .num_frames = report.num_frames,
                                  .points = report.counts.points,
-                                 .format = spec.format};
+                                 .format = spec.record.format};
   // The program that made the data is named in dataset.json, and SQLite's version in its file.
   std::string data;
   for (const std::string_view name : kHashedFiles) {
@@ -93,7 +93,7 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   std::string hashes;
   PerPart<std::uint32_t> parts{};
   ScenarioLines lines(directory / kScenariosFile, spec.shard);
-  for (std::uint32_t i = 0; i < spec.num_scenarios; ++i) {
+  for (std::uint32_t i = 0; i < spec.record.num_scenarios; ++i) {
     const IndexedScenario scenario = ReadIndexedScenario(directory, lines.Need());
     const ScenarioRecord& record = scenario.record;
     const auto split = ValueNamed<Split>(record.split).value();
@@ -117,9 +117,9 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
 }
 
 void WriteShardManifest(const DatasetSpec& spec) {
-  DatasetManifestRecord manifest{.version = spec.version,
+  DatasetManifestRecord manifest{.version = spec.record.version,
                                  .shard = ShardText(spec.shard),
-                                 .num_scenarios = spec.shard.NumOf(spec.num_scenarios)};
+                                 .num_scenarios = spec.shard.NumOf(spec.record.num_scenarios)};
   for (const std::string_view name : kHashedFilesOfShard) {
     manifest.files.emplace_back(name, HashFile(spec.directory / name).hash);
   }

@@ -61,7 +61,11 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                           const fs::path& directory,
                           bool was_done,
                           const InsertHooks& hooks) {
+  const auto name = std::ranges::find_if(
+      drawn.record.drawn, [](const auto& each) { return each.first == "recording"; });
+  Check(name != drawn.record.drawn.end(), "the scenario of a plan names its recording");
   return RunInsert({.recording = drawn.run->recording(),
+                    .recording_name = name->second.get<std::string>(),
                     .recording_hash = ContentHash(drawn.run->Traits()),
                     .plan = {},
                     .directory = directory,
@@ -69,7 +73,7 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                     .first_frame = drawn.first_frame,
                     .last_frame = drawn.first_frame + drawn.num_frames - 1,
                     .num_threads = choices.num_threads,
-                    .is_mended = was_done},
+                    .is_known = was_done},
                    MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
 }
 
@@ -83,17 +87,16 @@ SequenceRecord RecordOfInserted(const DrawnScenario& drawn,
   errors.ThrowIfAny();
   const RecordedRun& run = RunOf(*drawn.run);
   const fs::path manifest = directory / kManifestFile;
-  const std::string text = ReadFileWhole(manifest);
   SequenceRecord record{
       .sensor = drawn.scenario.lidar.name,
       .folder = (directory / kRecordingFolder).lexically_relative(dataset).generic_string(),
       .num_frames = drawn.num_frames,
       .points = PointsIn(directory),
       .scenario_hash =
-          ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(manifest))
+          ReadRecord<InsertManifestRecord>(ReadManifestText(manifest), ShownPath(manifest))
               .run.plan_hash,
       .data_hash = {},
-      .manifest_hash = ContentHash(text),
+      .manifest_hash = HashFile(manifest).hash,
       .files = HashesIn(directory)};
   record.data_hash = ContentHash(Json(record.files).dump());
   for (std::uint32_t i = 0; i < drawn.num_frames; ++i) {

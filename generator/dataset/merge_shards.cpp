@@ -32,7 +32,7 @@ struct GivenShard {
 
 // Checks the files about a shard's scenarios.
 void CheckIsWhole(const fs::path& directory, const DatasetSpec& spec) {
-  const std::uint32_t num_scenarios = spec.shard.NumOf(spec.num_scenarios);
+  const std::uint32_t num_scenarios = spec.shard.NumOf(spec.record.num_scenarios);
   if (!fs::exists(directory / kDatasetManifestFile)) {
     throw InputError(ShownPath(directory) + ": is unfinished, with " +
                      std::to_string(ScenarioLines(directory / kScenariosFile, spec.shard).Skip()) +
@@ -53,32 +53,20 @@ GivenShard ReadShard(const fs::path& directory) {
   const fs::path file = directory / kDatasetFile;
   const std::string text = ReadFileWhole(file);
   const auto record = ReadRecord<DatasetRecord>(text, ShownPath(file));
+  // A whole data set is the only shard of itself.
   GivenShard given{.spec = {.directory = directory,
-                            .version = record.version,
-                            .embree_version = record.embree,
-                            .isa = record.isa,
                             .recipe = ReadFileWhole(directory / kRecipeFile),
-                            .base_hashes = record.base_hashes,
-                            .files_hash = record.files_hash,
-                            .num_scenarios = record.num_scenarios,
-                            .format = record.format,
-                            .fields = record.fields,
-                            .is_merged = record.is_merged,
-                            // A whole data set is the only shard of itself.
+                            .record = record,
                             .shard = ParseShard(record.shard).value_or(Shard{})},
                    .lines = {}};
-  if (RecordFile(RecordOf(given.spec)) != text) {
+  given.spec.record.shard.clear();
+  if (ContentHash(given.spec.recipe) != record.recipe_hash || RecordFile(record) != text) {
     throw InputError(ShownPath(file) + ": is damaged: does not suit recipe.json");
   }
   CheckIsWhole(directory, given.spec);
   given.lines.emplace(directory / kScenariosFile, given.spec.shard);
   given.lines->Pause();
   return given;
-}
-
-std::string WithoutShard(DatasetSpec spec) {
-  spec.shard = {};
-  return RecordText(RecordOf(spec));
 }
 
 // Returns the shards by their numbers.
@@ -97,7 +85,7 @@ std::vector<GivenShard> ReadShards(const std::vector<fs::path>& directories) {
   std::uint32_t expected = 1;
   for (const auto& [spec, lines] : shards) {
     const std::string place = ShownPath(spec.directory);
-    if (WithoutShard(spec) != WithoutShard(first) || spec.shard.of != first.shard.of) {
+    if (RecordText(spec.record) != RecordText(first.record) || spec.shard.of != first.shard.of) {
       errors.Add({place, "is a shard of another data set than " + ShownPath(first.directory), ""});
     } else if (spec.shard.number < expected) {
       errors.Add({place, "is a second shard " + std::to_string(spec.shard.number), ""});
@@ -169,14 +157,14 @@ std::uint32_t MergeShards(
   const auto num_shards = static_cast<std::uint32_t>(shards.size());
   DatasetDirectory merged(spec);
   static_cast<void>(merged.Check([](double) { return true; }));
-  if (merged.is_complete()) return spec.num_scenarios;
+  if (merged.is_complete()) return spec.record.num_scenarios;
   for (auto& [shard, lines] : shards) {
     static_cast<void>(lines->Skip(shard.shard.NumOf(merged.num_done())));
     lines->Pause();
   }
-  while (merged.num_done() < spec.num_scenarios) {
+  while (merged.num_done() < spec.record.num_scenarios) {
     const std::uint32_t number = merged.num_done();
-    on_progress(number, spec.num_scenarios);
+    on_progress(number, spec.record.num_scenarios);
     auto& [shard, lines] = shards[number % num_shards];
     const PlacedLine line = lines->Need();
     // The system allows a thousand open files; there may be more shards.
@@ -190,7 +178,7 @@ std::uint32_t MergeShards(
   }
   merged.Sync();
   WriteDatasetFiles(merged.spec());
-  return spec.num_scenarios;
+  return spec.record.num_scenarios;
 }
 
 }  // namespace railcast

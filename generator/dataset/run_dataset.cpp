@@ -12,6 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/dataset_record.h"
@@ -43,18 +44,21 @@ DatasetSpec SpecOfDataset(const Recipe& recipe,
                           const DatasetChoices& choices,
                           const RecipeBases& bases) {
   DatasetSpec spec{.directory = choices.directory,
-                   .version = ProgramVersion(),
-                   .embree_version = EmbreeVersion(),
-                   .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
                    .recipe = ReadFileWhole(recipe.file),
-                   .base_hashes = {},
-                   .files_hash = HashOfRecipeFiles(recipe),
-                   .num_scenarios = recipe.num_scenarios,
-                   .format = choices.format,
-                   .fields = choices.fields,
-                   .is_merged = choices.is_merged,
+                   .record = {.version = ProgramVersion(),
+                              .embree = EmbreeVersion(),
+                              .isa = AtPlace("--", [&] { return IsaInUse(choices.isa); }),
+                              .recipe_hash = {},
+                              .num_scenarios = recipe.num_scenarios,
+                              .format = choices.format,
+                              .fields = choices.fields,
+                              .is_merged = choices.is_merged,
+                              .files_hash = HashOfRecipeFiles(recipe)},
                    .shard = choices.shard};
-  for (std::size_t i = 0; i < recipe.bases.size(); ++i) spec.base_hashes.push_back(bases.hash(i));
+  spec.record.recipe_hash = ContentHash(spec.recipe);
+  for (std::size_t i = 0; i < recipe.bases.size(); ++i) {
+    spec.record.base_hashes.push_back(bases.hash(i));
+  }
   return spec;
 }
 
@@ -85,27 +89,13 @@ void CheckChoices(const Recipe& recipe, const DatasetChoices& choices) {
   }
 }
 
-/// Lets a scenario be gone on with whose sequences say that they are complete: what is as it was
-/// written stays, the rest is made anew.
-/// @param was_done Whether the data set had its line, so that the folder is known to be the run's.
-void Reopen(const RunPlan& plan, bool was_done) {
-  std::error_code none;
+/// Lets a scenario be gone on with whose folder is known to be the data set's, even if it does not
+/// say so any more.
+void ClaimFolders(const RunPlan& plan) {
   for (const SensorPlan& sensor : plan.sensors) {
-    const SequenceSpec& spec = sensor.spec;
-    const fs::path run = spec.directory / kRunFile;
-    if (was_done) {
-      MakeFolders(spec.directory);
-      WriteFileWhole(run, RunJson(spec));
-      // Of these, no part is known to be whole.
-      if (!spec.trace.empty()) fs::remove(spec.directory / spec.trace, none);
-      if (!spec.bag.empty()) fs::remove_all(spec.directory / spec.bag, none);
-    }
-    // Bags and traces that are complete are not gone on with.
-    const bool are_files = spec.bag.empty() && spec.trace.empty();
-    const bool is_ours = are_files && fs::exists(run) && ReadFileWhole(run) == RunJson(spec);
-    if (was_done || is_ours) fs::remove(spec.directory / kManifestFile, none);
+    MakeFolders(sensor.spec.directory);
+    WriteFileWhole(sensor.spec.directory / kRunFile, RunJson(sensor.spec));
   }
-  if (was_done) fs::remove(plan.directory / kMergedFolder / kMergedFile, none);
 }
 
 /// Makes the sequences of a shard, of several scenarios at once.
@@ -121,13 +111,14 @@ class DatasetRun {
   DatasetResult Run() {
     const auto begin = std::chrono::steady_clock::now();
     result_.num_scenarios = choices_.shard.NumOf(recipe_.num_scenarios);
-    result_.was_complete = directory_.is_complete();
     const bool is_checked = directory_.Check([this](double share) {
-      if (result_.was_complete) {
+      if (directory_.is_complete()) {
         hooks_.on_progress({0, result_.num_scenarios, share * result_.num_scenarios});
       }
       return !hooks_.is_stopped();
     });
+    result_.was_complete = directory_.is_complete();
+    result_.changed = directory_.changed();
     result_.num_resumed = directory_.num_done() + directory_.num_kept();
     if (!result_.was_complete && is_checked) MakeMissing();
     result_.num_frames = num_frames_;
@@ -168,7 +159,9 @@ class DatasetRun {
   std::optional<std::string> Make(std::uint32_t of_shard, const ScenarioTurn& turn) {
     if (const std::string* const kept = directory_.Kept(of_shard)) return *kept;
     const std::uint32_t number = choices_.shard.ScenarioAt(of_shard);
-    const bool was_done = directory_.WasDone(of_shard);
+    // What is there of a scenario is the data set's, even where its line is lost.
+    const bool was_done =
+        directory_.WasDone(of_shard) || fs::exists(choices_.directory / SequenceFolderOf(number));
     DrawnScenario drawn = drawer_.Draw(number);
     if (drawn.run) return MakeOfPlan(number, was_done, drawn, turn);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
@@ -176,7 +169,7 @@ class DatasetRun {
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
     FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
-    Reopen(plan, was_done);
+    if (was_done) ClaimFolders(plan);
     if (plan.is_merged) CheckCanMerge(maker, plan);
     if (!MakeScenario(turn, maker, plan)) return std::nullopt;
     if (plan.is_in_folders()) {
@@ -238,8 +231,7 @@ class DatasetRun {
                                         const SensorPlan& sensor) const {
     const SequenceSpec& spec = sensor.spec;
     const fs::path file = spec.directory / kManifestFile;
-    const std::string text = ReadFileWhole(file);
-    const ManifestRecord manifest = ReadManifest(text, ShownPath(file));
+    const auto manifest = ReadRecord<ManifestRecord>(ReadManifestText(file), ShownPath(file));
     SequenceRecord record{
         .sensor = sensor.name,
         .folder = spec.directory.lexically_relative(choices_.directory).generic_string(),
@@ -247,7 +239,7 @@ class DatasetRun {
         .points = manifest.counts.points,
         .scenario_hash = spec.identity.scenario_hash,
         .data_hash = manifest.data_hash,
-        .manifest_hash = ContentHash(text),
+        .manifest_hash = HashFile(file).hash,
         .trace = spec.trace};
     for (std::uint32_t i = 0; i < spec.num_frames; ++i) {
       const std::int64_t stamp_ns = pattern.StampNs(spec.FrameAt(i));

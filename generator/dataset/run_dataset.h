@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/recipe/recipe.h"
 #include "core/recipe/scenario_draw.h"
@@ -43,6 +45,8 @@ struct DatasetResult {
   /// Scenarios of each part, of a whole data set that this run completed.
   std::optional<PerPart<std::uint32_t>> parts;
   bool was_complete{};
+  /// What was not as it was written in a complete data set and was made anew, a line each.
+  std::vector<std::string> changed;
   bool is_complete{};  ///< All scenarios are done and, of a whole data set, the files about them.
   double elapsed_s{};
 };

@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <ranges>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "core/io/cloud/pcd_reader.h"
 #include "core/io/content_hash.h"
 #include "core/io/field_layout.h"
+#include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/frame_record.h"
@@ -27,6 +29,7 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
 #include "generator/empty_folder.h"
+#include "generator/run/line_ledger.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
@@ -165,8 +168,6 @@ class MergedWriter {
         sensors_(std::move(sensors)),
         frames_(MergedFramesOf(sensors_)) {}
 
-  [[nodiscard]] bool is_complete() const { return fs::exists(folder_ / kMergedFile); }
-
   bool Write(const std::function<void(double)>& on_progress,
              const std::function<bool()>& is_stopped) {
     RefuseOtherFiles();
@@ -269,6 +270,39 @@ SensorsRecord SensorsRecordOf(const RunPlan& plan) {
   return record;
 }
 
+// Whether a run's merged clouds are there as they were written.
+bool IsMerged(const fs::path& directory) {
+  try {
+    const auto merged = MergedFolderIn(directory);
+    if (!merged) return false;
+    for (const KnownFile& file : merged->files) {
+      if (HashFile(merged->folder / file.name).hash != file.hash) return false;
+    }
+    std::istringstream lines(ReadFileWhole(merged->folder / kMergedFile));
+    for (std::string line; std::getline(lines, line);) {
+      if (!HasContent(merged->folder, ReadRecordLine<MergedRecord>(line, "").file)) return false;
+    }
+    return true;
+  } catch (const InputError&) {
+    return false;  // They cannot be read.
+  }
+}
+
+// Removes what an interrupted run has left beside the files about all sensors.
+void RemoveUnfinished(const fs::path& directory) {
+  std::vector<fs::path> unfinished;
+  const fs::path merged = directory / kMergedFolder;
+  for (const fs::path& folder : {directory, merged, merged / "frames"}) {
+    if (!fs::exists(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path& file = entry.path();
+      const bool is_left = file.extension() == kUnfinishedSuffix && !entry.is_directory();
+      if (is_left && fs::exists(folder / file.stem())) unfinished.push_back(file);
+    }
+  }
+  for (const fs::path& file : unfinished) fs::remove(file);
+}
+
 }  // namespace
 
 std::vector<MergedFrame> MergedFramesOf(std::span<const MergedSensor> sensors) {
@@ -329,16 +363,15 @@ bool FinishRun(const FrameMaker& maker,
                const RunPlan& plan,
                const std::function<void(double)>& on_progress,
                const std::function<bool()>& is_stopped) {
-  if (plan.is_merged) {
+  if (!plan.is_in_folders()) return true;
+  if (plan.is_merged && !IsMerged(plan.directory)) {
     MergedWriter writer(plan.directory, MergedSensorsOf(maker, plan));
-    bool is_complete = writer.is_complete();
-    if (!is_complete) {
-      maker.simulator(0).Execute([&] { is_complete = writer.Write(on_progress, is_stopped); });
-    }
+    bool is_complete = false;
+    maker.simulator(0).Execute([&] { is_complete = writer.Write(on_progress, is_stopped); });
     if (!is_complete) return false;
   }
-  if (plan.is_in_folders())
-    WriteFileWhole(plan.directory / kSensorsFile, RecordFile(SensorsRecordOf(plan)));
+  WriteFileWhole(plan.directory / kSensorsFile, RecordFile(SensorsRecordOf(plan)));
+  RemoveUnfinished(plan.directory);
   return true;
 }
 

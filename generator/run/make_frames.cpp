@@ -57,14 +57,17 @@ std::size_t EarliestOf(std::size_t num, const Stamp& next_stamp_ns) {
   return earliest;
 }
 
-/// How many frames each sequence has among the first ones of all of them.
-std::vector<std::uint32_t> FramesAmongFirst(const std::vector<SensorSequence>& sensors,
-                                            std::uint64_t num_frames) {
+/// How many frames each sequence has among those that all of them begin first.
+/// @param most Number of all of these. @param most_of_each At the first that is not there, they
+/// end.
+std::vector<std::uint32_t> FirstFrames(const std::vector<SensorSequence>& sensors,
+                                       std::uint64_t most,
+                                       const std::vector<std::uint32_t>& most_of_each) {
   std::vector<std::uint32_t> next(sensors.size());
   const auto stamp_ns = [&](std::size_t i) { return sensors[i].StampOfFrame_ns(next[i]); };
-  for (std::uint64_t i = 0; i < num_frames; ++i) {
+  for (std::uint64_t i = 0; i < most; ++i) {
     const std::size_t earliest = EarliestOf(sensors.size(), stamp_ns);
-    if (earliest == sensors.size()) break;
+    if (earliest == sensors.size() || next[earliest] == most_of_each[earliest]) break;
     ++next[earliest];
   }
   return next;
@@ -169,9 +172,11 @@ struct SequenceUnderWay {
   SequenceUnderWay(const SensorSequence& sequence, std::uint32_t most_done)
       : of(sequence),
         directory(std::make_unique<RunDirectory>(sequence.spec, most_done)),
-        num_resumed(directory->num_done()),
-        was_complete(directory->is_complete()),
-        next(num_resumed) {}
+        next(directory->num_done()) {
+    result.num_resumed = next;
+    result.was_complete = directory->is_complete();
+    result.changed = directory->changed();
+  }
 
   /// The stamp of the frame that is begun next; nothing if all are begun.
   [[nodiscard]] std::optional<std::int64_t> next_stamp_ns() const {
@@ -180,9 +185,8 @@ struct SequenceUnderWay {
 
   const SensorSequence& of;
   std::unique_ptr<RunDirectory> directory;
-  std::uint32_t num_resumed;
-  bool was_complete;
-  std::uint32_t next;  ///< Which of its frames is begun next.
+  SequenceResult result;  ///< As far as it is known before frames are made.
+  std::uint32_t next;     ///< Which of its frames is begun next.
 };
 
 class MissingFrames {
@@ -194,22 +198,34 @@ class MissingFrames {
       : sequences_(sequences),
         bag_(bag),
         hooks_(hooks),
-        num_at_once_(at_once.num),
+        at_once_(at_once),
         // The pipeline holds as many frames as are made at once, and as many are being written.
         slots_(2 * at_once.num),
         writing_(at_once.num, bag) {
     for (const SequenceUnderWay& sequence : sequences) {
-      num_resumed_ += sequence.num_resumed;
+      num_resumed_ += sequence.result.num_resumed;
       num_frames_ += sequence.of.spec.num_frames;
     }
     num_shown_ = num_resumed_;
     hooks_.on_progress(num_shown_, num_frames_);
   }
 
-  /// Makes frames until there is none left, or the run is stopped.
+  /// Makes and writes frames until there is none left, or the run is stopped.
   void Make() {
+    try {
+      at_once_.execute([this] { RunPipeline(); });
+    } catch (const RunStopped&) {
+      // The frames before it are there.
+    }
+    AwaitWriting();
+  }
+
+ private:
+  void AwaitWriting() { ShowProgress(writing_.Await(0)); }
+
+  void RunPipeline() {
     tbb::parallel_pipeline(
-        num_at_once_,
+        at_once_.num,
         tbb::make_filter<void, FrameSlot*>(tbb::filter_mode::serial_in_order,
                                            [this](tbb::flow_control& flow) {
                                              FrameSlot* const slot = Begin();
@@ -225,10 +241,6 @@ class MissingFrames {
                                                [this](FrameSlot* slot) { Write(*slot); }));
   }
 
-  /// Waits for the frames that are being written.
-  void AwaitWriting() { ShowProgress(writing_.Await(0)); }
-
- private:
   // Returns null if no frame is left.
   FrameSlot* Begin() {
     SequenceUnderWay* const sequence = Earliest();
@@ -289,7 +301,7 @@ class MissingFrames {
   std::vector<SequenceUnderWay>& sequences_;
   RunBag* bag_;
   const SequenceHooks& hooks_;
-  std::size_t num_at_once_;
+  const FramesAtOnce& at_once_;
   std::uint32_t num_frames_ = 0;   ///< Of all sequences.
   std::uint32_t num_resumed_ = 0;  ///< Of these, those that were there.
   std::uint32_t num_shown_ = 0;    ///< As on_progress() was told last.
@@ -299,46 +311,38 @@ class MissingFrames {
   WritingQueue writing_;  // Last, so that it ends before the memory that it writes.
 };
 
-void MakeMissingFrames(const FramesAtOnce& at_once, MissingFrames& frames) {
-  try {
-    at_once.execute([&] { frames.Make(); });
-  } catch (const RunStopped&) {
-    // The frames before it are there.
-  }
-  frames.AwaitWriting();
-}
-
-/// Opens the sequences with the frames that their bag holds; without one, with those that are
-/// there.
+/// Opens the sequences and, if they have one, their bag after the frames that both it and they
+/// hold.
 std::vector<SequenceUnderWay> OpenSequences(const std::vector<SensorSequence>& sensors,
-                                            const RunBag* bag) {
-  std::vector<std::uint32_t> most_done(sensors.size(), std::numeric_limits<std::uint32_t>::max());
-  if (bag != nullptr) most_done = FramesAmongFirst(sensors, bag->num_frames());
-  std::vector<SequenceUnderWay> sequences;
-  sequences.reserve(sensors.size());
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    sequences.emplace_back(sensors[i], most_done[i]);
-  }
-  return sequences;
-}
-
-/// Opens the sequences, and their bag after the frames that both it and they hold.
-/// @throws InputError if the bag is complete, but a sequence is not.
-std::vector<SequenceUnderWay> OpenWithBag(const std::vector<SensorSequence>& sensors, RunBag& bag) {
-  while (true) {
-    std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, &bag);
+                                            RunBag* bag) {
+  std::vector most_done(sensors.size(), std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::vector<std::string>> changed(sensors.size());
+  for (bool is_first = true;; is_first = false) {
+    if (bag != nullptr) most_done = FirstFrames(sensors, bag->num_frames(), most_done);
+    std::vector<SequenceUnderWay> sequences;
+    std::vector<std::uint32_t> num_of_each;
     std::uint64_t num_done = 0;
-    for (const SequenceUnderWay& sequence : sequences) num_done += sequence.num_resumed;
-    if (bag.is_complete()) bag.CheckUnchanged();
-    if (bag.is_complete() && num_done == bag.num_frames()) return sequences;
-    const std::vector<std::uint32_t> in_order = FramesAmongFirst(sensors, num_done);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-      if (!bag.is_complete() && sequences[i].num_resumed == in_order[i]) continue;
-      throw InputError(ShownPath(sensors[i].spec.directory) +
-                       ": holds other frames than the run's bag; delete both to make them anew");
+      SequenceResult& result = sequences.emplace_back(sensors[i], most_done[i]).result;
+      num_of_each.push_back(result.num_resumed);
+      num_done += result.num_resumed;
+      // Later, it is opened with fewer frames than it has.
+      if (is_first) changed[i] = result.changed;
+      result.changed = changed[i];
     }
-    // Where the bag lacks the end of a frame, that frame is made anew.
-    if (bag.Open(num_done) == num_done) return sequences;
+    if (bag == nullptr) return sequences;
+    if (bag->is_complete()) {
+      const bool has_all = num_done == bag->num_frames();
+      if (has_all && bag->IsUnchanged()) return sequences;
+      if (has_all) changed.front().push_back(ShownPath(bag->path()) + " was changed");
+      // The end of a complete bag is not gone on with.
+      bag->Discard();
+    } else if (FirstFrames(sensors, num_done, num_of_each) == num_of_each &&
+               bag->Open(num_done) == num_done) {
+      return sequences;
+    }
+    // What one of them lacks, all make anew.
+    most_done = num_of_each;
   }
 }
 
@@ -349,27 +353,20 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
                                          RunBag* bag,
                                          const SequenceHooks& hooks,
                                          const FramesAtOnce& at_once) {
-  std::vector<SequenceUnderWay> sequences =
-      bag == nullptr ? OpenSequences(sensors, nullptr) : OpenWithBag(sensors, *bag);
+  std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, bag);
   const auto begin = std::chrono::steady_clock::now();
-  if (!std::all_of(sequences.begin(), sequences.end(),
-                   [](const SequenceUnderWay& each) { return each.was_complete; })) {
-    MissingFrames frames(sequences, bag, hooks, at_once);
-    MakeMissingFrames(at_once, frames);
+  if (!std::ranges::all_of(sequences, [](const auto& each) { return each.result.was_complete; })) {
+    MissingFrames(sequences, bag, hooks, at_once).Make();
   }
   std::vector<SequenceResult> results;
-  for (const SequenceUnderWay& sequence : sequences) {
-    RunDirectory& directory = *sequence.directory;
-    if (!directory.is_complete() && directory.num_done() == sequence.of.spec.num_frames) {
-      directory.Finish();
+  for (const auto& [of, directory, result, next] : sequences) {
+    if (!directory->is_complete() && directory->num_done() == of.spec.num_frames) {
+      directory->Finish();
     }
-    SequenceResult result;
-    result.num_resumed = sequence.num_resumed;
-    result.num_done = directory.num_done();
-    result.was_complete = sequence.was_complete;
-    result.is_complete = directory.is_complete();
-    result.counts = directory.counts();
-    results.push_back(std::move(result));
+    SequenceResult& made = results.emplace_back(result);
+    made.num_done = directory->num_done();
+    made.is_complete = directory->is_complete();
+    made.counts = directory->counts();
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   for (SequenceResult& result : results) result.elapsed_s = elapsed.count();

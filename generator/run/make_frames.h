@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/io/run/frame_record.h"
@@ -39,9 +40,11 @@ struct SequenceResult {
   std::uint32_t num_resumed{};  ///< Frames made by an earlier run.
   std::uint32_t num_done{};     ///< All frames in the directory.
   bool was_complete{};          ///< All frames were there before.
-  bool is_complete{};           ///< All frames and the manifest are there.
-  FrameCounts counts;           ///< Over all frames in the directory.
-  double elapsed_s{};           ///< Wall-clock time for the frames made in this run.
+  /// What was not as it was written in a complete directory and was made anew, a line each.
+  std::vector<std::string> changed{};
+  bool is_complete{};  ///< All frames and the manifest are there.
+  FrameCounts counts;  ///< Over all frames in the directory.
+  double elapsed_s{};  ///< Wall-clock time for the frames made in this run.
 };
 
 /// Has the rung `auto` choose for each sensor, and notes the choices in the plan. From now on the

@@ -7,8 +7,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
-#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
 #include "generator/run/run_topics.h"
 #include "railcast/scenario.h"
@@ -53,8 +53,9 @@ bool IsFinished(bool is_mcap, const fs::path& path) {
 RunBag::RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_ns)
     : path_(plan.directory / plan.sensors.front().spec.files.format->bag),
       is_mcap_(path_.extension() == ".mcap"),
-      scenario_json_(ResolvedScenarioJson(plan.scenario)),
-      labels_file_(plan.sensors.front().spec.directory / kLabelsFile),
+      attachments_(
+          {{std::string(kScenarioFile), ResolvedScenarioJson(plan.scenario)},
+           {std::string(kLabelsFile), LabelsJson(plan.sensors.front().spec.files.labels)}}),
       topics_(std::move(topics)),
       begin_ns_(begin_ns),
       is_complete_(IsFinished(is_mcap_, path_)) {
@@ -83,64 +84,96 @@ void RunBag::FindFrames(const fs::path& bag) {
   num_frames_ = whole_.num - std::min<std::uint64_t>(whole_.num, kFirstCommits);
 }
 
-void RunBag::RefuseIf(bool has_changed, const std::string& what) const {
-  if (!has_changed) return;
-  throw InputError(ShownPath(path_) + ": " + what + " not what was written, as " +
-                   std::string(kBagLinesFile) +
-                   " says; delete the bag and manifest.json to make them anew");
+bool RunBag::IsUnchanged() const {
+  try {
+    const BagLines lines = ReadBagLines(BagLinesFile(path_));
+    if (!lines.files.empty()) {
+      ErrorList faults;
+      CompareWithBagLines(path_, true, faults);
+      return faults.empty();
+    }
+    const std::vector<std::uint64_t> messages = ReadMessageHashes(*bag::OpenBag(path_));
+    const WholeCommits whole = FindWholeCommits(lines.commits, messages);
+    if (lines.commits.empty() || whole.num < lines.commits.size() ||
+        whole.num_messages < messages.size()) {
+      return false;
+    }
+    LineFile(BagLinesFile(path_), lines.commits.back().end).Append(BagFilesLine(path_));
+    return true;
+  } catch (const InputError&) {
+    return false;  // It cannot be read.
+  }
 }
 
-void RunBag::CheckUnchanged() const {
-  const BagLines lines = ReadBagLines(BagLinesFile(path_));
-  if (!lines.files.empty()) {
-    ErrorList faults;
-    CompareWithBagLines(path_, true, faults);
-    return RefuseIf(!faults.empty(), "is complete, but it is");
+// What others have put where the bag is would be lost with it.
+void RunBag::RefuseStrangers() const {
+  for (const fs::path& bag : {path_, UnfinishedPath(is_mcap_, path_)}) {
+    if (!fs::is_directory(bag)) continue;
+    if (is_mcap_) RefuseStranger(bag.parent_path(), bag.filename().string());
+    for (const auto& entry : fs::directory_iterator(bag)) {
+      std::string name = entry.path().filename().string();
+      if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
+      const bool is_own = name.starts_with(bag.filename().string() + "_0.db3") ||
+                          name == "metadata.yaml" || name.ends_with(kManifestFile) ||
+                          std::ranges::any_of(attachments_, [&](const auto& attachment) {
+                            return attachment.first == name;
+                          });
+      if (is_own && !entry.is_directory()) continue;
+      RefuseStranger(bag.parent_path(),
+                     entry.path().lexically_relative(bag.parent_path()).string());
+    }
   }
-  const std::vector<std::uint64_t> messages = ReadMessageHashes(*bag::OpenBag(path_));
-  const WholeCommits whole = FindWholeCommits(lines.commits, messages);
-  RefuseIf(whole.num < lines.commits.size() || whole.num_messages < messages.size(),
-           "is complete, but it is");
-  LineFile(BagLinesFile(path_), lines.commits.back().end).Append(BagFilesLine(path_));
+}
+
+void RunBag::Discard() {
+  RefuseStrangers();
+  writer_.reset();
+  lines_.reset();
+  for (const fs::path& each : {path_, UnfinishedPath(is_mcap_, path_), BagLinesFile(path_)}) {
+    fs::remove_all(each);
+  }
+  is_complete_ = false;
+  num_frames_ = 0;
+  found_ = {};
+  whole_ = {};
+  attached_.clear();
+}
+
+// Whether an unfinished bag holds what was not written.
+bool RunBag::HasOthers() const {
+  if (whole_.num == 0 || whole_.has_others) return true;
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  // A database cannot be cut. All of its commits have lines, so that each must be whole.
+  if (!is_mcap_) return bag::ContinueRosbag2(path_, kAll)->num_commits() > whole_.num;
+  // What stands in an MCAP file cannot be written anew.
+  return std::ranges::any_of(attachments_, [&](const auto& file) {
+    const auto found = std::ranges::find(attached_, file.first, &bag::BagAttachment::name);
+    return found == attached_.end() ||
+           !std::ranges::equal(found->bytes, std::as_bytes(std::span(file.second)));
+  });
 }
 
 std::uint64_t RunBag::Open(std::uint64_t num_frames) {
   Check(!is_complete_ && num_frames <= num_frames_, "a bag goes on after frames that it holds");
-  const std::string next = "commit " + NumberText(whole_.num + 1) + " is";
-  RefuseIf(whole_.has_others, next);
   writer_.reset();
+  if (IsBegun(is_mcap_, path_) && HasOthers()) {
+    Discard();
+    num_frames = 0;
+  }
   std::size_t num_commits = 0;
   if (IsBegun(is_mcap_, path_)) {
-    // A database cannot be cut. All of its commits have lines, so that each must be whole.
-    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-    RefuseIf(!is_mcap_ && bag::ContinueRosbag2(path_, kAll)->num_commits() > whole_.num, next);
     writer_ = Continue(is_mcap_, path_, std::min(num_frames + kFirstCommits, whole_.num));
     num_commits = writer_->num_commits();
   }
   lines_.emplace(BagLinesFile(path_), num_commits == 0 ? 0 : found_.commits[num_commits - 1].end);
   if (!writer_) writer_ = is_mcap_ ? bag::CreateMcap(path_) : bag::CreateRosbag2(path_);
   for (const bag::BagTopic& topic : bag_topics_) writer_->Add(topic);
-  Attach(num_commits > 0);
+  if (num_commits == 0 || !is_mcap_) {
+    for (const auto& [name, text] : attachments_) AttachFile(*writer_, name, text);
+  }
   if (num_commits == 0) Put(topics_.First(begin_ns_));
   num_frames_ = writer_->num_commits() - kFirstCommits;
   return num_frames_;
-}
-
-// What stands in an MCAP file cannot be written anew.
-void RunBag::Attach(bool are_there) {
-  const std::vector<std::pair<std::string, std::string>> files = {
-      {std::string(kScenarioFile), scenario_json_},
-      {std::string(kLabelsFile), ReadFileWhole(labels_file_)}};
-  for (const auto& [name, text] : files) {
-    if (!are_there || !is_mcap_) {
-      AttachFile(*writer_, name, text);
-      continue;
-    }
-    const auto found = std::ranges::find(attached_, name, &bag::BagAttachment::name);
-    RefuseIf(found == attached_.end() ||
-                 !std::ranges::equal(found->bytes, std::as_bytes(std::span(text))),
-             "its " + name + " is");
-  }
 }
 
 void RunBag::Encode(std::size_t sensor, const MadeFrame& made, EncodedFrame& encoded) const {

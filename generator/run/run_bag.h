@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/bag/bag.h"
@@ -30,15 +31,17 @@ class RunBag {
   /// How many of the run's frames the bag holds; all of them if it is complete.
   [[nodiscard]] std::uint64_t num_frames() const { return num_frames_; }
   [[nodiscard]] bool is_complete() const { return is_complete_; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Compares a complete bag with what was written. Gives it the hashes of its files if the run was
+  /// Whether a complete bag is as it was written. Gives it the hashes of its files if the run was
   /// interrupted before that.
-  /// @throws InputError if it was changed since.
-  void CheckUnchanged() const;
+  [[nodiscard]] bool IsUnchanged() const;
+  /// Has a complete bag made anew: it and what is said of it are removed.
+  void Discard();
 
-  /// Begins the bag, or goes on with it after its first `num_frames` frames.
+  /// Begins the bag, or goes on with it after its first `num_frames` frames. One that holds others
+  /// than were written is begun anew.
   /// @return num_frames(), which is less where the end of the last frame is missing.
-  /// @throws InputError if what it holds is not what was written.
   /// @pre It is not complete, and num_frames <= num_frames().
   std::uint64_t Open(std::uint64_t num_frames);
 
@@ -55,14 +58,14 @@ class RunBag {
 
  private:
   void FindFrames(const std::filesystem::path& bag);
-  void RefuseIf(bool has_changed, const std::string& what) const;
-  void Attach(bool are_there);
+  [[nodiscard]] bool HasOthers() const;
+  void RefuseStrangers() const;
   void Put(const std::vector<ros::TopicMessage>& messages);
 
   std::filesystem::path path_;
   bool is_mcap_;
-  std::string scenario_json_;
-  std::filesystem::path labels_file_;
+  /// Names and texts of the files that are attached first.
+  std::vector<std::pair<std::string, std::string>> attachments_;
   ros::FrameTopics topics_;
   std::vector<bag::BagTopic> bag_topics_;
   std::vector<std::uint64_t> topic_hashes_;

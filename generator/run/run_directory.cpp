@@ -20,7 +20,6 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
-#include "generator/run/line_walk.h"
 
 namespace railcast {
 namespace {
@@ -89,31 +88,14 @@ std::vector<LineFileName> LineFileNames(const SequenceSpec& spec) {
   return names;
 }
 
-// How many lines a frame has in the i-th of a run's line files.
-std::size_t NumLinesIn(std::size_t i, std::size_t num_files, const FrameRecord& record) {
-  const std::size_t first_of_motion = num_files - 1 - record.motion_lines.size();
-  const bool is_of_motion = i >= first_of_motion && i + 1 < num_files;
-  return is_of_motion ? record.motion_lines[i - first_of_motion] : 1;
-}
-
-// Returns the next frame's record if the frame is complete.
-std::optional<FrameRecord> NextWhole(const SequenceSpec& spec,
-                                     std::uint32_t frame,
-                                     const std::vector<LineWalk>& walks) {
-  auto record = ParseFrameLine(walks.back().Next());
-  if (!record || record->frame != frame) return std::nullopt;
+// How many lines a frame has in each line file but frames.jsonl: one, and those that it names of
+// motion sensors.
+std::vector<std::uint32_t> NumLinesOf(const SequenceSpec& spec, const FrameRecord& record) {
   const std::size_t num_motion =
       spec.motion_sensors ? MotionFilesOf(*spec.motion_sensors).size() : 0;
-  if (record->motion_lines.size() != num_motion) return std::nullopt;
-  std::string records;
-  for (std::size_t i = 0; i + 1 < walks.size(); ++i) {
-    records += walks[i].Next(NumLinesIn(i, walks.size(), *record));
-  }
-  if (ContentHash(records) != record->records_hash) return std::nullopt;
-  for (const KnownFile& file : record->files) {
-    if (!HasContent(spec.directory, file)) return std::nullopt;
-  }
-  return record;
+  std::vector<std::uint32_t> num_lines(LineFileNames(spec).size() - 1 - num_motion, 1);
+  num_lines.insert(num_lines.end(), record.motion_lines.begin(), record.motion_lines.end());
+  return num_lines;
 }
 
 // Whether a trace has the message of the run's i-th frame.
@@ -157,23 +139,34 @@ class OwnNames {
 }  // namespace
 
 RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
-    : spec_(std::move(spec)), most_done_(std::min(most_done, spec_.num_frames)) {
-  lock_.emplace(spec_.directory);
-  Open();
-}
-
-void RunDirectory::Open() {
+    : spec_(std::move(spec)),
+      most_done_(std::min(most_done, spec_.num_frames)),
+      lock_(spec_.directory),
+      lines_(spec_.directory, LineFileNames(spec_)) {
   const fs::path run_file = spec_.directory / kRunFile;
+  const fs::path manifest = spec_.directory / kManifestFile;
   const bool is_run = fs::exists(run_file);
-  is_complete_ = is_run && fs::exists(spec_.directory / kManifestFile);
-  if (is_run) CheckSameRun(spec_, ReadFileWhole(run_file), is_complete_);
+  is_complete_ = is_run && fs::exists(manifest);
+  if (is_run) CheckIsSameRun(spec_, is_complete_);
   RefuseStrangers(is_run);
   if (!is_run) WriteFileWhole(run_file, RunJson(spec_));
-  Resume();
+  RemoveUnfinished();
+  if (is_complete_) {
+    CountFrames();
+    const std::string changed = WhatChanged();
+    if (changed.empty()) return;
+    changed_ = {ShownPath(spec_.directory) + ": " + changed + " was changed or removed"};
+    // Of an MCAP trace, the messages are known to be whole, but not what is around them.
+    if (fs::path(spec_.trace).extension() == ".mcap") fs::remove(spec_.directory / spec_.trace);
+    fs::remove(manifest);
+    is_complete_ = false;
+  }
+  WriteFixedFiles();
+  CountFrames();
+  if (!spec_.trace.empty()) OpenTrace();
+  lines_.Open(num_done_);
 }
 
-// Refuses files of other origin: they could be mistaken for the run's, or be deleted when it cleans
-// up.
 void RunDirectory::RefuseStrangers(bool is_run) const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
@@ -181,10 +174,7 @@ void RunDirectory::RefuseStrangers(bool is_run) const {
     // A run that was stopped before its first file was complete leaves an unfinished run.json.
     const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
                                : finished == std::string_view(kRunFile);
-    if (is_own) continue;
-    throw InputError(ShownPath(spec_.directory) +
-                     ": holds a file that does not belong to this run (" + ShownPath(name) +
-                     "); move it away or choose another --out");
+    if (!is_own) RefuseStranger(spec_.directory, name);
   }
 }
 
@@ -192,76 +182,52 @@ void RunDirectory::RemoveUnfinished() const {
   const OwnNames own(spec_, FixedFiles());
   for (const std::string& name : FilesBelow(spec_.directory)) {
     const std::optional<std::string_view> finished = FinishedName(name);
-    // A mesh may have a name that ends so, too. An unfinished bag or trace is gone on with.
-    const bool is_kept = finished && (IsOfBag(*finished) || *finished == spec_.trace);
-    if (finished && !own.Have(name) && !is_kept) fs::remove(spec_.directory / name);
+    // A mesh may have a name that ends so, too.
+    if (!finished || own.Have(name)) continue;
+    // An unfinished bag or trace is gone on with.
+    const bool is_kept = IsOfBag(*finished) || *finished == spec_.trace;
+    if (!is_kept || fs::exists(spec_.directory / *finished)) fs::remove(spec_.directory / name);
   }
 }
 
-void RunDirectory::Resume() {
-  if (!is_complete_) {
-    WriteFixedFiles();
-    RemoveUnfinished();
-  }
-  const std::vector<std::uint64_t> line_sizes = CountFramesAndOpenTrace();
-  if (is_complete_) return CheckUnchanged(line_sizes);
-  const std::vector<LineFileName> names = LineFileNames(spec_);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    line_files_.emplace_back(spec_.directory / names[i].name, line_sizes[i]);
-    if (line_sizes[i] == 0) line_files_.back().Append(names[i].header);
-  }
+void RunDirectory::CountFrames() {
+  const bool has_trace = !spec_.trace.empty();
+  found_trace_ = has_trace ? RunTrace::Find(spec_.directory / spec_.trace) : osi::TraceContent();
+  counts_ = {};
+  std::optional<FrameRecord> record;
+  const auto read = [&](std::uint32_t i, std::string_view line) -> std::optional<LedgerItem> {
+    record = ParseFrameLine(line);
+    if (!record || record->frame != spec_.FrameAt(i)) return std::nullopt;
+    if (has_trace && !HasMessage(found_trace_, i, *record)) return std::nullopt;
+    return LedgerItem{record->files, record->records_hash, NumLinesOf(spec_, *record)};
+  };
+  num_done_ = lines_.Count(most_done_, read, [&](std::string_view records) {
+    counts_.Add(record->counts);
+    if (first_pose_) return;
+    first_pose_ = ReadPoseRecord(records.substr(0, records.find('\n') + 1),
+                                 ShownPath(spec_.directory / kPosesFile));
+  });
 }
 
-std::vector<std::uint64_t> RunDirectory::CountFramesAndOpenTrace() {
-  if (spec_.trace.empty()) return CountFrames({});
-  const fs::path file = spec_.directory / spec_.trace;
-  const osi::TraceContent found = RunTrace::Find(file);
-  std::vector<std::uint64_t> line_sizes = CountFrames(found);
-  if (is_complete_) return line_sizes;
-  trace_.emplace(file, spec_.trace_topic, found, num_done_);
-  if (trace_->num_messages() == num_done_) return line_sizes;
+void RunDirectory::OpenTrace() {
+  trace_.emplace(spec_.directory / spec_.trace, spec_.trace_topic, found_trace_, num_done_);
+  if (trace_->num_messages() == num_done_) return;
   // The end of the last message is missing: its frame is made anew.
   most_done_ = static_cast<std::uint32_t>(trace_->num_messages());
-  return CountFrames(found);
+  CountFrames();
 }
 
-std::vector<std::uint64_t> RunDirectory::CountFrames(const osi::TraceContent& found) {
-  num_done_ = 0;
-  counts_ = {};
-  std::vector<LineWalk> walks;
-  for (const LineFileName& file : LineFileNames(spec_)) {
-    walks.emplace_back(spec_.directory / file.name, file.header);
-  }
-  for (; num_done_ < most_done_; ++num_done_) {
-    const auto record = NextWhole(spec_, spec_.FrameAt(num_done_), walks);
-    if (!record || (!spec_.trace.empty() && !HasMessage(found, num_done_, *record))) break;
-    if (num_done_ == 0)
-      first_pose_ = ReadPoseRecord(walks.front().Next(), ShownPath(spec_.directory / kPosesFile));
-    counts_.Add(record->counts);
-    for (std::size_t i = 0; i < walks.size(); ++i) {
-      walks[i].Advance(NumLinesIn(i, walks.size(), *record));
-    }
-  }
-  std::vector<std::uint64_t> sizes;
-  for (const LineWalk& walk : walks) sizes.push_back(walk.position());
-  return sizes;
-}
-
-void RunDirectory::CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const {
+std::string RunDirectory::WhatChanged() const {
   const fs::path& directory = spec_.directory;
-  const auto check = [&](bool is_unchanged, const std::string& what) {
-    if (is_unchanged) return;
-    throw InputError(ShownPath(directory) + ": is complete, but " + what +
-                     " was changed or removed; delete manifest.json to make it anew");
-  };
-  check(num_done_ == spec_.num_frames, "frame " + std::to_string(spec_.FrameAt(num_done_)));
-  const std::vector<LineFileName> names = LineFileNames(spec_);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    check(fs::file_size(directory / names[i].name) == line_sizes[i], names[i].name);
+  if (num_done_ < spec_.num_frames) return "frame " + std::to_string(spec_.FrameAt(num_done_));
+  const std::string file = lines_.FileWithOthers();
+  if (!file.empty()) return file;
+  if (!HasBytes(directory / kRunFile, RunJson(spec_))) return std::string(kRunFile);
+  for (const auto& [name, bytes] : FixedFiles()) {
+    if (!HasBytes(directory / name, bytes)) return name;
   }
-  check(HasBytes(directory / kRunFile, RunJson(spec_)), std::string(kRunFile));
-  for (const auto& [name, bytes] : FixedFiles()) check(HasBytes(directory / name, bytes), name);
-  check(HasBytes(directory / kManifestFile, ManifestJson()), std::string(kManifestFile));
+  if (!HasBytes(directory / kManifestFile, ManifestJson())) return std::string(kManifestFile);
+  return "";
 }
 
 std::vector<FrameFile> RunDirectory::FixedFiles() const {
@@ -360,24 +326,17 @@ void RunDirectory::Write(const EncodedFrame& frame) {
     WriteFileWhole(spec_.directory / file.name, file.bytes);
   }
   if (trace_) trace_->Append(record.stamp_ns, frame.sensor_view);
-  const std::vector<std::string> lines = RecordLines(frame);
-  std::string all_lines;
-  std::size_t num_bytes = 0;
-  for (const std::string& line : lines) num_bytes += line.size();
-  all_lines.reserve(num_bytes);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    line_files_[i].Append(lines[i]);
-    all_lines += lines[i];
-  }
-  record.records_hash = ContentHash(all_lines);
-  line_files_.back().Append(HashedRecordLine(record));
+  lines_.Append(RecordLines(frame), [&](std::string records_hash) {
+    record.records_hash = std::move(records_hash);
+    return HashedRecordLine(record);
+  });
   counts_.Add(record.counts);
   ++num_done_;
 }
 
 void RunDirectory::Finish() {
   Check(num_done_ == spec_.num_frames, "only a complete run has a manifest");
-  for (LineFile& file : line_files_) file.Sync();
+  lines_.Sync();
   if (trace_) trace_->Close();
   WriteFileWhole(spec_.directory / kManifestFile, ManifestJson());
   is_complete_ = true;

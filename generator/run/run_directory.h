@@ -10,6 +10,7 @@
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"
+#include "generator/run/line_ledger.h"
 #include "generator/run/run_plan.h"
 #include "generator/run/run_trace.h"
 #include "railcast/frame.h"
@@ -19,11 +20,10 @@ namespace railcast {
 /// Returns run.json, which identifies the run of a directory from its first moment on.
 [[nodiscard]] std::string RunJson(const SequenceSpec& spec);
 
-/// Checks that the directory belongs to this run.
-/// @throws InputError that names the first difference if `run_json`, found in the directory, is
-///   another run's.
+/// Checks that the directory, which holds a run.json, belongs to this run.
+/// @throws InputError that names the first difference if it is another run's.
 /// @param is_complete Whether that run is complete, so that it cannot be continued.
-void CheckSameRun(const SequenceSpec& spec, const std::string& run_json, bool is_complete);
+void CheckIsSameRun(const SequenceSpec& spec, bool is_complete);
 
 /// A frame as it is written to a sequence directory.
 struct EncodedFrame {
@@ -51,9 +51,11 @@ struct EncodedFrame {
 /// interrupted.
 class RunDirectory {
  public:
-  /// Creates the directory, or opens it and finds out how far its run has got.
-  /// @throws InputError if it belongs to another run, holds other files, is complete but was
-  ///   changed since, is being written by another process, or the system refuses.
+  /// Creates the directory, or opens it and finds out how far its run has got. If a complete one is
+  /// not as it was written, it can be gone on with: what differs is made anew.
+  /// @throws InputError if it belongs to another run, holds other files, is being written by
+  /// another
+  ///   process, or the system refuses.
   /// @param most_done Frames after these are made anew, even if they are there.
   explicit RunDirectory(SequenceSpec spec,
                         std::uint32_t most_done = std::numeric_limits<std::uint32_t>::max());
@@ -64,6 +66,8 @@ class RunDirectory {
   /// Whether manifest.json exists.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  /// What was not as it was written when a complete directory was opened, a line each.
+  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
   /// Counts over all frames done.
   [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
@@ -80,21 +84,14 @@ class RunDirectory {
   void Finish();
 
  private:
-  void Open();
   // @throws InputError if the directory holds a file that does not belong to this run.
   void RefuseStrangers(bool is_run) const;
   void RemoveUnfinished() const;
-  void Resume();
-  // Checks a complete directory.
-  // @param line_sizes For each line file, the size that its frames account for.
-  void CheckUnchanged(const std::vector<std::uint64_t>& line_sizes) const;
-  // Counts the leading frames that are complete: whose files and lines have the hashes that their
-  // line of frames.jsonl states.
-  // @return For each line file, the size of the header and the lines of these frames.
-  // @param found What there is of the trace.
-  [[nodiscard]] std::vector<std::uint64_t> CountFrames(const osi::TraceContent& found);
-  // As CountFrames(). Opens the trace after these frames, unless the run is complete.
-  [[nodiscard]] std::vector<std::uint64_t> CountFramesAndOpenTrace();
+  // Counts the first frames that are done, with their messages in the trace.
+  void CountFrames();
+  void OpenTrace();
+  // Compares a complete directory with what was written; empty if nothing has changed.
+  [[nodiscard]] std::string WhatChanged() const;
   // Returns the files that are known before the first frame, except run.json.
   [[nodiscard]] std::vector<FrameFile> FixedFiles() const;
   void WriteFixedFiles();
@@ -103,13 +100,14 @@ class RunDirectory {
 
   SequenceSpec spec_;
   std::uint32_t most_done_;
-  std::optional<FolderLock> lock_;
+  FolderLock lock_;
   bool is_complete_ = false;
+  std::vector<std::string> changed_;
   std::uint32_t num_done_ = 0;
   FrameCounts counts_;
   std::optional<PoseRecord> first_pose_;
-  /// frames.jsonl is last: its line makes the frame count as done.
-  std::vector<LineFile> line_files_;
+  LineLedger lines_;  ///< frames.jsonl is last.
+  osi::TraceContent found_trace_;
   std::optional<RunTrace> trace_;
 };
 

@@ -9,7 +9,6 @@
 #include "core/io/cloud/track_fields.h"
 #include "core/io/osi/sensor_view.h"
 #include "core/io/ros/frame_topics.h"
-#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -204,7 +203,11 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
 }
 
 void RefuseOtherFiles(const RunPlan& plan) {
-  const auto is_known = [&](const std::string& name) {
+  const auto is_known = [&](std::string name) {
+    const bool is_folder = std::filesystem::is_directory(plan.directory / name);
+    if (name.ends_with(kUnfinishedSuffix) && !is_folder) {
+      name.resize(name.size() - kUnfinishedSuffix.size());
+    }
     return name == kSensorsFile || name == kMergedFolder || IsOwnBag(plan, name) ||
            std::ranges::any_of(plan.sensors,
                                [&](const SensorPlan& sensor) { return sensor.name == name; });

@@ -24,11 +24,11 @@ std::string LengthBytes(const std::string& message) {
 }  // namespace
 
 osi::TraceContent RunTrace::Find(const fs::path& file) {
-  if (fs::exists(file)) return osi::ReadTrace(file);
   try {
+    if (fs::exists(file)) return osi::ReadTrace(file);
     if (fs::exists(UnfinishedTrace(file))) return osi::ReadTrace(UnfinishedTrace(file));
   } catch (const InputError&) {
-    // Refused when it is gone on with, unless it ends before its first message.
+    // Of what cannot be read, nothing is there.
   }
   return {};
 }
@@ -45,6 +45,7 @@ RunTrace::RunTrace(const fs::path& file,
   }
   // A run may be interrupted after its last frame, before its manifest is written.
   if (fs::exists(file)) fs::rename(file, UnfinishedTrace(file));
+  if (num_messages == 0) fs::remove(UnfinishedTrace(file));
   const auto trace = osi::McapTraceOf(osi::ProtobufVersion());
   constexpr auto kCompression = bag::McapCompression::kZstd;
   mcap_ = fs::exists(UnfinishedTrace(file))

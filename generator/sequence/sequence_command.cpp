@@ -93,6 +93,7 @@ bool PrintSummaries(const std::optional<std::filesystem::path>& summary,
   std::string unfinished;
   for (std::size_t i = 0; i < results.size(); ++i) {
     const auto& [name, scenario, spec] = plan.sensors[i];
+    std::cerr << ShownLines(MendedText(results[i].changed));
     std::cout << ShownLines(Summary(spec, results[i]));
     summarized.push_back({name, spec, results[i]});
     if (results[i].is_complete) continue;

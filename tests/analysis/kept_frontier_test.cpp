@@ -51,7 +51,7 @@ TEST(KeptFrontier, GivesBackWhatItKeptBitByBit) {
   EXPECT_FALSE(exists(directory.path() / "kept"));
 }
 
-TEST(KeptFrontier, RefusesWhatAnotherRunHasLeftAndWhatIsDamaged) {
+TEST(KeptFrontier, RefusesWhatAnotherRunHasLeftAndMakesAnewWhatIsDamaged) {
   const TemporaryDirectory directory;
   const auto folder = directory.path() / "kept";
   const auto make = [] { return ExampleFrame(3); };
@@ -59,9 +59,15 @@ TEST(KeptFrontier, RefusesWhatAnotherRunHasLeftAndWhatIsDamaged) {
   EXPECT_EQ(MessageOf([&] { KeptFrontier(folder, "another run"); }),
             folder.string() + ": must be what the same command has left; remove it to begin anew");
   std::ofstream(folder / "frame_3", std::ios::app) << "more";
-  EXPECT_EQ(MessageOf([&] { static_cast<void>(KeptFrontier(folder, "a run").FrameOf(3, make)); }),
-            (folder / "frame_3").string() +
-                ": must be as frontier wrote it; remove the folder to begin anew");
+  int num_made = 0;
+  const auto make_again = [&] {
+    ++num_made;
+    return make();
+  };
+  for (int i = 0; i < 2; ++i) {
+    static_cast<void>(KeptFrontier(folder, "a run").FrameOf(3, make_again));
+  }
+  EXPECT_EQ(num_made, 1);
 }
 
 /// Stands for Ctrl-C.

@@ -173,6 +173,8 @@ class Rosbag2Writer : public BagWriter {
 
   void InsertMetadata() {
     constexpr auto kVersion = MetadataVersion::kJazzy;
+    // Of a bag that was interrupted as it was closed.
+    database_.Run("DELETE FROM metadata");
     SqliteStatement(database_, "INSERT INTO metadata (metadata_version, metadata) VALUES (?, ?)")
         .With(static_cast<std::int64_t>(kVersion),
               std::string_view(MetadataText(ReadMetadata(), kVersion)))

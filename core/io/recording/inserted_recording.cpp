@@ -97,18 +97,10 @@ fs::path CopyIn(const fs::path& folder, const std::string& opened) {
 void CheckOwnFiles(const fs::path& directory) {
   const fs::path file = directory / kManifestFile;
   if (!IsThere(file)) return;
-  const std::string text = ReadFileWhole(file);
-  CheckManifestHash(text, ShownPath(file));
-  const auto manifest =
-      ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(file));
-  const std::map<std::string, std::string, std::less<>> hashes(manifest.files.begin(),
-                                                               manifest.files.end());
+  const auto manifest = ReadRecord<InsertManifestRecord>(ReadManifestText(file), ShownPath(file));
   for (const std::string_view name : {kRunFile, kInsertWorldFile, kLabelsFile}) {
-    const auto known = hashes.find(name);
-    if (known == hashes.end()) {
-      throw InputError(ShownPath(file) + ": /files_xxh3: must name " + std::string(name));
-    }
-    (void)ReadHashedFile(directory, {known->first, known->second, {}}, kManifestFile);
+    const KnownFile known{std::string(name), HashOf(name, manifest.files, file), {}};
+    (void)ReadHashedFile(directory, known, kManifestFile);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
@@ -52,9 +53,7 @@ SequenceSummary ReadSequenceSummary(const std::filesystem::path& directory) {
   SequenceSummary summary{directory, ReadRun(ReadFileWhole(run), ShownPath(run)), {}};
   const std::filesystem::path manifest = directory / kManifestFile;
   if (!IsThere(manifest)) return summary;
-  const std::string text = ReadFileWhole(manifest);
-  CheckManifestHash(text, ShownPath(manifest));
-  summary.manifest = ReadManifest(text, ShownPath(manifest));
+  summary.manifest = ReadRecord<ManifestRecord>(ReadManifestText(manifest), ShownPath(manifest));
   return summary;
 }
 

@@ -14,7 +14,7 @@ void Describe(Archive& a, InsertSourceRecord& s) {
 void Describe(Archive& a, InsertRunRecord& s) {
   a.Required("version", s.version, "Of railcast.");
   a.Required("embree", s.embree, "Its version.");
-  a.Required("recording", s.recording, "Its path.");
+  a.Required("recording", s.recording, "Its path, as the command line or the recipe names it.");
   a.Required("recording_xxh3", s.recording_hash, "Hash of its files' names and sizes.");
   a.Required("kind", s.kind, "What the recording is.");
   a.Required("kitti_labels", s.has_kitti_labels, "Whether labels are those of SemanticKITTI.");

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/io/write_file.h"
 
 namespace railcast {
 namespace {
@@ -49,6 +50,20 @@ void MakeFolders(const std::filesystem::path& folder) {
   if (error) throw FileError(folder, error.value());
 }
 
+void RefuseStranger(const std::filesystem::path& folder, const std::string& name) {
+  throw InputError(ShownPath(folder) + ": holds a file that does not belong to this run (" +
+                   ShownPath(name) + "); move it away or choose another --out");
+}
+
+std::string MendedText(const std::vector<std::string>& faults) {
+  constexpr std::size_t kMostShown = 10;
+  if (faults.empty()) return "";
+  std::string text = "was complete, but not as it was written; made anew:\n";
+  for (std::size_t i = 0; i < std::min(faults.size(), kMostShown); ++i) text += faults[i] + "\n";
+  if (faults.size() <= kMostShown) return text;
+  return text + "... and " + NumberText(faults.size() - kMostShown) + " more\n";
+}
+
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   MakeFolders(folder);
   descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -64,6 +79,15 @@ FolderLock::~FolderLock() {
 
 LineFile::LineFile(std::filesystem::path file, std::uint64_t keep_bytes)
     : file_(std::move(file)), size_(keep_bytes) {
+  std::error_code error;
+  if (std::filesystem::hard_link_count(file_, error) > 1 && !error) {
+    // The other name, such as that in a shard of a merged data set, keeps its content.
+    const std::filesystem::path copy = file_.string() + std::string(kUnfinishedSuffix);
+    std::filesystem::copy_file(file_, copy, std::filesystem::copy_options::overwrite_existing,
+                               error);
+    if (!error) std::filesystem::rename(copy, file_, error);
+    if (error) throw FileError(file_, error.value());
+  }
   constexpr int kAccess = 0644;
   descriptor_ = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kAccess);
   if (descriptor_ < 0) throw FileError(file_, errno);

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace railcast {
 
@@ -55,5 +57,14 @@ class LineFile {
 /// Makes a folder and those that it lies in, unless they are there.
 /// @throws InputError if the system refuses.
 void MakeFolders(const std::filesystem::path& folder);
+
+/// Refuses a folder because of a file in it that its run has not written: it could be mistaken for
+/// one of the run's, or be lost when the run cleans up.
+/// @throws InputError "FOLDER: holds a file that does not belong to this run (notes.txt); ...".
+[[noreturn]] void RefuseStranger(const std::filesystem::path& folder, const std::string& name);
+
+/// What a command says that has found a complete folder of its own with faults, and has made anew
+/// what they name; empty if there were none.
+[[nodiscard]] std::string MendedText(const std::vector<std::string>& faults);
 
 }  // namespace railcast

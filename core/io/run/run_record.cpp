@@ -11,6 +11,7 @@
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/trace_name.h"
+#include "core/io/write_file.h"
 #include "core/scenario/archive.h"
 #include "railcast/io/cloud_files.h"
 
@@ -136,6 +137,21 @@ void CheckManifestHash(const std::string& text, const std::string& place) {
   if (got.ends_with(kManifestHashEnd)) got.resize(got.size() - kManifestHashEnd.size());
   throw InputError(place + ": /manifest_xxh3: must be " + hash + ", that of all before it (got " +
                    ShownText(got) + ")");
+}
+
+std::string ReadManifestText(const std::filesystem::path& file) {
+  const std::string text = ReadFileWhole(file);
+  CheckManifestHash(text, ShownPath(file));
+  return WithoutManifestHash(text);
+}
+
+const std::string& HashOf(std::string_view name,
+                          const NamedValues<std::string>& files,
+                          const std::filesystem::path& manifest) {
+  for (const auto& [known, hash] : files) {
+    if (known == name) return hash;
+  }
+  throw InputError(ShownPath(manifest) + ": /files_xxh3: must name " + ShownText(name));
 }
 
 std::string DataHash(const NamedValues<std::string>& files) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/run/frame_record.h"
@@ -100,6 +102,17 @@ void Describe(Archive& a, ManifestRecord& s);
 /// @throws InputError "place: rule" if a manifest differs in any byte from what WithManifestHash()
 ///   returned.
 void CheckManifestHash(const std::string& text, const std::string& place);
+
+/// The text of a manifest of any kind of folder as it was before WithManifestHash().
+/// @throws InputError if it cannot be read, or is not as it was written.
+[[nodiscard]] std::string ReadManifestText(const std::filesystem::path& file);
+
+/// The hash that a manifest states of a file.
+/// @param manifest Names the manifest in errors.
+/// @throws InputError if it does not name the file.
+[[nodiscard]] const std::string& HashOf(std::string_view name,
+                                        const NamedValues<std::string>& files,
+                                        const std::filesystem::path& manifest);
 
 /// Returns the data_hash of files: the hash of their hashes, leaving out run.json, which names the
 /// program that made them.

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/base/text.h"
-#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/trace_name.h"
 #include "core/scenario/archive.h"

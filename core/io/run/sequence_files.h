@@ -17,6 +17,8 @@ class Archive;
 
 inline constexpr std::string_view kRunFile = "run.json";
 inline constexpr std::string_view kManifestFile = "manifest.json";
+/// Beside a run's bag: what it holds.
+inline constexpr std::string_view kBagLinesFile = "bag.jsonl";
 inline constexpr std::string_view kScenarioFile = "scenario.resolved.json";
 inline constexpr std::string_view kLabelsFile = "labels.json";
 inline constexpr std::string_view kMaterialsFile = "materials.json";

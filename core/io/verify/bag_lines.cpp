@@ -10,7 +10,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
-#include "core/io/run/bag_lines_name.h"
+#include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 #include "core/scenario/archive.h"

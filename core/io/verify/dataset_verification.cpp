@@ -52,7 +52,8 @@ class DatasetVerifier : private Findings {
   Verification Run() {
     CheckOwnFiles();
     Try([&] { CheckScenarios(); });
-    Try([&] { FindOthers(); });
+    // Files of scenarios have been looked at with these.
+    FindOthers(directory_, "belongs to no scenario of the data set", scenarios_);
     return Take();
   }
 
@@ -63,21 +64,12 @@ class DatasetVerifier : private Findings {
 
  private:
   void CheckOwnFiles() {
-    CheckRecipeCopy();
+    CheckHashes(directory_, std::map{std::pair(std::string(kRecipeFile), content_.recipe_hash)},
+                kDatasetFile);
     Try([&] { CheckManifest(); });
   }
   void Fault(const std::string& name, const std::string& rule) {
     faults_.Add({ShownPath(directory_ / name), rule, ""});
-  }
-
-  // Reads a file and compares its hash.
-  void CheckKnown(const std::string& name, const std::string& hash, std::string_view said_in) {
-    known_.insert(name);
-    CheckHash(directory_ / name, hash, std::string(said_in));
-  }
-
-  void CheckRecipeCopy() {
-    CheckKnown(std::string(kRecipeFile), content_.recipe_hash, kDatasetFile);
   }
 
   void CheckManifest() {
@@ -87,11 +79,9 @@ class DatasetVerifier : private Findings {
                                                           ? "missing: the data set is unfinished"
                                                           : "missing: the shard is unfinished");
     }
-    const std::string text = ReadFileWhole(file);
-    Try([&] { CheckManifestHash(text, ShownPath(file)); });
-    const auto manifest =
-        ReadRecord<DatasetManifestRecord>(WithoutManifestHash(text), ShownPath(file));
-    for (const auto& [name, hash] : manifest.files) CheckKnown(name, hash, kDatasetManifestFile);
+    CheckHashes(directory_,
+                ReadRecord<DatasetManifestRecord>(ReadManifestText(file), ShownPath(file)).files,
+                kDatasetManifestFile);
   }
 
   void CheckScenarios() {
@@ -109,17 +99,9 @@ class DatasetVerifier : private Findings {
                                            " scenarios (got " + NumberText(num_lines) + ")");
   }
 
-  // Files of scenarios have been looked at with these.
-  void FindOthers() {
-    ForEachFileBelow(directory_, directory_, scenarios_, [&](const std::string& name) {
-      if (!known_.contains(name)) Fault(name, "belongs to no scenario of the data set");
-    });
-  }
-
   const fs::path& directory_;
   const std::function<void(double)> on_progress_;
   DatasetContent content_;
-  NameSet known_;
   NameSet scenarios_;  ///< Their folders.
 };
 

@@ -13,6 +13,7 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/verify/verification.h"
+#include "core/io/write_file.h"
 
 namespace railcast {
 
@@ -33,42 +34,6 @@ inline std::optional<FileHash> CompareHash(const std::filesystem::path& file,
   }
   return got;
 }
-
-/// What a verifier has found so far, and the work that all verifiers do.
-class Findings {
- protected:
-  /// Does a part of the work, and keeps its faults. Returns whether it has none.
-  template <typename Work>
-  bool Try(const Work& work) {
-    return Attempt("", faults_, [&] { return work(), true; }).has_value();
-  }
-
-  /// As CompareHash(), and counts the file. Returns whether it is that one.
-  bool CheckHash(const std::filesystem::path& file,
-                 const std::string& hash,
-                 const std::string& said_in) {
-    const auto got = CompareHash(file, hash, said_in, faults_);
-    if (!got) return false;
-    ++result_.num_files;
-    result_.num_bytes += got->num_bytes;
-    return got->hash == hash;
-  }
-
-  void Add(const Verification& found) {
-    for (const std::string& fault : found.faults) faults_.AddLine(fault);
-    result_.num_frames += found.num_frames;
-    result_.num_files += found.num_files;
-    result_.num_bytes += found.num_bytes;
-  }
-
-  Verification Take() {
-    result_.faults = faults_.lines();
-    return std::move(result_);
-  }
-
-  ErrorList faults_;
-  Verification result_;
-};
 
 /// Calls `visit` with the name, relative to `root`, of each file below a folder but not in those
 /// that `known_folders` names. A symbolic link counts as a file of its own name, whatever it points
@@ -92,5 +57,82 @@ void ForEachFileBelow(const std::filesystem::path& folder,
   }
   if (error) throw FileError(folder, error.value());
 }
+
+/// What a verifier has found so far, and the work that all verifiers do.
+class Findings {
+ protected:
+  /// Does a part of the work, and keeps its faults. Returns whether it has none.
+  template <typename Work>
+  bool Try(const Work& work) {
+    return Attempt("", faults_, [&] { return work(), true; }).has_value();
+  }
+
+  /// As CompareHash(), and counts the file. Returns whether it is that one.
+  bool CheckHash(const std::filesystem::path& file,
+                 const std::string& hash,
+                 const std::string& said_in) {
+    const auto got = CompareHash(file, hash, said_in, faults_);
+    if (!got) return false;
+    ++result_.num_files;
+    result_.num_bytes += got->num_bytes;
+    return got->hash == hash;
+  }
+
+  /// Checks that the files that a record names have the hashes that it states.
+  /// @param files Pairs of names and hashes.
+  /// @param said_in The record's name in the folder.
+  template <typename Files>
+  void CheckHashes(const std::filesystem::path& folder,
+                   const Files& files,
+                   std::string_view said_in) {
+    for (const auto& [name, hash] : files) {
+      known_.insert(name);
+      CheckHash(folder / name, hash, std::string(said_in));
+    }
+  }
+
+  /// Adds a file that does not belong to a folder.
+  void AddOther(const std::filesystem::path& folder,
+                const std::string& name,
+                const std::string& rule) {
+    const std::string_view suffix = kUnfinishedSuffix;
+    const bool is_unfinished =
+        name.ends_with(suffix) && known_.contains(name.substr(0, name.size() - suffix.size()));
+    ErrorList line;
+    line.Add({ShownPath(folder / name), rule, ""});
+    result_.others.push_back({folder / name, line.lines().front(), is_unfinished});
+    faults_.AddLine(line.lines().front());
+  }
+
+  /// Adds the files of a folder, or of one below it, that are not known.
+  /// @param known_folders What is below these has been looked at.
+  void FindOthers(const std::filesystem::path& folder,
+                  const std::string& rule,
+                  const NameSet& known_folders = {},
+                  const std::string& below = "") {
+    Try([&] {
+      ForEachFileBelow(folder / below, folder, known_folders, [&](const std::string& name) {
+        if (!known_.contains(name)) AddOther(folder, name, rule);
+      });
+    });
+  }
+
+  void Add(const Verification& found) {
+    for (const std::string& fault : found.faults) faults_.AddLine(fault);
+    result_.others.insert(result_.others.end(), found.others.begin(), found.others.end());
+    result_.num_frames += found.num_frames;
+    result_.num_files += found.num_files;
+    result_.num_bytes += found.num_bytes;
+  }
+
+  Verification Take() {
+    result_.faults = faults_.lines();
+    return std::move(result_);
+  }
+
+  ErrorList faults_;
+  Verification result_;
+  NameSet known_;  ///< Files that belong to the folder.
+};
 
 }  // namespace railcast

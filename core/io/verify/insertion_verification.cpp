@@ -1,5 +1,6 @@
 #include "core/io/verify/insertion_verification.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -37,23 +38,25 @@ class InsertionVerifier : private Findings {
       : directory_(directory), on_progress_(on_progress) {}
 
   Verification Run() {
-    Try([&] { CheckManifest(); });
+    const bool has_manifest = Try([&] { CheckManifest(); });
     Try([&] { CheckFrames(); });
     const fs::path recording = directory_ / kRecordingFolder;
-    const bool is_sequence = IsThere(recording / kRunFile);
+    // A sequence names its files itself.
+    const bool is_sequence =
+        IsThere(recording / kRunFile) ||
+        (has_manifest && std::ranges::none_of(known_, [](const std::string& name) {
+           return name.starts_with(std::string(kRecordingFolder) + "/");
+         }));
     if (is_sequence) {
-      Verification found = VerifySequence(recording, [](double) {});
-      found.num_frames = 0;  // They have been counted.
-      Add(found);
-    }
-    const NameSet known_folders = is_sequence ? NameSet{std::string(kRecordingFolder)} : NameSet();
-    Try([&] {
-      ForEachFileBelow(directory_, directory_, known_folders, [&](const std::string& name) {
-        if (known_.contains(name)) return;
-        faults_.Add({ShownPath(directory_ / name),
-                     "is named neither in manifest.json nor in insert.jsonl", ""});
+      Try([&] {
+        Verification found = VerifySequence(recording, [](double) {});
+        found.num_frames = 0;  // They have been counted.
+        Add(found);
       });
-    });
+    }
+    if (!has_manifest) return Take();
+    FindOthers(directory_, "is named neither in manifest.json nor in insert.jsonl",
+               is_sequence ? NameSet{std::string(kRecordingFolder)} : NameSet());
     return Take();
   }
 
@@ -66,16 +69,10 @@ class InsertionVerifier : private Findings {
     if (!IsThere(file)) {
       throw InputError({Fault{ShownPath(file), "missing: the run is unfinished", ""}});
     }
-    const std::string text = ReadFileWhole(file);
-    Try([&] { CheckManifestHash(text, ShownPath(file)); });
-    const auto manifest =
-        ReadRecord<InsertManifestRecord>(WithoutManifestHash(text), ShownPath(file));
+    const auto manifest = ReadRecord<InsertManifestRecord>(ReadManifestText(file), ShownPath(file));
     num_frames_ = manifest.run.num_frames;
     first_frame_ = manifest.run.first_frame;
-    for (const auto& [name, hash] : manifest.files) {
-      known_.insert(name);
-      CheckHash(directory_ / name, hash, std::string(kManifestFile));
-    }
+    CheckHashes(directory_, manifest.files, kManifestFile);
   }
 
   void CheckFrames() {
@@ -101,7 +98,6 @@ class InsertionVerifier : private Findings {
 
   const fs::path& directory_;
   const std::function<void(double)>& on_progress_;
-  NameSet known_;
   std::uint32_t first_frame_ = 0;
   std::uint32_t num_frames_ = 0;  ///< 0 = not known.
 };

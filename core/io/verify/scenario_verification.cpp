@@ -14,7 +14,6 @@
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/run/bag_lines_name.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/sensors_record.h"
@@ -36,7 +35,7 @@ class MergedVerifier : private Findings {
       CheckFile(file, [&] { return ReadHashedFile(merged_.folder, file, kSensorsFile); });
     }
     Try([&] { CheckClouds(on_progress); });
-    Try([&] { FindOthers(); });
+    FindOthers(merged_.folder, "is named neither in sensors.json nor in merged.jsonl");
     return Take();
   }
 
@@ -62,18 +61,7 @@ class MergedVerifier : private Findings {
     }
   }
 
-  void FindOthers() {
-    for (const auto& entry : fs::recursive_directory_iterator(merged_.folder)) {
-      if (entry.is_directory()) continue;
-      const std::string name = entry.path().lexically_relative(merged_.folder).generic_string();
-      if (known_.contains(name)) continue;
-      faults_.Add(
-          {ShownPath(entry.path()), "is named neither in sensors.json nor in merged.jsonl", ""});
-    }
-  }
-
   const MergedFolder& merged_;
-  NameSet known_;
 };
 
 class ScenarioVerifier : private Findings {
@@ -123,7 +111,12 @@ class ScenarioVerifier : private Findings {
       found.num_frames = 0;  // They are those of the sequences.
       Add(found);
     });
-    Try([&] { FindOthers(); });
+    known_.insert(folder_ + "/" + std::string(kSensorsFile));
+    if (!bag_.empty()) {
+      known_.insert({bag_, folder_ + "/" + std::string(kBagLinesFile)});
+      sequences_.insert(bag_);  // It may be a folder.
+    }
+    FindOthers(dataset_, "belongs to no sequence of the scenario", sequences_, folder_);
   }
 
   void CheckSequence(const SequenceRecord& line) {
@@ -137,23 +130,17 @@ class ScenarioVerifier : private Findings {
   }
 
   void CheckFiles(const SequenceRecord& line) {
-    NameSet known;
     for (const auto& [name, hash] : line.files) {
       if (fs::path(name).is_absolute() ||
           fs::path(name).lexically_normal().begin()->string() == "..") {
         faults_.Add({line_.place, "must name files of the scenario", ShownText(name)});
         continue;
       }
-      known.insert(folder_ + "/" + name);
+      known_.insert(folder_ + "/" + name);
       CheckHash(dataset_ / folder_ / name, hash, line_.place);
     }
     result_.num_frames += line.num_frames;
-    Try([&] {
-      ForEachFileBelow(dataset_ / folder_, dataset_, {}, [&](const std::string& name) {
-        if (known.contains(name)) return;
-        faults_.Add({ShownPath(dataset_ / name), "is not named in " + line_.place, ""});
-      });
-    });
+    FindOthers(dataset_, "is not named in " + line_.place, {}, folder_);
   }
 
   // The line repeats what the manifest says.
@@ -164,24 +151,11 @@ class ScenarioVerifier : private Findings {
                    "must be " + ShownText(expected) + ", as in " + ShownPath(file),
                    ShownText(got)});
     };
-    const ManifestRecord manifest = ReadManifest(ReadFileWhole(file), ShownPath(file));
+    const auto manifest = ReadRecord<ManifestRecord>(ReadManifestText(file), ShownPath(file));
     compare("points", NumberText(line.points), NumberText(manifest.counts.points));
     compare("num_frames", NumberText(line.num_frames), NumberText(manifest.num_frames));
     compare("data_xxh3", line.data_hash, manifest.data_hash);
-    const auto scenario = std::ranges::find_if(
-        manifest.files, [](const auto& each) { return each.first == kScenarioFile; });
-    compare("scenario_xxh3", line.scenario_hash,
-            scenario == manifest.files.end() ? "" : scenario->second);
-  }
-
-  // Files of sequences have been looked at with these.
-  void FindOthers() {
-    ForEachFileBelow(dataset_ / folder_, dataset_, sequences_, [&](const std::string& name) {
-      if (name == folder_ + "/" + std::string(kSensorsFile)) return;
-      if (!bag_.empty() && (name == bag_ || name.starts_with(bag_ + "/"))) return;
-      if (!bag_.empty() && name == folder_ + "/" + std::string(kBagLinesFile)) return;
-      faults_.Add({ShownPath(dataset_ / name), "belongs to no sequence of the scenario", ""});
-    });
+    compare("scenario_xxh3", line.scenario_hash, HashOf(kScenarioFile, manifest.files, file));
   }
 
   const fs::path& dataset_;

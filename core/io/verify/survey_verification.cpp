@@ -14,25 +14,16 @@ namespace {
 class SurveyVerifier : private Findings {
  public:
   Verification Run(const std::filesystem::path& directory) {
-    NameSet known = {std::string(kSurveyRecordFile)};
+    known_.emplace(kSurveyRecordFile);
     const bool has_record = Try([&] {
       if (!IsThere(directory / kSurveyRecordFile)) {
         throw InputError({Fault{ShownPath(directory / kSurveyRecordFile),
                                 "missing: the survey is unfinished, or of an older program", ""}});
       }
       ++result_.num_files;
-      for (const auto& [name, hash] : ReadSurveyHashes(directory)) {
-        known.insert(name);
-        CheckHash(directory / name, hash, std::string(kSurveyRecordFile));
-      }
+      CheckHashes(directory, ReadSurveyHashes(directory), kSurveyRecordFile);
     });
-    if (!has_record) return Take();
-    Try([&] {
-      ForEachFileBelow(directory, directory, {}, [&](const std::string& name) {
-        if (known.contains(name)) return;
-        faults_.Add({ShownPath(directory / name), "is not named in survey.json", ""});
-      });
-    });
+    if (has_record) FindOthers(directory, "is not named in survey.json");
     return Take();
   }
 };

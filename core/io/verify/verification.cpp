@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -10,6 +11,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/motion_files.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/bag_clouds.h"
 #include "core/io/verify/bag_lines.h"
@@ -92,7 +94,6 @@ class Verifier : private Findings {
   SequenceSummary summary_;
   std::optional<LabelTable> labels_;
   FrameCounts totals_;
-  NameSet known_;
   bool are_frames_known_ = false;
   std::vector<CloudsOfFrame> clouds_;  ///< If they are in a bag or a trace.
 };
@@ -124,10 +125,7 @@ void Verifier::CompareManifest() {
   compare("start_frame", NumberText(manifest.start_frame), NumberText(run.start_frame));
   compare("num_frames", NumberText(manifest.num_frames), NumberText(run.num_frames));
   for (const std::string& name : NeededFiles(run)) {
-    if (std::ranges::none_of(manifest.files,
-                             [&](const auto& file) { return file.first == name; })) {
-      Fault(kManifestFile, "/files_xxh3: must name " + ShownText(name));
-    }
+    Try([&] { (void)HashOf(name, manifest.files, summary_.directory / kManifestFile); });
   }
   const std::string data_hash = DataHash(manifest.files);
   if (manifest.data_hash == data_hash) return;
@@ -329,7 +327,9 @@ void Verifier::FindOthers() {
   ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
     if (known_.contains(name) || (summary_.run.bag && IsOfBag(name))) return;
     if (summary_.manifest && are_frames_known_) {
-      return Fault(name, "is named neither in manifest.json nor in frames.jsonl");
+      if (summary_.run.bag) known_.insert({std::string(kBagLinesFile), summary_.run.bag->path});
+      return AddOther(summary_.directory, name,
+                      "is named neither in manifest.json nor in frames.jsonl");
     }
     // A run that was interrupted or is in progress has files whose hashes are not recorded yet.
     const std::string found = name;
@@ -345,14 +345,19 @@ Verification VerifySequence(const fs::path& directory,
   return Verifier(directory, on_progress).Run();
 }
 
-void RefuseChanged(const fs::path& directory, const Verification& found) {
-  if (found.faults.empty()) return;
-  ErrorList errors;
-  for (const std::string& fault : found.faults) errors.AddLine(fault);
-  errors.AddLine(ShownPath(directory) +
-                 ": is complete, but was changed; delete its manifest.json, and the same command "
-                 "makes anew what is not as it was");
-  errors.ThrowIfAny();
+std::vector<std::string> FaultsToMend(const fs::path& directory, const Verification& found) {
+  std::set<std::string> of_others;
+  for (const Verification::OtherFile& other : found.others) of_others.insert(other.fault);
+  std::vector<std::string> faults = found.faults;
+  std::erase_if(faults, [&](const std::string& fault) { return of_others.contains(fault); });
+  for (const auto& [file, fault, is_unfinished] : found.others) {
+    if (is_unfinished) {
+      fs::remove(file);
+    } else if (faults.empty()) {  // Else it may be a file that a damaged one names.
+      RefuseStranger(directory, file.lexically_relative(directory).generic_string());
+    }
+  }
+  return faults;
 }
 
 }  // namespace railcast

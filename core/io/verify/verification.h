@@ -10,10 +10,18 @@ namespace railcast {
 
 /// Result of verifying a sequence directory.
 struct Verification {
+  /// A file that does not belong there, which is a fault, too.
+  struct OtherFile {
+    std::filesystem::path file;
+    std::string fault;
+    bool is_unfinished{};  ///< Whether an interrupted run has left it beside the finished file.
+  };
+
   std::vector<std::string> faults;  ///< Each on one line: "file: rule (got value)".
-  std::uint64_t num_frames{};       ///< Frames that have a line in frames.jsonl.
-  std::uint64_t num_files{};        ///< Files that were read.
-  std::uint64_t num_bytes{};        ///< Size of these files.
+  std::vector<OtherFile> others{};
+  std::uint64_t num_frames{};  ///< Frames that have a line in frames.jsonl.
+  std::uint64_t num_files{};   ///< Files that were read.
+  std::uint64_t num_bytes{};   ///< Size of these files.
 };
 
 /// Compares every file of a sequence directory with run.json, manifest.json and frames.jsonl, and
@@ -24,8 +32,11 @@ struct Verification {
 [[nodiscard]] Verification VerifySequence(const std::filesystem::path& directory,
                                           const std::function<void(double)>& on_progress);
 
-/// Refuses a complete folder that is not as its command wrote it, and says how it is mended.
-/// @throws InputError with a line for each fault, and one more.
-void RefuseChanged(const std::filesystem::path& directory, const Verification& found);
+/// What the command that made a complete folder does as it finds it again: removes what an
+/// interrupted run has left, and refuses files of others.
+/// @return The other faults; what they name must be made anew.
+/// @throws InputError "DIR: holds a file that does not belong to this run (notes.txt); ...".
+[[nodiscard]] std::vector<std::string> FaultsToMend(const std::filesystem::path& directory,
+                                                    const Verification& found);
 
 }  // namespace railcast

@@ -11,7 +11,7 @@
 #include "generator/insert/insert_plan.h"
 #include "generator/insert/inserted_frame.h"
 #include "generator/insert/recorded_firings.h"
-#include "generator/run/line_walk.h"
+#include "generator/run/line_ledger.h"
 #include "generator/run/run_directory.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"

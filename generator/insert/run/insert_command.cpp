@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/with_topic.h"
+#include "core/io/run/run_folder.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
@@ -72,6 +73,7 @@ int RunInsertCommand(InsertOptions options) {
   };
   const InsertResult result = RunInsert(choices, plan, {show, StopRequested});
   line.End();
+  std::cerr << ShownLines(MendedText(result.changed));
   if (result.is_complete) {
     std::cout << ShownLines(result.text);
     return kExitSuccess;

@@ -1,6 +1,8 @@
 #include "generator/insert/run/insert_folder.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -8,110 +10,74 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
+#include "core/io/run/folder_identity.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/verify/insertion_verification.h"
 #include "core/io/write_file.h"
-#include "generator/empty_folder.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a line of insert.jsonl is that of the frame, and all that it names is there.
-bool IsWhole(const fs::path& directory,
-             std::string_view line,
-             std::uint32_t frame,
-             const std::string& records) {
-  if (line.empty()) return false;
+/// What a line of insert.jsonl says; nothing if it is not that of the frame.
+std::optional<LedgerItem> ReadItem(std::string_view line,
+                                   std::uint32_t frame,
+                                   std::size_t num_others) {
+  if (line.empty()) return std::nullopt;
   line.remove_suffix(1);
-  if (!LineHashFault(line).empty()) return false;
+  if (!LineHashFault(line).empty()) return std::nullopt;
   try {
     const FrameRecord record = ReadInsertLine(line, "").frame;
-    return record.frame == frame && record.records_hash == ContentHash(records) &&
-           std::ranges::all_of(record.files,
-                               [&](const KnownFile& file) { return HasContent(directory, file); });
+    if (record.frame != frame) return std::nullopt;
+    return LedgerItem{record.files, record.records_hash, std::vector(num_others, 1U)};
   } catch (const InputError&) {
-    return false;
+    return std::nullopt;
   }
 }
 
-}  // namespace
-
-InsertFolder::InsertFolder(InsertFolderSpec spec) : spec_(std::move(spec)), lock_(spec_.directory) {
-  const fs::path run_file = spec_.directory / kRunFile;
-  std::error_code none;
-  if (spec_.is_mended) {
-    WriteFileWhole(run_file, RecordFile(spec_.run));
-    fs::remove(spec_.directory / kManifestFile, none);
-  } else if (fs::exists(run_file)) {
-    CheckSameRun(ReadFileWhole(run_file));
-  } else {
-    MakeEmptyFolder(spec_.directory);
-    was_empty_ = true;
-    WriteFileWhole(run_file, RecordFile(spec_.run));
-  }
-  is_complete_ = fs::exists(spec_.directory / kManifestFile);
-  if (is_complete_) {
-    RefuseChanged(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));
-  }
-  CountFrames();
-}
-
-void InsertFolder::CheckSameRun(const std::string& found) const {
-  const Json theirs = Json::parse(found, nullptr, false);
-  const std::string place = ShownPath(spec_.directory) + ": ";
-  if (!theirs.is_object()) throw InputError(place + "holds a run.json that is not railcast's");
-  const Json ours = Json::parse(RecordText(spec_.run));
-  for (const auto& [key, value] : ours.items()) {
-    const auto other = theirs.find(key);
-    if (other != theirs.end() && *other == value) continue;
-    const bool is_shown = other != theirs.end() && other->is_primitive();
-    throw InputError(place + "holds another run: its " + key + " is " +
-                     (is_shown ? ShownText(other->dump()) : "missing") + " (got " +
-                     ShownText(value.dump()) + "); choose another --out");
-  }
-}
-
-std::vector<LineFileName> InsertFolder::LineFiles() const {
-  std::vector<LineFileName> files = spec_.line_files;
+std::vector<LineFileName> WithOwn(std::vector<LineFileName> files) {
   files.push_back({std::string(kInsertFile), ""});
   return files;
 }
 
-void InsertFolder::CountFrames() {
-  std::vector<LineWalk> walks;
-  for (const LineFileName& file : LineFiles()) {
-    walks.emplace_back(spec_.directory / file.name, file.header);
+}  // namespace
+
+InsertFolder::InsertFolder(InsertFolderSpec spec)
+    : spec_(std::move(spec)),
+      lock_(spec_.directory),
+      lines_(spec_.directory, WithOwn(spec_.line_files)) {
+  const FolderIdentity identity{.file = spec_.directory / kRunFile,
+                                .text = RecordFile(spec_.run),
+                                .is_complete = fs::exists(spec_.directory / kManifestFile)};
+  if (!spec_.is_known && fs::exists(identity.file)) {
+    CheckIsSame(identity, [](const std::string& key, const Json& found, const Json& ours) {
+      return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
+    });
+  } else if (!spec_.is_known) {
+    BeginFolder(identity, "an insertion");
+    was_empty_ = true;
   }
-  const auto note = [&] {
-    std::vector<std::uint64_t> sizes;
-    for (const LineWalk& walk : walks) sizes.push_back(walk.position());
-    sizes_.push_back(std::move(sizes));
-  };
-  note();
-  for (; num_done_ < spec_.run.num_frames; ++num_done_) {
-    std::string records;
-    for (std::size_t i = 0; i + 1 < walks.size(); ++i) records += walks[i].Next();
-    const std::uint32_t frame = spec_.run.first_frame + num_done_;
-    if (!IsWhole(spec_.directory, walks.back().Next(), frame, records)) break;
-    for (LineWalk& walk : walks) walk.Advance();
-    note();
+  is_complete_ = identity.is_complete;
+  if (is_complete_) {
+    changed_ = FaultsToMend(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));
+    is_complete_ = changed_.empty();
   }
+  if (!is_complete_) {
+    fs::remove(spec_.directory / kManifestFile);
+    WriteFileWhole(identity.file, identity.text);
+  }
+  num_done_ = lines_.Count(spec_.run.num_frames, [&](std::uint32_t i, std::string_view line) {
+    return ReadItem(line, spec_.run.first_frame + i, spec_.line_files.size());
+  });
 }
 
 void InsertFolder::Open(std::uint32_t num_kept) {
   Check(num_kept <= num_done_, "only frames that are there are kept");
   num_done_ = num_kept;
-  const std::vector<LineFileName> files = LineFiles();
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const fs::path file = spec_.directory / files[i].name;
-    MakeFolders(file.parent_path());
-    lines_.emplace_back(file, sizes_[num_kept][i]);
-    if (sizes_[num_kept][i] == 0) lines_.back().Append(files[i].header);
-  }
+  lines_.Open(num_kept);
 }
 
 void InsertFolder::WriteFixed(const FixedFile& file) {
@@ -137,25 +103,20 @@ void InsertFolder::WriteFixed(const FixedFile& file) {
 void InsertFolder::Write(const std::vector<FrameFile>& files,
                          const std::vector<std::string>& lines,
                          InsertRecord entry) {
-  Check(lines.size() + 1 == lines_.size(), "each file gets a line");
   for (const FrameFile& file : files) {
     MakeFolders((spec_.directory / file.name).parent_path());
     WriteFileWhole(spec_.directory / file.name, file.bytes);
     entry.frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
-  std::string records;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    lines_[i].Append(lines[i]);
-    records += lines[i];
-  }
-  entry.frame.records_hash = ContentHash(records);
-  lines_.back().Append(HashedRecordLine(entry));
+  lines_.Append(lines, [&](std::string records_hash) {
+    entry.frame.records_hash = std::move(records_hash);
+    return HashedRecordLine(entry);
+  });
   ++num_done_;
 }
 
 void InsertFolder::Abandon() noexcept {
   if (!was_empty_ || num_done_ > 0) return;
-  lines_.clear();
   std::error_code error;
   fs::remove_all(spec_.directory, error);
 }
@@ -176,12 +137,12 @@ void InsertFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
 
 void InsertFolder::Finish(const std::vector<std::string>& remarks,
                           const std::vector<std::string>& others) {
-  for (LineFile& file : lines_) file.Sync();
+  lines_.Sync();
   InsertManifestRecord manifest{.run = spec_.run, .remarks = remarks};
   std::vector<std::string> names = {std::string(kRunFile)};
   names.insert(names.end(), fixed_.begin(), fixed_.end());
   names.insert(names.end(), others.begin(), others.end());
-  for (const LineFileName& file : LineFiles()) names.push_back(file.name);
+  for (const LineFileName& file : lines_.files()) names.push_back(file.name);
   RemoveUnfinished(names);
   for (const std::string& name : names) {
     manifest.files.emplace_back(name, HashFile(spec_.directory / name).hash);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +9,7 @@
 #include "core/io/run/insert_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/insert/clouds/recording_output.h"
-#include "generator/run/line_walk.h"
+#include "generator/run/line_ledger.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
@@ -21,8 +20,7 @@ struct InsertFolderSpec {
   InsertRunRecord run;
   /// Those that get a line of each frame, without insert.jsonl.
   std::vector<LineFileName> line_files;
-  /// Whether the folder is known to be of this run: what is not as it was written is made anew.
-  bool is_mended = false;
+  bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
 /// The folder that `insert --out` names, complete or unfinished. A frame counts as done when its
@@ -30,13 +28,17 @@ struct InsertFolderSpec {
 /// What else an interrupted run has left is written again.
 class InsertFolder {
  public:
-  /// Makes the folder, or opens it and finds out how far its run has got.
-  /// @throws InputError if it holds another run or other files, is complete but not as it was
-  ///   written, is being written by another process, or the system refuses.
+  /// Makes the folder, or opens it and finds out how far its run has got. If a complete one is not
+  /// as it was written, it can be gone on with: what differs is made anew.
+  /// @throws InputError if it holds another run or other files, is being written by another
+  /// process,
+  ///   or the system refuses.
   explicit InsertFolder(InsertFolderSpec spec);
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] std::uint32_t num_done() const { return num_done_; }
+  /// What was not as it was written when a complete folder was opened, a line each.
+  [[nodiscard]] const std::vector<std::string>& changed() const { return changed_; }
 
   /// Keeps the lines of the first frames and opens the files for those after them.
   void Open(std::uint32_t num_kept);
@@ -57,18 +59,15 @@ class InsertFolder {
   void Finish(const std::vector<std::string>& remarks, const std::vector<std::string>& others);
 
  private:
-  void CheckSameRun(const std::string& found) const;
   void RemoveUnfinished(const std::vector<std::string>& own) const;
-  void CountFrames();
-  [[nodiscard]] std::vector<LineFileName> LineFiles() const;
 
   InsertFolderSpec spec_;
   FolderLock lock_;
   bool was_empty_ = false;
   bool is_complete_ = false;
   std::uint32_t num_done_ = 0;
-  std::vector<std::vector<std::uint64_t>> sizes_;  ///< Of the line files, after each frame.
-  std::vector<LineFile> lines_;
+  std::vector<std::string> changed_;
+  LineLedger lines_;  ///< insert.jsonl is last.
   std::vector<std::string> fixed_;
 };
 

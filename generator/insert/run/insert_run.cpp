@@ -62,7 +62,7 @@ InsertRunRecord RecordOfRun(const InsertChoices& choices,
                             const InsertRange& range) {
   InsertRunRecord run{.version = ProgramVersion(),
                       .embree = EmbreeVersion(),
-                      .recording = choices.recording.lexically_normal().generic_string(),
+                      .recording = choices.recording_name,
                       .recording_hash = choices.recording_hash,
                       .kind = info.kind,
                       .has_kitti_labels = info.has_kitti_labels,
@@ -72,6 +72,9 @@ InsertRunRecord RecordOfRun(const InsertChoices& choices,
                       .may_use_points_alone = choices.may_use_points_alone,
                       .first_frame = range.first,
                       .num_frames = range.num};
+  if (run.recording.empty()) {
+    run.recording = choices.recording.lexically_normal().generic_string();
+  }
   if (run.recording_hash.empty()) {
     run.recording_hash = ContentHash(RecordingTraits(choices.recording));
   }
@@ -143,12 +146,13 @@ class InsertRun {
         folder_({.directory = choices.directory,
                  .run = RecordOfRun(choices, recording.info(), plan, range_),
                  .line_files = LineFiles(),
-                 .is_mended = choices.is_mended}) {}
+                 .is_known = choices.is_known}) {}
 
   InsertResult Run() {
     InsertResult result;
     result.num_frames = range_.num;
     result.was_complete = folder_.is_complete();
+    result.changed = folder_.changed();
     result.num_resumed = folder_.num_done();
     if (!folder_.is_complete()) {
       result.num_resumed = output_->Begin(folder_.num_done());

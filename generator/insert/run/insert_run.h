@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "generator/insert/insert_plan.h"
 
@@ -13,6 +14,7 @@ namespace railcast {
 /// What `insert` is asked for.
 struct InsertChoices {
   std::filesystem::path recording;
+  std::string recording_name{};  ///< As run.json names it; empty: as `recording` is given.
   std::string recording_hash{};  ///< ContentHash() of RecordingTraits(); empty: not known yet.
   std::filesystem::path plan;
   std::filesystem::path directory;
@@ -20,9 +22,8 @@ struct InsertChoices {
   std::uint32_t first_frame = 0;
   std::optional<std::uint32_t> last_frame{};  ///< Absent: the recording's last.
   bool may_use_points_alone = false;
-  int num_threads = 0;  ///< 0 = all cores.
-  /// Whether the folder is known to be of this run: what is not as it was written is made anew.
-  bool is_mended = false;
+  int num_threads = 0;    ///< 0 = all cores.
+  bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
 /// How far a run has got.
@@ -32,6 +33,8 @@ struct InsertResult {
   std::uint32_t num_frames{};
   bool was_complete{};
   bool is_complete{};
+  /// What was not as it was written in a complete folder and was made anew, a line each.
+  std::vector<std::string> changed;
   std::string text;  ///< The report of a complete run.
 };
 

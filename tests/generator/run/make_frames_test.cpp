@@ -225,7 +225,7 @@ TEST(RunSequence, HasNothingToDoInACompleteDirectory) {
 }
 
 // Every file in turn is changed in its middle, extended, and removed.
-TEST(RunSequence, NoticesWhateverWasChangedInACompleteDirectory) {
+TEST(RunSequence, MendsWhateverWasChangedInACompleteDirectory) {
   for (const char* format : {"pcd", "kitti"}) {
     const TemporaryDirectory directory;
     SequenceSpec spec = ExampleRun(directory.path(), format);
@@ -241,14 +241,12 @@ TEST(RunSequence, NoticesWhateverWasChangedInACompleteDirectory) {
         if (name == "manifest.json" && change.empty()) continue;
         std::filesystem::remove(directory.path() / name);
         if (!change.empty()) WriteFileWhole(directory.path() / name, change);
-        const std::string said = RunMessage(spec);
-        const std::string place = directory.path().string() + ": is complete, but ";
-        const std::string end = " was changed or removed; delete manifest.json to make it anew";
-        ASSERT_TRUE(said.starts_with(place) && said.ends_with(end)) << name << ": " << said;
-        const std::string what = said.substr(place.size(), said.size() - end.size() - place.size());
-        EXPECT_TRUE(what == name || what.starts_with("frame ")) << name << ": " << what;
-        std::filesystem::remove(directory.path() / "manifest.json");
-        (void)RunSequence(spec, MakeExampleFrame, NoHooks());
+        const SequenceResult mended = RunSequence(spec, MakeExampleFrame, NoHooks());
+        const std::string place = directory.path().string() + ": ";
+        ASSERT_EQ(mended.changed.size(), 1U) << name;
+        EXPECT_TRUE(mended.changed.front() == place + name + " was changed or removed" ||
+                    mended.changed.front().starts_with(place + "frame "))
+            << mended.changed.front();
         ASSERT_EQ(Contents(directory.path()), whole) << name;
       }
     }
@@ -259,10 +257,10 @@ TEST(RunSequence, NamesTheFirstChangedFrameOfACompleteDirectory) {
   const TemporaryDirectory directory;
   (void)RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
   std::filesystem::remove(directory.path() / "frames/000005.pcd");
-  EXPECT_EQ(RunMessage(ExampleRun(directory.path())),
-            directory.path().string() +
-                ": is complete, but frame 5 was changed or removed; delete manifest.json to make "
-                "it anew");
+  const auto mended = RunSequence(ExampleRun(directory.path()), MakeExampleFrame, NoHooks());
+  EXPECT_EQ(mended.changed, std::vector<std::string>{directory.path().string() +
+                                                     ": frame 5 was changed or removed"});
+  EXPECT_EQ(mended.num_resumed, 2U);
 }
 
 TEST(RunSequence, HashesEveryFileThatItsFramesDoNot) {

@@ -117,8 +117,10 @@ TEST_F(ChangedBags, ThatAreCutAreFaultsOfOldAndNewRuns) {
   }
 }
 
-TEST_F(ChangedBags, AreNotGoneOnWith) {
+TEST_F(ChangedBags, AreNotGoneOnWithButBegunAnew) {
   for (const std::string format : {"mcap", "rosbag2"}) {
+    const std::string options = "--format " + format + " " + frames_;
+    const std::string lines = ReadFileWhole(Make("whole_" + format, options) / "bag.jsonl");
     MakeFirst(format, format, 3);
     const fs::path bag = Out(format) / (format == "mcap" ? "frames.mcap" : "rosbag2");
     if (format == "mcap") {
@@ -128,35 +130,47 @@ TEST_F(ChangedBags, AreNotGoneOnWith) {
     } else {
       ChangeDatabase(bag, "/odometry", "DELETE FROM messages WHERE id = :id");
     }
-    EXPECT_THAT(Run("--format " + format + " " + frames_ + " --out " + Out(format).string(), 1),
-                HasSubstr(bag.string() +
-                          ": commit 2 is not what was written, as bag.jsonl says; delete the bag "
-                          "and manifest.json to make them anew\n"));
+    (void)Make(format, options);
+    EXPECT_THAT(FaultsOf(Out(format)), ElementsAre());
+    EXPECT_EQ(ReadFileWhole(Out(format) / "bag.jsonl"), lines);
   }
 }
 
 // What was deleted last is not made anew by a database, which cannot be cut.
-TEST_F(ChangedBags, AreNotGoneOnWithWithoutTheirLastMessage) {
+TEST_F(ChangedBags, AreBegunAnewWithoutTheirLastMessage) {
   MakeFirst("bag", "rosbag2", 3);
   bag::SqliteDatabase(Out("bag") / "rosbag2/rosbag2_0.db3", bag::SqliteAccess::kChange, "bag")
       .Run("DELETE FROM messages WHERE id = (SELECT max(id) FROM messages)");
-  EXPECT_THAT(Run("--format rosbag2 " + frames_ + " --out " + Out("bag").string(), 1),
-              HasSubstr("/rosbag2: commit 4 is not what was written, as bag.jsonl says"));
+  EXPECT_THAT(FaultsOf(Make("bag", "--format rosbag2 " + frames_)), ElementsAre());
 }
 
-TEST_F(ChangedBags, AreNotCalledComplete) {
+TEST_F(ChangedBags, ThatWereCompleteAreMadeAnew) {
   for (const std::string format : {"mcap", "rosbag2"}) {
     const std::string options = "--format " + format + " " + frames_;
     const fs::path out = Make(format, options);
+    const std::string lines = ReadFileWhole(out / "bag.jsonl");
     if (format == "mcap") {
       fs::copy_file(out / "frames.mcap", Out("whole.mcap"));
       LeaveOut(Out("whole.mcap"), out / "frames.mcap", "/track");
     } else {
       ChangeDatabase(out / "rosbag2", "/track", "DELETE FROM messages WHERE id = :id");
     }
-    EXPECT_THAT(Run(options + " --out " + out.string(), 1),
-                HasSubstr(": is complete, but it is not what was written, as bag.jsonl says"));
+    EXPECT_THAT(Run(options + " --out " + out.string()),
+                HasSubstr("was complete, but not as it was written; made anew:\n"));
+    EXPECT_THAT(FaultsOf(out), ElementsAre());
+    EXPECT_EQ(ReadFileWhole(out / "bag.jsonl"), lines);
   }
+}
+
+TEST_F(ChangedBags, KeepWhatOthersHavePutBesideThem) {
+  const std::string options = "--format rosbag2 " + frames_;
+  const fs::path out = Make("bag", options);
+  WriteFileWhole(out / "rosbag2/notes.txt", "mine");
+  const auto before = ReadFileWhole(out / "manifest.json");
+  EXPECT_THAT(Run(options + " --out " + out.string(), 1),
+              HasSubstr(": holds a file that does not belong to this run (rosbag2/notes.txt)"));
+  EXPECT_EQ(ReadFileWhole(out / "rosbag2/notes.txt"), "mine");
+  EXPECT_EQ(ReadFileWhole(out / "manifest.json"), before);
 }
 
 // A run may end between the end of its bag and the hashes of that.

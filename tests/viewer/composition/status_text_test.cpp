@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "analysis/stats/dropout.h"
+#include "analysis/stats/statistics.h"
 #include "railcast/scenario.h"
 #include "tests/analysis/recorded_frames.h"
 #include "tests/core/io/example_frame.h"

@@ -15,7 +15,6 @@ TEST(LineHash, IsThatOfTheTextBeforeIt) {
 
 TEST(LineHash, NoticesEveryChangedByte) {
   const std::string line = WithLineHash(R"({"a":1,"b":[true,"x"]})");
-  EXPECT_TRUE(HasLineHash(line));
   EXPECT_EQ(LineHashFault(line), "");
   for (std::size_t i = 0; i < line.size(); ++i) {
     std::string changed = line;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "core/scenario/json_text.h"
+
+namespace railcast {
+
+/// Says what another value of a key means: "holds a run of another scenario". Gets both files
+/// whole.
+using DifferenceText =
+    std::function<std::string(const std::string& key, const Json& found, const Json& ours)>;
+
+/// What is to be told apart from all other runs in the same folder.
+struct FolderIdentity {
+  std::filesystem::path file;  ///< Tells whose the folder is: "out/run.json".
+  std::string text;            ///< What it holds if the folder is this run's.
+  bool is_complete{};          ///< Whether that run is, so that it cannot be continued.
+  std::string advice = "choose another --out";
+};
+
+/// Checks that a folder belongs to a run, by the file that every run writes first. A version of the
+/// program, of Embree or another instruction set is told without `text_of`.
+/// @throws InputError that names the first difference and ends with the advice.
+void CheckIsSame(const FolderIdentity& ours, const DifferenceText& text_of);
+
+/// Writes the file that tells whose a new folder is. A run that was killed before may have left the
+/// beginning of it.
+/// @throws InputError "--out: must be a new or an empty folder, or that of a run to continue (got
+///   out)" if the folder holds anything else, or the system refuses.
+/// @param run What can be continued, for the message: "an insertion".
+void BeginFolder(const FolderIdentity& ours, const std::string& run);
+
+/// "its seed is 5 (got 6)"; "nothing" stands for a value that is missing.
+/// @param name Of the key, as the user knows it.
+[[nodiscard]] std::string ValuesText(const std::string& name, const Json& found, const Json& ours);
+
+/// The member of an object; null if there is none.
+[[nodiscard]] const Json& MemberOf(const Json& object, const std::string& key);
+
+}  // namespace railcast
