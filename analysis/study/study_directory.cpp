@@ -38,13 +38,6 @@ std::string StudyDifference(const std::string& key, const Json& found, const Jso
   return "holds another study: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
-void CheckIsSameStudy(const fs::path& directory,
-                      const StudyRecord& ours,
-                      const std::string& advice = "choose another --out") {
-  CheckIsSame({.file = directory / kStudyFile, .text = RecordText(ours), .advice = advice},
-              StudyDifference);
-}
-
 // Refuses what a study and its report have not written, and removes what they have left unfinished.
 void RefuseStrangers(const fs::path& directory) {
   const std::set<std::string, std::less<>> known = {std::string(kStudyFile),
@@ -76,12 +69,9 @@ StudyDirectory::StudyDirectory(fs::path directory, StudyRecord identity, const S
     : directory_(std::move(directory)), shard_(shard) {
   lock_.emplace(directory_);
   const StudyRecord ours = WithShard(std::move(identity), shard);
-  if (fs::exists(directory_ / kStudyFile)) {
-    CheckIsSameStudy(directory_, ours);
-    RefuseStrangers(directory_);
-  } else {
-    BeginFolder({.file = directory_ / kStudyFile, .text = RecordFile(ours)}, "a study");
-  }
+  const bool is_new = TakeFolder({.file = directory_ / kStudyFile, .text = RecordFile(ours)},
+                                 "a study", StudyDifference);
+  if (!is_new) RefuseStrangers(directory_);
   ScenarioLines lines(directory_ / kApproachesFile, shard_);
   num_done_ = lines.Skip(shard.NumOf(ours.num_scenarios));
   lines_.emplace(directory_ / kApproachesFile, lines.size());
@@ -119,7 +109,10 @@ void MergeStudies(const std::vector<fs::path>& shards,
   for (const fs::path& folder : shards) {
     const auto shard = ParseShard(ReadStudyRecord(folder).shard);
     if (!shard) throw InputError(ShownPath(folder) + ": must be a shard of the study");
-    CheckIsSameStudy(folder, WithShard(identity, *shard), "choose another shard");
+    CheckIsSame({.file = folder / kStudyFile,
+                 .text = RecordFile(WithShard(identity, *shard)),
+                 .advice = "choose another shard"},
+                StudyDifference);
     if (num_shards == 0) num_shards = shard->of;
     ScenarioLines lines(folder / kApproachesFile, *shard);
     lines.Pause();

@@ -23,8 +23,7 @@ class StudyDirectory {
  public:
   /// Creates the folder, or opens it and finds out how far its run has got.
   /// @param identity Everything that the lines depend on, but for the shard.
-  /// @throws InputError if it holds anything else, or belongs to another study or shard, or is
-  /// being
+  /// @throws InputError if it holds anything else, belongs to another study or shard, or is being
   ///   written by another process.
   StudyDirectory(std::filesystem::path directory, StudyRecord identity, const Shard& shard);
 

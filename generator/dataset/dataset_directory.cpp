@@ -2,9 +2,6 @@
 
 #include <utility>
 
-#include "core/base/error.h"
-#include "core/base/input_file.h"
-#include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
@@ -40,15 +37,11 @@ DatasetRecord RecordOf(const DatasetSpec& spec) {
 DatasetDirectory::DatasetDirectory(DatasetSpec spec) : spec_(std::move(spec)) {
   const fs::path& directory = spec_.directory;
   lock_.emplace(directory);
-  const FolderIdentity identity{.file = directory / kDatasetFile,
-                                .text = RecordFile(RecordOf(spec_)),
-                                .is_complete = fs::exists(directory / kDatasetManifestFile)};
-  if (fs::exists(identity.file)) {
-    CheckIsSame(identity, DatasetDifference);
-  } else {
-    BeginFolder(identity, "a data set");
-  }
   is_complete_ = fs::exists(directory / kDatasetManifestFile);
+  static_cast<void>(TakeFolder({.file = directory / kDatasetFile,
+                                .text = RecordFile(RecordOf(spec_)),
+                                .is_complete = is_complete_},
+                               "a data set", DatasetDifference));
   num_done_ = ScenarioLines(directory / kScenariosFile, spec_.shard)
                   .Skip(spec_.shard.NumOf(spec_.record.num_scenarios));
   num_found_ = num_done_;

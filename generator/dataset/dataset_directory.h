@@ -48,7 +48,7 @@ class DatasetDirectory {
   /// it was written count as not done, and those of them that are whole as kept; a data set is
   /// complete only if all is whole.
   /// @param goes_on Called with the share that is read, in [0, 1]; returns false to stop.
-  /// @return False if it was stopped; then nothing has changed.
+  /// @return False if it was stopped; then nothing has been made anew.
   /// @throws InputError if a complete data set holds files of others.
   [[nodiscard]] bool Check(const std::function<bool(double share)>& goes_on);
   /// Whether the shard's i-th scenario was done when the folder was opened.

@@ -59,7 +59,7 @@ double Speed_mps(const RecordedRun& run, std::uint32_t frame) {
 InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,
                           const fs::path& directory,
-                          bool was_done,
+                          bool is_known,
                           const InsertHooks& hooks) {
   const auto name = std::ranges::find_if(
       drawn.record.drawn, [](const auto& each) { return each.first == "recording"; });
@@ -73,7 +73,7 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                     .first_frame = drawn.first_frame,
                     .last_frame = drawn.first_frame + drawn.num_frames - 1,
                     .num_threads = choices.num_threads,
-                    .is_known = was_done},
+                    .is_known = is_known},
                    MakeInsertPlan(RunOf(*drawn.run), drawn.scenario), hooks);
 }
 

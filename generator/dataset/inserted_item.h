@@ -10,13 +10,13 @@
 namespace railcast {
 
 /// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it.
-/// @param directory Of this scenario. @param was_done Whether it was complete once: what is not any
-///   more as it was written is then made anew.
+/// @param directory Of this scenario.
+/// @param is_known Whether the directory is known to be the scenario's, whatever it says.
 /// @throws InputError as MakeInsertPlan() and RunInsert() do.
 [[nodiscard]] InsertResult MakeInserted(const DrawnScenario& drawn,
                                         const DatasetChoices& choices,
                                         const std::filesystem::path& directory,
-                                        bool was_done,
+                                        bool is_known,
                                         const InsertHooks& hooks);
 
 /// What scenarios.jsonl says of it when it is complete: as of a sequence, which is its folder

@@ -160,16 +160,15 @@ class DatasetRun {
     if (const std::string* const kept = directory_.Kept(of_shard)) return *kept;
     const std::uint32_t number = choices_.shard.ScenarioAt(of_shard);
     // What is there of a scenario is the data set's, even where its line is lost.
-    const bool was_done =
-        directory_.WasDone(of_shard) || fs::exists(choices_.directory / SequenceFolderOf(number));
+    const bool is_known = fs::exists(choices_.directory / SequenceFolderOf(number));
     DrawnScenario drawn = drawer_.Draw(number);
-    if (drawn.run) return MakeOfPlan(number, was_done, drawn, turn);
+    if (drawn.run) return MakeOfPlan(number, is_known, drawn, turn);
     AtPlace(ShownPath(recipe_.file) + ": /", [&] { CheckNamesOfFolders(drawn.scenario); });
     RunPlan plan = PlanRun(std::move(drawn.scenario), ChoicesOfScenario(recipe_, choices_, number),
                            ShownPath(recipe_.file) + ": scenario " + std::to_string(number));
     FrameMaker maker(plan.scenario, turn.num_threads, plan.sensors.front().spec.isa);
     SetFrames(maker, plan);
-    if (was_done) ClaimFolders(plan);
+    if (is_known) ClaimFolders(plan);
     if (plan.is_merged) CheckCanMerge(maker, plan);
     if (!MakeScenario(turn, maker, plan)) return std::nullopt;
     if (plan.is_in_folders()) {
@@ -183,7 +182,7 @@ class DatasetRun {
 
   // As Make().
   std::optional<std::string> MakeOfPlan(std::uint32_t number,
-                                        bool was_done,
+                                        bool is_known,
                                         DrawnScenario& drawn,
                                         const ScenarioTurn& turn) {
     const fs::path directory = choices_.directory / SequenceFolderOf(number);
@@ -193,7 +192,7 @@ class DatasetRun {
                                turn.is_stopped};
     const InsertResult made =
         AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
-                [&] { return MakeInserted(drawn, choices_, directory, was_done, hooks); });
+                [&] { return MakeInserted(drawn, choices_, directory, is_known, hooks); });
     num_frames_ += made.num_done - made.num_resumed;
     if (!made.is_complete) return std::nullopt;
     drawn.record.sequences = {RecordOfInserted(drawn, choices_.directory, directory)};

@@ -58,8 +58,8 @@ std::size_t EarliestOf(std::size_t num, const Stamp& next_stamp_ns) {
 }
 
 /// How many frames each sequence has among those that all of them begin first.
-/// @param most Number of all of these. @param most_of_each At the first that is not there, they
-/// end.
+/// @param most Number of all of these.
+/// @param most_of_each At the first that is not there, they end.
 std::vector<std::uint32_t> FirstFrames(const std::vector<SensorSequence>& sensors,
                                        std::uint64_t most,
                                        const std::vector<std::uint32_t>& most_of_each) {

@@ -19,6 +19,7 @@
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -36,21 +37,6 @@ std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& object
     if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
   }
   return moving;
-}
-
-// Returns the files below a directory, relative to it. A link counts as a file, whatever it leads
-// to.
-std::vector<std::string> FilesBelow(const fs::path& directory) {
-  std::vector<std::string> names;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(directory, error);
-  for (const fs::recursive_directory_iterator end; !error && entry != end; entry.increment(error)) {
-    if (fs::is_directory(entry->symlink_status(error)) || error) continue;
-    names.push_back(entry->path().lexically_relative(directory).generic_string());
-  }
-  if (error) throw FileError(directory, error.value());
-  std::ranges::sort(names);
-  return names;
 }
 
 // Returns "frames/000012.pcd" for "frames/000012.pcd.part", and nothing for other names.
@@ -148,9 +134,8 @@ RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
   const bool is_run = fs::exists(run_file);
   is_complete_ = is_run && fs::exists(manifest);
   if (is_run) CheckIsSameRun(spec_, is_complete_);
-  RefuseStrangers(is_run);
+  CheckNames(is_run);
   if (!is_run) WriteFileWhole(run_file, RunJson(spec_));
-  RemoveUnfinished();
   if (is_complete_) {
     CountFrames();
     const std::string changed = WhatChanged();
@@ -167,27 +152,26 @@ RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
   lines_.Open(num_done_);
 }
 
-void RunDirectory::RefuseStrangers(bool is_run) const {
+void RunDirectory::CheckNames(bool is_run) const {
   const OwnNames own(spec_, FixedFiles());
-  for (const std::string& name : FilesBelow(spec_.directory)) {
+  NameSet names;
+  ForEachFileBelow(spec_.directory, spec_.directory, {},
+                   [&](const std::string& name) { names.insert(name); });
+  std::vector<fs::path> unfinished;
+  for (const std::string& name : names) {
     const std::optional<std::string_view> finished = FinishedName(name);
     // A run that was stopped before its first file was complete leaves an unfinished run.json.
     const bool is_own = is_run ? own.Have(name) || (finished && own.Have(*finished))
                                : finished == std::string_view(kRunFile);
     if (!is_own) RefuseStranger(spec_.directory, name);
-  }
-}
-
-void RunDirectory::RemoveUnfinished() const {
-  const OwnNames own(spec_, FixedFiles());
-  for (const std::string& name : FilesBelow(spec_.directory)) {
-    const std::optional<std::string_view> finished = FinishedName(name);
     // A mesh may have a name that ends so, too.
     if (!finished || own.Have(name)) continue;
     // An unfinished bag or trace is gone on with.
     const bool is_kept = IsOfBag(*finished) || *finished == spec_.trace;
-    if (!is_kept || fs::exists(spec_.directory / *finished)) fs::remove(spec_.directory / name);
+    if (is_kept && !fs::exists(spec_.directory / *finished)) continue;
+    unfinished.push_back(spec_.directory / name);
   }
+  for (const fs::path& file : unfinished) fs::remove(file);
 }
 
 void RunDirectory::CountFrames() {

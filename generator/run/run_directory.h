@@ -54,8 +54,7 @@ class RunDirectory {
   /// Creates the directory, or opens it and finds out how far its run has got. If a complete one is
   /// not as it was written, it can be gone on with: what differs is made anew.
   /// @throws InputError if it belongs to another run, holds other files, is being written by
-  /// another
-  ///   process, or the system refuses.
+  ///   another process, or the system refuses.
   /// @param most_done Frames after these are made anew, even if they are there.
   explicit RunDirectory(SequenceSpec spec,
                         std::uint32_t most_done = std::numeric_limits<std::uint32_t>::max());
@@ -84,9 +83,9 @@ class RunDirectory {
   void Finish();
 
  private:
+  // Removes what an interrupted run has left.
   // @throws InputError if the directory holds a file that does not belong to this run.
-  void RefuseStrangers(bool is_run) const;
-  void RemoveUnfinished() const;
+  void CheckNames(bool is_run) const;
   // Counts the first frames that are done, with their messages in the trace.
   void CountFrames();
   void OpenTrace();

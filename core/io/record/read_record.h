@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/base/error.h"
 #include "core/io/content_hash.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/value_type.h"
@@ -35,6 +37,21 @@ template <class T>
 template <class T>
 [[nodiscard]] T ReadRecordLine(std::string_view line, const std::string& place) {
   return ReadRecord<T>(WithoutLineHash(line), place);
+}
+
+/// What a line says that is as it was written; nothing if it is not, or is empty.
+/// @param line Ends with its own hash and may have a line end.
+/// @param read Reads a line without its end; throws InputError if it is not such a line.
+template <class Read>
+[[nodiscard]] auto ReadWholeLine(std::string_view line, const Read& read)
+    -> std::optional<decltype(read(line))> {
+  if (line.ends_with('\n')) line.remove_suffix(1);
+  if (!LineHashFault(line).empty()) return std::nullopt;
+  try {
+    return read(line);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace railcast

@@ -46,7 +46,11 @@ std::string ValuesText(const std::string& name, const Json& found, const Json& o
   return "its " + name + " is " + ValueText(found) + " (got " + ValueText(ours) + ")";
 }
 
-void BeginFolder(const FolderIdentity& ours, const std::string& run) {
+bool TakeFolder(const FolderIdentity& ours, const std::string& run, const DifferenceText& text_of) {
+  if (std::filesystem::exists(ours.file)) {
+    CheckIsSame(ours, text_of);
+    return false;
+  }
   const std::filesystem::path folder = ours.file.parent_path();
   const std::string unfinished = ours.file.string() + std::string(kUnfinishedSuffix);
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -58,6 +62,7 @@ void BeginFolder(const FolderIdentity& ours, const std::string& run) {
                      " to continue (got " + ShownPath(folder) + ")");
   }
   WriteFileWhole(ours.file, ours.text);
+  return true;
 }
 
 void CheckIsSame(const FolderIdentity& ours, const DifferenceText& text_of) {

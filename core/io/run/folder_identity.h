@@ -21,17 +21,25 @@ struct FolderIdentity {
   std::string advice = "choose another --out";
 };
 
+/// Takes a folder for a run: checks that it is this run's, or makes a new one so, by the file that
+/// every run writes first. A run that was killed before may have left the beginning of that file.
+///
+///     TakeFolder({.file = directory / kStudyFile, .text = RecordFile(record)}, "a study",
+///                StudyDifference);
+///
+/// @param run What can be continued, for the message: "a study".
+/// @return Whether the folder is new.
+/// @throws InputError as CheckIsSame(); "--out: must be a new or an empty folder, or that of a
+/// study
+///   to continue (got out)" if the folder holds anything else; or if the system refuses.
+[[nodiscard]] bool TakeFolder(const FolderIdentity& ours,
+                              const std::string& run,
+                              const DifferenceText& text_of);
+
 /// Checks that a folder belongs to a run, by the file that every run writes first. A version of the
 /// program, of Embree or another instruction set is told without `text_of`.
 /// @throws InputError that names the first difference and ends with the advice.
 void CheckIsSame(const FolderIdentity& ours, const DifferenceText& text_of);
-
-/// Writes the file that tells whose a new folder is. A run that was killed before may have left the
-/// beginning of it.
-/// @throws InputError "--out: must be a new or an empty folder, or that of a run to continue (got
-///   out)" if the folder holds anything else, or the system refuses.
-/// @param run What can be continued, for the message: "an insertion".
-void BeginFolder(const FolderIdentity& ours, const std::string& run);
 
 /// "its seed is 5 (got 6)"; "nothing" stands for a value that is missing.
 /// @param name Of the key, as the user knows it.

@@ -206,13 +206,7 @@ FrameRecord ReadFrameLine(std::string_view line, const std::string& place) {
 }
 
 std::optional<FrameRecord> ParseFrameLine(std::string_view line) {
-  if (line.ends_with('\n')) line.remove_suffix(1);
-  if (!LineHashFault(line).empty()) return std::nullopt;
-  try {
-    return ReadFrameLine(line, "");
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+  return ReadWholeLine(line, [](std::string_view whole) { return ReadFrameLine(whole, ""); });
 }
 
 }  // namespace railcast

@@ -324,10 +324,10 @@ void Verifier::CheckNames(const FrameRecord& line, const std::string& place) {
 }
 
 void Verifier::FindOthers() {
+  if (summary_.run.bag) known_.insert({std::string(kBagLinesFile), summary_.run.bag->path});
   ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
     if (known_.contains(name) || (summary_.run.bag && IsOfBag(name))) return;
     if (summary_.manifest && are_frames_known_) {
-      if (summary_.run.bag) known_.insert({std::string(kBagLinesFile), summary_.run.bag->path});
       return AddOther(summary_.directory, name,
                       "is named neither in manifest.json nor in frames.jsonl");
     }

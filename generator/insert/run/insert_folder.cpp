@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
 #include "core/io/record/record_text.h"
 #include "core/io/run/folder_identity.h"
 #include "core/io/run/run_record.h"
@@ -26,16 +27,15 @@ namespace fs = std::filesystem;
 std::optional<LedgerItem> ReadItem(std::string_view line,
                                    std::uint32_t frame,
                                    std::size_t num_others) {
-  if (line.empty()) return std::nullopt;
-  line.remove_suffix(1);
-  if (!LineHashFault(line).empty()) return std::nullopt;
-  try {
-    const FrameRecord record = ReadInsertLine(line, "").frame;
-    if (record.frame != frame) return std::nullopt;
-    return LedgerItem{record.files, record.records_hash, std::vector(num_others, 1U)};
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
+  const auto record =
+      ReadWholeLine(line, [](std::string_view whole) { return ReadInsertLine(whole, "").frame; });
+  if (!record || record->frame != frame) return std::nullopt;
+  return LedgerItem{record->files, record->records_hash, std::vector(num_others, 1U)};
+}
+
+// What another value of a key of run.json means.
+std::string InsertDifference(const std::string& key, const Json& found, const Json& ours) {
+  return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
 std::vector<LineFileName> WithOwn(std::vector<LineFileName> files) {
@@ -52,14 +52,7 @@ InsertFolder::InsertFolder(InsertFolderSpec spec)
   const FolderIdentity identity{.file = spec_.directory / kRunFile,
                                 .text = RecordFile(spec_.run),
                                 .is_complete = fs::exists(spec_.directory / kManifestFile)};
-  if (!spec_.is_known && fs::exists(identity.file)) {
-    CheckIsSame(identity, [](const std::string& key, const Json& found, const Json& ours) {
-      return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
-    });
-  } else if (!spec_.is_known) {
-    BeginFolder(identity, "an insertion");
-    was_empty_ = true;
-  }
+  if (!spec_.is_known) was_empty_ = TakeFolder(identity, "an insertion", InsertDifference);
   is_complete_ = identity.is_complete;
   if (is_complete_) {
     changed_ = FaultsToMend(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));

@@ -31,8 +31,7 @@ class InsertFolder {
   /// Makes the folder, or opens it and finds out how far its run has got. If a complete one is not
   /// as it was written, it can be gone on with: what differs is made anew.
   /// @throws InputError if it holds another run or other files, is being written by another
-  /// process,
-  ///   or the system refuses.
+  ///   process, or the system refuses.
   explicit InsertFolder(InsertFolderSpec spec);
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
