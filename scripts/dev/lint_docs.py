@@ -4,9 +4,10 @@
 Usage: lint_docs.py [ROOT]
 
 Prints one line per fault, "file:line: rule (what was found)", and exits 1 if there is any: links to
-files or headings that do not exist, pages of docs that docs/index.md has no link to, pictures of
-docs/images that no page shows or that lack words of their source, scripts of figures that do not
-exist, and quotes that are not in the file that they are from.
+files or headings that do not exist, links of the site's pages to files that scripts/make_site.sh does
+not put into it, pages of docs that docs/index.md has no link to, pictures of docs/images that no page
+shows or that lack words of their source, scripts of figures that do not exist, and quotes that are not
+in the file that they are from.
 """
 
 import html
@@ -17,6 +18,7 @@ import textwrap
 import urllib.parse
 
 START = "docs/index.md"
+SITE = ("docs", "examples", "scenarios", "scripts")  # The folders whose pages and files the site has.
 NOT_OURS = ("build", "out", ".git")  # Folders whose pages are not part of the project.
 
 FENCE = re.compile(r"^(```+|~~~+).*?^\1[ \t]*$", re.MULTILINE | re.DOTALL)
@@ -70,11 +72,16 @@ def targets_of(path, page):
 
 
 def lint_links(root, pages):
+    def of_site(path):
+        return path.parent == root or path.is_relative_to(root) and path.relative_to(root).parts[0] in SITE
+
     for path, page in pages.items():
         place = path.relative_to(root).as_posix()
         for line, link, target, anchor in targets_of(path, page):
             if not target.exists():
                 yield f"{place}:{line}: a link leads to a file that exists ({link})"
+            elif target.is_file() and of_site(path) and not of_site(target):
+                yield f"{place}:{line}: a page of the site leads to a file of the site ({link})"
             elif anchor and target in pages and anchor not in pages[target].anchors:
                 yield f"{place}:{line}: a link leads to a heading of the page ({link})"
 

@@ -32,6 +32,11 @@ class Links(unittest.TestCase):
                                     "b.md": "# One: two!"}),
                          ["README.md:1: a link leads to a heading of the page (b.md#two)"])
 
+    def test_a_page_of_the_site_leads_to_files_of_the_site(self):
+        self.assertEqual(faults_of({"docs/index.md": "[a](../core/x.h) [b](../core) [c](../scripts/y.py)",
+                                    "core/x.h": "", "core/z.md": "[x](x.h)", "scripts/y.py": ""}),
+                         ["docs/index.md:1: a page of the site leads to a file of the site (../core/x.h)"])
+
     def test_headings_of_the_page_itself_are_found_and_equal_ones_are_counted(self):
         self.assertEqual(faults_of({"a.md": "# `x_y` (a)\n## Same\n## Same\n"
                                             "[a](#x_y-a) [b](#same) [c](#same-1) [d](#same-2)"}),
