@@ -60,7 +60,7 @@ InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,
                           const fs::path& directory,
                           bool is_known,
-                          const InsertHooks& hooks) {
+                          const RunHooks& hooks) {
   const auto name = std::ranges::find_if(
       drawn.record.drawn, [](const auto& each) { return each.first == "recording"; });
   Check(name != drawn.record.drawn.end(), "the scenario of a plan names its recording");

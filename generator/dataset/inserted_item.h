@@ -17,7 +17,7 @@ namespace railcast {
                                         const DatasetChoices& choices,
                                         const std::filesystem::path& directory,
                                         bool is_known,
-                                        const InsertHooks& hooks);
+                                        const RunHooks& hooks);
 
 /// What scenarios.jsonl says of it when it is complete: as of a sequence, which is its folder
 /// `recording`, and the hashes of all files of the scenario.

@@ -186,10 +186,10 @@ class DatasetRun {
                                         DrawnScenario& drawn,
                                         const ScenarioTurn& turn) {
     const fs::path directory = choices_.directory / SequenceFolderOf(number);
-    const InsertHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
-                                 turn.on_progress(static_cast<double>(num_done) / num_frames);
-                               },
-                               turn.is_stopped};
+    const RunHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
+                              turn.on_progress(static_cast<double>(num_done) / num_frames);
+                            },
+                            turn.is_stopped};
     const InsertResult made =
         AtPlace(ShownPath(recipe_.file) + ": scenario " + std::to_string(number) + ": ",
                 [&] { return MakeInserted(drawn, choices_, directory, is_known, hooks); });
@@ -209,19 +209,18 @@ class DatasetRun {
         maker.simulator(i).UseThreads(turn.num_threads_of_run);
       }
     }
-    const SequenceHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
-                                   turn.on_progress(static_cast<double>(num_done) / num_frames);
-                                 },
-                                 turn.is_stopped, turn.is_alone};
+    SequenceHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_frames) {
+                             turn.on_progress(static_cast<double>(num_done) / num_frames);
+                           },
+                           turn.is_stopped};
+    hooks.is_alone = turn.is_alone;
     const auto ignore = [](const SensorPlan&, const FidelityChoice&) {};
     if (!ChooseFidelities(maker, ignore, hooks, plan)) return false;
-    bool is_complete = true;
-    for (const SequenceResult& made : MakeFrames(maker, plan, hooks)) {
-      num_frames_ += made.num_done - made.num_resumed;
-      is_complete = is_complete && made.is_complete;
+    const PlanResult made = MakeFrames(maker, plan, hooks);
+    for (const SequenceResult& each : made.sequences) {
+      num_frames_ += each.num_done - each.num_resumed;
     }
-    return is_complete && FinishRun(
-                              maker, plan, [](double) {}, turn.is_stopped);
+    return made.is_complete;
   }
 
   // What scenarios.jsonl says of a sequence.

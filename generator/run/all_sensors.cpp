@@ -28,7 +28,6 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/write_file.h"
-#include "generator/empty_folder.h"
 #include "generator/run/line_ledger.h"
 #include "railcast/io/cloud_files.h"
 
@@ -170,7 +169,6 @@ class MergedWriter {
 
   bool Write(const std::function<void(double)>& on_progress,
              const std::function<bool()>& is_stopped) {
-    RefuseOtherFiles();
     lines_.resize(frames_.size());
     std::atomic<bool> stops = false;
     tbb::parallel_for(std::size_t{0}, frames_.size(), [&](std::size_t i) {
@@ -191,14 +189,6 @@ class MergedWriter {
   }
 
  private:
-  // Files of another run would be taken for this run's.
-  void RefuseOtherFiles() const {
-    const auto is_known = [](const std::string& name) {
-      return name == "frames" || name.starts_with(kPosesFile) || name.starts_with(kMergedFile);
-    };
-    RefuseOtherEntries(folder_, is_known, "merged clouds");
-  }
-
   // Returns the line about it.
   std::string WriteCloud(const MergedFrame& frame) const {
     MergedCloud cloud;

@@ -1,25 +1,20 @@
 #include "generator/run/make_frames.h"
 
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <deque>
-#include <exception>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/fidelity/choice_report.h"
+#include "core/io/run/run_folder.h"
 #include "core/program/stop_signals.h"
+#include "generator/run/all_sensors.h"
 #include "generator/run/run_bag.h"
 #include "generator/run/run_directory.h"
 #include "generator/run/run_topics.h"
@@ -73,100 +68,6 @@ std::vector<std::uint32_t> FirstFrames(const std::vector<SensorSequence>& sensor
   return next;
 }
 
-/// The memory of a frame from its beginning until it is written.
-struct FrameSlot {
-  RunDirectory* directory = nullptr;
-  std::size_t sensor{};
-  FrameJob job;
-  std::exception_ptr fault;  ///< Why there is no frame.
-  MadeFrame made;
-  EncodedFrame encoded;
-};
-
-std::string Writing(const Frame& frame) {
-  return "writing frame " + std::to_string(frame.index) + " (" + std::to_string(frame.num_slots()) +
-         " slots)";
-}
-
-/// Writes frames on a thread of its own, in the order in which they come.
-class WritingQueue {
- public:
-  /// @param most Number of frames that may wait or be written at a time.
-  /// @param bag Of all frames; null = none.
-  WritingQueue(std::size_t most, RunBag* bag) : most_(most), bag_(bag) {
-    thread_ = StartThread("writing frames", [this] { Run(); });
-  }
-  ~WritingQueue() {
-    {
-      const std::lock_guard lock(mutex_);
-      is_ending_ = true;
-    }
-    changed_.notify_all();
-    thread_.join();
-  }
-  WritingQueue(const WritingQueue&) = delete;
-  WritingQueue& operator=(const WritingQueue&) = delete;
-
-  /// Waits until no more than `most` frames wait or are being written.
-  /// @return How many have been written so far.
-  /// @throws What writing a frame has thrown. Nothing is written after that.
-  std::uint32_t Await(std::size_t most) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return fault_ || waiting_.size() <= most; });
-    if (fault_) std::rethrow_exception(fault_);
-    return num_written_;
-  }
-  /// Has a frame written, whose memory must stay as it is until then. Waits for room.
-  std::uint32_t Put(const FrameSlot& slot) {
-    const std::uint32_t num_written = Await(most_ - 1);
-    {
-      const std::lock_guard lock(mutex_);
-      waiting_.push_back(&slot);
-    }
-    changed_.notify_all();
-    return num_written;
-  }
-
- private:
-  void Run() {
-    std::unique_lock lock(mutex_);
-    while (true) {
-      changed_.wait(lock, [&] { return is_ending_ || !waiting_.empty(); });
-      if (waiting_.empty()) return;
-      const FrameSlot& slot = *waiting_.front();
-      lock.unlock();
-      std::exception_ptr fault;
-      try {
-        WithinMemory([&] { return Writing(slot.made.frame); }, [&] { Write(slot); });
-      } catch (...) {
-        fault = std::current_exception();
-      }
-      lock.lock();
-      fault_ = fault;
-      changed_.notify_all();
-      if (fault) return;
-      waiting_.pop_front();
-      ++num_written_;
-    }
-  }
-
-  // A frame counts as done once the directory has it; hence the bag must have it before.
-  void Write(const FrameSlot& slot) const {
-    if (bag_ != nullptr) bag_->Write(slot.encoded);
-    slot.directory->Write(slot.encoded);
-  }
-
-  std::size_t most_;
-  RunBag* bag_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<const FrameSlot*> waiting_;  ///< The first is being written.
-  std::uint32_t num_written_ = 0;
-  std::exception_ptr fault_;
-  bool is_ending_ = false;
-  std::thread thread_;
-};
-
 /// A sequence, its directory, and how far it has been begun.
 struct SequenceUnderWay {
   SequenceUnderWay(const SensorSequence& sequence, std::uint32_t most_done)
@@ -189,127 +90,69 @@ struct SequenceUnderWay {
   std::uint32_t next;     ///< Which of its frames is begun next.
 };
 
-class MissingFrames {
- public:
-  MissingFrames(std::vector<SequenceUnderWay>& sequences,
-                RunBag* bag,
-                const SequenceHooks& hooks,
-                const FramesAtOnce& at_once)
-      : sequences_(sequences),
-        bag_(bag),
-        hooks_(hooks),
-        at_once_(at_once),
-        // The pipeline holds as many frames as are made at once, and as many are being written.
-        slots_(2 * at_once.num),
-        writing_(at_once.num, bag) {
-    for (const SequenceUnderWay& sequence : sequences) {
-      num_resumed_ += sequence.result.num_resumed;
-      num_frames_ += sequence.of.spec.num_frames;
-    }
-    num_shown_ = num_resumed_;
-    hooks_.on_progress(num_shown_, num_frames_);
-  }
-
-  /// Makes and writes frames until there is none left, or the run is stopped.
-  void Make() {
-    try {
-      at_once_.execute([this] { RunPipeline(); });
-    } catch (const RunStopped&) {
-      // The frames before it are there.
-    }
-    AwaitWriting();
-  }
-
- private:
-  void AwaitWriting() { ShowProgress(writing_.Await(0)); }
-
-  void RunPipeline() {
-    tbb::parallel_pipeline(
-        at_once_.num,
-        tbb::make_filter<void, FrameSlot*>(tbb::filter_mode::serial_in_order,
-                                           [this](tbb::flow_control& flow) {
-                                             FrameSlot* const slot = Begin();
-                                             if (slot == nullptr) flow.stop();
-                                             return slot;
-                                           }) &
-            tbb::make_filter<FrameSlot*, FrameSlot*>(tbb::filter_mode::parallel,
-                                                     [this](FrameSlot* slot) {
-                                                       Finish(*slot);
-                                                       return slot;
-                                                     }) &
-            tbb::make_filter<FrameSlot*, void>(tbb::filter_mode::serial_in_order,
-                                               [this](FrameSlot* slot) { Write(*slot); }));
-  }
-
-  // Returns null if no frame is left.
-  FrameSlot* Begin() {
-    SequenceUnderWay* const sequence = Earliest();
-    if (is_over_ || sequence == nullptr || hooks_.is_stopped()) return nullptr;
-    FrameSlot& slot = slots_[num_begun_++ % slots_.size()];
-    slot.directory = sequence->directory.get();
-    slot.sensor = static_cast<std::size_t>(sequence - sequences_.data());
-    slot.fault = nullptr;
-    try {
-      slot.job = sequence->of.begin_frame(sequence->of.spec.FrameAt(sequence->next));
-    } catch (...) {
-      // Passed on in its turn, after the frames before it.
-      slot.fault = std::current_exception();
-      is_over_ = true;
-    }
-    ++sequence->next;
-    return &slot;
-  }
-
-  // The sequence whose next frame begins first; null if none has a frame left.
-  SequenceUnderWay* Earliest() const {
-    const std::size_t earliest = EarliestOf(
-        sequences_.size(), [this](std::size_t i) { return sequences_[i].next_stamp_ns(); });
-    return earliest < sequences_.size() ? &sequences_[earliest] : nullptr;
-  }
-
-  void Finish(FrameSlot& slot) const {
-    if (slot.fault) return;
-    try {
-      MadeFrame& made = slot.made;
-      std::exchange(slot.job, {})(made);
-      const auto doing = [&made] { return Writing(made.frame); };
-      WithinMemory(doing, [&] {
-        slot.directory->Encode(made, slot.encoded);
-        if (bag_ != nullptr) bag_->Encode(slot.sensor, made, slot.encoded);
-      });
-      // Of thousands of objects, they would take megabytes in every frame that waits to be written.
-      made.objects = {};
-    } catch (...) {
-      slot.fault = std::current_exception();
-    }
-  }
-
-  void Write(const FrameSlot& slot) {
-    if (slot.fault) {
-      AwaitWriting();
-      std::rethrow_exception(slot.fault);
-    }
-    ShowProgress(writing_.Put(slot));
-  }
-
-  void ShowProgress(std::uint32_t num_written) {
-    while (num_shown_ < num_resumed_ + num_written) {
-      hooks_.on_progress(++num_shown_, num_frames_);
-    }
-  }
-
-  std::vector<SequenceUnderWay>& sequences_;
-  RunBag* bag_;
-  const SequenceHooks& hooks_;
-  const FramesAtOnce& at_once_;
-  std::uint32_t num_frames_ = 0;   ///< Of all sequences.
-  std::uint32_t num_resumed_ = 0;  ///< Of these, those that were there.
-  std::uint32_t num_shown_ = 0;    ///< As on_progress() was told last.
-  std::size_t num_begun_ = 0;
-  bool is_over_ = false;
-  std::vector<FrameSlot> slots_;
-  WritingQueue writing_;  // Last, so that it ends before the memory that it writes.
+/// The memory of a frame from its beginning until it is written.
+struct FrameSlot {
+  std::size_t sequence{};
+  FrameJob job;
+  MadeFrame made;
+  EncodedFrame encoded;
 };
+
+/// Begins, makes and writes the frames that sequences lack, until there is none left or the run is
+/// stopped: of all of them, the frame that begins first is begun first.
+/// @param bag Of all frames; null = none.
+void MakeMissing(std::vector<SequenceUnderWay>& sequences,
+                 RunBag* bag,
+                 const SequenceHooks& hooks,
+                 const FramesAtOnce& at_once) {
+  std::uint32_t num_frames = 0;
+  std::uint32_t num_done = 0;
+  for (const SequenceUnderWay& sequence : sequences) {
+    num_done += sequence.result.num_resumed;
+    num_frames += sequence.of.spec.num_frames;
+  }
+  FramePipe pipe;
+  pipe.num_at_once = at_once.num;
+  pipe.num_waiting = at_once.num;
+  pipe.execute = at_once.execute;
+  std::vector<FrameSlot> slots(pipe.num_slots());
+  pipe.begin = [&](std::size_t i) {
+    const std::size_t earliest = EarliestOf(
+        sequences.size(), [&](std::size_t each) { return sequences[each].next_stamp_ns(); });
+    if (earliest == sequences.size() || hooks.is_stopped()) return false;
+    SequenceUnderWay& sequence = sequences[earliest];
+    slots[i].sequence = earliest;
+    slots[i].job = sequence.of.begin_frame(sequence.of.spec.FrameAt(sequence.next++));
+    return true;
+  };
+  const auto within_memory = [&](std::size_t i, const auto& work) {
+    const Frame& frame = slots[i].made.frame;
+    const auto doing = [&] {
+      return "writing frame " + std::to_string(frame.index) + " (" +
+             std::to_string(frame.num_slots()) + " slots)";
+    };
+    WithinMemory(doing, [&] { work(slots[i], *sequences[slots[i].sequence].directory); });
+  };
+  pipe.stages = {{false, [&](std::size_t i) {
+                    std::exchange(slots[i].job, {})(slots[i].made);
+                    within_memory(i, [&](FrameSlot& slot, const RunDirectory& directory) {
+                      directory.Encode(slot.made, slot.encoded);
+                      if (bag != nullptr) bag->Encode(slot.sequence, slot.made, slot.encoded);
+                    });
+                    // Of thousands of objects, they would take megabytes in every frame that waits.
+                    slots[i].made.objects = {};
+                  }}};
+  pipe.write = [&](std::size_t i) {
+    within_memory(i, [&](FrameSlot& slot, RunDirectory& directory) {
+      // A frame counts as done once the directory has it; hence the bag must have it before.
+      if (bag != nullptr) bag->Write(slot.encoded);
+      directory.Write(slot.encoded);
+    });
+  };
+  pipe.on_written = [&] { hooks.on_progress(++num_done, num_frames); };
+  hooks.on_progress(num_done, num_frames);
+  RunPipe(pipe);
+}
 
 /// Opens the sequences and, if they have one, their bag after the frames that both it and they
 /// hold.
@@ -356,7 +199,7 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
   std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, bag);
   const auto begin = std::chrono::steady_clock::now();
   if (!std::ranges::all_of(sequences, [](const auto& each) { return each.result.was_complete; })) {
-    MissingFrames(sequences, bag, hooks, at_once).Make();
+    MakeMissing(sequences, bag, hooks, at_once);
   }
   std::vector<SequenceResult> results;
   for (const auto& [of, directory, result, next] : sequences) {
@@ -454,9 +297,13 @@ bool ChooseFidelities(
   return true;
 }
 
-std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
-                                       const RunPlan& plan,
-                                       const SequenceHooks& hooks) {
+PlanResult MakeFrames(FrameMaker& maker, const RunPlan& plan, const SequenceHooks& hooks) {
+  std::deque<FolderLock> locks;
+  if (plan.is_in_folders()) {
+    locks.emplace_back(plan.directory);
+    RefuseOtherFiles(plan);
+  }
+  for (const SensorPlan& sensor : plan.sensors) locks.emplace_back(sensor.spec.directory);
   std::vector<SensorSequence> sequences;
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     const SequenceSpec& spec = plan.sensors[i].spec;
@@ -478,17 +325,20 @@ std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
                                   maker.simulator(0).Execute(work);
                                 }};
   std::optional<RunBag> bag = BagOf(maker, plan);
-  std::vector<SequenceResult> results =
-      RunSequences(sequences, bag ? &*bag : nullptr, hooks, at_once);
-  const bool is_complete = std::ranges::all_of(results, &SequenceResult::is_complete);
-  if (bag && is_complete && !bag->is_complete()) FinishBag(maker, plan, *bag);
-  return results;
+  PlanResult result;
+  result.sequences = RunSequences(sequences, bag ? &*bag : nullptr, hooks, at_once);
+  hooks.on_frames(result.sequences);
+  if (!std::ranges::all_of(result.sequences, &SequenceResult::is_complete)) return result;
+  if (bag && !bag->is_complete()) FinishBag(maker, plan, *bag);
+  result.is_complete = FinishRun(maker, plan, hooks.on_merged, hooks.is_stopped);
+  return result;
 }
 
 SequenceResult RunSequence(const SequenceSpec& spec,
                            const BeginFrame& begin_frame,
                            const SequenceHooks& hooks,
                            const FramesAtOnce& at_once) {
+  const FolderLock lock(spec.directory);
   return RunSequences({{spec, begin_frame, {}}}, nullptr, hooks, at_once).front();
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/io/run/frame_record.h"
 #include "generator/run/frame_maker.h"
+#include "generator/run/frame_pipe.h"
 #include "generator/run/run_plan.h"
 #include "railcast/fidelity.h"
 
@@ -25,26 +26,20 @@ struct FramesAtOnce {
       [](const std::function<void()>& work) { work(); };
 };
 
-/// Callbacks of a sequence run. Each is called by one thread at a time.
-struct SequenceHooks {
-  /// Called after every frame and once before the first.
-  std::function<void(std::uint32_t num_done, std::uint32_t num_frames)> on_progress;
-  /// Called before every frame; if it returns true, the run ends after the frames under way.
-  std::function<bool()> is_stopped;
+struct SequenceResult : RunResult {
+  FrameCounts counts;  ///< Over all frames in the directory.
+  double elapsed_s{};  ///< Wall-clock time for the frames made in this run.
+};
+
+struct SequenceHooks : RunHooks {
+  /// Called by MakeFrames() before the bag's end and the merged clouds, with a result for each
+  /// sensor.
+  std::function<void(const std::vector<SequenceResult>& results)> on_frames = [](const auto&) {};
+  /// Called with the completed share of the merged clouds.
+  std::function<void(double done)> on_merged = [](double) {};
   /// Whether nothing else is made beside it: then the terminal shows what it waits for, and
   /// stopping it has a deadline meanwhile (WatchBuilding()).
   bool is_alone = true;
-};
-
-struct SequenceResult {
-  std::uint32_t num_resumed{};  ///< Frames made by an earlier run.
-  std::uint32_t num_done{};     ///< All frames in the directory.
-  bool was_complete{};          ///< All frames were there before.
-  /// What was not as it was written in a complete directory and was made anew, a line each.
-  std::vector<std::string> changed{};
-  bool is_complete{};  ///< All frames and the manifest are there.
-  FrameCounts counts;  ///< Over all frames in the directory.
-  double elapsed_s{};  ///< Wall-clock time for the frames made in this run.
 };
 
 /// Has the rung `auto` choose for each sensor, and notes the choices in the plan. From now on the
@@ -57,13 +52,19 @@ struct SequenceResult {
     const SequenceHooks& hooks,
     RunPlan& plan);
 
+/// How far the run of a plan has got.
+struct PlanResult {
+  std::vector<SequenceResult> sequences;  ///< By sensor; each has the same `elapsed_s`.
+  bool is_complete{};                     ///< So are all of these, and FinishRun() is done.
+};
+
 /// Makes the missing frames of a plan in one pass through simulation time: of all sensors, the
-/// frame that begins first is made first. Otherwise as RunSequence(), with progress over all of
-/// them.
-/// @return The results in the order of the sensors; each has the same `elapsed_s`.
-[[nodiscard]] std::vector<SequenceResult> MakeFrames(FrameMaker& maker,
-                                                     const RunPlan& plan,
-                                                     const SequenceHooks& hooks);
+/// frame that begins first is made first; then the bag's end and what is about all sensors.
+/// Otherwise as RunSequence(), with progress over all frames. No other run writes to the plan's
+/// directory meanwhile.
+[[nodiscard]] PlanResult MakeFrames(FrameMaker& maker,
+                                    const RunPlan& plan,
+                                    const SequenceHooks& hooks);
 
 /// Makes the frames of a sequence that its directory does not hold yet. Frames are made and encoded
 /// several at once, and written in their order; as many more wait to be written meanwhile. If one

@@ -70,8 +70,7 @@ RunBag::RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_n
   }
 }
 
-// Finds what an unfinished bag holds. It is only read, since another process may be writing it;
-// what cannot be read has no frames.
+// Finds what an unfinished bag holds. What cannot be read has no frames.
 void RunBag::FindFrames(const fs::path& bag) {
   try {
     found_ = ReadBagLines(BagLinesFile(path_));
@@ -86,20 +85,10 @@ void RunBag::FindFrames(const fs::path& bag) {
 
 bool RunBag::IsUnchanged() const {
   try {
-    const BagLines lines = ReadBagLines(BagLinesFile(path_));
-    if (!lines.files.empty()) {
-      ErrorList faults;
-      CompareWithBagLines(path_, true, faults);
-      return faults.empty();
-    }
-    const std::vector<std::uint64_t> messages = ReadMessageHashes(*bag::OpenBag(path_));
-    const WholeCommits whole = FindWholeCommits(lines.commits, messages);
-    if (lines.commits.empty() || whole.num < lines.commits.size() ||
-        whole.num_messages < messages.size()) {
-      return false;
-    }
-    LineFile(BagLinesFile(path_), lines.commits.back().end).Append(BagFilesLine(path_));
-    return true;
+    if (ReadBagLines(BagLinesFile(path_)).files.empty()) return false;
+    ErrorList faults;
+    CompareWithBagLines(path_, true, faults);
+    return faults.empty();
   } catch (const InputError&) {
     return false;  // It cannot be read.
   }

@@ -26,6 +26,7 @@ namespace railcast {
 class RunBag {
  public:
   /// Looks what there is of the bag; writes nothing.
+  /// @pre The run's directory is locked (FolderLock).
   RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_ns);
 
   /// How many of the run's frames the bag holds; all of them if it is complete.
@@ -33,8 +34,8 @@ class RunBag {
   [[nodiscard]] bool is_complete() const { return is_complete_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Whether a complete bag is as it was written. Gives it the hashes of its files if the run was
-  /// interrupted before that.
+  /// Whether a complete bag is as it was written. One that lacks the hashes of its files, as after
+  /// a power cut just before they were written, is not.
   [[nodiscard]] bool IsUnchanged() const;
   /// Has a complete bag made anew: it and what is said of it are removed.
   void Discard();

@@ -127,7 +127,6 @@ class OwnNames {
 RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
     : spec_(std::move(spec)),
       most_done_(std::min(most_done, spec_.num_frames)),
-      lock_(spec_.directory),
       lines_(spec_.directory, LineFileNames(spec_)) {
   const fs::path run_file = spec_.directory / kRunFile;
   const fs::path manifest = spec_.directory / kManifestFile;

@@ -53,8 +53,8 @@ class RunDirectory {
  public:
   /// Creates the directory, or opens it and finds out how far its run has got. If a complete one is
   /// not as it was written, it can be gone on with: what differs is made anew.
-  /// @throws InputError if it belongs to another run, holds other files, is being written by
-  ///   another process, or the system refuses.
+  /// @pre The directory is locked (FolderLock).
+  /// @throws InputError if it belongs to another run, holds other files, or the system refuses.
   /// @param most_done Frames after these are made anew, even if they are there.
   explicit RunDirectory(SequenceSpec spec,
                         std::uint32_t most_done = std::numeric_limits<std::uint32_t>::max());
@@ -99,7 +99,6 @@ class RunDirectory {
 
   SequenceSpec spec_;
   std::uint32_t most_done_;
-  FolderLock lock_;
   bool is_complete_ = false;
   std::vector<std::string> changed_;
   std::uint32_t num_done_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "core/base/error.h"
@@ -18,7 +19,6 @@
 #include "core/scenario/track_limits.h"
 #include "core/simulate/returns.h"
 #include "core/trace/trace_program.h"
-#include "generator/empty_folder.h"
 
 namespace railcast {
 namespace {
@@ -173,6 +173,27 @@ bool IsOwnBag(const RunPlan& plan, std::string_view name) {
          name == std::string(bag) + std::string(kUnfinishedSuffix);
 }
 
+/// Refuses a folder that holds anything but known entries, which may be unfinished files; one that
+/// is not there holds nothing.
+/// @param is_known Called with the name of each entry, once it is finished.
+/// @param known What may be there, for the message.
+template <typename IsKnown>
+void RefuseOtherEntries(const std::filesystem::path& folder,
+                        const IsKnown& is_known,
+                        const std::string& known) {
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    const std::string name = entry.path().filename().string();
+    std::string finished = name;
+    if (name.ends_with(kUnfinishedSuffix) && !entry.is_directory()) {
+      finished.resize(name.size() - kUnfinishedSuffix.size());
+    }
+    if (is_known(finished)) continue;
+    throw InputError(ShownPath(folder) + ": must hold nothing but " + known + " (got " +
+                     Quoted(name) + ")");
+  }
+}
+
 }  // namespace
 
 void CheckNamesOfFolders(const ScenarioSpec& scenario) {
@@ -203,17 +224,26 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
 }
 
 void RefuseOtherFiles(const RunPlan& plan) {
-  const auto is_known = [&](std::string name) {
-    const bool is_folder = std::filesystem::is_directory(plan.directory / name);
-    if (name.ends_with(kUnfinishedSuffix) && !is_folder) {
-      name.resize(name.size() - kUnfinishedSuffix.size());
-    }
+  const auto is_of_run = [&](const std::string& name) {
     return name == kSensorsFile || name == kMergedFolder || IsOwnBag(plan, name) ||
-           std::ranges::any_of(plan.sensors,
-                               [&](const SensorPlan& sensor) { return sensor.name == name; });
+           std::ranges::find(plan.sensors, name, &SensorPlan::name) != plan.sensors.end();
   };
-  RefuseOtherEntries(plan.directory, is_known,
+  RefuseOtherEntries(plan.directory, is_of_run,
                      "the folders of the scenario's sensors and " + std::string(kSensorsFile));
+  if (!plan.is_merged) return;
+  // A merged cloud has the name of the first sensor's frame.
+  const SequenceSpec& first = plan.sensors.front().spec;
+  std::set<std::string> clouds;
+  for (std::uint32_t i = 0; i < first.num_frames; ++i) {
+    clouds.insert(FrameFileNames(*first.files.format, first.FrameAt(i)).front());
+  }
+  const auto is_merged = [](const std::string& name) {
+    return name == "frames" || name == kPosesFile || name == kMergedFile;
+  };
+  const auto is_cloud = [&](const std::string& name) { return clouds.contains("frames/" + name); };
+  const std::filesystem::path merged = plan.directory / kMergedFolder;
+  RefuseOtherEntries(merged, is_merged, "merged clouds");
+  RefuseOtherEntries(merged / "frames", is_cloud, "merged clouds");
 }
 
 void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, RunPlan& plan) {

@@ -102,7 +102,8 @@ struct RunPlan {
 void CheckNamesOfFolders(const ScenarioSpec& scenario);
 
 /// Refuses a directory of several sensors that holds anything but their folders, that of their
-/// merged clouds, and sensors.json.
+/// merged clouds, in which there is nothing else, and sensors.json.
+/// @pre The frames are set.
 /// @throws InputError "DIR: must hold nothing but ... (got "frames")".
 void RefuseOtherFiles(const RunPlan& plan);
 

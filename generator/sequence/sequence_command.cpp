@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -45,31 +44,10 @@ RunPlan PlanOf(const SequenceOptions& options) {
   if (options.fidelity) whole.fidelity = ValueNamed<Fidelity>(*options.fidelity).value();
   const bool has_all = !options.sensor && SensorNames(whole).size() > 1;
   RunPlan plan = PlanRun(has_all ? whole : PickSensor(whole, options.sensor), options.made, shown);
-  if (plan.is_in_folders()) RefuseOtherFiles(plan);
   if (options.commands) UseCommands(*options.commands, whole, plan);
   if (options.is_verbose) std::cerr << "read " << shown << "\n";
   return plan;
 }
-
-class ProgressDisplay {
- public:
-  void Show(std::uint32_t num_done, std::uint32_t num_frames) {
-    if (!num_resumed_) {
-      num_resumed_ = num_done;
-      begin_ = std::chrono::steady_clock::now();
-    }
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    line_.Show(SequenceProgressText(num_done, num_frames, *num_resumed_, elapsed.count()));
-    if (num_done == num_frames) line_.End();
-  }
-  /// Ends the line of a run that is not complete.
-  void Break() const { line_.End(); }
-
- private:
-  TerminalLine line_;
-  std::optional<std::uint32_t> num_resumed_;
-  std::chrono::steady_clock::time_point begin_;
-};
 
 // Checks that nothing leaves its track meanwhile, and that the vehicle meets nothing.
 void CheckJourney(const FrameMaker& maker, const RunPlan& plan) {
@@ -131,6 +109,7 @@ int RunSequenceCommand(const SequenceOptions& options) {
   }
   AtPlace(plan.commands_place, [&] { maker.Apply(plan.commands); });
   SetFrames(maker, plan);
+  if (plan.is_in_folders()) RefuseOtherFiles(plan);
   CheckJourney(maker, plan);
   if (plan.is_merged) CheckCanMerge(maker, plan);
   // The directory can be resumed however the program ends.
@@ -139,27 +118,33 @@ int RunSequenceCommand(const SequenceOptions& options) {
     if (plan.is_in_folders()) std::cout << ShownLines(sensor.name) << ":\n";
     std::cout << ChoiceText(choice) << std::flush;
   };
-  ProgressDisplay display;
+  FrameProgress progress;
+  std::optional<ProgressLine> merging;
+  bool has_all = false;
   const SequenceHooks hooks = {
-      [&](std::uint32_t num_done, std::uint32_t num) { display.Show(num_done, num); },
-      StopRequested};
+      {[&](std::uint32_t num_done, std::uint32_t num) { progress.Show(num_done, num); },
+       StopRequested},
+      [&](const std::vector<SequenceResult>& results) {
+        progress.End();
+        has_all = PrintSummaries(options.summary, plan, results);
+      },
+      [&](double done) {
+        if (!merging) merging.emplace();
+        merging->Show("merged clouds", done);
+      }};
   if (!ChooseFidelities(maker, say_choice, hooks, plan)) {
     std::cerr << "interrupted before the first frame\n";
     return kExitInterrupted;
   }
-  const std::vector<SequenceResult> results = MakeFrames(maker, plan, hooks);
-  if (!std::ranges::all_of(results, &SequenceResult::is_complete)) display.Break();
-  if (!PrintSummaries(options.summary, plan, results)) return kExitInterrupted;
-  const ProgressLine progress;
-  const bool is_finished = FinishRun(
-      maker, plan, [&](double done) { progress.Show("merged clouds", done); }, StopRequested);
-  progress.End();
-  if (is_finished && options.picture) {
+  const PlanResult result = MakeFrames(maker, plan, hooks);
+  if (merging) merging->End();
+  if (!has_all) return kExitInterrupted;
+  if (result.is_complete && options.picture) {
     const SequenceSpec& spec = plan.sensors.front().spec;
     WriteFileWhole(*options.picture, PictureOfFrame(plan, spec.FrameAt(spec.num_frames - 1),
                                                     options.made.num_threads));
   }
-  if (is_finished) return kExitSuccess;
+  if (result.is_complete) return kExitSuccess;
   std::cerr << "interrupted; the same command merges the clouds\n";
   return kExitInterrupted;
 }

@@ -95,4 +95,19 @@ std::string SequenceProgressText(std::uint32_t num_done,
   return text.str();
 }
 
+void FrameProgress::Show(std::uint32_t num_done, std::uint32_t num_frames) {
+  if (!num_resumed_) {
+    num_resumed_ = num_done;
+    begin_ = std::chrono::steady_clock::now();
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  line_.Show(SequenceProgressText(num_done, num_frames, *num_resumed_, elapsed.count()));
+  is_open_ = true;
+  if (num_done == num_frames) End();
+}
+
+void FrameProgress::End() {
+  if (std::exchange(is_open_, false)) line_.End();
+}
+
 }  // namespace railcast

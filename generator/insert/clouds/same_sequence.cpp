@@ -92,7 +92,7 @@ class SameSequence : public RecordingOutput {
 
   [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done) override {
     // The folder is this run's, and its manifest of no use before that of the run.
-    MakeFolders(spec_.directory);
+    lock_.emplace(spec_.directory);
     WriteFileWhole(spec_.directory / kRunFile, RunJson(spec_));
     std::error_code none;
     std::filesystem::remove(spec_.directory / kManifestFile, none);
@@ -169,6 +169,7 @@ class SameSequence : public RecordingOutput {
   LabelNumbers labels_;
   InsertRange range_;
   std::vector<FrameLines> lines_;  ///< Of the whole recording.
+  std::optional<FolderLock> lock_;
   std::optional<RunDirectory> directory_;
 };
 

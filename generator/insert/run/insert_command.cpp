@@ -1,7 +1,5 @@
-#include <chrono>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "core/base/error.h"
@@ -10,7 +8,6 @@
 #include "core/io/run/run_folder.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
-#include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "generator/commands.h"
 #include "generator/insert/insert_plan.h"
@@ -60,19 +57,12 @@ int RunInsertCommand(InsertOptions options) {
     return kExitSuccess;
   }
   CatchStopSignals();
-  const TerminalLine line;
-  std::optional<std::uint32_t> num_before;
-  auto begin = std::chrono::steady_clock::now();
-  const auto show = [&](std::uint32_t num_done, std::uint32_t num_frames) {
-    if (!num_before) {
-      num_before = num_done;
-      begin = std::chrono::steady_clock::now();
-    }
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
-    line.Show(SequenceProgressText(num_done, num_frames, *num_before, elapsed.count()));
+  FrameProgress progress;
+  const auto show = [&](std::uint32_t num_done, std::uint32_t num) {
+    progress.Show(num_done, num);
   };
   const InsertResult result = RunInsert(choices, plan, {show, StopRequested});
-  line.End();
+  progress.End();
   std::cerr << ShownLines(MendedText(result.changed));
   if (result.is_complete) {
     std::cout << ShownLines(result.text);

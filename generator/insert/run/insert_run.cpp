@@ -1,13 +1,15 @@
 #include "generator/insert/run/insert_run.h"
 
-#include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
-#include <exception>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,13 +33,43 @@
 #include "generator/insert/packets/same_copy.h"
 #include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_folder.h"
-#include "generator/insert/run/recording_split.h"
+#include "generator/run/frame_pipe.h"
 #include "generator/run/run_directory.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Whether a recording is, or is in, one of the folders that a file lists.
+bool IsListed(const std::string& recording, const fs::path& file) {
+  const std::string text = ReadFileWhole(file);
+  std::string_view rest = text;
+  while (const auto folder = TakeLine(rest)) {
+    if (recording == *folder || recording.starts_with(std::string(*folder) + "/")) return true;
+  }
+  return false;
+}
+
+/// Returns the part of its data set that a recording belongs to, "train", "val" or "test"; nothing
+/// if it is not a sequence of one.
+std::optional<std::string> SplitOfRecording(const fs::path& recording) {
+  fs::path whole = fs::weakly_canonical(recording);
+  if (!whole.has_filename()) whole = whole.parent_path();
+  for (fs::path parent = whole.parent_path(); parent != parent.parent_path();
+       parent = parent.parent_path()) {
+    if (!fs::exists(parent / kDatasetFile)) continue;
+    for (const std::string_view name : kSplitFiles) {
+      const fs::path file = parent / name;
+      if (!fs::exists(file)) continue;
+      if (IsListed(whole.lexically_relative(parent).generic_string(), file)) {
+        return file.stem().string();
+      }
+    }
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
 
 std::unique_ptr<RecordingOutput> OutputOf(const InsertChoices& choices,
                                           const RecordingInfo& info,
@@ -124,14 +156,13 @@ struct FrameOnWay {
   WrittenFrame output;
   std::vector<FrameFile> sidecars;
   InsertRecord entry;
-  std::exception_ptr fault;  ///< Why there is nothing to write.
 };
 
 class InsertRun {
  public:
   InsertRun(const InsertChoices& choices,
             const InsertPlan& plan,
-            const InsertHooks& hooks,
+            const RunHooks& hooks,
             Recording& recording)
       : plan_(plan),
         hooks_(hooks),
@@ -158,7 +189,6 @@ class InsertRun {
       result.num_resumed = output_->Begin(folder_.num_done());
       folder_.Open(result.num_resumed);
       WriteFixed();
-      hooks_.on_progress(folder_.num_done(), range_.num);
       try {
         MakeFrames();
       } catch (...) {
@@ -201,82 +231,49 @@ class InsertRun {
   }
 
   void MakeFrames() {
-    next_ = 0;
     tbb::task_arena arena(num_threads_ == 0 ? tbb::task_arena::automatic : num_threads_);
-    const auto num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 2;
-    using Way = std::shared_ptr<FrameOnWay>;
-    arena.execute([&] {
-      tbb::parallel_pipeline(
-          num_at_once,
-          tbb::make_filter<void, Way>(tbb::filter_mode::serial_in_order,
-                                      [this](tbb::flow_control& flow) {
-                                        Way way = Begin();
-                                        if (!way) flow.stop();
-                                        return way;
-                                      }) &
-              tbb::make_filter<Way, Way>(tbb::filter_mode::parallel,
-                                         [this](const Way& way) { return Read(way); }) &
-              tbb::make_filter<Way, Way>(tbb::filter_mode::serial_in_order,
-                                         [this](const Way& way) { return Insert(way); }) &
-              tbb::make_filter<Way, Way>(tbb::filter_mode::parallel,
-                                         [this](const Way& way) { return Encode(way); }) &
-              tbb::make_filter<Way, void>(tbb::filter_mode::serial_in_order,
-                                          [this](const Way& way) { Write(*way); }));
-    });
-  }
-
-  // Returns null after the last frame.
-  std::shared_ptr<FrameOnWay> Begin() {
-    const std::uint32_t first = range_.first + folder_done_at_begin();
-    const auto way = std::make_shared<FrameOnWay>();
-    try {
-      for (; next_ < first; ++next_) {
-        if (!recording_.Next()) return nullptr;
+    FramePipe pipe;
+    pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
+    // Whole frames of captures wait for the thread that edits their packets.
+    pipe.num_waiting = 2;
+    pipe.execute = [&](const std::function<void()>& work) { arena.execute(work); };
+    std::vector<FrameOnWay> slots(pipe.num_slots());
+    std::uint32_t num_done = folder_.num_done();
+    std::uint32_t next = 0;
+    pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
+      for (; next < first; ++next) {
+        if (!recording_.Next()) return false;
       }
-      if (is_over_ || next_ >= range_.first + range_.num || hooks_.is_stopped()) return nullptr;
+      if (next == range_.first + range_.num || hooks_.is_stopped()) return false;
       auto reader = recording_.Next();
-      if (!reader) return nullptr;
-      way->read = std::move(*reader);
-    } catch (...) {
-      way->fault = std::current_exception();
-      is_over_ = true;
-    }
-    way->frame = next_++;
-    return way;
-  }
-  [[nodiscard]] std::uint32_t folder_done_at_begin() {
-    if (!num_before_) num_before_ = folder_.num_done();
-    return *num_before_;
+      if (!reader) return false;
+      slots[i].frame = next++;
+      slots[i].read = std::move(*reader);
+      return true;
+    };
+    pipe.stages = {{false,
+                    [&](std::size_t i) {
+                      slots[i].firings = finder_.Find(std::exchange(slots[i].read, {})());
+                    }},
+                   {true, [&](std::size_t i) { Insert(slots[i]); }},
+                   {false, [&](std::size_t i) { Encode(slots[i]); }}};
+    pipe.write = [&](std::size_t i) { Write(slots[i]); };
+    pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
+    hooks_.on_progress(num_done, range_.num);
+    RunPipe(pipe);
   }
 
-  template <typename Work>
-  static std::shared_ptr<FrameOnWay> Try(const std::shared_ptr<FrameOnWay>& way, const Work& work) {
-    if (way->fault) return way;
-    try {
-      work(*way);
-    } catch (...) {
-      way->fault = std::current_exception();
-    }
-    return way;
+  void Insert(FrameOnWay& way) {
+    way.inserted = inserter_.Insert(way.firings, way.frame);
+    UsePlannedMotion(plan_, way.frame, way.inserted.recorded);
   }
-  std::shared_ptr<FrameOnWay> Read(const std::shared_ptr<FrameOnWay>& way) const {
-    return Try(way,
-               [&](FrameOnWay& it) { it.firings = finder_.Find(std::exchange(it.read, {})()); });
-  }
-  std::shared_ptr<FrameOnWay> Insert(const std::shared_ptr<FrameOnWay>& way) {
-    return Try(way, [&](FrameOnWay& it) {
-      it.inserted = inserter_.Insert(it.firings, it.frame);
-      UsePlannedMotion(plan_, it.frame, it.inserted.recorded);
-    });
-  }
-  std::shared_ptr<FrameOnWay> Encode(const std::shared_ptr<FrameOnWay>& way) const {
-    return Try(way, [&](FrameOnWay& it) {
-      it.output = output_->Encode(it.firings, it.inserted, it.frame);
-      it.entry = InsertEntry(it.firings, it.inserted, plan_, it.frame);
-      if (split_) it.entry.split = *split_;
-      it.entry.source_hash = it.output.source_hash;
-      if (it.output.has_slots) MakeSidecars(it);
-    });
+
+  void Encode(FrameOnWay& way) const {
+    way.output = output_->Encode(way.firings, way.inserted, way.frame);
+    way.entry = InsertEntry(way.firings, way.inserted, plan_, way.frame);
+    if (split_) way.entry.split = *split_;
+    way.entry.source_hash = way.output.source_hash;
+    if (way.output.has_slots) MakeSidecars(way);
   }
 
   void MakeSidecars(FrameOnWay& way) const {
@@ -284,7 +281,6 @@ class InsertRun {
   }
 
   void Write(FrameOnWay& way) {
-    if (way.fault) std::rethrow_exception(way.fault);
     output_->Write(way.firings, way.inserted, way.output);
     if (!way.output.has_slots) MakeSidecars(way);
     std::vector<FrameFile> files = std::move(way.sidecars);
@@ -297,7 +293,7 @@ class InsertRun {
         PoseLine(pose), InsertedObjectsLine(way.firings, way.inserted, way.frame, stamp_ns)};
     lines.insert(lines.end(), way.output.lines.begin(), way.output.lines.end());
     folder_.Write(files, lines, std::move(way.entry));
-    hooks_.on_progress(folder_.num_done(), range_.num);
+    way = {};
   }
 
   void Finish() {
@@ -308,7 +304,7 @@ class InsertRun {
   }
 
   const InsertPlan& plan_;
-  const InsertHooks& hooks_;
+  const RunHooks& hooks_;
   Recording& recording_;
   InsertRange range_;
   int num_threads_;
@@ -318,9 +314,6 @@ class InsertRun {
   Inserter inserter_;
   std::unique_ptr<RecordingOutput> output_;
   InsertFolder folder_;
-  std::uint32_t next_ = 0;
-  std::optional<std::uint32_t> num_before_;
-  bool is_over_ = false;
 };
 
 /// Sums what insert.jsonl says of the frames.
@@ -372,7 +365,7 @@ void CheckIsApart(const InsertChoices& choices) {
 
 InsertResult RunInsert(const InsertChoices& choices,
                        const InsertPlan& plan,
-                       const InsertHooks& hooks) {
+                       const RunHooks& hooks) {
   CheckIsApart(choices);
   const auto recording = OpenRecording(choices.recording);
   InsertResult result = InsertRun(choices, plan, hooks, *recording).Run();

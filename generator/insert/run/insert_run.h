@@ -2,12 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "generator/insert/insert_plan.h"
+#include "generator/run/frame_pipe.h"
 
 namespace railcast {
 
@@ -26,21 +25,9 @@ struct InsertChoices {
   bool is_known = false;  ///< Whether the folder is known to be of this run, whatever it says.
 };
 
-/// How far a run has got.
-struct InsertResult {
-  std::uint32_t num_resumed{};  ///< Frames made by an earlier run.
-  std::uint32_t num_done{};
+struct InsertResult : RunResult {
   std::uint32_t num_frames{};
-  bool was_complete{};
-  bool is_complete{};
-  /// What was not as it was written in a complete folder and was made anew, a line each.
-  std::vector<std::string> changed;
   std::string text;  ///< The report of a complete run.
-};
-
-struct InsertHooks {
-  std::function<void(std::uint32_t num_done, std::uint32_t num_frames)> on_progress;
-  std::function<bool()> is_stopped;
 };
 
 /// The frames that are wanted, of those that the plan has found.
@@ -55,6 +42,6 @@ void CheckIsApart(const InsertChoices& choices);
 /// @throws InputError if a file cannot be read or written, or the folder holds another run.
 [[nodiscard]] InsertResult RunInsert(const InsertChoices& choices,
                                      const InsertPlan& plan,
-                                     const InsertHooks& hooks);
+                                     const RunHooks& hooks);
 
 }  // namespace railcast

@@ -215,6 +215,11 @@ TEST_F(MergedClouds, AreMadeAgainIfTheyWereNotFinished) {
   EXPECT_NE(Make("broken", options)
                 .said.find("/merged: must hold nothing but merged clouds (got \"photo.jpg\")"),
             std::string::npos);
+  std::ofstream(Out("whole/merged/frames/photo.jpg")) << "mine";
+  EXPECT_NE(
+      Make("whole", options)
+          .said.find("/merged/frames: must hold nothing but merged clouds (got \"photo.jpg\")"),
+      std::string::npos);
 }
 
 TEST_F(MergedClouds, NeedSeveralSensorsAndCoordinates) {
