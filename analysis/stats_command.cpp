@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "analysis/commands.h"
@@ -83,6 +84,7 @@ RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& firs
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
   std::string topic;
+  std::string sensor;                          // Empty = all.
   std::optional<std::filesystem::path> track;  // Scenario with the track of the vehicle.
   int num_threads = 0;
   ReportOutput output;
@@ -111,9 +113,36 @@ void CheckSameKind(const RecordingInfo& first, const RecordingInfo& other) {
 struct SourcesAtFirstSight {
   /// One for each source whose recordings the report does not list, else one for each recording.
   std::vector<RecordingInfo> infos;
+  std::set<std::string> sensors;  ///< The names that there are.
   bool has_one_scan = true;
   std::size_t num_frames = 0;  ///< 0 if not known.
 };
+
+std::string SensorOf(const RecordingInfo& info) {
+  return info.scenario ? info.scenario->lidar.name : "";
+}
+
+std::string NamesText(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + ShownText(name);
+  return text;
+}
+
+// Leaves those recordings of the sources that are of one sensor.
+void ChooseSensor(const std::string& sensor, std::vector<MeasuredSource>& sources) {
+  for (MeasuredSource& source : sources) {
+    std::set<std::string> all;
+    std::erase_if(source.recordings, [&](const std::filesystem::path& path) {
+      const std::string name = SensorOf(OpenRecording(path)->info());
+      if (!name.empty()) all.insert(name);
+      return name != sensor;
+    });
+    if (!source.recordings.empty()) continue;
+    throw InputError("--sensor: must be a sensor of " + ShownPath(source.source) + ", " +
+                     (all.empty() ? "which names none" : "of " + NamesText(all)) + " (got " +
+                     ShownText(sensor) + ")");
+  }
+}
 
 // Recordings are opened here and again when they are measured: a data set has more of them than a
 // program may have files open.
@@ -127,6 +156,8 @@ SourcesAtFirstSight LookAtRecordings(const std::vector<MeasuredSource>& sources)
       CheckSameKind(*first, info);
       seen.has_one_scan = seen.has_one_scan && HaveSameScan(*first, info);
       seen.num_frames += info.num_frames.value_or(0);
+      const std::string sensor = SensorOf(info);
+      if (!sensor.empty()) seen.sensors.insert(sensor);
       if (source.kind.empty()) {
         seen.infos.push_back(info);
       } else if (&path == &source.recordings.front()) {
@@ -206,8 +237,8 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const std::vector<MeasuredSource> sources =
-      LookAtSources(WithTopic(options.sources, options.topic));
+  std::vector<MeasuredSource> sources = LookAtSources(WithTopic(options.sources, options.topic));
+  if (!options.sensor.empty()) ChooseSensor(options.sensor, sources);
   SourcesAtFirstSight seen = LookAtRecordings(sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
@@ -215,6 +246,12 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
     throw InputError(ShownPath(options.sources.front()) + ": must hold a frame");
   }
   Report report = MakeStatisticsReport(all, seen.infos, command_line);
+  if (!options.sensor.empty()) {
+    report.facts.emplace_back("Sensors", ShownText(options.sensor) + ", chosen by --sensor");
+  } else if (seen.sensors.size() > 1) {
+    report.facts.emplace_back(
+        "Sensors", NamesText(seen.sensors) + ", taken together; --sensor takes one of them");
+  }
   AddDatasetSections(sources, report);
   if (!options.output.out.empty()) {
     report.sections.insert(report.sections.begin(), SheetSection(sources));
@@ -239,6 +276,11 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
               "or a data set; several are summed up")
       .Required();
   AddTopic(stats, options->topic);
+  stats
+      .AddOption("--sensor", options->sensor,
+                 "Name of the only sensor to measure, where there are several; default: all, taken "
+                 "together")
+      .Check(NonEmpty());
   stats.AddOption("--track", options->track,
                   "Scenario whose vehicle is on the recording's track, in the world of the "
                   "recording's poses: counts the points in the vehicle's outline along it");

@@ -230,7 +230,7 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
 }
 
 // One sensor of 20 Hz without rings and one of 10 Hz with 16.
-TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
+TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
   const TemporaryFolder folder;
   const auto out = folder.Write("x", "").parent_path();
   const auto run = out / "run";
@@ -252,6 +252,13 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRings) {
   };
   EXPECT_EQ(fact(both, "Points"), fact(front, "Points") + fact(roof, "Points"));
   EXPECT_EQ(fact(both, "Frames"), 6U);
+  EXPECT_EQ(both.at("facts").at("Sensors"),
+            "front, roof, taken together; --sensor takes one of them");
+  PlainJson chosen = points_of(run.string() + " --sensor roof", "of_chosen");
+  EXPECT_EQ(chosen.at("sections"), roof.at("sections"));
+  EXPECT_EQ(Analyze("stats " + run.string() + " --sensor back --format text").said,
+            "--sensor: must be a sensor of " + run.string() + ", of front, roof (got back)\n");
+  EXPECT_EQ(chosen.at("facts").at("Sensors"), "roof, chosen by --sensor");
   for (const char* table : {"rings", "dropout_by_ring", "holes_by_ring"}) {
     EXPECT_NO_THROW(static_cast<void>(JsonTableOf(roof, table))) << table;
     EXPECT_THROW(static_cast<void>(JsonTableOf(both, table)), std::out_of_range) << table;
