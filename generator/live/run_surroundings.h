@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "core/program/progress_line.h"
 #include "generator/live/command_channel.h"
@@ -9,10 +11,28 @@
 #include "generator/live/live_run.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
-#include "generator/live/service_manager.h"
 #include "generator/live/stream_options.h"
 
 namespace railcast {
+
+/// Tells systemd that the program is ready and goes on (sd_notify, Type=notify and WatchdogSec= of
+/// a unit). Does nothing where no manager has started the program.
+class ServiceManager {
+ public:
+  ServiceManager();
+
+  void SayReady();
+  /// Sets the line that `systemctl status` shows from the next SayAlive() on that is passed on.
+  void SetStatus(std::string status) { status_ = std::move(status); }
+  /// To be called often; the manager hears of it as often as its watchdog wants.
+  void SayAlive();
+  void SayStopping();
+
+ private:
+  std::int64_t pause_ns_;
+  std::int64_t said_ns_{};
+  std::string status_ = "making frames";
+};
 
 /// The time since 1970.
 [[nodiscard]] std::int64_t UtcNow_ns();

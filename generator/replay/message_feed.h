@@ -14,7 +14,6 @@
 #include "core/io/dds/participant.h"
 #include "generator/live/ros_writers.h"
 #include "generator/replay/replay_feed.h"
-#include "generator/replay/replay_times.h"
 
 namespace railcast {
 

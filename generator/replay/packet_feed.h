@@ -7,7 +7,6 @@
 
 #include "core/io/recording/packet_recording.h"
 #include "generator/replay/replay_feed.h"
-#include "generator/replay/replay_times.h"
 #include "railcast/io/stream.h"
 
 namespace railcast {

@@ -169,14 +169,14 @@ def try_damage(folder, whole, wanted, damage, name):
     return said and f"{folder.kind}: {damage.__name__} {name}: {said}"
 
 
-def try_strangers(folder, whole):
+def try_stranger(folder, whole, within):
     target = folder.place("stranger")
     copy_of(whole, target)
-    (target / "notes.txt").write_text("mine")
+    (target / within / "notes.txt").write_text("mine")
     before = hashes_of(target)
     said = refusal_fault(folder, folder.run(target), target, before)
     shutil.rmtree(target.parent)
-    return said and f"{folder.kind}: a stranger: {said}"
+    return said and f"{folder.kind}: a stranger in {within}: {said}"
 
 
 def try_kills(folder, wanted, duration_s, num=4):
@@ -230,12 +230,12 @@ def check(folder, pool, has_all):
         raise RuntimeError(f"{folder.kind}: run again: {said}")
     named = [name for name in one_of_each(wanted) if (whole / name).stat().st_size > 0]
     trials = [(damage, name) for i, name in enumerate(named) for damage in (DAMAGES if has_all else DAMAGES[i % 2::2])]
-    folders = {str(pathlib.Path(name).parent) for name in wanted} - {"."}
+    folders = {str(parent) for name in wanted for parent in pathlib.PurePath(name).parents} - {"."}
     trials += [(remove_folder, name) for name in one_of_each(sorted(folders))]
     results = [pool.submit(try_damage, folder, whole, wanted, damage, name) for damage, name in trials]
     num_bytes = sum((whole / name).stat().st_size for name in wanted)
     results.append(pool.submit(try_full_disk, folder, wanted, num_bytes))
-    results.append(pool.submit(try_strangers, folder, whole))
+    results += [pool.submit(try_stranger, folder, whole, name) for name in (".", *one_of_each(sorted(folders)))]
     results.append(pool.submit(try_kills, folder, wanted, duration_s))
     return results
 

@@ -1,4 +1,4 @@
-#include "generator/replay/replay_times.h"
+#include "generator/replay/replay_feed.h"
 
 #include <algorithm>
 #include <cmath>
