@@ -8,8 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "core/mesh/off_reader.h"
-#include "core/mesh/stl_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 namespace railcast {
 namespace {

@@ -13,10 +13,7 @@
 #include "core/base/text.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mesh_format.h"
-#include "core/mesh/obj_reader.h"
-#include "core/mesh/off_reader.h"
-#include "core/mesh/ply_mesh_reader.h"
-#include "core/mesh/stl_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/mesh/obj_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/line_faults.h"
 #include "core/mesh/polygon_soup.h"
 
 namespace railcast {

@@ -1,11 +1,10 @@
-#include "core/mesh/off_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 #include <cmath>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/mesh/line_faults.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/mesh/ply_mesh_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,6 @@
 #include "core/motion/imu.h"
 #include "core/motion/odometer.h"
 #include "core/motion/sample_times.h"
-#include "core/motion/sky.h"
 #include "core/simulate/frame_scene.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "core/scenario/json_values.h"
+#include "core/scenario/json_reader.h"
 
 #include <cmath>
 #include <utility>

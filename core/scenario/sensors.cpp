@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -13,6 +14,17 @@
 
 namespace railcast {
 namespace {
+
+double GreatestRate_hz(const MotionSensorsSpec& spec) {
+  double greatest_hz = 0.0;
+  const auto take = [&](const auto& sensors) {
+    for (const auto& sensor : sensors) greatest_hz = std::max(greatest_hz, sensor.rate_hz);
+  };
+  take(spec.imus);
+  take(spec.gnss);
+  take(spec.odometers);
+  return greatest_hz;
+}
 
 bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -172,6 +184,61 @@ std::string ImagesFault(const CameraSpec& camera, const InterfacesSpec& interfac
   if (!fault.empty()) return fault;
   return SharingFault(camera.udp, "images", PositionReceiversOf(interfaces),
                       "a sensor's position packets");
+}
+
+std::optional<std::uint32_t> FramesFromImageToImage(const CameraSpec& camera, double scan_rate_hz) {
+  if (!camera.rate_hz) return 1;
+  // Rates are decimal fractions, whose quotient may be rounded.
+  constexpr double kRounding = 1e-9;
+  constexpr double kMostFrames = 1e6;
+  const double num_frames = scan_rate_hz / *camera.rate_hz;
+  const double whole = std::round(num_frames);
+  if (!(whole >= 1.0 && whole <= kMostFrames && std::abs(num_frames / whole - 1.0) <= kRounding)) {
+    return std::nullopt;
+  }
+  return static_cast<std::uint32_t>(whole);
+}
+
+bool HasFramesForImages(const ScenarioSpec& spec) {
+  const std::vector<SensorPlace> sensors = SensorsOf(spec);
+  return std::all_of(sensors.begin(), sensors.end(), [&](const SensorPlace& sensor) {
+    return FramesFromImageToImage(*spec.camera, sensor.lidar.scan.rate_hz).has_value();
+  });
+}
+
+std::uint32_t FramesPerImage(const ScenarioSpec& spec) {
+  const auto num_frames = FramesFromImageToImage(*spec.camera, spec.lidar.scan.rate_hz);
+  Check(num_frames.has_value(), "the scenario's reader checks the rates");
+  return *num_frames;
+}
+
+Transform VehicleFromCamera(const ScenarioSpec& spec) {
+  Eigen::Matrix3d body_from_optical;  // Body: x forward, y left, z up.
+  body_from_optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return VehicleFromSensor(spec.camera->mount.value_or(spec.lidar.mount)) *
+         MakeTransform(body_from_optical, Vector3::Zero());
+}
+
+std::optional<Camera> MakeCamera(const ScenarioSpec& spec) {
+  if (!spec.camera) return std::nullopt;
+  return Camera(*spec.camera, VehicleFromCamera(spec), MaterialLibrary(spec.materials));
+}
+
+bool HasFewSamplesInFrame(const MotionSensorsSpec& motion_sensors, const ScenarioSpec& spec) {
+  const double greatest_hz = GreatestRate_hz(motion_sensors);
+  return std::ranges::all_of(SensorsOf(spec), [&](const SensorPlace& sensor) {
+    return greatest_hz <= kMostSamplesInFrame * sensor.lidar.scan.rate_hz;
+  });
+}
+
+std::optional<MotionSensors> MakeMotionSensors(const ScenarioSpec& spec, const RailWorld& world) {
+  if (!spec.motion_sensors) return std::nullopt;
+  std::vector<Transform> vehicle_from_imus;
+  for (const ImuSpec& imu : spec.motion_sensors->imus) {
+    vehicle_from_imus.push_back(VehicleFromSensor(imu.mount));
+  }
+  return MotionSensors(*spec.motion_sensors, vehicle_from_imus, world, spec.world.alignment.map,
+                       [&](const std::string& name) { return SensorSeed(spec.seed, name); });
 }
 
 }  // namespace railcast

@@ -1,4 +1,4 @@
-#include "core/scene/convex_pieces.h"
+#include "core/scene/convex_body.h"
 
 #include <algorithm>
 #include <array>

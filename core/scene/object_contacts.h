@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/scene/convex_pieces.h"
+#include "core/scene/convex_body.h"
 #include "railcast/scene.h"
 
 namespace railcast {

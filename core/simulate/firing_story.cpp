@@ -1,14 +1,50 @@
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/units.h"
+#include "core/detect/base/echo_tiles.h"
 #include "core/detect/detector/effect_table.h"
+#include "core/simulate/returns.h"
 #include "core/simulate/simulator_parts.h"
-#include "core/simulate/story_echoes.h"
+#include "railcast/ray_caster.h"
+#include "railcast/simulator.h"
 
 namespace railcast {
+namespace {
+
+/// Adds the echoes of one firing to its story, with the slots of those that become returns.
+/// @param beam A lane of `echoes.first`.
+/// @pre story.slot is set.
+void TellEchoes(const std::vector<Surface>& surfaces,
+                const ReturnRule& rule,
+                std::size_t beam,
+                EchoTiles& echoes,
+                FiringStory& story) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const auto returns = ReturnsOf(rule, echoes, beam);
+  for (const auto& [tile, lane] : EchoesOf(echoes, beam)) {
+    const bool is_clutter = tile.clutter[lane] != kNoClutter;
+    story.echoes.push_back(
+        {.label = is_clutter ? tile.clutter[lane] : surfaces[tile.surface[lane]].label,
+         .true_range_m = tile.true_range_m[lane],
+         .range_m = tile.range_m[lane],
+         .power_ratio = tile.power_ratio[lane],
+         .footprint_share = tile.surface[lane] != 0 ? tile.share[lane] : kNaN,
+         .outcome = static_cast<Outcome>(tile.outcome[lane]),
+         .slot = {}});
+    for (std::uint32_t r = 0; r < returns.size(); ++r) {
+      const bool is_this = &returns[r].tile == &tile && returns[r].lane == lane;
+      if (is_this) story.echoes.back().slot = story.slot + r;
+    }
+  }
+}
+
+}  // namespace
 
 FiringStory Simulator::Explain(std::uint32_t frame_index, std::uint32_t firing) {
   Parts& parts = *parts_;

@@ -1,4 +1,4 @@
-#include "core/detect/beam/beam_bounds.h"
+#include "core/detect/beam/thin_conductors.h"
 
 #include <algorithm>
 #include <cmath>

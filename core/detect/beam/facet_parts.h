@@ -4,18 +4,84 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/detect/beam/echo_finder.h"
-#include "core/detect/beam/facet_sums.h"
 #include "core/detect/beam/part_batch.h"
 #include "core/detect/beam/sub_ray_pattern.h"
-#include "core/detect/beam/thin_strip.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {
+
+/// The product of two facets' normals.
+[[nodiscard]] inline float Dot(const Facet& a, const Facet& b) {
+  return a.normal_x * b.normal_x + a.normal_y * b.normal_y + a.normal_z * b.normal_z;
+}
+
+/// Sums over sub-rays on one facet, or on several in one plane. Ranges are counted from `base_m`.
+struct FacetSum {
+  std::uint32_t num;
+  Facet facet;
+  float base_m, range_m, range2_m2;
+  float x, y, z;  ///< Of the directions.
+};
+
+/// The sums of a beam's sub-rays by facet.
+class FacetSums {
+ public:
+  void Clear() { sums_.clear(); }
+  /// Adds a set of traced sub-rays. Facets of one set are not those of another.
+  void Add(const BeamRays& beam);
+  /// Adds up facets that are one plane, unless they are more than these.
+  void JoinPlanes(std::size_t most_planes);
+  /// Takes out the facets of a surface.
+  void Remove(std::uint32_t surface);
+  /// Takes out all facets but those of a surface.
+  void RemoveOthers(std::uint32_t surface);
+
+  [[nodiscard]] const std::vector<FacetSum>& all() const { return sums_; }
+
+ private:
+  std::vector<FacetSum> sums_;
+};
+
+/// A place in a beam before its pattern is turned, in standard deviations of the profile.
+struct BeamPlace {
+  float h{}, v{};
+};
+
+/// A straight strip of a beam in which something thin lies, in standard deviations of the profile.
+/// It reaches from one side of the beam to the other.
+struct ThinStrip {
+  BeamPlace direction;   ///< Unit direction along it.
+  float begin{}, end{};  ///< Its sides: distances of Aside().
+
+  /// Distance of a place from the line along the strip through the beam's middle, with a sign.
+  [[nodiscard]] float Aside(const BeamPlace& place) const {
+    return direction.h * place.v - direction.v * place.h;
+  }
+  /// The beam's share of power in it.
+  [[nodiscard]] float Share() const;
+  /// Whether a place is so near to a side that what lies there may reach beyond it.
+  [[nodiscard]] bool IsAtSide(const BeamPlace& place) const;
+};
+
+/// Fits a strip to places at which sub-rays meet a surface: along the line of least squares of
+/// distances from it, and as wide as the surface may reach.
+/// @param share Of the beam, which these places stand for.
+/// @return nothing for fewer than two places, or if they are not on a line.
+[[nodiscard]] std::optional<ThinStrip> FitStrip(std::span<const BeamPlace> places, float share);
+
+/// So many sets of sub-rays cover a strip, each by itself.
+inline constexpr std::size_t kNumStripSets = kNumCloserSubRays / kNumSubRays;
+/// The sub-rays of sets, each of kNumSubRays that have an equal share of a strip.
+[[nodiscard]] BeamSubRays SubRaysIn(const ThinStrip& strip,
+                                    std::size_t first_set,
+                                    std::size_t num_sets);
 
 /// Effect `footprint`: finds what every beam meets with BeamSpec::footprint_rays sub-rays of equal
 /// share, turned about its axis by a random angle for each firing.
@@ -25,7 +91,7 @@ namespace railcast {
 /// sub-ray. Where a small share decides, because few sub-rays or none have met something that may
 /// be detected for its share alone, a closer look with four times as many finds it, and
 /// sub-rays across a thin surface tell how much of the beam it takes
-/// (core/detect/beam/thin_strip.h). A beam that lies on one plane as a whole is left to its central
+/// (ThinStrip). A beam that lies on one plane as a whole is left to its central
 /// ray. Most others need none, so that the sub-rays come first: Trace(), central rays of those that
 /// NeedsCenter(), Find().
 ///

@@ -1,4 +1,4 @@
-#include "core/detect/beam/facet_sums.h"
+#include "core/detect/beam/facet_parts.h"
 
 #include <cmath>
 

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "core/detect/base/normal_table.h"
-#include "core/detect/beam/beam_bounds.h"
 #include "core/detect/beam/wire_in_beam.h"
 #include "railcast/lidar.h"
 

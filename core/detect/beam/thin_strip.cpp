@@ -1,4 +1,4 @@
-#include "core/detect/beam/thin_strip.h"
+#include "core/detect/beam/facet_parts.h"
 
 #include <algorithm>
 #include <array>

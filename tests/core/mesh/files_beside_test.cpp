@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/mesh/gltf_buffers.h"
-#include "core/mesh/obj_reader.h"
+#include "core/mesh/mesh_readers.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/core/mesh/imported_meshes.h"

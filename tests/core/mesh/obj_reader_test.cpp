@@ -1,4 +1,4 @@
-#include "core/mesh/obj_reader.h"
+#include "core/mesh/mesh_readers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

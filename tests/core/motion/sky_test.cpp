@@ -1,4 +1,4 @@
-#include "core/motion/sky.h"
+#include "core/motion/gnss.h"
 
 #include <gtest/gtest.h>
 

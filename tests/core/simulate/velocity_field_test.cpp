@@ -1,4 +1,4 @@
-#include "core/simulate/velocity_field.h"
+#include "core/simulate/frame_motion.h"
 
 #include <gtest/gtest.h>
 
