@@ -8,9 +8,6 @@
 #include "analysis/commands.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/verify/dataset_verification.h"
-#include "core/io/verify/insertion_verification.h"
-#include "core/io/verify/scenario_verification.h"
-#include "core/io/verify/survey_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/program/progress_line.h"
 

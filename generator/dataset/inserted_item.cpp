@@ -16,7 +16,7 @@
 #include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/verify/insertion_verification.h"
+#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/dataset/recorded_bases.h"
 #include "generator/insert/run/insert_folder.h"

@@ -13,7 +13,6 @@
 #include "core/io/record/record_text.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/verify/dataset_verification.h"
-#include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 #include "generator/dataset/dataset_directory.h"

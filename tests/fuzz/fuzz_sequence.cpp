@@ -9,7 +9,7 @@
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
-#include "core/io/verify/cloud_counts.h"
+#include "core/io/verify/frame_clouds.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {

@@ -174,4 +174,36 @@ class BagCopy {
 /// Whether OpenBag() would take the path for a bag, by its name and its first bytes.
 [[nodiscard]] bool IsBag(const std::filesystem::path& path);
 
+/// Opens an MCAP file, also one that was cut off.
+/// @param name Names it in messages.
+/// @throws InputError as OpenBag() does.
+[[nodiscard]] std::unique_ptr<BagReader> OpenMcapBag(const std::filesystem::path& file,
+                                                     const std::string& name);
+
+/// Makes a copy of an MCAP file, of which messages of a topic are replaced.
+/// @param copy Its file; unfinished until Finish().
+[[nodiscard]] std::unique_ptr<BagCopy> CopyMcapBag(const std::filesystem::path& file,
+                                                   const std::string& name,
+                                                   const std::filesystem::path& copy,
+                                                   const BagTopic& topic);
+
+/// Whether the file begins as an SQLite database.
+[[nodiscard]] bool IsSqlite(const std::filesystem::path& file);
+
+/// Opens a database of rosbag2, of any version of its tables. If its recorder was interrupted, so
+/// that a journal or a write-ahead log stands beside it, both are copied to the temporary folder
+/// and read there.
+/// @param name Names it in messages.
+/// @throws InputError as OpenBag() does.
+[[nodiscard]] std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
+                                                       const std::string& name);
+
+/// Makes a copy of such a database, of which messages are replaced by their ids.
+/// @param copy Its file; unfinished until Finish().
+[[nodiscard]] std::unique_ptr<BagCopy> CopySqliteBag(const std::filesystem::path& file,
+                                                     const std::filesystem::path& copy);
+
+/// The files beside a database in which an interrupted recorder left changes.
+[[nodiscard]] std::vector<std::filesystem::path> ChangesBeside(const std::filesystem::path& file);
+
 }  // namespace railcast::bag

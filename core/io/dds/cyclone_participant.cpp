@@ -3,18 +3,49 @@
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsrt/log.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <mutex>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
-#include "core/io/dds/announced_node.h"
 #include "core/io/dds/domain_config.h"
 #include "core/io/dds/participant.h"
 #include "core/io/dds/raw_type.h"
+#include "core/io/ros/cdr.h"
+#include "core/io/ros/discovery_messages.h"
+#include "core/io/ros/message_type.h"
 
 namespace railcast::dds {
 namespace {
+
+using EntityGid = ros::Gid<ros::kGidSize>;
+
+/// The topic on which ROS 2's participants tell the names of their nodes; it has no leading "/".
+TopicSpec NodesTopic() {
+  const ros::MessageType& type = ros::TypeOf<ros::ParticipantEntitiesInfo<>>();
+  return {
+      .name = "ros_discovery_info", .type = type.dds_name, .hash = type.hash, .is_latched = true};
+}
+
+/// The message of a participant with one node, as ROS 2 reads it since Iron. Humble's has longer
+/// ids: there `ros2 node list` does not show the node, and `ros2 topic` shows all.
+std::vector<std::byte> NodesMessage(const EntityGid& participant,
+                                    const std::string& node,
+                                    const std::vector<EntityGid>& writers,
+                                    const std::vector<EntityGid>& readers) {
+  ros::ParticipantEntitiesInfo<> info;
+  info.gid = participant;
+  info.node_entities_info_seq.push_back({.node_namespace = {"/"},
+                                         .node_name = {node},
+                                         .reader_gid_seq = readers,
+                                         .writer_gid_seq = writers});
+  return ros::ToCdr(info);
+}
 
 // Prefix of all topics of ROS 2; `ros_discovery_info` alone has none.
 constexpr const char* kTopicPrefix = "rt";

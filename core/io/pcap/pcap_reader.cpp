@@ -13,7 +13,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/pcap/packet_headers.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

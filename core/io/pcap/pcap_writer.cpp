@@ -16,7 +16,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/pcap/packet_headers.h"
+#include "core/io/pcap/pcap_reader.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 

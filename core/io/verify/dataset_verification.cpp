@@ -20,7 +20,6 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/findings.h"
-#include "core/io/verify/scenario_verification.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "core/io/verify/insertion_verification.h"
+#include "core/io/verify/verification.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "core/io/verify/survey_verification.h"
+#include "core/io/verify/verification.h"
 
 #include <string>
 

@@ -39,4 +39,22 @@ struct Verification {
 [[nodiscard]] std::vector<std::string> FaultsToMend(const std::filesystem::path& directory,
                                                     const Verification& found);
 
+/// Whether a directory holds a recording into which something was put.
+[[nodiscard]] bool IsInsertion(const std::filesystem::path& directory);
+
+/// Compares every file of such a directory with run.json, manifest.json and insert.jsonl, and looks
+/// for files that these do not name. A recording in it that is a sequence is verified as one.
+/// @param on_progress Called from time to time with the completed share.
+/// @throws InputError if the directory is none.
+[[nodiscard]] Verification VerifyInsertion(const std::filesystem::path& directory,
+                                           const std::function<void(double)>& on_progress);
+
+/// Whether a directory holds a survey, as railcast-generate survey makes it.
+[[nodiscard]] bool IsSurvey(const std::filesystem::path& directory);
+
+/// Compares the files of such a directory with survey.json, and looks for files that it does not
+/// name.
+/// @throws InputError if the directory cannot be read.
+[[nodiscard]] Verification VerifySurvey(const std::filesystem::path& directory);
+
 }  // namespace railcast

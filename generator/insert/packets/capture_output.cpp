@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/pcap/packet_headers.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/unfinished_file.h"
 #include "generator/insert/packets/turn_editor.h"

@@ -15,7 +15,7 @@
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
-#include "core/io/verify/insertion_verification.h"
+#include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

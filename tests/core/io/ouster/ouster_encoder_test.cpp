@@ -9,7 +9,6 @@
 #include "core/base/units.h"
 #include "core/io/field_layout.h"
 #include "core/io/ouster/ouster_decoder.h"
-#include "core/io/ouster/pose_motion.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/io/field_layout.h"
-#include "core/io/verify/insertion_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "generator/insert/clouds/sidecars.h"
