@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/rail/line/track_course.h"
 #include "core/rail/world/gauge_entries.h"
 #include "generator/check/scene_audit.h"
-#include "generator/check/vehicle_way.h"
 #include "railcast/alignment.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
@@ -22,6 +22,24 @@
 #include "railcast/scenario.h"
 
 namespace railcast {
+
+/// A moment of a vehicle's journey.
+struct WayPoint {
+  double time_s{};
+  double s_m{};        ///< Chainage.
+  double speed_mps{};  ///< Speed from this moment on.
+};
+
+/// When and where a vehicle's journey begins and ends.
+struct VehicleWay {
+  WayPoint start;
+  /// The last point of the speed profile, if there is a profile and the point is reached.
+  std::optional<WayPoint> profile_end;
+  std::optional<WayPoint> track_end;  ///< Absent if the vehicle never leaves its track.
+};
+
+/// @pre The vehicle follows `track`, and its start lies on it.
+[[nodiscard]] VehicleWay FindVehicleWay(const VehicleSpec& vehicle, const TrackCourse& track);
 
 /// Formats one line of a paragraph of `check`; only the first line of a paragraph has a head.
 [[nodiscard]] inline std::string ReportLine(std::string_view head, const std::string& text) {

@@ -15,7 +15,6 @@
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "generator/commands.h"
-#include "generator/insert/packets/inserted_datagrams.h"
 #include "generator/insert/packets/insertion.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_summary.h"

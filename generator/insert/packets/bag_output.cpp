@@ -1,19 +1,179 @@
-#include "generator/insert/packets/bag_output.h"
+#include "generator/insert/packets/packet_outputs.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
+#include "core/io/cloud/cloud_rows.h"
+#include "core/io/recording/cloud_message.h"
 #include "core/io/recording/message_packets.h"
+#include "core/io/ros/cdr.h"
 #include "generator/insert/clouds/edit_rows.h"
-#include "generator/insert/packets/bag_packet_editor.h"
-#include "generator/insert/packets/cloud_message_edit.h"
+#include "generator/insert/inserted_frame.h"
+#include "generator/insert/packets/turn_editor.h"
+#include "generator/insert/recorded_firings.h"
 
 namespace railcast {
 namespace {
+
+/// A message with edits, and what its points are.
+struct EditedCloudMessage {
+  std::vector<std::byte> data;
+  /// For each of its points the slot; kNoSlot for places that belong to none.
+  std::vector<std::uint32_t> slots;
+};
+
+CloudRows RowsOf(const ros::PointCloud2& cloud) {
+  CloudRows rows{.table = MakePointTable(cloud),
+                 .cells = {},
+                 .bytes = {},
+                 .row_bytes = cloud.point_step,
+                 .num_words = 0,
+                 .line_begins = {}};
+  rows.bytes = rows.table.bytes;
+  for (const PointColumn& column : rows.table.columns) {
+    rows.cells.push_back({column.type, column.offset});
+  }
+  return rows;
+}
+
+/// Puts rows of points into an organised message, which keeps what stands between its rows.
+void PutRows(const std::string& points, ros::PointCloud2& cloud) {
+  const std::size_t row_size = std::size_t{cloud.width} * cloud.point_step;
+  for (std::size_t row = 0; row < cloud.height; ++row) {
+    std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(row * row_size), row_size,
+                cloud.data.begin() + static_cast<std::ptrdiff_t>(row * cloud.row_step));
+  }
+}
+
+/// Puts the edits of a frame into the message of type sensor_msgs/msg/PointCloud2 that it was read
+/// from. Points that nothing touched keep their bytes. Rows and columns of an organised cloud stay,
+/// with points that are absent marked; of others, points are left out and added.
+/// @param data With CDR's header; so is the result, which is little-endian.
+EditedCloudMessage EditCloudMessage(std::span<const std::byte> data,
+                                    const RecordedFirings& firings,
+                                    const InsertedFrame& inserted) {
+  auto cloud = ros::FromCdr<ros::PointCloud2>(data);
+  EditedRows edited = EditRows(RowsOf(cloud), firings, inserted, {});
+  cloud.is_bigendian = false;
+  const bool has_lost = std::ranges::any_of(
+      inserted.edits, [](const SlotEdit& edit) { return edit.had_point && !edit.has_point; });
+  if (edited.slots.size() == std::size_t{cloud.width} * cloud.height) {
+    PutRows(edited.bytes, cloud);
+    // Absent points are NaN.
+    cloud.is_dense = cloud.is_dense && !(has_lost && cloud.height > 1);
+    return {ros::ToCdr(cloud), std::move(edited.slots)};
+  }
+  cloud.height = 1;
+  cloud.width = static_cast<std::uint32_t>(edited.slots.size());
+  cloud.row_step = cloud.width * cloud.point_step;
+  cloud.data.assign(edited.bytes.begin(), edited.bytes.end());
+  return {ros::ToCdr(cloud), std::move(edited.slots)};
+}
+
+/// A message of the topic that is edited, and what becomes of it.
+struct EditedMessage {
+  bag::BagPlace place{};
+  std::vector<std::byte> data;
+  bool is_edited = false;
+};
+
+/// Puts the edits of frames into the messages of packets that they were read from.
+class BagPacketEditor {
+ public:
+  /// @param source Names the bag in messages about errors.
+  BagPacketEditor(const CaptureSensor& sensor, PacketsOfMessage packets_of, std::string source);
+
+  /// Takes the next message of the topic.
+  /// @throws InputError "bag: message 3: rule (got value)" if it is damaged.
+  void Take(const bag::BagMessage& message);
+  /// Says that there are no further messages.
+  void End() { turns_.End(); }
+
+  /// As of TurnEditor.
+  [[nodiscard]] bool Has(std::uint32_t turn) const { return turns_.Has(turn); }
+  void Skip(std::uint32_t turn) { turns_.Skip(turn); }
+  void Edit(const InsertedFrame& inserted);
+
+  /// Returns the next message if no further edit concerns it.
+  [[nodiscard]] std::optional<EditedMessage> Release();
+  /// Returns the next message in any case; nothing if there is none.
+  [[nodiscard]] std::optional<EditedMessage> ReleaseLast();
+
+ private:
+  struct HeldMessage {
+    EditedMessage message;
+    std::uint64_t first_datagram{};
+    std::vector<std::size_t> places;  ///< Of its datagrams.
+  };
+
+  TurnEditor turns_;
+  PacketsOfMessage packets_of_;
+  std::string source_;
+  std::deque<HeldMessage> held_;
+  std::uint64_t num_messages_{};
+  std::uint64_t num_datagrams_{};
+};
+
+BagPacketEditor::BagPacketEditor(const CaptureSensor& sensor,
+                                 PacketsOfMessage packets_of,
+                                 std::string source)
+    : turns_(sensor, source), packets_of_(packets_of), source_(std::move(source)) {}
+
+void BagPacketEditor::Take(const bag::BagMessage& message) {
+  const auto packets = AtPlace(source_ + ": message " + NumberText(num_messages_++) + ": ",
+                               [&] { return packets_of_(message); });
+  HeldMessage held{
+      .message = {.place = message.place, .data = {message.data.begin(), message.data.end()}},
+      .first_datagram = num_datagrams_,
+      .places = {}};
+  for (const MessagePacket& packet : packets) {
+    held.places.push_back(packet.place);
+    turns_.Take({.payload = packet.payload,
+                 .time_ns = packet.time_ns,
+                 .packet = static_cast<std::size_t>(num_datagrams_++)});
+  }
+  held_.push_back(std::move(held));
+}
+
+void BagPacketEditor::Edit(const InsertedFrame& inserted) {
+  for (const EditedPacket& packet : turns_.Edit(inserted)) {
+    // The last message that begins at this datagram or before it, and has any.
+    auto held = std::ranges::upper_bound(held_, packet.datagram, {}, &HeldMessage::first_datagram);
+    --held;
+    const std::size_t place = held->places.at(packet.datagram - held->first_datagram);
+    const auto bytes = std::as_bytes(std::span(packet.after));
+    std::ranges::copy(
+        bytes, held->message.data.begin() + static_cast<std::ptrdiff_t>(place + packet.offset));
+    held->message.is_edited = true;
+  }
+}
+
+std::optional<EditedMessage> BagPacketEditor::Release() {
+  if (held_.empty()) return std::nullopt;
+  const HeldMessage& first = held_.front();
+  if (first.first_datagram + first.places.size() > turns_.first_open_datagram())
+    return std::nullopt;
+  return ReleaseLast();
+}
+
+std::optional<EditedMessage> BagPacketEditor::ReleaseLast() {
+  if (held_.empty()) return std::nullopt;
+  EditedMessage message = std::move(held_.front().message);
+  held_.pop_front();
+  return message;
+}
 
 /// The messages of one topic of a bag, and the bag's copy.
 struct TopicCopy {

@@ -1,58 +1,51 @@
 #include "generator/insert/plan/pose_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/io/openlabel.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/write_file.h"
-#include "generator/insert/plan/openlabel_poses.h"
+#include "core/scenario/json_text.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-PoseFile ReadKittiLines(const fs::path& file) {
-  const std::string text = ReadFileWhole(file);
-  std::string_view rest = text;
-  PoseFile poses;
-  while (const auto line = TakeLine(rest)) {
-    poses.world_from_sensor.push_back(
-        ReadKittiPose(std::string(*line),
-                      ShownPath(file) + ":" + NumberText(poses.world_from_sensor.size() + 1)));
-  }
-  return poses;
+std::string PlaceInFile(const fs::path& file, std::size_t line) {
+  return ShownPath(file) + ":" + NumberText(line);
 }
 
-PoseFile ReadCsv(const fs::path& file) {
+std::vector<std::string> AllLines(const fs::path& file) {
   const std::string text = ReadFileWhole(file);
   std::string_view rest = text;
-  const auto header = TakeLine(rest);
-  if (!header || std::string(*header) + "\n" != kPosesHeader) {
-    throw InputError(ShownPath(file) + ":1: must be " +
-                     std::string(kPosesHeader.substr(0, kPosesHeader.size() - 1)) + " (got " +
-                     ShownText(std::string(header.value_or(""))) + ")");
-  }
-  PoseFile poses;
-  for (std::size_t number = 2; const auto line = TakeLine(rest); ++number) {
-    const std::string place = ShownPath(file) + ":" + NumberText(number);
-    const std::string_view word = line->substr(0, line->find(','));
-    const auto stamp_ns = ParseNumber<std::int64_t>(word);
-    if (!stamp_ns) {
-      throw InputError(place + ": stamp_ns: must be a whole number (got " +
-                       ShownText(std::string(word)) + ")");
-    }
-    poses.world_from_sensor.push_back(ReadPoseLine(*line, *stamp_ns, place));
-    poses.stamps_ns.push_back(*stamp_ns);
-  }
-  return poses;
+  std::vector<std::string> lines;
+  while (const auto line = TakeLine(rest)) lines.emplace_back(*line);
+  return lines;
 }
 
-}  // namespace
+std::vector<std::string> KittiLinesIn(const fs::path& file, std::size_t num_frames) {
+  std::vector<std::string> lines = AllLines(file);
+  if (lines.size() == num_frames) return lines;
+  throw InputError(ShownPath(file) + ": must have a line for each of the " +
+                   NumberText(num_frames) + " frames" + Got(lines.size()));
+}
 
+/// Reads the upper three rows of a pose's matrix, 12 numbers, as KITTI writes it.
+/// @param place For messages: "poses.txt:3".
+/// @throws InputError "poses.txt:3: must be the 12 numbers of a pose".
 Transform ReadKittiPose(const std::string& line, const std::string& place) {
   constexpr std::size_t kNumbers = 12;
   constexpr double kRounding = 1e-3;
@@ -69,6 +62,218 @@ Transform ReadKittiPose(const std::string& line, const std::string& place) {
     throw InputError(place + ": must be the 12 numbers of a pose");
   }
   return MakeTransform(Eigen::Quaterniond(axes).normalized().toRotationMatrix(), rows.col(3));
+}
+
+/// The pose of the velodyne in the axes of camera 0.
+std::optional<Transform> ReadCalibration(const fs::path& file) {
+  if (!exists(file)) return std::nullopt;
+  const std::string text = ReadFileWhole(file);
+  std::string_view rest = text;
+  for (std::size_t number = 1; const auto line = TakeLine(rest); ++number) {
+    if (!line->starts_with("Tr:")) continue;
+    return ReadKittiPose(std::string(line->substr(3)), PlaceInFile(file, number));
+  }
+  return std::nullopt;
+}
+
+/// Leads from one coordinate system to another.
+struct Link {
+  std::string to;
+  Transform to_from_here;
+  bool is_of_frame = false;
+};
+
+/// "1631441453.299504000", or a number, in ns.
+std::int64_t StampOf_ns(const Json& json, const OpenLabelPlace& place) {
+  constexpr std::int64_t kMost_s = 9'000'000'000;
+  if (json.is_number() && std::abs(json.get<double>()) <= static_cast<double>(kMost_s)) {
+    return std::llround(json.get<double>() * static_cast<double>(kNsPerS));
+  }
+  const std::string text = json.is_string() ? json.get<std::string>() : "";
+  const std::size_t point = text.find('.');
+  std::string fraction = point == std::string::npos ? "" : text.substr(point + 1);
+  constexpr std::size_t kDigits = 9;
+  const auto seconds = ParseNumber<std::int64_t>(text.substr(0, point));
+  const bool is_digits = std::ranges::all_of(fraction, [](char c) { return c >= '0' && c <= '9'; });
+  if (!seconds || *seconds < 0 || *seconds > kMost_s || !is_digits || fraction.size() > kDigits) {
+    place.Fail("must be a time in seconds");
+  }
+  fraction.resize(kDigits, '0');
+  return *seconds * kNsPerS + ParseNumber<std::int64_t>(fraction).value();
+}
+
+class OpenLabel {
+ public:
+  OpenLabel(const Json& json, const OpenLabelPlace& place, const std::string& sensor)
+      : json_(OpenLabelMember(json, "openlabel", place)),
+        place_(place / "openlabel"),
+        sensor_(sensor) {
+    const OpenLabelPlace systems_place = place_ / "coordinate_systems";
+    const Json& systems = OpenLabelMember(json_, "coordinate_systems", place_);
+    if (!systems.is_object() || !systems.contains(sensor)) {
+      systems_place.Fail("must have that of the sensor " + Quoted(sensor));
+    }
+    for (const auto& [name, system] : systems.items()) {
+      const OpenLabelPlace own = systems_place / name;
+      const std::string parent = OpenLabelText(system, "parent", own);
+      if (parent.empty() || !system.contains("pose_wrt_parent")) continue;
+      parents_[name] = {parent,
+                        OpenLabelTransform(system.at("pose_wrt_parent"), own / "pose_wrt_parent")};
+    }
+  }
+
+  [[nodiscard]] PoseFile Read() const {
+    const OpenLabelPlace frames_place = place_ / "frames";
+    const Json& frames = OpenLabelMember(json_, "frames", place_);
+    if (!frames.is_object()) frames_place.Fail("must be an object");
+    // Their numbers are texts, and those stand in any order.
+    std::map<std::int64_t, std::string> keys;
+    for (const auto& [key, frame] : frames.items()) {
+      const auto number = ParseNumber<std::int64_t>(key);
+      if (!number) (frames_place / key).Fail("must be named by its number");
+      keys[*number] = key;
+    }
+    PoseFile poses;
+    for (const auto& [number, key] : keys) {
+      const OpenLabelPlace own = frames_place / key / "frame_properties";
+      const Json& properties =
+          OpenLabelMember(frames.at(key), "frame_properties", frames_place / key);
+      poses.world_from_sensor.push_back(PoseIn(properties, own));
+      if (properties.contains("timestamp")) {
+        poses.stamps_ns.push_back(StampOf_ns(properties.at("timestamp"), own / "timestamp"));
+      }
+    }
+    if (poses.stamps_ns.size() != keys.size()) poses.stamps_ns.clear();
+    return poses;
+  }
+
+ private:
+  [[nodiscard]] Transform PoseIn(const Json& properties, const OpenLabelPlace& place) const {
+    std::multimap<std::string, Link> links;
+    if (properties.is_object() && properties.contains("transforms")) {
+      for (const auto& [name, transform] : properties.at("transforms").items()) {
+        const OpenLabelPlace own = place / "transforms" / name;
+        const std::string from = OpenLabelText(transform, "src", own);
+        const std::string to = OpenLabelText(transform, "dst", own);
+        const Transform to_from = OpenLabelTransform(
+            OpenLabelMember(transform, "transform_src_to_dst", own), own / "transform_src_to_dst");
+        links.emplace(from, Link{to, to_from, true});
+        links.emplace(to, Link{from, to_from.inverse(), true});
+      }
+    }
+    Transform root_from_sensor = Transform::Identity();
+    std::string here = sensor_;
+    std::set<std::string> passed = {here};
+    bool has_moving = false;
+    while (const auto link = LinkFrom(here, links, passed)) {
+      root_from_sensor = link->to_from_here * root_from_sensor;
+      has_moving = has_moving || link->is_of_frame;
+      here = link->to;
+      passed.insert(here);
+    }
+    if (!has_moving) {
+      (place / "transforms").Fail("must lead from " + Quoted(sensor_) + " to the world");
+    }
+    return root_from_sensor;
+  }
+
+  // The way up: a transform of the frame goes before a place that never changes.
+  [[nodiscard]] std::optional<Link> LinkFrom(const std::string& here,
+                                             const std::multimap<std::string, Link>& links,
+                                             const std::set<std::string>& passed) const {
+    const auto [begin, end] = links.equal_range(here);
+    for (auto link = begin; link != end; ++link) {
+      if (!passed.contains(link->second.to)) return link->second;
+    }
+    const auto parent = parents_.find(here);
+    if (parent == parents_.end() || passed.contains(parent->second.to)) return std::nullopt;
+    return parent->second;
+  }
+
+  const Json& json_;
+  OpenLabelPlace place_;
+  std::string sensor_;
+  std::map<std::string, Link> parents_;  ///< Of coordinate systems, by name.
+};
+
+/// Reads the poses of a sensor from a file of OpenLABEL 1.0 (ASAM, 2021): from its coordinate
+/// system through those above it, by the `transforms` of a frame where there are any, else by their
+/// `pose_wrt_parent`, up to one that has none.
+/// @param sensor The name of its coordinate system.
+/// @throws InputError "FILE: /openlabel/...: rule" if the file is none, or if no transform of a
+///   frame is on the way, so that the poses are not known.
+PoseFile ReadOpenLabelPoses(const std::filesystem::path& file, const std::string& sensor) {
+  const OpenLabelPlace place{ShownPath(file), ""};
+  const Json json = ParseOpenLabel(ReadFileWhole(file), place.file);
+  return OpenLabel(json, place, sensor).Read();
+}
+
+PoseFile ReadKittiLines(const fs::path& file) {
+  PoseFile poses;
+  for (const std::string& line : AllLines(file)) {
+    poses.world_from_sensor.push_back(
+        ReadKittiPose(line, PlaceInFile(file, poses.world_from_sensor.size() + 1)));
+  }
+  return poses;
+}
+
+PoseFile ReadCsv(const fs::path& file) {
+  const std::string text = ReadFileWhole(file);
+  std::string_view rest = text;
+  const auto header = TakeLine(rest);
+  if (!header || std::string(*header) + "\n" != kPosesHeader) {
+    throw InputError(ShownPath(file) + ":1: must be " +
+                     std::string(kPosesHeader.substr(0, kPosesHeader.size() - 1)) + " (got " +
+                     ShownText(std::string(header.value_or(""))) + ")");
+  }
+  PoseFile poses;
+  for (std::size_t number = 2; const auto line = TakeLine(rest); ++number) {
+    const std::string place = PlaceInFile(file, number);
+    const std::string_view word = line->substr(0, line->find(','));
+    const auto stamp_ns = ParseNumber<std::int64_t>(word);
+    if (!stamp_ns) {
+      throw InputError(place + ": stamp_ns: must be a whole number (got " +
+                       ShownText(std::string(word)) + ")");
+    }
+    poses.world_from_sensor.push_back(ReadPoseLine(*line, *stamp_ns, place));
+    poses.stamps_ns.push_back(*stamp_ns);
+  }
+  return poses;
+}
+
+}  // namespace
+
+KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
+  const std::vector<fs::path> sequences = KittiSequencesIn(source);
+  if (sequences.size() > 1) return {};
+  // As the folder is named by "velodyne", "velodyne/" and, from within it, ".".
+  const fs::path name = fs::absolute(source / "").lexically_normal().parent_path().filename();
+  const fs::path given = name == "velodyne" ? (source / "..").lexically_normal() : source;
+  const fs::path folder = sequences.empty() ? given : sequences.front();
+  KittiPoses read;
+  const auto camera_from_sensor = ReadCalibration(folder / "calib.txt");
+  const fs::path poses = folder / "poses.txt";
+  if (exists(poses) && camera_from_sensor) {
+    std::size_t number = 1;
+    for (const std::string& line : KittiLinesIn(poses, num_frames)) {
+      const Transform pose = ReadKittiPose(line, PlaceInFile(poses, number++));
+      read.world_from_sensor.push_back(camera_from_sensor->inverse() * pose * *camera_from_sensor);
+    }
+  }
+  const fs::path times = folder / "times.txt";
+  if (!exists(times)) return read;
+  std::size_t number = 1;
+  for (const std::string& line : KittiLinesIn(times, num_frames)) {
+    const std::vector<std::string_view> words = Words(line);
+    const auto time_s = words.size() == 1 ? ParseNumber<double>(words[0]) : std::nullopt;
+    constexpr double kMost_s = 1e9;
+    if (!time_s || !(std::abs(*time_s) <= kMost_s)) {
+      throw InputError(PlaceInFile(times, number) + ": must be a time in seconds");
+    }
+    read.times_ns.push_back(std::llround(*time_s * kNsPerS));
+    ++number;
+  }
+  return read;
 }
 
 PoseFile ReadPoseFile(const fs::path& file, const std::string& sensor) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -9,16 +10,25 @@
 
 namespace railcast {
 
+/// What stands beside the clouds of a sequence of KITTI's odometry benchmark.
+struct KittiPoses {
+  std::vector<Transform> world_from_sensor;  ///< The world is the first sensor frame. Or empty.
+  std::vector<std::int64_t> times_ns;        ///< Or empty.
+};
+
+/// Reads poses.txt, with Tr of calib.txt, and times.txt beside the folder `velodyne`. What is not
+/// there is left empty.
+/// @param source The sequence's folder, or the data set's if it holds one sequence.
+/// @throws InputError "poses.txt:3: rule" if a line is not KITTI's, or if there is not one for
+///   each frame.
+[[nodiscard]] KittiPoses ReadKittiPoses(const std::filesystem::path& source,
+                                        std::size_t num_frames);
+
 /// The poses of a sensor, one for each frame of a recording.
 struct PoseFile {
   std::vector<Transform> world_from_sensor;
   std::vector<std::int64_t> stamps_ns{};  ///< Of the frames; empty if the file does not say them.
 };
-
-/// Reads the upper three rows of a pose's matrix, 12 numbers, as KITTI writes it.
-/// @param place For messages: "poses.txt:3".
-/// @throws InputError "poses.txt:3: must be the 12 numbers of a pose".
-[[nodiscard]] Transform ReadKittiPose(const std::string& line, const std::string& place);
 
 /// Reads a file of poses:
 /// - `.csv`: railcast's poses.csv, "stamp_ns,x,y,z,qx,qy,qz,qw";

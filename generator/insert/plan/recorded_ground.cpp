@@ -1,4 +1,4 @@
-#include "generator/insert/plan/recorded_ground.h"
+#include "generator/insert/plan/standing_things.h"
 
 #include <pcl/sample_consensus/mlesac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>

@@ -9,7 +9,6 @@
 #include "core/base/text.h"
 #include "core/rail/line/line_place.h"
 #include "core/rail/traffic/object_way.h"
-#include "generator/insert/plan/recorded_ground.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "generator/check/vehicle_way.h"
+#include "generator/check/check_report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "generator/survey/beam_spacing.h"
+#include "generator/survey/survey_voxels.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/trace/trace_scene.h"
-#include "generator/survey/beam_spacing.h"
 #include "generator/survey/survey.h"
+#include "generator/survey/survey_voxels.h"
 #include "railcast/io/recording.h"
 #include "tests/generator/survey/survey_proof.h"
 

@@ -1,4 +1,4 @@
-#include "generator/insert/packets/capture_output.h"
+#include "generator/insert/packets/packet_outputs.h"
 
 #include <gtest/gtest.h>
 

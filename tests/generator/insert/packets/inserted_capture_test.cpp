@@ -12,7 +12,6 @@
 #include "core/io/pcap/pcap_writer.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/spinning/spinning_encoder.h"
-#include "generator/insert/packets/inserted_datagrams.h"
 #include "generator/insert/packets/insertion.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "generator/insert/packets/inserted_datagrams.h"
+#include "generator/insert/packets/insertion.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/packet_recording.h"
-#include "generator/insert/packets/inserted_datagrams.h"
+#include "generator/insert/packets/insertion.h"
 #include "tests/generator/insert/packets/hand_edits.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "generator/insert/firings/ring_rows.h"
+#include "generator/insert/firings/ring_grid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
