@@ -14,7 +14,6 @@
 #include "core/program/progress_line.h"
 #include "railcast/error.h"
 #include "railcast/scenario.h"
-#include "viewer/draw/display.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/live_frames.h"
 #include "viewer/frames/recorded_frames.h"

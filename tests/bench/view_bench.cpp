@@ -19,7 +19,6 @@
 
 #include "tests/bench/bench_reporter.h"
 #include "viewer/composition/compose.h"
-#include "viewer/draw/display.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/shown_frame.h"
 

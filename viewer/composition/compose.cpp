@@ -20,9 +20,7 @@
 #include "viewer/color/palette.h"
 #include "viewer/composition/coloring.h"
 #include "viewer/frames/field_values.h"
-#include "viewer/overlays/beams.h"
 #include "viewer/overlays/overlays.h"
-#include "viewer/overlays/scene_mesh.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/draw/display.h"
+#include "viewer/draw/stage.h"
 
 #include <X11/Xlib.h>
 

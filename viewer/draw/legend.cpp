@@ -1,4 +1,4 @@
-#include "viewer/draw/legend.h"
+#include "viewer/draw/pane.h"
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>

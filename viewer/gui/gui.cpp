@@ -1,17 +1,24 @@
 #include "viewer/gui/gui.h"
 
 #include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkObjectFactory.h>
+#include <vtkProperty2D.h>
+#include <vtkTextProperty.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "viewer/gui/key_table.h"
+#include "railcast/transform.h"
+#include "viewer/draw/vtk_values.h"
 #include "viewer/pick/point_under.h"
 #include "viewer/picture/pictures.h"
 
@@ -23,6 +30,104 @@ double Now_s() {
 }
 
 }  // namespace
+
+vtkStandardNewMacro(ViewStyle);
+
+void ViewStyle::OnKeyPress() {
+  if (on_key) on_key(Interactor->GetKeySym() == nullptr ? "" : Interactor->GetKeySym());
+}
+
+void ViewStyle::OnLeftButtonDown() {
+  const int* const place = Interactor->GetEventPosition();
+  pressed_at_px_ = {place[0], place[1]};
+  vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
+}
+
+void ViewStyle::OnLeftButtonUp() {
+  constexpr int kStill_px = 3;
+  vtkInteractorStyleTrackballCamera::OnLeftButtonUp();
+  const int* const place = Interactor->GetEventPosition();
+  const int moved_px =
+      std::max(std::abs(place[0] - pressed_at_px_[0]), std::abs(place[1] - pressed_at_px_[1]));
+  if (moved_px > kStill_px || !on_click) return;
+  on_click({place[0], place[1]}, Interactor->GetShiftKey() != 0);
+}
+
+// The camera turns in azimuth and elevation about the target. Where it looks straight down, the
+// azimuth follows from the direction that is up on the screen.
+void ViewStyle::Rotate() {
+  if (CurrentRenderer == nullptr) return;
+  vtkCamera* const camera = CurrentRenderer->GetActiveCamera();
+  const Vector3 target_m(camera->GetFocalPoint());
+  const Vector3 offset_m = Vector3(camera->GetPosition()) - target_m;
+  const Vector3 up(camera->GetViewUp());
+  const double level_m = offset_m.head<2>().norm();
+  double azimuth_rad = std::atan2(offset_m.y(), offset_m.x());
+  if (level_m < 1e-6 * offset_m.norm()) azimuth_rad = std::atan2(-up.y(), -up.x());
+  double elevation_rad = std::atan2(offset_m.z(), level_m);
+
+  const int* const now = Interactor->GetEventPosition();
+  const int* const before = Interactor->GetLastEventPosition();
+  const int* const size_px = CurrentRenderer->GetSize();
+  azimuth_rad -= 2.0 * std::numbers::pi * (now[0] - before[0]) / std::max(1, size_px[0]);
+  elevation_rad -= std::numbers::pi * (now[1] - before[1]) / std::max(1, size_px[1]);
+  elevation_rad = std::clamp(elevation_rad, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi);
+
+  const Vector3 outward(std::cos(elevation_rad) * std::cos(azimuth_rad),
+                        std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
+  const Vector3 eye_m = target_m + offset_m.norm() * outward;
+  const Vector3 new_up(-std::sin(elevation_rad) * std::cos(azimuth_rad),
+                       -std::sin(elevation_rad) * std::sin(azimuth_rad), std::cos(elevation_rad));
+  camera->SetPosition(eye_m.data());
+  camera->SetViewUp(new_up.data());
+  CurrentRenderer->ResetCameraClippingRange();
+  Interactor->Render();
+}
+
+Scrubber::Scrubber(vtkRenderWindowInteractor& interactor,
+                   vtkRenderer& renderer,
+                   std::function<void(std::size_t)> on_drag)
+    : renderer_(renderer), on_drag_(std::move(on_drag)) {
+  looks_->GetPoint1Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+  looks_->GetPoint1Coordinate()->SetValue(0.02, 0.016);
+  looks_->GetPoint2Coordinate()->SetCoordinateSystemToNormalizedDisplay();
+  looks_->GetPoint2Coordinate()->SetValue(0.98, 0.016);
+  looks_->SetTubeWidth(0.004);
+  looks_->SetSliderLength(0.012);
+  looks_->SetSliderWidth(0.02);
+  looks_->SetEndCapLength(0.0);
+  looks_->ShowSliderLabelOff();
+  looks_->SetTitleText("");
+  widget_->SetInteractor(&interactor);
+  widget_->SetRepresentation(looks_);
+  widget_->SetAnimationModeToJump();
+  vtkNew<vtkCallbackCommand> dragged;
+  dragged->SetClientData(this);
+  dragged->SetCallback([](vtkObject*, unsigned long, void* self_data, void*) {
+    auto& self = *static_cast<Scrubber*>(self_data);
+    self.on_drag_(static_cast<std::size_t>(std::lround(self.looks_->GetValue())));
+  });
+  widget_->AddObserver(vtkCommand::InteractionEvent, dragged);
+}
+
+void Scrubber::Show(std::size_t place,
+                    std::size_t first,
+                    std::size_t last,
+                    const Background& background) {
+  if (first >= last) {
+    widget_->EnabledOff();
+    return;
+  }
+  const auto words = VtkColor(background.words);
+  looks_->GetTubeProperty()->SetColor(0.5, 0.5, 0.5);
+  looks_->GetSliderProperty()->SetColor(words[0], words[1], words[2]);
+  looks_->SetMinimumValue(static_cast<double>(first));
+  looks_->SetMaximumValue(static_cast<double>(last));
+  looks_->SetValue(static_cast<double>(place));
+  // Without this the slider is drawn in whichever view the mouse is over.
+  widget_->SetCurrentRenderer(&renderer_);
+  widget_->EnabledOn();
+}
 
 Gui::Gui(Session& session, LiveFrames* live, Stage& stage, const Look& look)
     : session_(session),

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSliderRepresentation2D.h>
+#include <vtkSliderWidget.h>
 #include <vtkSmartPointer.h>
 
 #include <array>
@@ -9,19 +13,82 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "viewer/draw/look.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/live_frames.h"
-#include "viewer/gui/scrubber.h"
-#include "viewer/gui/view_style.h"
 #include "viewer/pick/effect_trace.h"
 #include "viewer/pick/picks.h"
 #include "viewer/session/playback.h"
 #include "viewer/session/session.h"
 
 namespace railcast {
+
+/// What mouse and keyboard do in a view. Dragging with the left button turns the camera about the
+/// target with z staying up, with the middle button (or shift and left) it moves the camera, and
+/// with the right button it zooms, as does the wheel. A press without a drag is a click. VTK's own
+/// keys are disabled.
+class ViewStyle : public vtkInteractorStyleTrackballCamera {
+ public:
+  static ViewStyle* New();
+  vtkTypeMacro(ViewStyle, vtkInteractorStyleTrackballCamera)
+
+      /// Called with a place in the window, in pixels from its lower left corner.
+      std::function<void(const std::array<int, 2>& place_px, bool with_shift)> on_click;
+  /// Called with VTK's name of the key: "space", "Right", "a", "A", "question".
+  std::function<void(const std::string& key)> on_key;
+
+  void OnChar() override {}
+  /// VTK's own timer keeps turning the camera while a button is held, even if the mouse rests.
+  void OnTimer() override {}
+  void OnKeyPress() override;
+  void OnLeftButtonDown() override;
+  void OnLeftButtonUp() override;
+  void Rotate() override;
+
+ protected:
+  ViewStyle() = default;
+
+ private:
+  std::array<int, 2> pressed_at_px_{};
+};
+
+class Gui;
+
+/// A key and what it does.
+struct KeyBinding {
+  std::string_view symbol;  ///< X's name of the key: "space", "Right", "A".
+  std::string_view shown;   ///< As the help shows it; empty: listed with the line before.
+  std::string_view help;
+  void (*action)(Gui&);
+};
+
+/// All keys, in the order in which `?` lists them.
+struct KeyTable {
+  [[nodiscard]] static std::span<const KeyBinding> Bindings();
+};
+
+/// The slider at the foot of the window, which shows the place of the frame and can be dragged to
+/// another.
+class Scrubber {
+ public:
+  /// @param renderer Renderer of the whole window, in which the slider stays.
+  Scrubber(vtkRenderWindowInteractor& interactor,
+           vtkRenderer& renderer,
+           std::function<void(std::size_t)> on_drag);
+
+  /// Shows a place between `first` and `last`; hides the slider where these are equal.
+  void Show(std::size_t place, std::size_t first, std::size_t last, const Background& background);
+
+ private:
+  vtkRenderer& renderer_;
+  std::function<void(std::size_t)> on_drag_;
+  vtkNew<vtkSliderRepresentation2D> looks_;
+  vtkNew<vtkSliderWidget> widget_;
+};
 
 /// The interactive window: what mouse and keyboard do to a session, its playback and its picks, and
 /// when the result is drawn.

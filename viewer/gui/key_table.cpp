@@ -1,11 +1,9 @@
-#include "viewer/gui/key_table.h"
+#include "viewer/gui/gui.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <limits>
-
-#include "viewer/gui/gui.h"
 
 namespace railcast {
 namespace {

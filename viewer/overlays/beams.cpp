@@ -1,4 +1,4 @@
-#include "viewer/overlays/beams.h"
+#include "viewer/overlays/overlays.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,6 @@
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/scan_table.h"
 #include "viewer/color/palette.h"
-#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 

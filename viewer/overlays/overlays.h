@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,8 +12,10 @@
 #include "core/io/recording/scan_table.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
+#include "railcast/lidar.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/scene.h"
 #include "railcast/transform.h"
 #include "viewer/color/palette.h"
 
@@ -118,5 +121,72 @@ inline void AddWord(const Vector3& at_m, std::string text, Rgb rgb, Overlay& dra
 
 /// Returns the multiples of `step_m` between two chainages.
 [[nodiscard]] std::vector<double> WholeChainages_m(double from_s_m, double to_s_m, double step_m);
+
+/// Direction and time of each firing of a grid, including those without a return, at row * columns
+/// + column.
+struct Beams {
+  std::uint32_t rows{};
+  std::uint32_t columns{};
+  /// Unit vectors in the sensor's axes at the firing; NaN where unknown.
+  std::vector<Eigen::Vector3f> directions;
+  std::vector<std::uint32_t> times_ns;  ///< Time since the stamp.
+};
+
+/// Takes the beams exactly from the scenario's pattern.
+[[nodiscard]] Beams BeamsOf(const ScanPattern& pattern);
+
+/// Estimates the directions from the frame's own points (MakeScanTable()) and takes its times.
+/// Empty if its slots are not firings, or not a grid of at least 2 x 2 with points.
+[[nodiscard]] std::optional<Beams> BeamsOf(const RecordedFrame& recorded);
+
+/// Range at which the segments of empty beams begin, away from the sensor, where all of them meet.
+inline constexpr double kEmptyBeamStart_m = 2.0;
+/// Range at which they end if it is not known what the beam hit.
+inline constexpr double kEmptyBeamStub_m = 12.0;
+
+/// Opacity of beams that hit something, and of beams that hit nothing, of which there are many.
+inline constexpr float kLostBeamOpacity = 0.2F;
+inline constexpr float kOpenBeamOpacity = 0.012F;
+
+/// Draws the fan of a frame's firings without a return: one segment along each, in the order of
+/// their slots, in the colour of its outcome (viewer/color/palette.h), or of `kUnknownOutcomeRgb`
+/// where the recording has no outcomes. A segment goes from 2 m to the true range of what was hit
+/// and not detected; where that is not known, or nothing was hit, it goes to 12 m: long enough to
+/// show the fan, short enough to leave the scene clear. For hits nearer than 2 m (on the ego
+/// vehicle, or below the minimum range of the sensor) the segment begins at the sensor.
+///
+/// Segments are turned from the sensor's axes at the firing into those at the stamp (ScanMotion),
+/// as the points are. The overlay is empty if the frame's slots are not firings; firings of unknown
+/// direction are left out.
+/// @pre `beams` has the frame's rows and columns.
+[[nodiscard]] Overlay DrawEmptyBeams(const RecordedFrame& recorded, const Beams& beams);
+
+/// Surfaces of the scene are shown up to this distance from the sensor.
+inline constexpr double kSceneRange_m = 150.0;
+/// Those of sleepers and ballast have a shorter limit, because 150 m of them are half a million
+/// triangles.
+inline constexpr double kTrackBedRange_m = 50.0;
+
+/// The standing scene about a vehicle that is anywhere in one chunk of the line: the ground, rails,
+/// sleepers and ballast, and the contact line with its masts.
+///
+/// Trees and grass are left out, because their leaves are nine tenths of all triangles (8 of 9
+/// million in scenarios/st_gallen_approach.json), and so are the sleepers' fastenings, another
+/// quarter of a million. Triangles beyond kSceneRange_m or kTrackBedRange_m of every such vehicle
+/// are left out, too.
+struct StandingScene {
+  Transform world_from_home = Transform::Identity();  ///< Frame of the chunk.
+  std::vector<Part> parts;  ///< In the chunk's frame, one per label and material.
+};
+
+/// The result depends only on the chunk (RailWorld::HomeChunk()), so it can be kept as long as the
+/// vehicle is in it.
+[[nodiscard]] StandingScene GatherStandingScene(const Surroundings& surroundings, int home_chunk);
+
+/// Returns the scenario's objects where they are at the stamp, in the sensor's axes then, one part
+/// per label and material. The sensor's own vehicle and objects whose origin is beyond
+/// kSceneRange_m are left out. Empty if the frame has no pose.
+[[nodiscard]] std::vector<Part> GatherSceneObjects(const Surroundings& surroundings,
+                                                   const RecordedFrame& recorded);
 
 }  // namespace railcast

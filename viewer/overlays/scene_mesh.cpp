@@ -1,4 +1,4 @@
-#include "viewer/overlays/scene_mesh.h"
+#include "viewer/overlays/overlays.h"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,6 @@
 #include <array>
 #include <string_view>
 
-#include "viewer/pick/point_facts.h"
-
 namespace railcast {
 namespace {
 

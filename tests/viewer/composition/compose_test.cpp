@@ -15,7 +15,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/composition/shared_clouds.h"
 #include "tests/viewer/made_run.h"
-#include "viewer/overlays/beams.h"
+#include "viewer/overlays/overlays.h"
 
 namespace railcast {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "tests/viewer/session/held_frames.h"
-#include "viewer/pick/point_facts.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/pick/point_facts.h"
+#include "viewer/pick/picks.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
