@@ -38,11 +38,11 @@ def is_of_extra(name):
 
 
 def measure(root):
-    """What the budget limits, as the tree has it."""
+    """What the budget limits, as the tree has it; small headers with a single user with that user."""
     sources = {name: source for name, source in lint_architecture.read_sources(root).items()
                if name.split("/")[0] in PRODUCT_TREES}
     rooms = collections.defaultdict(lambda: {"lines": 0, "files": 0})
-    users = collections.Counter()
+    users = collections.defaultdict(list)
     to_extras = []
     for name, source in sources.items():
         room = rooms[room_of(name)]
@@ -53,14 +53,14 @@ def measure(root):
                 continue
             # Its own source is no user.
             if included.removesuffix(".h") != name.removesuffix(".cpp"):
-                users[included] += 1
+                users[included].append(name)
             # The command of an extra belongs to it, though it stands beside the others.
             if is_of_extra(included) and not is_of_extra(name) and not name.endswith("_command.cpp"):
                 to_extras.append(f"{name} -> {included}")
-    small = [name for name, source in sources.items()
-             if source.is_header and not source.is_public and users[name] == 1
-             and source.text.count("\n") < SMALL_HEADER_LINES]
-    return {"rooms": dict(sorted(rooms.items())), "single_user_headers": sorted(small),
+    small = {name: users[name][0] for name, source in sorted(sources.items())
+             if source.is_header and not source.is_public and len(users[name]) == 1
+             and source.text.count("\n") < SMALL_HEADER_LINES}
+    return {"rooms": dict(sorted(rooms.items())), "single_user_headers": small,
             "product_to_extras": sorted(to_extras)}
 
 
@@ -73,7 +73,7 @@ def lint(now, budget):
                 yield f"{room}: has {number} {what}, and {most} in {BUDGET}"
     for header in sorted(set(now["single_user_headers"]) - set(budget["single_user_headers"])):
         yield (f"{header}: a private header has several users, or {SMALL_HEADER_LINES} lines; this belongs into its "
-               "only user")
+               f"only user, {now['single_user_headers'][header]}")
     for include in sorted(set(now["product_to_extras"]) - set(budget["product_to_extras"])):
         yield f"{include}: the product includes no extra"
 

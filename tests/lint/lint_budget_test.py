@@ -50,18 +50,19 @@ class SmallHeaders(unittest.TestCase):
     def test_one_with_a_single_user_is_listed(self):
         now = measured({"core/base/one.h": "a\n", "core/base/one.cpp": '#include "core/base/one.h"\n',
                         "core/base/two.cpp": '#include "core/base/one.h"\n'})
-        self.assertEqual(now["single_user_headers"], ["core/base/one.h"])
+        self.assertEqual(now["single_user_headers"], {"core/base/one.h": "core/base/two.cpp"})
 
     def test_long_ones_public_ones_and_those_with_two_users_are_not(self):
         now = measured({"core/base/long.h": LONG, "core/base/shared.h": "a\n", "core/include/railcast/frame.h": "b\n",
                         "core/base/one.cpp": '#include "core/base/long.h"\n#include "core/base/shared.h"\n',
                         "core/base/two.cpp": '#include "core/base/shared.h"\n#include "railcast/frame.h"\n'})
-        self.assertEqual(now["single_user_headers"], [])
+        self.assertEqual(now["single_user_headers"], {})
 
     def test_a_new_one_is_a_fault(self):
-        now = {"rooms": {}, "single_user_headers": ["core/base/one.h"], "product_to_extras": []}
+        now = {"rooms": {}, "single_user_headers": {"core/base/one.h": "core/base/two.cpp"}, "product_to_extras": []}
         self.assertEqual(list(lint_budget.lint(now, {"rooms": {}, "single_user_headers": [], "product_to_extras": []})), [
-            "core/base/one.h: a private header has several users, or 120 lines; this belongs into its only user"])
+            "core/base/one.h: a private header has several users, or 120 lines; this belongs into its only user, "
+            "core/base/two.cpp"])
 
 
 class Extras(unittest.TestCase):
