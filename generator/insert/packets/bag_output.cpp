@@ -93,23 +93,61 @@ struct EditedMessage {
 class BagPacketEditor {
  public:
   /// @param source Names the bag in messages about errors.
-  BagPacketEditor(const CaptureSensor& sensor, PacketsOfMessage packets_of, std::string source);
+  BagPacketEditor(const CaptureSensor& sensor, PacketsOfMessage packets_of, std::string source)
+      : turns_(sensor, source), packets_of_(packets_of), source_(std::move(source)) {}
 
   /// Takes the next message of the topic.
   /// @throws InputError "bag: message 3: rule (got value)" if it is damaged.
-  void Take(const bag::BagMessage& message);
+  void Take(const bag::BagMessage& message) {
+    const auto packets = AtPlace(source_ + ": message " + NumberText(num_messages_++) + ": ",
+                                 [&] { return packets_of_(message); });
+    HeldMessage held{
+        .message = {.place = message.place, .data = {message.data.begin(), message.data.end()}},
+        .first_datagram = num_datagrams_,
+        .places = {}};
+    for (const MessagePacket& packet : packets) {
+      held.places.push_back(packet.place);
+      turns_.Take({.payload = packet.payload,
+                   .time_ns = packet.time_ns,
+                   .packet = static_cast<std::size_t>(num_datagrams_++)});
+    }
+    held_.push_back(std::move(held));
+  }
   /// Says that there are no further messages.
   void End() { turns_.End(); }
 
   /// As of TurnEditor.
   [[nodiscard]] bool Has(std::uint32_t turn) const { return turns_.Has(turn); }
   void Skip(std::uint32_t turn) { turns_.Skip(turn); }
-  void Edit(const InsertedFrame& inserted);
+  void Edit(const InsertedFrame& inserted) {
+    for (const EditedPacket& packet : turns_.Edit(inserted)) {
+      // The last message that begins at this datagram or before it, and has any.
+      auto held =
+          std::ranges::upper_bound(held_, packet.datagram, {}, &HeldMessage::first_datagram);
+      --held;
+      const std::size_t place = held->places.at(packet.datagram - held->first_datagram);
+      const auto bytes = std::as_bytes(std::span(packet.after));
+      std::ranges::copy(
+          bytes, held->message.data.begin() + static_cast<std::ptrdiff_t>(place + packet.offset));
+      held->message.is_edited = true;
+    }
+  }
 
   /// Returns the next message if no further edit concerns it.
-  [[nodiscard]] std::optional<EditedMessage> Release();
+  [[nodiscard]] std::optional<EditedMessage> Release() {
+    if (held_.empty()) return std::nullopt;
+    const HeldMessage& first = held_.front();
+    const bool may_change =
+        first.first_datagram + first.places.size() > turns_.first_open_datagram();
+    return may_change ? std::nullopt : ReleaseLast();
+  }
   /// Returns the next message in any case; nothing if there is none.
-  [[nodiscard]] std::optional<EditedMessage> ReleaseLast();
+  [[nodiscard]] std::optional<EditedMessage> ReleaseLast() {
+    if (held_.empty()) return std::nullopt;
+    EditedMessage message = std::move(held_.front().message);
+    held_.pop_front();
+    return message;
+  }
 
  private:
   struct HeldMessage {
@@ -125,55 +163,6 @@ class BagPacketEditor {
   std::uint64_t num_messages_{};
   std::uint64_t num_datagrams_{};
 };
-
-BagPacketEditor::BagPacketEditor(const CaptureSensor& sensor,
-                                 PacketsOfMessage packets_of,
-                                 std::string source)
-    : turns_(sensor, source), packets_of_(packets_of), source_(std::move(source)) {}
-
-void BagPacketEditor::Take(const bag::BagMessage& message) {
-  const auto packets = AtPlace(source_ + ": message " + NumberText(num_messages_++) + ": ",
-                               [&] { return packets_of_(message); });
-  HeldMessage held{
-      .message = {.place = message.place, .data = {message.data.begin(), message.data.end()}},
-      .first_datagram = num_datagrams_,
-      .places = {}};
-  for (const MessagePacket& packet : packets) {
-    held.places.push_back(packet.place);
-    turns_.Take({.payload = packet.payload,
-                 .time_ns = packet.time_ns,
-                 .packet = static_cast<std::size_t>(num_datagrams_++)});
-  }
-  held_.push_back(std::move(held));
-}
-
-void BagPacketEditor::Edit(const InsertedFrame& inserted) {
-  for (const EditedPacket& packet : turns_.Edit(inserted)) {
-    // The last message that begins at this datagram or before it, and has any.
-    auto held = std::ranges::upper_bound(held_, packet.datagram, {}, &HeldMessage::first_datagram);
-    --held;
-    const std::size_t place = held->places.at(packet.datagram - held->first_datagram);
-    const auto bytes = std::as_bytes(std::span(packet.after));
-    std::ranges::copy(
-        bytes, held->message.data.begin() + static_cast<std::ptrdiff_t>(place + packet.offset));
-    held->message.is_edited = true;
-  }
-}
-
-std::optional<EditedMessage> BagPacketEditor::Release() {
-  if (held_.empty()) return std::nullopt;
-  const HeldMessage& first = held_.front();
-  if (first.first_datagram + first.places.size() > turns_.first_open_datagram())
-    return std::nullopt;
-  return ReleaseLast();
-}
-
-std::optional<EditedMessage> BagPacketEditor::ReleaseLast() {
-  if (held_.empty()) return std::nullopt;
-  EditedMessage message = std::move(held_.front().message);
-  held_.pop_front();
-  return message;
-}
 
 /// The messages of one topic of a bag, and the bag's copy.
 struct TopicCopy {
