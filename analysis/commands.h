@@ -30,8 +30,6 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command);
 void AddDetect(ProgramOptions& app, ProgramCommand& command);
 /// Evaluates an object detector, the reference one or that of files, on sequences.
 void AddEvaluate(ProgramOptions& app, ProgramCommand& command);
-/// Writes what an object detector reports live as a file for `evaluate`, until a signal ends it.
-void AddCollect(ProgramOptions& app, ProgramCommand& command);
 /// Charts how far along its track a scenario's vehicle sees, beside its braking distance.
 void AddSight(ProgramOptions& app, ProgramCommand& command);
 /// Simulates the approaches of a recipe and reports probabilities of detection.
@@ -58,17 +56,6 @@ void AddReceive(ProgramOptions& app, ProgramCommand& command);
                                            : std::size_t{std::thread::hardware_concurrency()};
   return {tbb::global_control::max_allowed_parallelism, most};
 }
-
-/// What is listened to, and how long.
-struct ListenOptions {
-  std::string at;  ///< Address and port.
-  std::optional<std::string> from{};
-  std::optional<double> duration_s{};
-  std::optional<std::uint64_t> num_frames{};
-};
-
-/// Adds ADDRESS, --from, --duration and --frames. Defined in receive_command.cpp.
-void AddListenOptions(ProgramOptions& command, ListenOptions& options);
 
 /// Checks that no source is given twice, since its samples would be counted twice and the intervals
 /// would be too narrow.

@@ -9,7 +9,6 @@ void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& comman
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);
   railcast::AddEvaluate(app, command);
-  railcast::AddCollect(app, command);
   railcast::AddSight(app, command);
   railcast::AddStudy(app, command);
   railcast::AddDossier(app, command);

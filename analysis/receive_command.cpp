@@ -20,7 +20,10 @@ namespace railcast {
 namespace {
 
 struct ReceiveOptions {
-  ListenOptions listen{.at = "127.0.0.1:27400"};
+  std::string at = "127.0.0.1:27400";
+  std::optional<std::string> from;
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> num_frames;
   std::filesystem::path out;  // Empty: nothing is recorded.
   std::optional<std::filesystem::path> summary;
 };
@@ -52,7 +55,7 @@ class HeldSignals {
 /// Counts, and on request records, the frames of a grabber; called on the grabber's thread.
 class FrameCounter {
  public:
-  explicit FrameCounter(const ReceiveOptions& options) : max_frames_(options.listen.num_frames) {
+  explicit FrameCounter(const ReceiveOptions& options) : max_frames_(options.num_frames) {
     if (!options.out.empty()) files_.emplace(options.out);
   }
 
@@ -99,10 +102,10 @@ int RunReceive(const ReceiveOptions& options) {
   const HeldSignals signals;
   FrameCounter counter(options);
   WantedStream wanted;
-  if (options.listen.from) {
-    wanted.from = AtPlace("--from: ", [&] { return ParseEndpoint(*options.listen.from, 0); });
+  if (options.from) {
+    wanted.from = AtPlace("--from: ", [&] { return ParseEndpoint(*options.from, 0); });
   }
-  UdpGrabber grabber(ParseEndpoint(options.listen.at, kStreamPort), wanted);
+  UdpGrabber grabber(ParseEndpoint(options.at, kStreamPort), wanted);
   grabber.registerCallback(std::function(
       [&](const std::shared_ptr<const ReceivedFrame>& frame) { counter.Take(*frame); }));
   grabber.start();
@@ -110,7 +113,7 @@ int RunReceive(const ReceiveOptions& options) {
 
   const double begin_s = Now_s();
   const double end_s =
-      begin_s + options.listen.duration_s.value_or(std::numeric_limits<double>::infinity());
+      begin_s + options.duration_s.value_or(std::numeric_limits<double>::infinity());
   double next_s = begin_s;
   const ProgressLine progress;
   while (!counter.is_done() && Now_s() < end_s && !signals.Wait()) {
@@ -118,7 +121,7 @@ int RunReceive(const ReceiveOptions& options) {
     next_s += 1.0;
     const std::string text = ReceiveProgress(counter.totals(), grabber.counts());
     const auto done = ReceivedShare(counter.totals(), Now_s() - begin_s,
-                                    {options.listen.num_frames, options.listen.duration_s});
+                                    {options.num_frames, options.duration_s});
     if (done) {
       progress.Show(text, *done);
     } else {
@@ -139,27 +142,24 @@ int RunReceive(const ReceiveOptions& options) {
 
 }  // namespace
 
-void AddListenOptions(ProgramOptions& command, ListenOptions& options) {
-  command
-      .AddOption("ADDRESS", options.at,
-                 "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
-                 "multicast group what is sent to it")
-      .ShowDefault();
-  command
-      .AddOption("--from", options.from,
-                 "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
-      .Check(NonEmpty());
-  command.AddOption("--duration", options.duration_s, "Seconds after which to end; default: no end")
-      .Check(Number({1e-3, 1e9}));
-  command.AddOption("--frames", options.num_frames, "Frames after which to end; default: no end")
-      .Check(Whole({1}));
-}
-
 void AddReceive(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReceiveOptions>();
   ProgramOptions receive = app.AddCommand(
       "receive", "Listen to a live stream: what arrives, and what is lost; until Ctrl-C");
-  AddListenOptions(receive, options->listen);
+  receive
+      .AddOption("ADDRESS", options->at,
+                 "Address and port to listen at; 0.0.0.0 and [::] hear other machines, too, a "
+                 "multicast group what is sent to it")
+      .ShowDefault();
+  receive
+      .AddOption("--from", options->from,
+                 "HOST or HOST:PORT whose datagrams are taken; default: the first sender heard")
+      .Check(NonEmpty());
+  receive
+      .AddOption("--duration", options->duration_s, "Seconds after which to end; default: no end")
+      .Check(Number({1e-3, 1e9}));
+  receive.AddOption("--frames", options->num_frames, "Frames after which to end; default: no end")
+      .Check(Whole({1}));
   receive.AddOption("--out", options->out, "Directory to record to: frames/*.pcd and frames.csv")
       .Check(NonEmpty());
   AddSummaryFile(receive, options->summary);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Detects the nearest obstacle in each frame and reports it to `railcast-analyze collect`.
+"""Detects the nearest obstacle in each frame and reports it to collect_detections.py.
 
 Steps through `railcast-generate stream SCENARIO --lockstep --commands-port PORT`, whose points must
 be in vehicle axes (`output.frame` is "vehicle"), on straight track. Put your detector in the place

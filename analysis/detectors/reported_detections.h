@@ -4,10 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "analysis/detectors/detection.h"
@@ -54,11 +52,7 @@ using ReportedRun = std::vector<ReportedFrame>;
 [[nodiscard]] ReportedRun ReadReportedRun(const std::filesystem::path& file,
                                           const Transform& vehicle_from_sensor);
 
-/// Reads what a detector reports of one frame: a line of a file of detections, without its end.
-/// @param place Where it stands, for messages: "FILE:3".
-/// @throws InputError with a line for every fault: "FILE:3: /pointer: rule (got value)".
-[[nodiscard]] ReportedFrame ReadDetectionLine(std::string_view line, const std::string& place);
-
+/// Reads the lines of a file of detections.
 /// @param shown Names the file in messages.
 /// @throws InputError with a line for every fault of the first faulty line: "FILE:3: /pointer: rule
 ///   (got value)".
@@ -107,30 +101,5 @@ struct PointsOfRun {
                                                     const PointsOfRun& run,
                                                     const OwnTrack& track,
                                                     double min_score);
-
-/// What a detector reports live (docs/evaluate.md, "Live"): one line for each frame, in datagrams
-/// that may come in any order and more than once.
-class CollectedLines {
- public:
-  /// Takes a datagram: a line as ReadDetectionLine() reads it, with or without its end. The same
-  /// line again, which a network may deliver, changes nothing.
-  /// @param from Names the sender in messages.
-  /// @return The line with its end; empty if it is there already.
-  /// @throws InputError "127.0.0.1:4711: /pointer: rule (got value)" for every fault of the line,
-  ///   and for another line of a frame that has one. Nothing has been taken then.
-  std::string Take(std::string_view datagram, const std::string& from);
-
-  [[nodiscard]] std::size_t num_frames() const { return lines_.size(); }
-
-  /// The lines by rising frame, as a file of detections has them.
-  [[nodiscard]] std::string Text() const;
-
-  /// Which frames, how many are missing between them, and how many datagrams, as a line of text.
-  [[nodiscard]] std::string Summary() const;
-
- private:
-  std::map<std::uint32_t, std::string> lines_;  ///< By frame.
-  std::uint64_t num_repeated_ = 0;
-};
 
 }  // namespace railcast

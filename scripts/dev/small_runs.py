@@ -60,8 +60,6 @@ ROWS = (
     ("railcast-analyze compare", "--ablate coarse.json --frames 1 --out ablate", ["ablate/report.html"], None),
     ("railcast-analyze detect", "drive --out detect", ["detect/report.html", "detect/detect.json"], None),
     ("railcast-analyze evaluate", "drive --out evaluate", ["evaluate/report.html", "evaluate/evaluate.json"], None),
-    ("railcast-analyze collect", "127.0.0.1:PORT --frames 1 --out live/mine.jsonl", ["live/mine.jsonl"],
-     ("", '{"frame": 0, "detections": []}')),
     ("railcast-analyze sight", "drive.json --step-m 50 --out sight", ["sight/report.html", "sight/sight.json"], None),
     ("railcast-analyze study", "study.json --out study", ["study/report.html", "study/study.json"], None),
     ("railcast-analyze dossier", "study --out dossier", ["dossier/dossier.pdf", "dossier/report.html"], None),
@@ -224,7 +222,7 @@ def wait_for_receiver(port, receiver):
 
 
 def is_receiving(command):
-    return command in ("railcast-analyze receive", "railcast-analyze collect")
+    return command == "railcast-analyze receive"
 
 
 def run_words(words, folder):

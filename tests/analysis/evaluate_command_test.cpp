@@ -140,8 +140,8 @@ TEST_F(EvaluateCommand, TakesWhatADetectorReported) {
 TEST_F(EvaluateCommand, FindsTheSameInWhatADetectorSentLive) {
   const std::string truth = Detections("filed.jsonl", TrueBoxes);
   const std::string live = (run_.parent_path() / "live.jsonl").string();
-  ListeningProgram program(RAILCAST_ANALYZE " collect " + EndpointText(OwnEndpoint()) +
-                           " --frames 30 --out " + live);
+  ListeningProgram program(RAILCAST_SOURCE_DIR "/examples/collect_detections.py " +
+                           EndpointText(OwnEndpoint()) + " --frames 30 --out " + live);
   std::vector<std::string> lines;
   std::istringstream text(ReadFileWhole(truth));
   for (std::string line; std::getline(text, line);) lines.push_back(line);
@@ -161,8 +161,8 @@ TEST_F(EvaluateCommand, TakesWhatTheExampleDetectsInAStream) {
   const std::filesystem::path run = run_.parent_path() / "vehicle_run";
   MakeRun(scenario, run);
   const std::string file = (run_.parent_path() / "example.jsonl").string();
-  ListeningProgram program(RAILCAST_ANALYZE " collect " + EndpointText(OwnEndpoint()) +
-                           " --frames 30 --out " + file);
+  ListeningProgram program(RAILCAST_SOURCE_DIR "/examples/collect_detections.py " +
+                           EndpointText(OwnEndpoint()) + " --frames 30 --out " + file);
   const std::string host = EndpointText({program.at().address, 27'403});
   const std::string commands = EndpointText(UdpReceiver(kAnyLoopbackPort).at());
   const Ended ended = RunCommand(

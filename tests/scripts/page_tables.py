@@ -28,7 +28,7 @@ INSTALLS = "installs, as tests/python/wheel_test.py does"
 LEFT_OUT = {
     "docs/dossier.md": {"railcast-analyze dossier": HAS_ITS_ROW},
     "docs/evaluate.md": {
-        "railcast-analyze collect [ADDRESS]": "ends with a fault where nothing comes; runs below, with a sender"},
+        "examples/collect_detections.py [ADDRESS]": "ends with a fault where nothing comes; runs below, with a sender"},
     "docs/fit.md": {"railcast-analyze fit SOURCE... --scenario": HAS_ITS_ROW},
     "docs/frontier.md": {"build/release/analysis/railcast-analyze frontier": HAS_ITS_ROW},
     "docs/insert.md": {

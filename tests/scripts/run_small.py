@@ -24,7 +24,6 @@ def added_options(program, words):
         return ["tiny.json", "--scans" if program == "railcast-modules" else "--turns", "2"]
     return {"stream": [] if "--duration" in words else ["--duration", str(MOST_S)],
             "receive": [] if "--frames" in words else ["--frames", "1", "--duration", "2"],
-            "collect": [] if "--frames" in words else ["--duration", "0.5"],
             "sequence": [] if "--frames" in words else ["--frames", "2"],
             "frontier": ["--frames", "1", "--rows", "geometry"],
             "sight": ["--step-m", "50"]}.get(command, [])

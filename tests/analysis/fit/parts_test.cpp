@@ -29,7 +29,7 @@ std::map<int, LossBin> MakeLosses(double probability, double rate_per_m, unsigne
   return bins;
 }
 
-bool Holds(const Estimate& estimate, double truth) {
+bool Covers(const Estimate& estimate, double truth) {
   return estimate.low <= truth && truth <= estimate.high;
 }
 
@@ -38,8 +38,8 @@ TEST(RandomLoss, TellsDropoutFromGrowthWithRange) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const RandomLoss fit = FitRandomLoss(MakeLosses(0.08, 0.002, seed));
     EXPECT_NEAR(fit.probability.value, 0.08, 0.03);
-    holds += Holds(fit.probability, 0.08) ? 1 : 0;
-    holds += Holds(fit.rate_per_m, 0.002) ? 1 : 0;
+    holds += Covers(fit.probability, 0.08) ? 1 : 0;
+    holds += Covers(fit.rate_per_m, 0.002) ? 1 : 0;
   }
   // Of 40 intervals with a coverage of 95 %, fewer than 35 hold the truth once in 300 times.
   EXPECT_GE(holds, 35);
@@ -106,8 +106,8 @@ TEST(Noise, OfALineHasIntervalsThatHold) {
   for (unsigned seed = 1; seed <= 50; ++seed) {
     const LinearNoise noise = FitLinearNoise(MakeNoise(200, seed, false));
     EXPECT_NEAR(noise.sigma0_m.value, 0.02, 0.003);
-    holds += Holds(noise.sigma0_m, 0.02) ? 1 : 0;
-    holds += Holds(noise.sigma1, 1e-4) ? 1 : 0;
+    holds += Covers(noise.sigma0_m, 0.02) ? 1 : 0;
+    holds += Covers(noise.sigma1, 1e-4) ? 1 : 0;
   }
   // Of 100 intervals, 95 minus four standard deviations.
   EXPECT_GE(holds, 87);
@@ -123,9 +123,9 @@ TEST(Noise, OfFloorSignalAndPointingHasIntervalsThatHold) {
       inverse_snr.push_back(1e-4 * range_m * range_m / static_cast<double>(trial.intensity));
     }
     const SignalNoise noise = FitSignalNoise(trials, inverse_snr);
-    holds += Holds(noise.floor_m, 0.01) ? 1 : 0;
-    holds += Holds(noise.scale_m, 0.1) ? 1 : 0;
-    holds += Holds(noise.pointing_rad, 2e-4) ? 1 : 0;
+    holds += Covers(noise.floor_m, 0.01) ? 1 : 0;
+    holds += Covers(noise.scale_m, 0.1) ? 1 : 0;
+    holds += Covers(noise.pointing_rad, 2e-4) ? 1 : 0;
   }
   // Of 120 intervals, 95 % minus four standard deviations.
   EXPECT_GE(holds, 105);
