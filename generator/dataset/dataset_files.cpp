@@ -22,7 +22,6 @@
 #include "core/recipe/recipe.h"
 #include "core/recipe/scenario_lines.h"
 #include "generator/dataset/dataset_report.h"
-#include "generator/dataset/index_database.h"
 #include "generator/dataset/indexed_scenario.h"
 
 namespace railcast {
@@ -30,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kHashedFiles = {
-    kDatasetFile, kRecipeFile,    kScenariosFile, kIndexFile,    kIndexDatabaseFile,
+constexpr std::array<std::string_view, 8> kHashedFiles = {
+    kDatasetFile, kRecipeFile,    kScenariosFile, kIndexFile,
     kReportFile,  kSplitFiles[0], kSplitFiles[1], kSplitFiles[2]};
 /// Those of a shard.
 constexpr std::array<std::string_view, 3> kHashedFilesOfShard = {kDatasetFile, kRecipeFile,
@@ -68,12 +67,12 @@ std::string ManifestText(const DatasetSpec& spec,
                                  .num_frames = report.num_frames,
                                  .points = report.counts.points,
                                  .format = spec.record.format};
-  // The program that made the data is named in dataset.json, and SQLite's version in its file.
+  // The program that made the data is named in dataset.json.
   std::string data;
   for (const std::string_view name : kHashedFiles) {
     const std::string hash = HashFile(spec.directory / name).hash;
     manifest.files.emplace_back(name, hash);
-    if (name != kDatasetFile && name != kIndexDatabaseFile && name != kScenariosFile) data += hash;
+    if (name != kDatasetFile && name != kScenariosFile) data += hash;
   }
   manifest.data_hash = ContentHash(data + sequences);
   return WithManifestHash(RecordFile(manifest));
@@ -84,8 +83,8 @@ std::string ManifestText(const DatasetSpec& spec,
 PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
   const fs::path& directory = spec.directory;
   fs::create_directories((directory / kSplitFiles[0]).parent_path());
+  fs::remove(directory / kIndexDatabaseFile);
   DatasetReport report;
-  IndexDatabase database(directory / kIndexDatabaseFile);
   NewFile index(directory / kIndexFile);
   std::vector<NewFile> splits;
   for (const std::string_view name : kSplitFiles) splits.emplace_back(directory / name);
@@ -104,11 +103,9 @@ PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec) {
     }
     hashes += record.sensors_hash;
     index.Append(IndexLines(scenario));
-    database.Add(scenario);
     report.Add(scenario);
   }
   index.Finish();
-  database.Finish();
   for (NewFile& split : splits) split.Finish();
   const DatasetReportRecord written = report.Record();
   WriteFileWhole(directory / kReportFile, RecordFile(written));

@@ -8,9 +8,9 @@
 namespace railcast {
 
 /// Writes the files about all scenarios of a data set whose sequences are complete: index.jsonl,
-/// index.sqlite, split/*.txt, report.json and, last, manifest.json with the hashes of all. They
-/// depend on the files of the sequences alone, so that a merged data set has the same bytes as one
-/// that was made at once.
+/// split/*.txt, report.json and, last, manifest.json with the hashes of all. They depend on the
+/// files of the sequences alone, so that a merged data set has the same bytes as one that was made
+/// at once. Removes an index.sqlite, which was made of an earlier index.
 /// @return The scenarios of each part.
 /// @throws InputError if a sequence cannot be read or the system refuses.
 PerPart<std::uint32_t> WriteDatasetFiles(const DatasetSpec& spec);

@@ -60,9 +60,15 @@ class Samples(unittest.TestCase):
         np.testing.assert_array_equal(sample["boxes"][:, 3:6], np.float32([thing.size_m for thing in seen]))
         self.assertEqual(sample["box_labels"].tolist(), [dataset.labels[thing.label] for thing in seen])
 
-    def test_a_part_of_a_data_set_has_its_frames_only(self):
-        # The columns of index.sqlite that matter here, as docs/dataset.md has them.
-        folder = pathlib.Path(self.temporary.name)
+    def write_index(self, folder):
+        """The keys of index.jsonl that matter here, as docs/dataset.md has them."""
+        lines = [{"folder": name, "split": split, "sensor": sensor}
+                 for name, split, sensor in (("a", "train", "front"), ("b", "val", "roof")) for _ in range(FRAMES)]
+        (folder / "index.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines), "utf-8")
+        self.addCleanup((folder / "index.jsonl").unlink)
+
+    def write_database(self, folder):
+        """The columns of index.sqlite that matter here."""
         with contextlib.closing(sqlite3.connect(folder / "index.sqlite")) as index, index:
             index.execute("CREATE TABLE scenarios (scenario INTEGER PRIMARY KEY, split TEXT)")
             index.execute("CREATE TABLE sequences (id INTEGER PRIMARY KEY, scenario INTEGER, sensor TEXT, folder TEXT, "
@@ -71,6 +77,25 @@ class Samples(unittest.TestCase):
             index.executemany("INSERT INTO sequences VALUES (?, ?, ?, ?, ?)",
                               [(1, 1, "roof", "b", FRAMES), (0, 0, "front", "a", FRAMES)])
         self.addCleanup((folder / "index.sqlite").unlink)
+
+    def test_a_part_of_a_data_set_has_its_frames_only(self):
+        folder = pathlib.Path(self.temporary.name)
+        for write in (self.write_index, self.write_database):
+            write(folder)
+            self.check_parts(folder)
+            self.doCleanups()
+
+    def test_a_damaged_index_is_named(self):
+        folder = pathlib.Path(self.temporary.name)
+        for name, fault in (("index.jsonl", "Expecting value: line 1 column 1 (char 0)"),
+                            ("index.sqlite", "file is not a database")):
+            (folder / name).write_text("damaged", "utf-8")
+            self.addCleanup((folder / name).unlink)
+            with self.assertRaises(railcast.InputError) as raised:
+                railcast.Dataset(folder)
+            self.assertEqual(str(raised.exception), f"{folder / name}: is damaged: {fault}")
+
+    def check_parts(self, folder):
         self.assertEqual(railcast.Dataset(folder).paths, [str(run) for run in self.runs])
         validation = railcast.Dataset(folder, split="val")
         self.assertEqual(len(validation), FRAMES)

@@ -45,7 +45,7 @@ class DatasetVerifier : private Findings {
   DatasetVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
       : directory_(directory), on_progress_(on_progress), content_(ReadDatasetContent(directory)) {
     known_ = {std::string(kDatasetFile), std::string(kRecipeFile), std::string(kScenariosFile),
-              std::string(kDatasetManifestFile)};
+              std::string(kDatasetManifestFile), std::string(kIndexDatabaseFile)};
   }
 
   Verification Run() {

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import bisect
 import collections
+import contextlib
 import itertools
+import json
 import math
 import os
 import pathlib
@@ -28,22 +30,37 @@ def box_of(frame: Frame, thing: Object, compensate: str) -> list[float]:
     return [*pose[:3, 3], *thing.size_m, math.atan2(pose[1, 0], pose[0, 0])]
 
 
+def rows_of_database(index: pathlib.Path) -> list[tuple[str, int, str, str]]:
+    """Folder, number of frames, part and sensor of each sequence."""
+    with contextlib.closing(sqlite3.connect(f"{index.absolute().as_uri()}?mode=ro", uri=True)) as connection:
+        return connection.execute("SELECT folder, num_frames, split, sensor FROM sequences JOIN scenarios "
+                                  "USING (scenario) ORDER BY id").fetchall()
+
+
+def rows_of_lines(index: pathlib.Path) -> list[tuple[str, int, str, str]]:
+    """As rows_of_database(). A sequence has its lines together."""
+    with open(index, encoding="utf-8") as file:
+        lines = (json.loads(line) for line in file)
+        keys = [(line["folder"], line["split"], line["sensor"]) for line in lines]
+    return [(folder, len(list(frames)), split, sensor) for (folder, split, sensor), frames in itertools.groupby(keys)]
+
+
 def recordings_of(source: str, split: str | None, sensor: str | None) -> list[tuple[str, int]]:
     """Path and number of frames of each recording of a source."""
-    index = pathlib.Path(source, "index.sqlite")
-    if not index.is_file():
+    # The database is faster, and not every data set has it.
+    for name, read in (("index.sqlite", rows_of_database), ("index.jsonl", rows_of_lines)):
+        index = pathlib.Path(source, name)
+        if index.is_file():
+            break
+    else:
         for name, value in (("split", split), ("sensor", sensor)):
             if value is not None:
                 raise InputError(f"{name}: must be left out for what is no data set, {source} (got {value!r})")
         return [(source, len(open_recording(source)))]
-    connection = sqlite3.connect(f"{index.absolute().as_uri()}?mode=ro", uri=True)
     try:
-        rows = connection.execute("SELECT folder, num_frames, split, sensor FROM sequences JOIN scenarios "
-                                  "USING (scenario) ORDER BY id").fetchall()
-    except sqlite3.Error as error:
+        rows = read(index)
+    except (sqlite3.Error, ValueError, KeyError, TypeError) as error:
         raise InputError(f"{index}: is damaged: {error}") from error
-    finally:
-        connection.close()
     for name, value, column in (("split", split, 2), ("sensor", sensor, 3)):
         names = sorted({row[column] for row in rows})
         if value is not None and value not in names:

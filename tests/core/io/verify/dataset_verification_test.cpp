@@ -57,17 +57,22 @@ TEST_F(VerifyDatasetTest, FindsChangedFiles) {
 }
 
 TEST_F(VerifyDatasetTest, FindsMissingAndForeignFiles) {
-  fs::remove(Path("index.sqlite"));
+  fs::remove(Path("index.jsonl"));
   fs::remove_all(Path("sequences/000/000000"));
   WriteFileWhole(Path("note.txt"), "mine");
   fs::create_directories(Path("sequences/000/000007"));
   WriteFileWhole(Path("sequences/000/000007/run.json"), "{}");
   const std::vector<std::string> faults = Faults();
   EXPECT_EQ(faults.size(), 4U);
-  EXPECT_THAT(faults, Contains(HasSubstr("index.sqlite: no such file")));
+  EXPECT_THAT(faults, Contains(HasSubstr("index.jsonl: no such file")));
   EXPECT_THAT(faults, Contains(HasSubstr("sequences/000/000000/run.json: no such file")));
   EXPECT_THAT(faults, Contains(HasSubstr("note.txt: belongs to no scenario of the data set")));
   EXPECT_THAT(faults, Contains(HasSubstr("000007/run.json: belongs to no scenario")));
+}
+
+TEST_F(VerifyDatasetTest, ADatabaseOfTheIndexIsNoForeignFile) {
+  WriteFileWhole(Path("index.sqlite"), "made of index.jsonl");
+  EXPECT_THAT(Faults(), IsEmpty());
 }
 
 TEST_F(VerifyDatasetTest, FindsASequenceOfAnotherRunInPlaceOfItsOwn) {
