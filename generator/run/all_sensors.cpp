@@ -17,8 +17,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/pcd_encoder.h"
-#include "core/io/cloud/pcd_reader.h"
 #include "core/io/content_hash.h"
 #include "core/io/field_layout.h"
 #include "core/io/record/read_record.h"
@@ -195,7 +195,7 @@ class MergedWriter {
     MergedRecord line{.frame = frame.parts.front().frame, .stamp_ns = frame.stamp_ns, .file = {}};
     for (const MergedFrame::Part& part : frame.parts) {
       const auto& [name, scenario, spec] = sensors_[part.sensor].plan;
-      cloud.Add(ReadPcdCloud(spec.directory / CloudName(spec, part.frame)),
+      cloud.Add(ReadCloud(spec.directory / CloudName(spec, part.frame)),
                 {.sensor_index = static_cast<std::uint8_t>(part.sensor),
                  .merged_from_cloud = MergedFromCloud(scenario),
                  .later_ns = part.later_ns});

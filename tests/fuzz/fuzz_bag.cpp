@@ -43,13 +43,13 @@ void ReadFrames(const std::filesystem::path& path) {
 }
 
 void ReadCloud(std::span<const std::byte> bytes) {
-  const PointTable table = MakePointTable(ros::FromCdr<ros::PointCloud2>(bytes));
-  for (const PointColumn& column : table.columns) {
+  const Cloud cloud = MakeCloud(ros::FromCdr<ros::PointCloud2>(bytes));
+  for (const CloudField& field : cloud.fields) {
     std::size_t num = 0;
-    VisitColumn(table, column, [&](std::size_t, auto) { ++num; });
-    Check(num == table.num_points(), "every point has every field");
+    VisitField(cloud, field, [&](std::size_t, auto) { ++num; });
+    Check(num == cloud.num_points(), "every point has every field");
   }
-  static_cast<void>(MakeCloudFrame(table, "fuzz"));
+  static_cast<void>(MakeCloudFrame(cloud, "fuzz"));
 }
 
 void ReadOsiTrace(const std::filesystem::path& path) {

@@ -3,18 +3,18 @@
 #include <string>
 
 #include "core/base/error.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_frame.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {
 namespace {
 
-void CheckTable(const PointTable& table) {
-  for (const PointColumn& column : table.columns) {
+void CheckCloud(const Cloud& cloud) {
+  for (const CloudField& column : cloud.fields) {
     std::size_t num = 0;
-    VisitColumn(table, column, [&](std::size_t, auto) { ++num; });
-    Check(num == table.num_points(), "every point has every field");
+    VisitField(cloud, column, [&](std::size_t, auto) { ++num; });
+    Check(num == cloud.num_points(), "every point has every field");
   }
 }
 
@@ -58,19 +58,37 @@ ScanPattern SmallPattern() {
   return pattern;
 }
 
-PointTable ParseTable(char kind, const std::string& bytes) {
-  if (kind == 'p' || kind == 'P') return ParsePcdTable("fuzz", bytes);
-  if (kind == 'k') return ParseKittiTable("fuzz", bytes, std::nullopt);
-  return ParsePlyTable("fuzz", bytes);
+CloudFile ParseCloud(char kind, const std::string& bytes) {
+  if (kind == 'p' || kind == 'P') return ParsePcdFile("fuzz", bytes);
+  if (kind == 'k') return ParseKittiFile("fuzz", bytes, std::nullopt);
+  return ParsePlyFile("fuzz", bytes);
 }
 
-void ReadCloud(char kind, const std::string& bytes) {
+/// What was read can be written, and read again.
+void CheckRewriting(char kind, const CloudFile& file) {
+  OtherPoints points{file.cloud.data, {}};
+  for (std::uint32_t i = 0; i < file.cloud.num_points(); ++i) {
+    points.sources.push_back(i % 2 == 0 ? i : kNoSource);
+  }
+  const std::string bytes = Rewritten(file, points).at(0);
+  std::size_t num_points = 0;
   try {
-    const PointTable table = ParseTable(kind, bytes);
-    CheckTable(table);
+    num_points = ParseCloud(kind, bytes).cloud.num_points();
+  } catch (const InputError& error) {
+    Check(false, error.what());
+  }
+  Check(num_points == points.sources.size(), "a file that was written again has its points");
+}
+
+void ReadFile(char kind, const std::string& bytes) {
+  try {
+    const CloudFile file = ParseCloud(kind, bytes);
+    const Cloud& cloud = file.cloud;
+    CheckCloud(cloud);
+    CheckRewriting(kind, file);
     const bool is_ours = kind == 'P' || kind == 'L';
-    CheckFrame(is_ours ? MakeScanFrame(table, "fuzz", SmallPattern(), kind == 'P')
-                       : MakeCloudFrame(table, "fuzz"));
+    CheckFrame(is_ours ? MakeScanFrame(cloud, "fuzz", SmallPattern(), kind == 'P')
+                       : MakeCloudFrame(cloud, "fuzz"));
   } catch (const InputError& error) {
     const std::string message = error.what();
     Check(message.starts_with("fuzz: "), "a fault names its file");
@@ -84,7 +102,7 @@ void ReadCloud(char kind, const std::string& bytes) {
 /// P and L are files of a railcast sequence.
 RAILCAST_FUZZ_TARGET(cloud) {
   if (size == 0) return 0;
-  railcast::ReadCloud(static_cast<char>(data[0]),
-                      std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
+  railcast::ReadFile(static_cast<char>(data[0]),
+                     std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
   return 0;
 }

@@ -5,14 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/field_layout.h"
 
@@ -75,11 +79,45 @@ TrainingClasses TrainingClassesOf(const LabelTable& kitti) {
   return training;
 }
 
+// Of a point in a .bin file, and of its label in a .label file.
+constexpr std::size_t kPointBytes = 4 * sizeof(float);
+constexpr std::size_t kLabelBytes = sizeof(std::uint32_t);
+
 }  // namespace
 
+CloudFile ParseKittiFile(const std::string& file,
+                         std::string_view bytes,
+                         const std::optional<std::string>& labels) {
+  const std::size_t num_points = bytes.size() / kPointBytes;
+  if (bytes.size() % kPointBytes != 0 || num_points > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError(file + ": must have 16 bytes for each point (got " + NumberText(bytes.size()) +
+                     ")");
+  }
+  if (labels && labels->size() != num_points * kLabelBytes) {
+    throw InputError(file + ": its .label file must have " + NumberText(num_points * kLabelBytes) +
+                     " bytes (got " + NumberText(labels->size()) + ")");
+  }
+  CloudFile read;
+  Cloud& cloud = read.cloud;
+  cloud.width = static_cast<std::uint32_t>(num_points);
+  cloud.height = 1;
+  for (const char* name : {"x", "y", "z", "intensity"}) cloud.AddField(name, NumberType::kFloat);
+  if (!labels) {
+    const auto* const rows = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    cloud.data.assign(rows, rows + bytes.size());
+    return read;
+  }
+  cloud.AddField("label", NumberType::kUint16);
+  cloud.AddField("instance", NumberType::kUint16);
+  read.label_bytes = kLabelBytes;
+  cloud.data.resize(num_points * cloud.point_step);
+  Transpose({kPointBytes, kLabelBytes}, num_points, (std::string(bytes) + *labels).data(), true,
+            cloud.data.data());
+  return read;
+}
+
 void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
-  constexpr std::size_t kStep = 4 * sizeof(float);
-  bytes.resize(frame.num_slots() * kStep);
+  bytes.resize(frame.num_slots() * kPointBytes);
   const ScanMotion motion(frame);
   char* place = bytes.data();
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -90,8 +128,8 @@ void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
     const Eigen::Vector3f at_stamp_m = motion.AtStamp(point_m, frame.time_ns[slot]).cast<float>();
     const std::array<float, 4> point = {at_stamp_m.x(), at_stamp_m.y(), at_stamp_m.z(),
                                         std::isnan(intensity) ? 0.0F : intensity};
-    std::memcpy(place, point.data(), kStep);
-    place += kStep;
+    std::memcpy(place, point.data(), kPointBytes);
+    place += kPointBytes;
   }
   bytes.resize(static_cast<std::size_t>(place - bytes.data()));
 }
@@ -119,7 +157,7 @@ void EncodeKittiLabels(const Frame& frame,
   constexpr std::uint32_t kMaxInstance = 0xFFFF;
   std::map<std::uint32_t, std::uint16_t> kitti_from_label;
   for (const Label& label : labels.labels()) kitti_from_label[label.id] = label.semantic_kitti;
-  bytes.resize(frame.num_slots() * sizeof(std::uint32_t));
+  bytes.resize(frame.num_slots() * kLabelBytes);
   char* place = bytes.data();
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (!HasPoint(frame.outcome[slot])) continue;
@@ -132,7 +170,7 @@ void EncodeKittiLabels(const Frame& frame,
     const bool is_moving = moving.contains(frame.instance[slot]);
     const std::uint16_t id = is_moving ? MovingSemanticKitti(label->second) : label->second;
     StoreAt<std::uint32_t>(place, (frame.instance[slot] << 16U) | id);
-    place += sizeof(std::uint32_t);
+    place += kLabelBytes;
   }
   bytes.resize(static_cast<std::size_t>(place - bytes.data()));
 }

@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
-#include <vector>
 
 #include "core/base/error.h"
-#include "core/base/number_type.h"
 #include "core/io/cloud/woven_cloud.h"
 #include "core/io/field_layout.h"
 #include "railcast/io/cloud_files.h"
@@ -37,79 +33,54 @@ void AppendCompressedFields(const SelectedFields& fields, std::string& bytes) {
   AppendCompressed(plain, bytes);
 }
 
-template <typename Stored>
-void AppendNumber(Stored value, std::string& bytes) {
-  if constexpr (std::is_floating_point_v<Stored>) {
-    // to_chars may print the sign of a NaN, but readers expect "nan".
-    if (std::isnan(value)) {
-      bytes += "nan";
-      return;
-    }
-  }
-  std::array<char, 24> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  bytes.append(digits.data(), end);
-}
-
 void AppendText(std::size_t num_slots, const SelectedFields& fields, std::string& bytes) {
   for (std::size_t slot = 0; slot < num_slots; ++slot) {
     fields.ForEach([&](std::string_view, std::string_view, const auto& values) {
       using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
-      AppendNumber(static_cast<Stored>(values[slot]), bytes);
+      AppendWord(static_cast<Stored>(values[slot]), bytes);
       bytes += ' ';
     });
     bytes.back() = '\n';
   }
 }
 
-struct PcdType {
-  std::size_t size{};
-  char letter{};
-};
+}  // namespace
 
-PcdType PcdTypeOf(const CloudField& field) {
-  return VisitNumberType(field.type, [](auto zero) -> PcdType {
+char PcdLetter(NumberType type) {
+  return VisitNumberType(type, [](auto zero) {
     using Value = decltype(zero);
-    const char letter = std::is_floating_point_v<Value> ? 'F' : std::is_signed_v<Value> ? 'I' : 'U';
-    return {sizeof zero, letter};
+    return std::is_floating_point_v<Value> ? 'F' : std::is_signed_v<Value> ? 'I' : 'U';
   });
 }
-
-}  // namespace
 
 std::string PcdHeaderOf(const Cloud& cloud, std::string_view data) {
   std::string names, sizes, types, counts;
   std::size_t offset = 0;
   for (const CloudField& field : cloud.fields) {
     Check(field.offset == offset, "the fields of a cloud are packed");
-    const PcdType type = PcdTypeOf(field);
-    offset += type.size * field.count;
+    offset += field.num_bytes();
     names += ' ' + field.name;
-    sizes += ' ' + std::to_string(type.size);
-    types += {' ', type.letter};
+    sizes += ' ' + std::to_string(SizeOf(field.type));
+    types += {' ', PcdLetter(field.type)};
     counts += ' ' + std::to_string(field.count);
   }
   Check(cloud.point_step == offset, "the points of a cloud are packed");
-  const std::size_t num_points = std::size_t{cloud.width} * cloud.height;
   std::string header = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n";
   header += "FIELDS" + names + "\nSIZE" + sizes + "\nTYPE" + types + "\nCOUNT" + counts + '\n';
   header += "WIDTH " + std::to_string(cloud.width) + "\nHEIGHT " + std::to_string(cloud.height);
-  header += "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(num_points);
+  header += "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + std::to_string(cloud.num_points());
   header += "\nDATA " + std::string(data) + '\n';
   return header;
 }
 
 std::string EncodePcd(const Cloud& cloud, bool is_compressed) {
-  const std::size_t num_points = std::size_t{cloud.width} * cloud.height;
-  Check(cloud.data.size() == num_points * cloud.point_step, "a cloud has all its points");
-  const std::string_view rows(reinterpret_cast<const char*>(cloud.data.data()), cloud.data.size());
-  if (!is_compressed || rows.empty()) return PcdHeaderOf(cloud, "binary").append(rows);
-  std::vector<std::size_t> field_bytes;
-  for (const CloudField& field : cloud.fields) {
-    field_bytes.push_back(PcdTypeOf(field).size * field.count);
+  Check(cloud.data.size() == cloud.num_points() * cloud.point_step, "a cloud has all its points");
+  if (!is_compressed || cloud.data.empty()) {
+    return PcdHeaderOf(cloud, "binary")
+        .append(reinterpret_cast<const char*>(cloud.data.data()), cloud.data.size());
   }
-  std::string fields;
-  Transpose(field_bytes, num_points, rows, false, fields);
+  std::string fields(cloud.data.size(), '\0');
+  Transpose(FieldSizes(cloud), cloud.num_points(), cloud.data.data(), false, fields.data());
   std::string bytes = PcdHeaderOf(cloud, "binary_compressed");
   AppendCompressed(fields, bytes);
   return bytes;

@@ -7,6 +7,9 @@
 
 namespace railcast {
 
+/// What a PCD file calls a type of numbers: I, U or F.
+[[nodiscard]] char PcdLetter(NumberType type);
+
 /// The header of a PCD v0.7 file up to its DATA line, "DATA binary" for the data "binary", byte for
 /// byte as PCL's PCDWriter writes it. VIEWPOINT is the identity.
 /// @pre The points are packed: each field follows the one before it.

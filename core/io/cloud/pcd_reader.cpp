@@ -1,14 +1,15 @@
-#include "core/io/cloud/pcd_reader.h"
-
+#include <array>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <type_traits>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/cloud_file.h"
+#include "core/io/cloud/pcd_encoder.h"
 
 // The header of liblzf is one of C.
 extern "C" {
@@ -77,7 +78,21 @@ class HeaderReader {
   std::size_t data_begin_{};
 };
 
-std::vector<PcdField> ReadFields(const HeaderReader& reader) {
+/// The type that a letter of TYPE and a size in bytes stand for.
+NumberType TypeOf(const HeaderReader& reader, std::string_view letter, std::uint64_t size) {
+  if (letter != "I" && letter != "U" && letter != "F") {
+    reader.Fail("TYPE: must be I, U or F (got " + ShownText(letter) + ")");
+  }
+  for (int i = 1; i <= static_cast<int>(NumberType::kUint64); ++i) {
+    const auto type = static_cast<NumberType>(i);
+    if (letter[0] == PcdLetter(type) && size == SizeOf(type)) return type;
+  }
+  reader.Fail("SIZE: no " + std::string(letter) + " has " + std::to_string(size) + " bytes");
+}
+
+/// Adds the fields to the cloud.
+/// @return The bytes of a point, which point_step need not hold.
+std::uint64_t ReadFields(const HeaderReader& reader, Cloud& cloud) {
   const auto& names = reader.Entries("FIELDS");
   if (names.empty()) reader.Fail("FIELDS: must name at least one field");
   for (const std::string key : {"SIZE", "TYPE", "COUNT"}) {
@@ -88,62 +103,37 @@ std::vector<PcdField> ReadFields(const HeaderReader& reader) {
                   " entries, one for each of FIELDS (got " + std::to_string(count) + ")");
     }
   }
-  std::vector<PcdField> fields;
+  std::uint64_t step = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string_view type = reader.Entries("TYPE")[i];
     const std::uint64_t size = reader.Number("SIZE", reader.Entries("SIZE")[i]);
     const std::uint64_t count =
         reader.Has("COUNT") ? reader.Number("COUNT", reader.Entries("COUNT")[i]) : 1;
-    if (type != "I" && type != "U" && type != "F") {
-      reader.Fail("TYPE: must be I, U or F (got " + ShownText(type) + ")");
-    }
-    const bool is_size =
-        type == "F" ? size == 4 || size == 8 : size == 1 || size == 2 || size == 4 || size == 8;
-    if (!is_size) {
-      reader.Fail("SIZE: no " + std::string(type) + " has " + std::to_string(size) + " bytes");
-    }
+    const NumberType type = TypeOf(reader, reader.Entries("TYPE")[i], size);
     if (count == 0) reader.Fail("COUNT: must be > 0 (got 0)");
-    fields.push_back({std::string(names[i]), size, type[0], count});
+    cloud.AddField(std::string(names[i]), type, static_cast<std::uint32_t>(count));
+    step += cloud.fields.back().num_bytes();
   }
-  return fields;
+  return step;
 }
 
-bool IsValue(std::string_view word, const PcdField& field) {
-  if (field.type == 'F') return ParseNumber<double>(word).has_value();
-  const std::uint64_t bits = 8 * field.size;
-  if (field.type == 'U') {
-    const auto value = ParseNumber<std::uint64_t>(word);
-    return value && (bits == 64 || *value >> bits == 0);
-  }
-  const auto value = ParseNumber<std::int64_t>(word);
-  const std::int64_t limit = std::numeric_limits<std::int64_t>::max() >> (64U - bits);
-  return value && *value <= limit && *value >= -limit - 1;
-}
-
-void CheckAsciiLine(const HeaderReader& reader, const PcdHeader& header, std::string_view line) {
-  const auto words = Words(line);
-  std::size_t word = 0;
-  for (const PcdField& field : header.fields) {
-    for (std::uint64_t i = 0; i < field.count; ++i, ++word) {
-      if (word >= words.size()) reader.Fail("a point has fewer values than FIELDS asks for");
-      if (!IsValue(words[word], field)) {
-        reader.Fail(ShownText(field.name) + ": no value of its type (got " +
-                    ShownText(words[word]) + ")");
-      }
-    }
-  }
-  if (word != words.size()) reader.Fail("a point has more values than FIELDS asks for");
-}
-
-void CheckAscii(const HeaderReader& reader, const PcdHeader& header, std::string_view data) {
+void ReadPcdText(const HeaderReader& reader, const std::string& file, CloudFile& read) {
+  const std::uint64_t num_points = read.cloud.num_points();
+  std::uint64_t num_values = 0;
+  for (const CloudField& field : read.cloud.fields) num_values += field.count;
   std::uint64_t num_lines = 0;
-  while (const auto line = TakeLine(data)) {
+  std::string_view rest = read.points;
+  while (const auto line = TakeLine(rest)) {
     if (line->empty()) continue;
-    CheckAsciiLine(reader, header, *line);
+    const auto words = Words(*line);
+    // The data grow with the text, whatever the header says.
+    if (!read.cloud.AppendWords(file, words)) {
+      reader.Fail("a point has fewer values than FIELDS asks for");
+    }
+    if (words.size() > num_values) reader.Fail("a point has more values than FIELDS asks for");
     ++num_lines;
   }
-  if (num_lines != header.points) {
-    reader.Fail("POINTS: " + std::to_string(header.points) + " need as many lines, the file has " +
+  if (num_lines != num_points) {
+    reader.Fail("POINTS: " + std::to_string(num_points) + " need as many lines, the file has " +
                 std::to_string(num_lines));
   }
 }
@@ -156,127 +146,87 @@ bool HasSize(std::string_view data, std::uint64_t expected) {
          data.find_first_not_of('\0', expected) == std::string_view::npos;
 }
 
-void CheckBinary(const HeaderReader& reader, const PcdHeader& header, std::string_view data) {
-  const std::uint64_t expected = header.points * header.PointStep();
-  if (!HasSize(data, expected)) {
-    reader.Fail("POINTS: " + std::to_string(header.points) + " need " + std::to_string(expected) +
-                " bytes, the file has " + std::to_string(data.size()));
+void ReadBinary(const HeaderReader& reader, CloudFile& read) {
+  const std::size_t num_points = read.cloud.num_points();
+  const std::size_t expected = num_points * read.cloud.point_step;
+  if (!HasSize(read.points, expected)) {
+    reader.Fail("POINTS: " + std::to_string(num_points) + " need " + std::to_string(expected) +
+                " bytes, the file has " + std::to_string(read.points.size()));
   }
+  const auto* const rows = reinterpret_cast<const std::uint8_t*>(read.points.data());
+  read.cloud.data.assign(rows, rows + expected);
 }
 
-/// Decompresses the points and checks their size.
-/// @param scratch Receives the decompressed points.
-void CheckCompressed(const HeaderReader& reader,
-                     const PcdHeader& header,
-                     std::string_view data,
-                     std::string& scratch) {
-  std::uint32_t packed = 0;
-  std::uint32_t plain = 0;
-  if (data.size() < sizeof packed + sizeof plain)
-    reader.Fail("DATA: the compressed sizes are missing");
-  std::memcpy(&packed, data.data(), sizeof packed);
-  std::memcpy(&plain, data.data() + sizeof packed, sizeof plain);
-  const std::size_t rest = data.size() - sizeof packed - sizeof plain;
-  if (!HasSize(data.substr(sizeof packed + sizeof plain), packed)) {
+void ReadCompressed(const HeaderReader& reader, CloudFile& read) {
+  std::array<std::uint32_t, 2> sizes{};  // Of the compressed and of the plain data.
+  if (read.points.size() < sizeof sizes) reader.Fail("DATA: the compressed sizes are missing");
+  std::memcpy(sizes.data(), read.points.data(), sizeof sizes);
+  const auto [packed, plain] = sizes;
+  const std::string_view data = read.points.substr(sizeof sizes);
+  if (!HasSize(data, packed)) {
     reader.Fail("DATA: " + std::to_string(packed) + " compressed bytes announced, the file has " +
-                std::to_string(rest));
+                std::to_string(data.size()));
   }
-  const std::uint64_t expected = header.points * header.PointStep();
+  const std::size_t num_points = read.cloud.num_points();
+  const std::uint64_t expected = num_points * read.cloud.point_step;
   if (plain != expected) {
-    reader.Fail("POINTS: " + std::to_string(header.points) + " need " + std::to_string(expected) +
+    reader.Fail("POINTS: " + std::to_string(num_points) + " need " + std::to_string(expected) +
                 " bytes, the compressed data hold " + std::to_string(plain));
   }
   // Three bytes of LZF expand to at most 264, so a larger claim is false and must not be given
   // memory.
   constexpr std::uint32_t kMaxRatio = 88;
   if (plain / kMaxRatio > packed) reader.Fail("DATA: the compressed data are damaged");
-  scratch.resize(plain);
-  const char* begin = data.data() + sizeof packed + sizeof plain;
-  if (lzf_decompress(begin, packed, scratch.data(), plain) != plain) {
+  std::string by_field(plain, '\0');
+  if (lzf_decompress(data.data(), packed, by_field.data(), plain) != plain) {
     reader.Fail("DATA: the compressed data are damaged");
   }
+  read.cloud.data.resize(plain);
+  Transpose(FieldSizes(read.cloud), num_points, by_field.data(), true, read.cloud.data.data());
 }
 
 }  // namespace
 
-NumberType PcdField::number_type() const {
-  if (type == 'F') return size == 4 ? NumberType::kFloat : NumberType::kDouble;
-  const bool is_signed = type == 'I';
-  switch (size) {
-    case 1:
-      return is_signed ? NumberType::kInt8 : NumberType::kUint8;
-    case 2:
-      return is_signed ? NumberType::kInt16 : NumberType::kUint16;
-    case 4:
-      return is_signed ? NumberType::kInt32 : NumberType::kUint32;
-    default:
-      return is_signed ? NumberType::kInt64 : NumberType::kUint64;
-  }
-}
-
-std::uint64_t PcdHeader::PointStep() const {
-  std::uint64_t step = 0;
-  for (const PcdField& field : fields) step += field.size * field.count;
-  return step;
-}
-
-PcdHeader CheckPcd(const std::string& file, std::string_view bytes, std::string* plain) {
+CloudFile ParsePcdFile(const std::string& file,
+                       std::string_view bytes,
+                       const std::optional<std::string>& /*second*/) {
   const HeaderReader reader(file, bytes);
-  PcdHeader header;
-  header.fields = ReadFields(reader);
-  header.width = reader.Number("WIDTH");
-  header.height = reader.Number("HEIGHT");
-  header.points = reader.Has("POINTS") ? reader.Number("POINTS") : header.width * header.height;
-  header.data_begin = reader.data_begin();
+  CloudFile read{.cloud = {},
+                 .header = bytes.substr(0, reader.data_begin()),
+                 .points = bytes.substr(reader.data_begin()),
+                 .tail = {}};
+  const std::uint64_t step = ReadFields(reader, read.cloud);
+  const std::uint64_t width = reader.Number("WIDTH");
+  const std::uint64_t height = reader.Number("HEIGHT");
+  const std::uint64_t points = reader.Has("POINTS") ? reader.Number("POINTS") : width * height;
   const auto& data = reader.Entries("DATA");
-  if (data.size() == 1) header.data = data[0];
   if (reader.Has("VIEWPOINT") && reader.Entries("VIEWPOINT").size() != 7) {
     reader.Fail("VIEWPOINT: must have 7 numbers");
   }
   // Width and height are below 2^32 each, so their product cannot wrap.
-  if (header.points != header.width * header.height || header.points == 0) {
-    reader.Fail("POINTS: must be WIDTH x HEIGHT and > 0 (got " + std::to_string(header.points) +
-                " for " + std::to_string(header.width) + " x " + std::to_string(header.height) +
-                ")");
+  if (points != width * height || points == 0) {
+    reader.Fail("POINTS: must be WIDTH x HEIGHT and > 0 (got " + std::to_string(points) + " for " +
+                std::to_string(width) + " x " + std::to_string(height) + ")");
   }
-  if (header.points > kMaxCloudBytes || header.PointStep() > kMaxCloudBytes / header.points) {
-    reader.Fail("POINTS: " + std::to_string(header.points) + " points of " +
-                std::to_string(header.PointStep()) + " bytes are 4 GiB or more");
+  if (points > kMaxCloudBytes || step > kMaxCloudBytes / points) {
+    reader.Fail("POINTS: " + std::to_string(points) + " points of " + std::to_string(step) +
+                " bytes are 4 GiB or more");
   }
-  const std::string_view points = bytes.substr(header.data_begin);
-  if (header.data == "ascii") {
-    CheckAscii(reader, header, points);
-  } else if (header.data == "binary") {
-    CheckBinary(reader, header, points);
-  } else if (header.data == "binary_compressed") {
-    std::string scratch;
-    CheckCompressed(reader, header, points, plain != nullptr ? *plain : scratch);
+  read.cloud.width = static_cast<std::uint32_t>(width);
+  read.cloud.height = static_cast<std::uint32_t>(height);
+  const std::string_view encoding = data.size() == 1 ? data[0] : std::string_view();
+  if (encoding == "ascii") {
+    read.storage = PointStorage::kText;
+    ReadPcdText(reader, file, read);
+  } else if (encoding == "binary") {
+    ReadBinary(reader, read);
+  } else if (encoding == "binary_compressed") {
+    read.storage = PointStorage::kFields;
+    ReadCompressed(reader, read);
   } else {
     reader.Fail("DATA: must be ascii, binary or binary_compressed");
   }
-  return header;
-}
-
-std::string PackAscii(std::string_view text, const PcdHeader& header) {
-  std::string packed(header.points * header.PointStep(), '\0');
-  char* place = packed.data();
-  while (const auto line = TakeLine(text)) {
-    const auto words = Words(*line);
-    std::size_t word = 0;
-    if (words.empty()) continue;
-    for (const PcdField& field : header.fields) {
-      VisitNumberType(field.number_type(), [&](auto zero) {
-        for (std::uint64_t i = 0; i < field.count; ++i, place += sizeof zero) {
-          using Value = decltype(zero);
-          // As in CheckPcd, a number too large for a float becomes infinite.
-          using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
-          const auto value = static_cast<Value>(ParseNumber<Parsed>(words[word++]).value_or(0));
-          std::memcpy(place, &value, sizeof value);
-        }
-      });
-    }
-  }
-  return packed;
+  return read;
 }
 
 }  // namespace railcast

@@ -1,16 +1,35 @@
 #include <pcl/PCLPointCloud2.h>
 
+#include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/io/cloud/cloud.h"
-#include "core/io/cloud/pcd_reader.h"
-#include "core/io/cloud/ply_reader.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
+namespace {
+
+/// What PCL calls dense.
+bool IsFinite(const Cloud& cloud) {
+  for (CloudField number : cloud.fields) {
+    for (; number.count > 0; --number.count, number.offset += SizeOf(number.type)) {
+      bool is_finite = true;
+      VisitField(cloud, number, [&](std::size_t, auto value) {
+        if constexpr (std::is_floating_point_v<decltype(value)>) {
+          is_finite = is_finite && std::isfinite(value);
+        }
+      });
+      if (!is_finite) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 static_assert(static_cast<int>(NumberType::kInt64) == pcl::PCLPointField::INT64 &&
                   static_cast<int>(NumberType::kUint64) == pcl::PCLPointField::UINT64 &&
@@ -36,7 +55,12 @@ pcl::PCLPointCloud2 ToPcl(Cloud cloud) {
 }
 
 pcl::PCLPointCloud2 ReadPcd(const std::filesystem::path& file) {
-  return ToPcl(ReadPcdCloud(file));
+  return WithinMemory([&] { return ReadingText(file); },
+                      [&] {
+                        Cloud cloud = ParsePcdFile(ShownPath(file), ReadFileWhole(file)).cloud;
+                        cloud.is_dense = IsFinite(cloud);
+                        return ToPcl(std::move(cloud));
+                      });
 }
 
 pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
@@ -45,7 +69,7 @@ pcl::PCLPointCloud2 ReadPly(const std::filesystem::path& file) {
 }
 
 pcl::PCLPointCloud2 ParsePly(const std::string& file, const std::string& bytes) {
-  return ToPcl(ParsePlyCloud(file, bytes));
+  return ToPcl(ParsePlyFile(file, bytes).cloud);
 }
 
 }  // namespace railcast

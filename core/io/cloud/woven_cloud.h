@@ -1,9 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/io/cloud/cloud.h"
 #include "core/io/cloud/track_fields.h"
@@ -19,13 +16,5 @@ namespace railcast {
 /// @param step Bytes of a point: point_step of DescribeCloud().
 /// @pre `to` has room for num_slots() * step bytes.
 void WeaveRows(const Frame& frame, const SelectedFields& fields, std::size_t step, char* to);
-
-/// Copies values stored field by field, each for all rows, to rows, or back.
-/// @param field_bytes Of each field in a row.
-void Transpose(const std::vector<std::size_t>& field_bytes,
-               std::size_t num_rows,
-               std::string_view from,
-               bool is_to_rows,
-               std::string& to);
 
 }  // namespace railcast

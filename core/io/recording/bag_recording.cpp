@@ -94,9 +94,9 @@ DatagramPlace PlaceOfPackets(const std::filesystem::path& source,
 
 /// Returns when the first point was measured. Times of points count from the message's stamp, or
 /// as the stamp itself does; whichever they are nearer to.
-std::int64_t StampOf(const ros::Header& header, const PointTable& table) {
+std::int64_t StampOf(const ros::Header& header, const Cloud& cloud) {
   const std::int64_t stamp_ns = NsOf(header.stamp);
-  const auto first_ns = FirstTimeIn_ns(table);
+  const auto first_ns = FirstTimeIn_ns(cloud);
   if (!first_ns) return stamp_ns;
   constexpr double kLongest_ns = 3600.0 * kNsPerS;
   const double since_stamp_ns = *first_ns - static_cast<double>(stamp_ns);
@@ -128,11 +128,12 @@ RecordedFrame ReadCloudMessage(std::span<const std::byte> data,
                                const std::string& name,
                                const std::string& frame_id,
                                const TfPoses& poses) {
-  const auto cloud = AtPlace(name + ": ", [&] { return ros::FromCdr<ros::PointCloud2>(data); });
-  const PointTable table = AtPlace(name + ": ", [&] { return MakePointTable(cloud); });
-  RecordedFrame recorded = MakeCloudFrame(table, name);
-  recorded.frame.stamp_ns = StampOf(cloud.header, table);
-  if (cloud.header.frame_id == frame_id) FillPoses(poses, recorded);
+  auto message = AtPlace(name + ": ", [&] { return ros::FromCdr<ros::PointCloud2>(data); });
+  const ros::Header header = message.header;
+  const Cloud cloud = AtPlace(name + ": ", [&] { return MakeCloud(std::move(message)); });
+  RecordedFrame recorded = MakeCloudFrame(cloud, name);
+  recorded.frame.stamp_ns = StampOf(header, cloud);
+  if (header.frame_id == frame_id) FillPoses(poses, recorded);
   return recorded;
 }
 

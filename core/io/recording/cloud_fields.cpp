@@ -23,12 +23,12 @@ constexpr double kStep_m = 1e3;
 
 /// Calls `visit(slot, stored value)` for every point of the frame.
 template <typename Visitor>
-void VisitPoints(const PointTable& table,
-                 const PointColumn& column,
+void VisitPoints(const Cloud& cloud,
+                 const CloudField& column,
                  const SlotPlan& plan,
                  const Frame& frame,
                  Visitor&& visit) {
-  VisitColumn(table, column, [&](std::size_t i, auto value) {
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     const std::uint32_t slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
     if (slot != kNoSlot && !std::isnan(frame.range_m[slot])) {
       visit(slot, static_cast<double>(value));
@@ -112,7 +112,7 @@ constexpr std::uint64_t LimitOf() {
 // A value of the field's own type needs no check; that is the case in most files, which railcast
 // wrote.
 template <typename Field, typename Value>
-Field Convert(Value value, const PointColumn& column, const std::string& name) {
+Field Convert(Value value, const CloudField& column, const std::string& name) {
   if constexpr (std::is_same_v<Field, Value> || std::is_same_v<Field, float>) {
     return static_cast<Field>(value);
   } else {
@@ -123,19 +123,19 @@ Field Convert(Value value, const PointColumn& column, const std::string& name) {
 }
 
 template <typename Field>
-void CopyColumn(const PointTable& table,
-                const PointColumn& column,
+void CopyColumn(const Cloud& cloud,
+                const CloudField& column,
                 const SlotPlan& plan,
                 const std::string& name,
                 std::vector<Field>& values) {
   Field* const out = values.data();
   const std::uint32_t* const slots = plan.slots.empty() ? nullptr : plan.slots.data();
   if (slots == nullptr) {
-    VisitColumn(table, column,
-                [&](std::size_t i, auto value) { out[i] = Convert<Field>(value, column, name); });
+    VisitField(cloud, column,
+               [&](std::size_t i, auto value) { out[i] = Convert<Field>(value, column, name); });
     return;
   }
-  VisitColumn(table, column, [&](std::size_t i, auto value) {
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     if (slots[i] != kNoSlot) out[slots[i]] = Convert<Field>(value, column, name);
   });
 }
@@ -166,29 +166,29 @@ void MarkEmptySlots(Frame& frame, bool has_range) {
 }
 
 /// Returns the columns that hold our fields.
-std::vector<const PointColumn*> OwnColumns(const PointTable& table, const Frame& frame) {
-  std::vector<const PointColumn*> own;
+std::vector<const CloudField*> OwnColumns(const Cloud& cloud, const Frame& frame) {
+  std::vector<const CloudField*> own;
   ForEachField(frame, [&](std::string_view name, std::string_view, const auto&) {
-    own.push_back(FindFieldOf(table, name));
+    own.push_back(FindFieldOf(cloud, name));
   });
   return own;
 }
 
 /// Copies the columns that hold no field of ours.
 /// @pre Slots without a point are marked.
-void FillForeign(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
+void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
-  const std::vector<const PointColumn*> own = OwnColumns(table, frame);
-  for (const PointColumn& column : table.columns) {
+  const std::vector<const CloudField*> own = OwnColumns(cloud, frame);
+  for (const CloudField& column : cloud.fields) {
     if (recorded.foreign.size() == kMaxForeign) return;
     const std::string_view name = column.plain_name();
-    const bool is_repeated = table.Find(name) != &column;
+    const bool is_repeated = cloud.Find(name) != &column;
     if (is_repeated || std::ranges::find(own, &column) != own.end() ||
         std::ranges::find(kUnwanted, name) != kUnwanted.end()) {
       continue;
     }
     std::vector<float> values(frame.num_slots(), kNaN);
-    CopyColumn(table, column, plan, recorded.name, values);
+    CopyColumn(cloud, column, plan, recorded.name, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isnan(frame.x[i])) values[i] = kNaN;
     }
@@ -214,17 +214,17 @@ void FillGridIndices(Frame& frame) {
   }
 }
 
-void TakeFromNearOrigin(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
+void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
-  const std::array<const PointColumn*, 3> columns = {
-      FindFieldOf(table, "x"), FindFieldOf(table, "y"), FindFieldOf(table, "z")};
+  const std::array<const CloudField*, 3> columns = {
+      FindFieldOf(cloud, "x"), FindFieldOf(cloud, "y"), FindFieldOf(cloud, "z")};
   const bool is_double = std::ranges::all_of(
-      columns, [](const PointColumn* column) { return column->type == NumberType::kDouble; });
+      columns, [](const CloudField* column) { return column->type == NumberType::kDouble; });
   if (!is_double) return;
   Vector3 middle_m = Vector3::Zero();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values_m;
-    VisitPoints(table, *columns.at(static_cast<std::size_t>(axis)), plan, frame,
+    VisitPoints(cloud, *columns.at(static_cast<std::size_t>(axis)), plan, frame,
                 [&](std::uint32_t, double value_m) { values_m.push_back(value_m); });
     if (values_m.empty()) return;
     middle_m[axis] = Median(values_m);
@@ -234,35 +234,33 @@ void TakeFromNearOrigin(const PointTable& table, const SlotPlan& plan, RecordedF
   const std::array<std::vector<float>*, 3> positions_m = {&frame.x, &frame.y, &frame.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double origin_m = recorded.origin_m[static_cast<Eigen::Index>(axis)];
-    VisitPoints(table, *columns.at(axis), plan, frame, [&](std::uint32_t slot, double value_m) {
+    VisitPoints(cloud, *columns.at(axis), plan, frame, [&](std::uint32_t slot, double value_m) {
       (*positions_m.at(axis))[slot] = static_cast<float>(value_m - origin_m);
     });
   }
 }
 
-const PointColumn* FindFieldOf(const PointTable& table, std::string_view name) {
-  if (const PointColumn* const own = table.Find(name)) return own;
+const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name) {
+  if (const CloudField* const own = cloud.Find(name)) return own;
   for (const Alias& alias : kAliases) {
     if (alias.ours != name) continue;
-    if (const PointColumn* const theirs = table.Find(alias.theirs)) return theirs;
+    if (const CloudField* const theirs = cloud.Find(alias.theirs)) return theirs;
   }
   return nullptr;
 }
 
-const PointColumn& NeedFieldOf(const PointTable& table,
-                               std::string_view field,
-                               const std::string& name) {
-  const PointColumn* const column = FindFieldOf(table, field);
+const CloudField& NeedFieldOf(const Cloud& cloud, std::string_view field, const std::string& name) {
+  const CloudField* const column = FindFieldOf(cloud, field);
   if (column != nullptr) return *column;
   throw InputError(name + ": has no field " + std::string(field));
 }
 
-std::vector<std::uint32_t> LoadIndices(const PointTable& table,
-                                       const PointColumn& column,
+std::vector<std::uint32_t> LoadIndices(const Cloud& cloud,
+                                       const CloudField& column,
                                        std::uint32_t limit,
                                        const std::string& name) {
-  std::vector<std::uint32_t> indices(table.num_points());
-  VisitColumn(table, column, [&](std::size_t i, auto value) {
+  std::vector<std::uint32_t> indices(cloud.num_points());
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     const auto whole = WholeNumber(value, limit);
     if (!whole) FailValue(name, column.name, limit, static_cast<double>(value));
     indices[i] = static_cast<std::uint32_t>(*whole);
@@ -270,41 +268,34 @@ std::vector<std::uint32_t> LoadIndices(const PointTable& table,
   return indices;
 }
 
-std::vector<float> LoadFloats(const PointTable& table, const PointColumn& column) {
-  std::vector<float> values(table.num_points());
-  VisitColumn(table, column,
-              [&](std::size_t i, auto value) { values[i] = static_cast<float>(value); });
-  return values;
-}
-
-void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
-  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, recorded.name);
+void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, recorded.name);
   Frame& frame = recorded.frame;
-  frame.has_velocity = FindFieldOf(table, "radial_velocity_mps") != nullptr ||
-                       FindFieldOf(table, "true_radial_velocity_mps") != nullptr;
+  frame.has_velocity = FindFieldOf(cloud, "radial_velocity_mps") != nullptr ||
+                       FindFieldOf(cloud, "true_radial_velocity_mps") != nullptr;
   frame.Resize(plan.rows, plan.columns, plan.returns);
   recorded.is_grid = plan.is_grid;
   recorded.why_no_grid = plan.why_no_grid;
   recorded.slot_of_entry = plan.slots;
   if (plan.slots.empty()) {
-    recorded.slot_of_entry.resize(table.num_points());
+    recorded.slot_of_entry.resize(cloud.num_points());
     std::iota(recorded.slot_of_entry.begin(), recorded.slot_of_entry.end(), 0U);
   }
   ForEachField(frame, [&](std::string_view name, std::string_view, auto& values) {
     if (plan.is_grid && IsIndex(name)) return;
-    const PointColumn* const column = FindFieldOf(table, name);
+    const CloudField* const column = FindFieldOf(cloud, name);
     // The plan may leave slots without a point, and these keep the absent value.
     if (column == nullptr || !plan.slots.empty()) FillAbsent(values);
     if (column == nullptr) return;
-    CopyColumn(table, *column, plan, recorded.name, values);
+    CopyColumn(cloud, *column, plan, recorded.name, values);
     recorded.fields.emplace(name);
   });
   MarkEmptySlots(frame, recorded.Has("range_m"));
   recorded.fields.emplace("range_m");
-  TakeFromNearOrigin(table, plan, recorded);
+  TakeFromNearOrigin(cloud, plan, recorded);
   // For slots that no point of the file fills, the file does not say why they are empty.
-  if (table.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
-  FillForeign(table, plan, recorded);
+  if (cloud.num_points() < frame.num_slots()) recorded.fields.erase("outcome");
+  FillForeign(cloud, plan, recorded);
   if (!plan.is_grid) return;
   FillGridIndices(frame);
   recorded.fields.insert({"ring", "column", "return_index", "return_count"});

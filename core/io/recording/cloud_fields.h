@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
@@ -29,7 +29,7 @@ struct SlotPlan {
 /// (TakeFromNearOrigin()). Numeric columns that hold no field of ours become foreign fields.
 /// @throws InputError "name: field: rule (got value)" if a value does not fit its field, or if x, y
 ///   or z is missing.
-void FillFrame(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded);
+void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded);
 
 /// Fills ring, column, return_index and return_count by the slots.
 /// @pre Slots without a point have NaN positions.
@@ -40,24 +40,21 @@ void FillGridIndices(Frame& frame);
 /// taken from a whole kilometre near them, RecordedFrame::origin_m; as float32 they would otherwise
 /// be rounded to 0.5 m at 5000 km. Leaves range_m unchanged.
 /// @pre The frame has the positions as stored; slots without a point have NaN.
-void TakeFromNearOrigin(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded);
+void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded);
 
 /// Returns the column of the file that holds our field of this name, or null if none does.
-[[nodiscard]] const PointColumn* FindFieldOf(const PointTable& table, std::string_view name);
+[[nodiscard]] const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name);
 /// As FindFieldOf(), but requires the column.
 /// @throws InputError "name: has no field x" if the file does not have it.
-[[nodiscard]] const PointColumn& NeedFieldOf(const PointTable& table,
-                                             std::string_view field,
-                                             const std::string& name);
+[[nodiscard]] const CloudField& NeedFieldOf(const Cloud& cloud,
+                                            std::string_view field,
+                                            const std::string& name);
 
 /// Returns the column as one whole number for each point.
 /// @throws InputError if a value is not a whole number, is negative, or exceeds `limit`.
-[[nodiscard]] std::vector<std::uint32_t> LoadIndices(const PointTable& table,
-                                                     const PointColumn& column,
+[[nodiscard]] std::vector<std::uint32_t> LoadIndices(const Cloud& cloud,
+                                                     const CloudField& column,
                                                      std::uint32_t limit,
                                                      const std::string& name);
-
-/// Returns the x, y or z of every point.
-[[nodiscard]] std::vector<float> LoadFloats(const PointTable& table, const PointColumn& column);
 
 }  // namespace railcast

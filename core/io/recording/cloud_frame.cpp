@@ -34,19 +34,16 @@ bool IsScanTime(double span_s) {
 }
 
 /// The times of a cloud's points.
-struct PointTimes {
-  const PointColumn* column{};
-  double first_ns{};
-  double ns_per_unit{};
+struct PointTimes : TimeColumn {
   std::vector<double> since_first_ns;
 };
 
 /// Returns the times of a column, if their unit is certain.
-std::optional<PointTimes> LoadTimes(const PointTable& table, const PointColumn& column) {
-  std::vector<double> times(table.num_points());
+std::optional<PointTimes> LoadTimes(const Cloud& cloud, const CloudField& column) {
+  std::vector<double> times(cloud.num_points());
   double first = std::numeric_limits<double>::infinity();
   double last = -first;
-  VisitColumn(table, column, [&](std::size_t i, auto value) {
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     times[i] = static_cast<double>(value);
     first = std::min(first, times[i]);
     last = std::max(last, times[i]);
@@ -58,21 +55,21 @@ std::optional<PointTimes> LoadTimes(const PointTable& table, const PointColumn& 
     if (std::isnan(time)) return std::nullopt;
     time = (time - first) * ns_per_unit;
   }
-  return PointTimes{&column, first * ns_per_unit, ns_per_unit, std::move(times)};
+  return PointTimes{{&column, first * ns_per_unit, ns_per_unit}, std::move(times)};
 }
 
-std::optional<PointTimes> FindTimes(const PointTable& table) {
+std::optional<PointTimes> FindTimes(const Cloud& cloud) {
   for (const std::string_view name : kTimeNames) {
-    const PointColumn* const column = table.Find(name);
+    const CloudField* const column = cloud.Find(name);
     if (column == nullptr) continue;
-    if (auto times = LoadTimes(table, *column)) return times;
+    if (auto times = LoadTimes(cloud, *column)) return times;
   }
   return std::nullopt;
 }
 
 // Takes the time from a foreign column, for files that have no time_ns.
-void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFrame& recorded) {
-  const auto times = FindTimes(table);
+void FillForeignTime(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
+  const auto times = FindTimes(cloud);
   if (!times) return;
   for (std::size_t i = 0; i < times->since_first_ns.size(); ++i) {
     const auto slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
@@ -87,40 +84,37 @@ void FillForeignTime(const PointTable& table, const SlotPlan& plan, RecordedFram
 }
 
 /// Returns the number of slots per firing in an organised file that railcast wrote.
-std::uint32_t ReturnsOf(const PointTable& table, const std::string& name) {
-  const PointColumn* const return_index = table.Find("return_index");
+std::uint32_t ReturnsOf(const Cloud& cloud, const std::string& name) {
+  const CloudField* const return_index = cloud.Find("return_index");
   if (return_index == nullptr) return 1;
-  const auto indices = LoadIndices(table, *return_index, 2, name);
+  const auto indices = LoadIndices(cloud, *return_index, 2, name);
   const std::uint32_t returns = *std::ranges::max_element(indices) + 1;
-  if (table.width % returns == 0) return returns;
+  if (cloud.width % returns == 0) return returns;
   throw InputError(name + ": return_index: WIDTH must be a multiple of its returns (got " +
-                   NumberText(table.width) + " of " + NumberText(returns) + ")");
+                   NumberText(cloud.width) + " of " + NumberText(returns) + ")");
 }
 
-std::vector<std::uint32_t> LoadRings(const PointTable& table, const std::string& name) {
-  const PointColumn* const ring = FindFieldOf(table, "ring");
+std::vector<std::uint32_t> LoadRings(const Cloud& cloud, const std::string& name) {
+  const CloudField* const ring = FindFieldOf(cloud, "ring");
   if (ring == nullptr) return {};
-  return LoadIndices(table, *ring, std::numeric_limits<std::uint16_t>::max(), name);
+  return LoadIndices(cloud, *ring, std::numeric_limits<std::uint16_t>::max(), name);
 }
 
-SlotPlan PlanOfTable(const PointTable& table, const std::string& name) {
-  const bool is_ours = table.Find("ring") != nullptr && table.Find("column") != nullptr;
-  if (table.height > 1) {
-    return is_ours ? OrganisedPlan(table, ReturnsOf(table, name))
-                   : SortedRowsPlan(table, FindFieldOf(table, "ring"));
+SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
+  const bool is_ours = cloud.Find("ring") != nullptr && cloud.Find("column") != nullptr;
+  if (cloud.height > 1) {
+    return is_ours ? OrganisedPlan(cloud, ReturnsOf(cloud, name))
+                   : SortedRowsPlan(cloud, FindFieldOf(cloud, "ring"));
   }
   // Points of several sensors share no grid.
-  if (FindFieldOf(table, kSensorIndexField) != nullptr) {
-    return LoosePlan(table, "its points are those of several sensors");
+  if (FindFieldOf(cloud, kSensorIndexField) != nullptr) {
+    return LoosePlan(cloud, "its points are those of several sensors");
   }
-  if (is_ours) return PlacedPlan(table, name, std::nullopt);
-  const PointPositions positions{.x = LoadFloats(table, *table.Find("x")),
-                                 .y = LoadFloats(table, *table.Find("y")),
-                                 .z = LoadFloats(table, *table.Find("z"))};
-  const std::vector<std::uint32_t> rings = LoadRings(table, name);
+  if (is_ours) return PlacedPlan(cloud, name, std::nullopt);
+  const std::vector<std::uint32_t> rings = LoadRings(cloud, name);
   std::string why_not;
-  if (auto plan = MakeRingTable(positions, rings, &why_not)) return std::move(*plan);
-  return LoosePlan(table, why_not);
+  if (auto plan = MakeRingTable(LoadPositions(cloud), rings, &why_not)) return std::move(*plan);
+  return LoosePlan(cloud, why_not);
 }
 
 /// Fills in the times of the scan pattern, since slots without a point have no time of their own.
@@ -135,51 +129,49 @@ void FillScanTimes(const ScanPattern& pattern, Frame& frame) {
 
 }  // namespace
 
-std::optional<TimeColumn> FindTimeColumn(const PointTable& table) {
-  if (FindFieldOf(table, "time_ns") != nullptr) return std::nullopt;
-  const auto times = FindTimes(table);
-  if (!times) return std::nullopt;
-  return TimeColumn{times->column, times->first_ns, times->ns_per_unit};
+std::optional<TimeColumn> FindTimeColumn(const Cloud& cloud) {
+  if (FindFieldOf(cloud, "time_ns") != nullptr) return std::nullopt;
+  return FindTimes(cloud);
 }
 
-std::optional<double> FirstTimeIn_ns(const PointTable& table) {
-  const auto times = FindTimeColumn(table);
+std::optional<double> FirstTimeIn_ns(const Cloud& cloud) {
+  const auto times = FindTimeColumn(cloud);
   return times ? std::optional(times->first_ns) : std::nullopt;
 }
 
-RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name) {
+RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   RecordedFrame recorded;
   recorded.name = name;
-  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
-  const SlotPlan plan = PlanOfTable(table, name);
-  FillFrame(table, plan, recorded);
-  if (!recorded.Has("time_ns")) FillForeignTime(table, plan, recorded);
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
+  const SlotPlan plan = PlanOfCloud(cloud, name);
+  FillFrame(cloud, plan, recorded);
+  if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
   if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
   return recorded;
 }
 
-RecordedFrame MakeScanFrame(const PointTable& table,
+RecordedFrame MakeScanFrame(const Cloud& cloud,
                             const std::string& name,
                             const ScanPattern& pattern,
                             bool is_organised) {
   RecordedFrame recorded;
   recorded.name = name;
-  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
   if (is_organised) {
-    if (table.height != pattern.rows || table.width % pattern.columns != 0 ||
-        table.width / pattern.columns > 3 || table.width == 0) {
+    if (cloud.height != pattern.rows || cloud.width % pattern.columns != 0 ||
+        cloud.width / pattern.columns > 3 || cloud.width == 0) {
       throw InputError(name + ": WIDTH x HEIGHT: must be " + NumberText(pattern.columns) +
                        " per return x " + NumberText(pattern.rows) +
-                       ", as the scenario says (got " + NumberText(table.width) + " x " +
-                       NumberText(table.height) + ")");
+                       ", as the scenario says (got " + NumberText(cloud.width) + " x " +
+                       NumberText(cloud.height) + ")");
     }
-    FillFrame(table, OrganisedPlan(table, table.width / pattern.columns), recorded);
-  } else if (table.Find("ring") != nullptr && table.Find("column") != nullptr) {
-    FillFrame(table, PlacedPlan(table, name, ScanShape{pattern.rows, pattern.columns}), recorded);
+    FillFrame(cloud, OrganisedPlan(cloud, cloud.width / pattern.columns), recorded);
+  } else if (cloud.Find("ring") != nullptr && cloud.Find("column") != nullptr) {
+    FillFrame(cloud, PlacedPlan(cloud, name, ScanShape{pattern.rows, pattern.columns}), recorded);
     if (recorded.Has("time_ns")) FillScanTimes(pattern, recorded.frame);
   } else {
-    FillFrame(table, LoosePlan(table, "it has no fields ring and column"), recorded);
+    FillFrame(cloud, LoosePlan(cloud, "it has no fields ring and column"), recorded);
   }
   return recorded;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 
@@ -24,11 +24,11 @@ namespace railcast {
 /// @param name Names the frame in messages.
 /// @throws InputError with one line if x, y or z is missing, a value does not fit its field, or two
 ///   points claim the same slot.
-[[nodiscard]] RecordedFrame MakeCloudFrame(const PointTable& table, const std::string& name);
+[[nodiscard]] RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name);
 
 /// The column of times of a cloud that has no time_ns.
 struct TimeColumn {
-  const PointColumn* column{};
+  const CloudField* column{};
   double first_ns{};     ///< The earliest time of a point.
   double ns_per_unit{};  ///< Of the stored numbers.
 
@@ -39,18 +39,18 @@ struct TimeColumn {
 };
 
 /// Returns the column from which MakeCloudFrame() takes times since the earliest, if there is one.
-[[nodiscard]] std::optional<TimeColumn> FindTimeColumn(const PointTable& table);
+[[nodiscard]] std::optional<TimeColumn> FindTimeColumn(const Cloud& cloud);
 
 /// Returns the earliest time of a point, as stored, of a cloud from whose column of times
 /// MakeCloudFrame() takes the times since then; nothing if it takes none.
-[[nodiscard]] std::optional<double> FirstTimeIn_ns(const PointTable& table);
+[[nodiscard]] std::optional<double> FirstTimeIn_ns(const Cloud& cloud);
 
 /// Makes a frame of a file that railcast wrote and whose scan pattern is known: every firing has
 /// its slots, and ring, column and time_ns are known even where the file holds only returned
 /// points. Such a file without ring or column is not a grid.
 /// @param is_organised Whether the file has every slot.
 /// @throws InputError as MakeCloudFrame(), or if the file does not have the scan's shape.
-[[nodiscard]] RecordedFrame MakeScanFrame(const PointTable& table,
+[[nodiscard]] RecordedFrame MakeScanFrame(const Cloud& cloud,
                                           const std::string& name,
                                           const ScanPattern& pattern,
                                           bool is_organised);

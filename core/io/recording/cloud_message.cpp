@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/number_type.h"
@@ -14,23 +15,21 @@
 namespace railcast {
 namespace {
 
-std::size_t SizeOfNumber(NumberType type) {
-  return VisitNumberType(type, [](auto zero) { return sizeof zero; });
-}
-
-PointColumn ColumnOf(const ros::PointField& field, std::size_t point_step) {
+CloudField FieldOf(const ros::PointField& field, std::size_t point_step) {
   const std::string place = "fields: " + Quoted(field.name) + ": ";
   if (field.datatype < ros::PointField::kInt8 || field.datatype > ros::PointField::kFloat64) {
     throw InputError(place + "datatype: must be 1 to 8" + Got(int{field.datatype}));
   }
-  const auto type = static_cast<NumberType>(field.datatype);
   // Some drivers count a single number as none.
-  const std::uint64_t size = SizeOfNumber(type) * std::uint64_t{std::max(field.count, 1U)};
-  if (field.offset + size > point_step) {
+  CloudField read{.name = field.name,
+                  .offset = field.offset,
+                  .type = static_cast<NumberType>(field.datatype),
+                  .count = std::max(field.count, 1U)};
+  if (field.offset + read.num_bytes() > point_step) {
     throw InputError(place + "must end within point_step, " + NumberText(point_step) +
-                     Got(field.offset + size));
+                     Got(field.offset + read.num_bytes()));
   }
-  return {.name = field.name, .type = type, .offset = field.offset, .step = point_step};
+  return read;
 }
 
 /// Throws unless the data are rows of points of the sizes that the message states.
@@ -50,50 +49,53 @@ void CheckSizes(const ros::PointCloud2& cloud) {
   }
 }
 
-/// Returns the points without what may stand between rows.
-std::string PackedPoints(const ros::PointCloud2& cloud) {
-  const std::size_t row_size = std::size_t{cloud.width} * cloud.point_step;
-  std::string bytes;
-  bytes.reserve(row_size * cloud.height);
-  for (std::size_t row = 0; row < cloud.height && row_size > 0; ++row) {
-    bytes.append(reinterpret_cast<const char*>(cloud.data.data()) + row * cloud.row_step, row_size);
+/// Takes out what may stand between rows.
+void PackRows(const ros::PointCloud2& message, std::vector<std::uint8_t>& data) {
+  const std::size_t row_size = std::size_t{message.width} * message.point_step;
+  if (row_size != message.row_step && row_size > 0) {
+    for (std::size_t row = 1; row < message.height; ++row) {
+      std::copy_n(data.data() + row * message.row_step, row_size, data.data() + row * row_size);
+    }
   }
-  return bytes;
+  data.resize(row_size * message.height);
 }
 
 /// Turns big-endian numbers into little-endian ones.
-void SwapBytes(const ros::PointCloud2& cloud, PointTable& table) {
+void SwapBytes(Cloud& cloud) {
   std::set<std::size_t> swapped;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const PointColumn& column = table.columns[i];
-    const std::size_t size = SizeOfNumber(column.type);
-    const std::size_t num_bytes = size * std::max(cloud.fields[i].count, 1U);
-    for (std::size_t at = column.offset; at < column.offset + num_bytes; ++at) {
+  for (const CloudField& field : cloud.fields) {
+    const std::size_t size = SizeOf(field.type);
+    for (std::size_t at = field.offset; at < field.offset + field.num_bytes(); ++at) {
       if (!swapped.insert(at).second) {
         throw InputError("fields: must not share bytes of a big-endian cloud (got " +
-                         Quoted(column.name) + ")");
+                         Quoted(field.name) + ")");
       }
     }
-    for (std::size_t point = 0; point < table.num_points(); ++point) {
-      char* const begin = table.bytes.data() + point * column.step + column.offset;
-      for (char* at = begin; at < begin + num_bytes; at += size) std::reverse(at, at + size);
+    for (std::size_t point = 0; point < cloud.num_points(); ++point) {
+      std::uint8_t* const begin = cloud.data.data() + point * cloud.point_step + field.offset;
+      for (auto* at = begin; at < begin + field.num_bytes(); at += size) {
+        std::reverse(at, at + size);
+      }
     }
   }
 }
 
 }  // namespace
 
-PointTable MakePointTable(const ros::PointCloud2& cloud) {
-  CheckSizes(cloud);
-  PointTable table;
-  table.width = cloud.width;
-  table.height = cloud.height;
-  for (const ros::PointField& field : cloud.fields) {
-    table.columns.push_back(ColumnOf(field, cloud.point_step));
+Cloud MakeCloud(ros::PointCloud2 message) {
+  CheckSizes(message);
+  Cloud cloud{.height = message.height,
+              .width = message.width,
+              .fields = {},
+              .point_step = message.point_step,
+              .is_dense = message.is_dense,
+              .data = std::move(message.data)};
+  for (const ros::PointField& field : message.fields) {
+    cloud.fields.push_back(FieldOf(field, cloud.point_step));
   }
-  table.bytes = PackedPoints(cloud);
-  if (cloud.is_bigendian) SwapBytes(cloud, table);
-  return table;
+  PackRows(message, cloud.data);
+  if (message.is_bigendian) SwapBytes(cloud);
+  return cloud;
 }
 
 }  // namespace railcast

@@ -7,8 +7,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti_names.h"
-#include "core/io/cloud/point_table.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/frame_record.h"
@@ -55,7 +55,7 @@ void SortNaturally(std::vector<std::filesystem::path>& paths) {
 }
 
 RecordedFrame ReadCloudFrame(const std::filesystem::path& file, std::uint32_t index) {
-  RecordedFrame recorded = MakeCloudFrame(ReadPointTable(file), ShownPath(file));
+  RecordedFrame recorded = MakeCloudFrame(ReadCloud(file), ShownPath(file));
   recorded.frame.index = index;
   return recorded;
 }

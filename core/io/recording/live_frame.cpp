@@ -5,23 +5,10 @@
 
 #include "core/io/recording/cloud_fields.h"
 #include "core/io/recording/slot_plans.h"
+#include "core/io/stream/stream_clouds.h"
 
 namespace railcast {
 namespace {
-
-PointTable PointTableOf(const ReceivedFrame& received) {
-  PointTable table{.width = static_cast<std::uint32_t>(received.num_points()),
-                   .height = 1,
-                   .columns = {},
-                   .bytes = std::string(received.points.begin(), received.points.end())};
-  for (const StreamField& field : received.header.fields) {
-    table.columns.push_back({.name = field.name,
-                             .type = static_cast<NumberType>(field.type),
-                             .offset = field.offset,
-                             .step = received.header.point_size});
-  }
-  return table;
-}
 
 /// Whether the slot of every point is known, and a slot without a point means a firing without a
 /// return.
@@ -37,13 +24,11 @@ bool IsGrid(const ReceivedFrame& received) {
   return cells <= most && cells * header.returns <= most;
 }
 
-SlotPlan PlanOfStream(const ReceivedFrame& received,
-                      const PointTable& table,
-                      const std::string& name) {
+SlotPlan PlanOfStream(const ReceivedFrame& received, const Cloud& cloud, const std::string& name) {
   if (!IsGrid(received)) {
-    return LoosePlan(table, "datagrams are missing, or the fields ring and column");
+    return LoosePlan(cloud, "datagrams are missing, or the fields ring and column");
   }
-  return PlacedPlan(table, name, ScanShape{received.header.rows, received.header.columns});
+  return PlacedPlan(cloud, name, ScanShape{received.header.rows, received.header.columns});
 }
 
 void ForgetRanges(RecordedFrame& recorded) {
@@ -55,11 +40,11 @@ void ForgetRanges(RecordedFrame& recorded) {
 
 RecordedFrame MakeLiveFrame(const ReceivedFrame& received, const std::string& name) {
   const StreamHeader& header = received.header;
-  const PointTable table = PointTableOf(received);
+  const Cloud cloud = MakeCloud(received);
   RecordedFrame recorded;
   recorded.name = name;
-  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(table, axis, name);
-  FillFrame(table, PlanOfStream(received, table, name), recorded);
+  for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
+  FillFrame(cloud, PlanOfStream(received, cloud, name), recorded);
   Frame& frame = recorded.frame;
   frame.index = header.frame;
   frame.stamp_ns = header.stamp_ns;

@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
@@ -71,7 +71,7 @@ RecordedFrame ReadMergedFrame(const MergedContext& context, const MergedCloudLin
   const auto line = ReadRecordLine<MergedRecord>(lines.cloud.text, lines.cloud.place);
   const std::string file = ShownPath(context.directory / line.file.name);
   RecordedFrame recorded = MakeCloudFrame(
-      ParsePcdTable(file, ReadKnownFile(context.directory, line.file, kMergedFile)), file);
+      ParsePcdFile(file, ReadKnownFile(context.directory, line.file, kMergedFile)).cloud, file);
   Frame& frame = recorded.frame;
   frame.index = line.frame;
   frame.stamp_ns = line.stamp_ns;

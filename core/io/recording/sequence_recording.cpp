@@ -14,6 +14,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/io/bag/bag.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/cloud/kitti_names.h"
 #include "core/io/content_hash.h"
@@ -117,9 +118,9 @@ RecordedFrame ReadCloudInBag(const SequenceContext& context,
                      " states the hashes");
   }
   return AtPlace(cloud.bag + ": ", [&] {
-    const PointTable table = MakePointTable(ros::FromCdr<ros::PointCloud2>(cloud.cdr));
-    has_ranges = table.Find("range_m") != nullptr;
-    return MakeScanFrame(table, cloud.bag, context.pattern, true);
+    const Cloud points = MakeCloud(ros::FromCdr<ros::PointCloud2>(cloud.cdr));
+    has_ranges = points.Find("range_m") != nullptr;
+    return MakeScanFrame(points, cloud.bag, context.pattern, true);
   });
 }
 
@@ -135,11 +136,11 @@ RecordedFrame ReadFrame(const SequenceContext& context,
   } else if (context.has_clouds) {
     const KnownFile& known = CloudFileOf(line, lines.frame.place);
     const std::string file = ShownPath(context.directory / known.name);
-    std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
+    const std::string bytes = ReadKnownFile(context.directory, known, kFramesFile);
     const FrameFormat& format = *FindReader(known.name);
-    const PointTable table = format.parse(file, std::move(bytes), std::nullopt);
-    recorded = MakeScanFrame(table, file, context.pattern, format.has_all_slots);
-    has_ranges = table.Find("range_m") != nullptr;
+    const Cloud points = format.parse(file, bytes, std::nullopt).cloud;
+    recorded = MakeScanFrame(points, file, context.pattern, format.has_all_slots);
+    has_ranges = points.Find("range_m") != nullptr;
   } else {
     recorded.name = ShownPath(context.directory);
   }
@@ -171,9 +172,9 @@ RecordedFrame ReadKittiFrame(const KittiContext& context,
     throw InputError(lines.frame.place + ": files: must name a .bin and a .label file");
   }
   const std::string file = ShownPath(directory / line.files[0].name);
-  std::string points = ReadKnownFile(directory, line.files[0], kFramesFile);
+  const std::string points = ReadKnownFile(directory, line.files[0], kFramesFile);
   const std::string labels = ReadKnownFile(directory, line.files[1], kFramesFile);
-  RecordedFrame recorded = MakeCloudFrame(ParseKittiTable(file, std::move(points), labels), file);
+  RecordedFrame recorded = MakeCloudFrame(ParseKittiFile(file, points, labels).cloud, file);
   recorded.frame.index = place;
   TakeRecords(line, lines, recorded);
   for (RecordedObject& object : recorded.objects) {

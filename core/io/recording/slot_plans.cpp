@@ -14,12 +14,6 @@ namespace {
 constexpr std::uint32_t kMaxReturns = 3;
 constexpr std::uint32_t kMaxRows = 1U << 16U;
 
-PointPositions LoadPositions(const PointTable& table) {
-  return {.x = LoadFloats(table, *table.Find("x")),
-          .y = LoadFloats(table, *table.Find("y")),
-          .z = LoadFloats(table, *table.Find("z"))};
-}
-
 /// Where the rows and columns of a scan are in the table of its cloud.
 struct StoredGrid {
   std::uint32_t rows{};
@@ -47,15 +41,13 @@ bool HasRingForEach(const StoredGrid& lines,
   return true;
 }
 
-StoredGrid FindGrid(const PointTable& table,
-                    const PointPositions& positions,
-                    const PointColumn* ring) {
-  const StoredGrid by_rows{table.height, table.width, false};
-  const StoredGrid by_columns{table.width, table.height, true};
+StoredGrid FindGrid(const Cloud& cloud, const PointPositions& positions, const CloudField* ring) {
+  const StoredGrid by_rows{cloud.height, cloud.width, false};
+  const StoredGrid by_columns{cloud.width, cloud.height, true};
   if (ring == nullptr) return by_rows;
-  std::vector<double> rings(table.num_points());
-  VisitColumn(table, *ring,
-              [&](std::size_t i, auto value) { rings[i] = static_cast<double>(value); });
+  std::vector<double> rings(cloud.num_points());
+  VisitField(cloud, *ring,
+             [&](std::size_t i, auto value) { rings[i] = static_cast<double>(value); });
   if (HasRingForEach(by_rows, positions, rings)) return by_rows;
   return HasRingForEach(by_columns, positions, rings) ? by_columns : by_rows;
 }
@@ -113,19 +105,30 @@ ScanShape ShapeOf(const std::vector<std::uint32_t>& rings,
   return {static_cast<std::uint32_t>(num_rows), static_cast<std::uint32_t>(num_columns)};
 }
 
+std::vector<float> LoadFloats(const Cloud& cloud, std::string_view name) {
+  std::vector<float> values(cloud.num_points());
+  VisitField(cloud, *cloud.Find(name),
+             [&](std::size_t i, auto value) { values[i] = static_cast<float>(value); });
+  return values;
+}
+
 }  // namespace
 
-SlotPlan OrganisedPlan(const PointTable& table, std::uint32_t returns) {
-  return {.rows = table.height,
-          .columns = table.width / returns,
+PointPositions LoadPositions(const Cloud& cloud) {
+  return {LoadFloats(cloud, "x"), LoadFloats(cloud, "y"), LoadFloats(cloud, "z")};
+}
+
+SlotPlan OrganisedPlan(const Cloud& cloud, std::uint32_t returns) {
+  return {.rows = cloud.height,
+          .columns = cloud.width / returns,
           .returns = returns,
           .slots = {},
           .is_grid = true};
 }
 
-SlotPlan SortedRowsPlan(const PointTable& table, const PointColumn* ring) {
-  const PointPositions positions = LoadPositions(table);
-  const StoredGrid grid = FindGrid(table, positions, ring);
+SlotPlan SortedRowsPlan(const Cloud& cloud, const CloudField* ring) {
+  const PointPositions positions = LoadPositions(cloud);
+  const StoredGrid grid = FindGrid(cloud, positions, ring);
   SlotPlan plan{
       .rows = grid.rows, .columns = grid.columns, .returns = 1, .slots = {}, .is_grid = true};
   const std::vector<double> elevations_rad = RowElevations(grid, positions);
@@ -137,7 +140,7 @@ SlotPlan SortedRowsPlan(const PointTable& table, const PointColumn* ring) {
     order.emplace_back(last_rad, row);
   }
   std::ranges::stable_sort(order, {}, &std::pair<double, std::uint32_t>::first);
-  plan.slots.resize(table.num_points());
+  plan.slots.resize(cloud.num_points());
   for (std::uint32_t row = 0; row < grid.rows; ++row) {
     for (std::uint32_t column = 0; column < grid.columns; ++column) {
       plan.slots[grid.Entry(order[row].second, column)] = row * grid.columns + column;
@@ -146,24 +149,24 @@ SlotPlan SortedRowsPlan(const PointTable& table, const PointColumn* ring) {
   return plan;
 }
 
-SlotPlan PlacedPlan(const PointTable& table,
+SlotPlan PlacedPlan(const Cloud& cloud,
                     const std::string& name,
                     const std::optional<ScanShape>& shape) {
   const std::uint32_t most_rows = shape ? shape->rows : kMaxRows;
   const std::uint32_t most_columns = shape ? shape->columns : kNoSlot;
-  const auto rings = LoadIndices(table, NeedFieldOf(table, "ring", name), most_rows - 1, name);
+  const auto rings = LoadIndices(cloud, NeedFieldOf(cloud, "ring", name), most_rows - 1, name);
   const auto columns =
-      LoadIndices(table, NeedFieldOf(table, "column", name), most_columns - 1, name);
-  const PointColumn* const return_index = table.Find("return_index");
+      LoadIndices(cloud, NeedFieldOf(cloud, "column", name), most_columns - 1, name);
+  const CloudField* const return_index = cloud.Find("return_index");
   const auto returns = return_index != nullptr
-                           ? LoadIndices(table, *return_index, kMaxReturns - 1, name)
-                           : std::vector<std::uint32_t>(table.num_points(), 0);
+                           ? LoadIndices(cloud, *return_index, kMaxReturns - 1, name)
+                           : std::vector<std::uint32_t>(cloud.num_points(), 0);
   SlotPlan plan{.returns = LargestOf(returns) + 1, .slots = {}, .is_grid = true};
   const ScanShape found = shape ? *shape : ShapeOf(rings, columns, plan.returns, name);
   plan.rows = found.rows;
   plan.columns = found.columns;
   std::vector<bool> is_taken(std::size_t{plan.rows} * plan.columns * plan.returns);
-  for (std::size_t i = 0; i < table.num_points(); ++i) {
+  for (std::size_t i = 0; i < cloud.num_points(); ++i) {
     const std::uint32_t slot = (rings[i] * plan.columns + columns[i]) * plan.returns + returns[i];
     if (is_taken[slot]) {
       throw InputError(name + ": point " + NumberText(i) +
@@ -177,8 +180,8 @@ SlotPlan PlacedPlan(const PointTable& table,
   return plan;
 }
 
-SlotPlan LoosePlan(const PointTable& table, const std::string& why_no_grid) {
-  const PointPositions positions = LoadPositions(table);
+SlotPlan LoosePlan(const Cloud& cloud, const std::string& why_no_grid) {
+  const PointPositions positions = LoadPositions(cloud);
   SlotPlan plan{.rows = 1, .returns = 1, .slots = {}, .why_no_grid = why_no_grid};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     plan.slots.push_back(positions.IsPoint(i) ? plan.columns++ : kNoSlot);

@@ -5,8 +5,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti.h"
-#include "core/io/cloud/point_table.h"
 #include "core/io/run/sequence_files.h"
 
 namespace railcast {
@@ -20,21 +20,9 @@ void EncodePcdFile(const Frame& frame, const FrameFileSpec& spec, const Moving&,
   EncodePcd(frame, spec.fields, kEncoding, files[0].bytes);
 }
 
-PointTable ParsePcdFile(const std::string& file,
-                        std::string bytes,
-                        const std::optional<std::string>&) {
-  return ParsePcdTable(file, std::move(bytes));
-}
-
 template <PlyFlavour kFlavour>
 void EncodePlyFile(const Frame& frame, const FrameFileSpec& spec, const Moving&, Files& files) {
   EncodePly(frame, spec.fields, kFlavour, files[0].bytes);
-}
-
-PointTable ParsePlyFile(const std::string& file,
-                        std::string bytes,
-                        const std::optional<std::string>&) {
-  return ParsePlyTable(file, bytes);
 }
 
 void EncodeKittiFiles(const Frame& frame,
@@ -86,7 +74,7 @@ const std::vector<FrameFormat>& FrameFormats() {
       {.name = "kitti",
        .files = {{"sequences/00/velodyne/", ".bin"}, {"sequences/00/labels/", ".label"}},
        .encode = &EncodeKittiFiles,
-       .parse = &ParseKittiTable,
+       .parse = &ParseKittiFile,
        .dataset = DatasetLayout{.title = "KITTI",
                                 .record_files = {kKittiPosesFile, kKittiTimesFile},
                                 .record_lines = &KittiLines,

@@ -20,24 +20,24 @@ namespace railcast {
 namespace {
 
 // Which of the stored slots have a point; nothing if the cloud does not say.
-std::optional<std::vector<bool>> StoredPoints(const PointTable& cloud, const FrameFormat& format) {
+std::optional<std::vector<bool>> StoredPoints(const Cloud& cloud, const FrameFormat& format) {
   std::vector<bool> has_point(cloud.num_points(), !format.has_all_slots);
   if (!format.has_all_slots) return has_point;
-  const PointColumn* const x = cloud.Find("x");
+  const CloudField* const x = cloud.Find("x");
   if (x == nullptr) return std::nullopt;
-  VisitColumn(cloud, *x, [&](std::size_t i, auto value) {
+  VisitField(cloud, *x, [&](std::size_t i, auto value) {
     has_point[i] = std::isfinite(static_cast<double>(value));
   });
   return has_point;
 }
 
 // The columns of a data set's layout have ids of that data set.
-std::map<std::string, std::uint64_t> PointsPerLabel(const PointTable& cloud,
-                                                    const PointColumn& column,
+std::map<std::string, std::uint64_t> PointsPerLabel(const Cloud& cloud,
+                                                    const CloudField& column,
                                                     const std::vector<bool>& has_point,
                                                     const LabelTable& labels) {
   std::map<std::uint32_t, std::uint64_t> num_by_id;
-  VisitColumn(cloud, column, [&](std::size_t i, auto value) {
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     if (has_point[i]) ++num_by_id[static_cast<std::uint32_t>(value)];
   });
   std::map<std::string, std::uint64_t> counts;
@@ -49,14 +49,14 @@ std::map<std::string, std::uint64_t> PointsPerLabel(const PointTable& cloud,
 }
 
 // A firing's outcome is that of its first slot.
-std::optional<OutcomeCounts> FiringsPerOutcome(const PointTable& cloud,
-                                               const PointColumn& column,
+std::optional<OutcomeCounts> FiringsPerOutcome(const Cloud& cloud,
+                                               const CloudField& column,
                                                std::uint64_t num_firings) {
   if (num_firings == 0 || cloud.num_points() % num_firings != 0) return std::nullopt;
   const std::size_t returns = cloud.num_points() / num_firings;
   OutcomeCounts counts;
   bool is_known = true;
-  VisitColumn(cloud, column, [&](std::size_t i, auto value) {
+  VisitField(cloud, column, [&](std::size_t i, auto value) {
     if (i % returns != 0) return;
     const auto outcome = static_cast<std::size_t>(value);
     is_known = is_known && outcome < counts.size();
@@ -141,11 +141,11 @@ void CompareWithCloud(const CountedCloud& counted,
   if (!has_point) return;
   FrameCounts expected = line;
   expected.points = static_cast<std::uint64_t>(std::ranges::count(*has_point, true));
-  const PointColumn* const label = cloud.Find("label");
+  const CloudField* const label = cloud.Find("label");
   if (label != nullptr && !format.dataset) {
     expected.points_per_label = PointsPerLabel(cloud, *label, *has_point, labels);
   }
-  const PointColumn* const outcome = cloud.Find("outcome");
+  const CloudField* const outcome = cloud.Find("outcome");
   if (outcome != nullptr && format.has_all_slots) {
     const std::uint64_t num_firings =
         std::accumulate(line.outcomes.begin(), line.outcomes.end(), std::uint64_t{0});

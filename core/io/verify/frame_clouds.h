@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud.h"
 #include "core/io/run/frame_record.h"
 #include "railcast/io/cloud_files.h"
 
@@ -28,7 +28,7 @@ void CompareCounts(const FrameCounts& counted,
 
 /// A frame's cloud and what its numbers mean.
 struct CountedCloud {
-  const PointTable& cloud;
+  const Cloud& cloud;
   const FrameFormat& format;
   const LabelTable& labels;
   std::filesystem::path file;  ///< Its name.

@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/motion_files.h"
@@ -77,7 +77,7 @@ class Verifier : private Findings {
                   const FrameLines& lines,
                   const FrameFormat& format);
   void CompareCloud(const KnownFile& file,
-                    std::string bytes,
+                    const std::string& bytes,
                     const FrameRecord& line,
                     const FrameLines& lines,
                     const FrameFormat& format);
@@ -175,18 +175,18 @@ void Verifier::CheckCloud(const KnownFile& file,
     result_.num_bytes += bytes.size();
     ++result_.num_files;
   });
-  if (is_whole) Try([&] { CompareCloud(file, std::move(bytes), line, lines, format); });
+  if (is_whole) Try([&] { CompareCloud(file, bytes, line, lines, format); });
 }
 
 // The line's hash shows that it is as it was written; only the cloud shows what it holds.
 void Verifier::CompareCloud(const KnownFile& file,
-                            std::string bytes,
+                            const std::string& bytes,
                             const FrameRecord& line,
                             const FrameLines& lines,
                             const FrameFormat& format) {
   if (!labels_) return;
   const std::string path = PathOf(file.name);
-  const PointTable cloud = format.parse(path, std::move(bytes), std::nullopt);
+  const Cloud cloud = format.parse(path, bytes, std::nullopt).cloud;
   CompareWithCloud({cloud, format, *labels_, file.name}, line.counts, lines.frame.place, faults_);
 }
 

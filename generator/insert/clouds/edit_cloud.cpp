@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/io/cloud/cloud_rows.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 
 namespace railcast {
@@ -15,9 +15,9 @@ std::vector<std::uint32_t> EditCloud(const RecordedFirings& firings,
   if (inserted.edits.empty()) return SlotsOfEntries(firings);
   std::optional<std::string> labels;
   if (files.size() > 1) labels = files[1].bytes;
-  const CloudParts parts = TakeCloudApart(files[0].name, files[0].bytes, labels);
-  EditedRows edited = EditRows(parts.rows, firings, inserted, context);
-  std::vector<std::string> changed = PutCloudTogether(parts, edited.bytes, edited.slots.size());
+  const CloudFile file = FindReader(files[0].name)->parse(files[0].name, files[0].bytes, labels);
+  EditedRows edited = EditRows(file.cloud, firings, inserted, context);
+  std::vector<std::string> changed = Rewritten(file, edited.points);
   for (std::size_t i = 0; i < changed.size(); ++i) files[i].bytes = std::move(changed[i]);
   return std::move(edited.slots);
 }

@@ -46,69 +46,42 @@ Stored Convert(Value value) {
   }
 }
 
-template <typename Stored>
-std::string WordOf(Stored value) {
-  if constexpr (std::is_floating_point_v<Stored>) {
-    if (std::isnan(value)) return "nan";
-  }
-  return NumberText(value);
-}
-
-/// A row while its numbers are changed.
+/// The last row of some points while its numbers are changed.
 class RowDraft {
  public:
-  RowDraft(const CloudRows& rows, std::string_view row) : rows_(rows) {
-    if (!rows.is_text()) {
-      bytes_ = row;
-      return;
-    }
-    for (const std::string_view word : Words(*TakeLine(row))) words_.emplace_back(word);
+  /// Appends a row that is as that of an entry.
+  RowDraft(const Cloud& cloud, std::size_t entry, OtherPoints& points) : cloud_(cloud) {
+    const std::uint8_t* const row = cloud.data.data() + entry * cloud.point_step;
+    points.data.insert(points.data.end(), row, row + cloud.point_step);
+    points.sources.push_back(static_cast<std::uint32_t>(entry));
+    row_ = points.data.data() + points.data.size() - cloud.point_step;
   }
-  /// A row without any values: NaN, or 0 where there is no NaN.
-  explicit RowDraft(const CloudRows& rows)
-      : rows_(rows), bytes_(rows.row_bytes, '\0'), words_(rows.num_words, "0") {
-    for (std::size_t i = 0; i < rows.cells.size(); ++i) Clear(i);
+  /// Appends a row without any values: NaN, or 0 where there is no NaN.
+  RowDraft(const Cloud& cloud, OtherPoints& points) : cloud_(cloud) {
+    points.data.resize(points.data.size() + cloud.point_step);
+    points.sources.push_back(kNoSource);
+    row_ = points.data.data() + points.data.size() - cloud.point_step;
+    for (std::size_t i = 0; i < cloud.fields.size(); ++i) Clear(i);
   }
 
   template <typename Value>
   void Set(std::size_t cell, Value value) {
-    const auto [type, place] = rows_.cells[cell];
-    VisitNumberType(type, [&](auto zero) {
+    const CloudField& field = cloud_.fields[cell];
+    VisitNumberType(field.type, [&](auto zero) {
       const auto stored = Convert<decltype(zero)>(value);
-      if (rows_.is_text()) {
-        words_[place] = WordOf(stored);
-      } else {
-        std::memcpy(&bytes_[place], &stored, sizeof stored);
-      }
+      std::memcpy(row_ + field.offset, &stored, sizeof stored);
     });
   }
   void Clear(std::size_t cell) { Set(cell, std::numeric_limits<double>::quiet_NaN()); }
-  /// Takes the number that another row has.
-  void Copy(std::size_t cell, std::string_view other) {
-    const auto [type, place] = rows_.cells[cell];
-    if (rows_.is_text()) {
-      words_[place] = Words(*TakeLine(other))[place];
-      return;
-    }
-    VisitNumberType(type,
-                    [&](auto zero) { std::memcpy(&bytes_[place], &other[place], sizeof zero); });
-  }
-
-  void AppendTo(std::string& all) const {
-    if (!rows_.is_text()) {
-      all += bytes_;
-      return;
-    }
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-      all += words_[i];
-      all += i + 1 == words_.size() ? '\n' : ' ';
-    }
+  /// Takes the number that an entry has.
+  void Copy(std::size_t cell, std::size_t entry) {
+    const CloudField& field = cloud_.fields[cell];
+    std::memcpy(row_ + field.offset, cloud_.Row(entry).data() + field.offset, SizeOf(field.type));
   }
 
  private:
-  const CloudRows& rows_;
-  std::string bytes_;
-  std::vector<std::string> words_;
+  const Cloud& cloud_;
+  std::uint8_t* row_;  ///< Valid until the next one is appended.
 };
 
 bool IsPosition(std::string_view name) {
@@ -123,18 +96,18 @@ bool IsOfFiring(std::string_view name) {
 /// One frame's edits of its cloud.
 class RowEdit {
  public:
-  RowEdit(const CloudRows& rows,
+  RowEdit(const Cloud& cloud,
           const RecordedFirings& firings,
           const InsertedFrame& inserted,
           const RowContext& context)
-      : rows_(rows),
+      : cloud_(cloud),
         firings_(firings),
         before_(firings.recorded.frame),
         after_(inserted.recorded.frame),
         inserted_(inserted),
         context_(context),
         moving_(MovingInstances(inserted)),
-        num_rows_(rows.table.num_points()),
+        num_rows_(cloud.num_points()),
         slots_(num_rows_, kNoSlot),
         edit_of_slot_(before_.num_slots(), nullptr) {
     for (std::size_t slot = 0; slot < firings.entry_of_slot.size(); ++slot) {
@@ -150,7 +123,7 @@ class RowEdit {
 
   EditedRows Make() {
     EditedRows edited;
-    edited.bytes.reserve(rows_.bytes.size() + inserted_.edits.size() * rows_.row_bytes);
+    edited.points.data.reserve(cloud_.data.size() + inserted_.edits.size() * cloud_.point_step);
     if (is_organised_) {
       MakeOrganised(edited);
     } else {
@@ -161,26 +134,25 @@ class RowEdit {
 
  private:
   void FindCells() {
-    const PointTable& table = rows_.table;
-    const auto cell_of = [&](const PointColumn* column) {
-      return column == nullptr ? kNoCell : static_cast<std::size_t>(column - table.columns.data());
+    const auto cell_of = [&](const CloudField* field) {
+      return field == nullptr ? kNoCell : static_cast<std::size_t>(field - cloud_.fields.data());
     };
     std::set<std::size_t> known;
     ForEachPossibleField([&](std::string_view name, std::string_view, const auto&) {
-      const std::size_t cell = cell_of(FindFieldOf(table, name));
+      const std::size_t cell = cell_of(FindFieldOf(cloud_, name));
       cells_.push_back(cell);
       known.insert(cell);
       if (name == "ring") ring_cell_ = cell;
     });
-    if (FindFieldOf(table, "time_ns") == nullptr) times_ = FindTimeColumn(table);
+    if (FindFieldOf(cloud_, "time_ns") == nullptr) times_ = FindTimeColumn(cloud_);
     if (times_) known.insert(cell_of(times_->column));
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    for (std::size_t i = 0; i < cloud_.fields.size(); ++i) {
       if (!known.contains(i)) foreign_.push_back(i);
     }
   }
 
   [[nodiscard]] bool IsOrganised() const {
-    if (context_.is_organised || rows_.table.height > 1) return true;
+    if (context_.is_organised || cloud_.height > 1) return true;
     for (const std::uint32_t slot : slots_) {
       if (slot != kNoSlot && std::isnan(before_.x[slot])) return true;
     }
@@ -257,12 +229,12 @@ class RowEdit {
     for (const std::size_t cell : foreign_) row.Clear(cell);
   }
 
-  [[nodiscard]] std::size_t CellOf(const PointColumn& column) const {
-    return static_cast<std::size_t>(&column - rows_.table.columns.data());
+  [[nodiscard]] std::size_t CellOf(const CloudField& field) const {
+    return static_cast<std::size_t>(&field - cloud_.fields.data());
   }
   // Whether rings in the cloud are the rows of its frames.
   [[nodiscard]] bool IsRailcasts() const {
-    return rows_.table.Find("ring") != nullptr && rows_.table.Find("column") != nullptr;
+    return cloud_.Find("ring") != nullptr && cloud_.Find("column") != nullptr;
   }
   // Other clouds number their rings as they like: as in the returns of the same row.
   void SetRing(std::size_t slot, RowDraft& row) const {
@@ -277,13 +249,13 @@ class RowEdit {
     if (entry == kNoEntry) {
       row.Set(ring_cell_, after_.ring[slot]);
     } else {
-      row.Copy(ring_cell_, rows_.Row(entry));
+      row.Copy(ring_cell_, entry);
     }
   }
 
   // Marks the absence of a point.
   void SetAbsent(std::size_t slot, RowDraft& row) const {
-    if (rows_.table.Find("outcome") != nullptr) {
+    if (cloud_.Find("outcome") != nullptr) {
       SetChanged(slot, slot, row);
       ForEachCell([&](std::string_view name, std::size_t cell, const auto&, const auto& now) {
         using Stored = typename StoredType<ElementOf<decltype(now)>>::Type;
@@ -308,9 +280,9 @@ class RowEdit {
   [[nodiscard]] bool marks_by_zero() const {
     if (!marks_by_zero_) {
       marks_by_zero_ = false;
-      const PointColumn* const x = rows_.table.Find("x");
+      const CloudField* const x = cloud_.Find("x");
       bool is_known = false;
-      VisitColumn(rows_.table, *x, [&](std::size_t i, auto value) {
+      VisitField(cloud_, *x, [&](std::size_t i, auto value) {
         if (is_known || slots_[i] == kNoSlot || !std::isnan(before_.x[slots_[i]])) return;
         is_known = true;
         marks_by_zero_ = value == 0;
@@ -328,21 +300,17 @@ class RowEdit {
     for (std::size_t entry = 0; entry < num_rows_; ++entry) {
       const std::uint32_t slot = slots_[entry];
       const SlotEdit* const edit = slot == kNoSlot ? nullptr : edit_of_slot_[slot];
-      if (edit == nullptr && !HasOtherCount(slot)) {
-        edited.bytes += rows_.Row(entry);
+      const bool is_moved = edit != nullptr && edit->from_slot;
+      RowDraft row(cloud_, is_moved ? firings_.entry_of_slot[*edit->from_slot] : entry,
+                   edited.points);
+      if (edit == nullptr) {
+        if (HasOtherCount(slot)) SetChanged(slot, slot, row);
+      } else if (edit->is_added) {
+        SetAll(slot, row);
+      } else if (edit->has_point) {
+        SetChanged(slot, edit->from_slot.value_or(slot), row);
       } else {
-        const bool is_moved = edit != nullptr && edit->from_slot;
-        RowDraft row(rows_, rows_.Row(is_moved ? firings_.entry_of_slot[*edit->from_slot] : entry));
-        if (edit == nullptr) {
-          SetChanged(slot, slot, row);
-        } else if (edit->is_added) {
-          SetAll(slot, row);
-        } else if (edit->has_point) {
-          SetChanged(slot, edit->from_slot.value_or(slot), row);
-        } else {
-          SetAbsent(slot, row);
-        }
-        row.AppendTo(edited.bytes);
+        SetAbsent(slot, row);
       }
     }
     edited.slots = slots_;
@@ -371,9 +339,8 @@ class RowEdit {
     auto next = added.begin();
     const auto add_until = [&](std::int64_t entry) {
       for (; next != added.end() && next->first <= entry; ++next) {
-        RowDraft row(rows_);
+        RowDraft row(cloud_, edited.points);
         SetAll(next->second, row);
-        row.AppendTo(edited.bytes);
         edited.slots.push_back(next->second);
       }
     };
@@ -381,14 +348,10 @@ class RowEdit {
     for (std::size_t entry = 0; entry < num_rows_; ++entry) {
       const std::uint32_t from = slots_[entry];
       const std::uint32_t slot = from == kNoSlot ? from : now[from];
-      if (from == kNoSlot ||
-          (slot == from && edit_of_slot_[slot] == nullptr && !HasOtherCount(slot))) {
-        edited.bytes += rows_.Row(entry);
-        edited.slots.push_back(slot);
-      } else if (slot != kNoSlot) {
-        RowDraft row(rows_, rows_.Row(entry));
-        SetChanged(slot, from, row);
-        row.AppendTo(edited.bytes);
+      if (from == kNoSlot || slot != kNoSlot) {
+        RowDraft row(cloud_, entry, edited.points);
+        const bool has_edit = slot != kNoSlot && edit_of_slot_[slot] != nullptr;
+        if (slot != from || has_edit || HasOtherCount(slot)) SetChanged(slot, from, row);
         edited.slots.push_back(slot);
       }
       add_until(static_cast<std::int64_t>(entry));
@@ -453,7 +416,7 @@ class RowEdit {
     return added;
   }
 
-  const CloudRows& rows_;
+  const Cloud& cloud_;
   const RecordedFirings& firings_;
   const Frame& before_;
   const Frame& after_;
@@ -474,11 +437,11 @@ class RowEdit {
 
 }  // namespace
 
-EditedRows EditRows(const CloudRows& rows,
+EditedRows EditRows(const Cloud& cloud,
                     const RecordedFirings& firings,
                     const InsertedFrame& inserted,
                     const RowContext& context) {
-  return RowEdit(rows, firings, inserted, context).Make();
+  return RowEdit(cloud, firings, inserted, context).Make();
 }
 
 std::vector<std::uint32_t> SlotsOfEntries(const RecordedFirings& firings) {

@@ -2,10 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
-#include "core/io/cloud/cloud_rows.h"
+#include "core/io/cloud/cloud_file.h"
 #include "generator/insert/clouds/label_numbers.h"
 #include "generator/insert/inserted_frame.h"
 #include "generator/insert/recorded_firings.h"
@@ -14,7 +13,7 @@ namespace railcast {
 
 /// The rows of a cloud with what was inserted.
 struct EditedRows {
-  std::string bytes;
+  OtherPoints points;
   /// For each row its slot in the frame, or kNoSlot.
   std::vector<std::uint32_t> slots;
 };
@@ -32,9 +31,9 @@ struct RowContext {
 /// marked as it marks the absence of a point. Those that were added follow the returns of the
 /// firings before theirs, in the cloud's own order; fields that railcast does not know are NaN or
 /// 0.
-/// @param rows The cloud that the entries of `firings` belong to.
+/// @param cloud That the entries of `firings` belong to.
 /// @throws InputError "NAME: rule" if the cloud has no place for a return.
-[[nodiscard]] EditedRows EditRows(const CloudRows& rows,
+[[nodiscard]] EditedRows EditRows(const Cloud& cloud,
                                   const RecordedFirings& firings,
                                   const InsertedFrame& inserted,
                                   const RowContext& context);

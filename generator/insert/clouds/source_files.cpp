@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/sensors_record.h"

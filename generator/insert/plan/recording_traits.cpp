@@ -2,7 +2,7 @@
 #include <map>
 #include <string>
 
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/sequence_files.h"

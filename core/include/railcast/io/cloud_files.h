@@ -100,7 +100,7 @@ void EncodePly(const Frame& frame,
                std::string& bytes);
 
 struct FrameFileSpec;
-struct PointTable;
+struct CloudFile;
 
 /// One encoded file of a frame, not yet written.
 struct FrameFile {
@@ -140,12 +140,12 @@ struct FrameFormat {
                  const FrameFileSpec& spec,
                  const std::set<std::uint32_t>& moving,
                  std::vector<FrameFile>& files);
-  /// Parses the points file, given the content of the second file if there is one. Null if railcast
-  /// does not read the format.
+  /// Parses the points file held in `bytes`, to which the result refers, given the content of the
+  /// second file if there is one. Null if railcast does not read the format.
   /// @throws InputError with one line if a file is damaged.
-  PointTable (*parse)(const std::string& file,
-                      std::string bytes,
-                      const std::optional<std::string>& second) = nullptr;
+  CloudFile (*parse)(const std::string& file,
+                     std::string_view bytes,
+                     const std::optional<std::string>& second) = nullptr;
   bool has_all_slots = false;  ///< Whether the file also stores slots without a point.
   std::optional<DatasetLayout> dataset{};
   /// Name of the bag of ROS 2 messages that holds the frames of all sensors of a run, in the run's

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/cloud/cloud_rows.h"
-#include "core/io/cloud/pcd_reader.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "tests/core/io/damage.h"
@@ -22,7 +21,7 @@ std::string Example(PcdEncoding encoding) {
 }
 
 std::string Message(const std::string& bytes) {
-  return MessageOf([&] { (void)CheckPcd("a.pcd", bytes); });
+  return MessageOf([&] { (void)ParsePcdFile("a.pcd", bytes); });
 }
 
 struct Damage {
@@ -31,7 +30,7 @@ struct Damage {
   const char* message;
 };
 
-TEST(CheckPcd, NamesTheFaultOfADamagedHeader) {
+TEST(ParsePcdFile, NamesTheFaultOfADamagedHeader) {
   const std::vector<Damage> damages = {
       {"WIDTH 3\n", "", "a.pcd: WIDTH: missing"},
       {"WIDTH 3", "WIDTH 4294967295",
@@ -67,19 +66,19 @@ TEST(CheckPcd, NamesTheFaultOfADamagedHeader) {
 }
 
 // As PCL writes a PCLPointCloud2.
-TEST(CheckPcd, TakesZerosBehindThePoints) {
+TEST(ParsePcdFile, TakesZerosBehindThePoints) {
   for (const PcdEncoding encoding : {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed}) {
     const std::string sound = Example(encoding);
     EXPECT_EQ(Message(sound + std::string(65'536, '\0')), "no error");
     EXPECT_NE(Message(sound + std::string(65'537, '\0')), "no error");
     EXPECT_NE(Message(sound + std::string(100, '\0') + "x"), "no error");
-    const CloudParts parts = TakeCloudApart("a.pcd", sound + std::string(300, '\0'), {});
-    EXPECT_EQ(PutCloudTogether(parts, parts.rows.bytes, parts.rows.table.num_points()),
-              std::vector{sound});
+    const std::string padded = sound + std::string(300, '\0');
+    const CloudFile read = ParsePcdFile("a.pcd", padded);
+    EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1, 2, 3, 4, 5}}), std::vector{sound});
   }
 }
 
-TEST(CheckPcd, NamesTheFaultOfDamagedPoints) {
+TEST(ParsePcdFile, NamesTheFaultOfDamagedPoints) {
   const std::string binary = Example(PcdEncoding::kBinary);
   EXPECT_EQ(Message(binary.substr(0, binary.size() - 1)),
             "a.pcd: POINTS: 6 need 96 bytes, the file has 95");

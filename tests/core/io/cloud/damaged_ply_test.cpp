@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/io/cloud/ply_reader.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "tests/core/io/damage.h"
@@ -18,10 +18,10 @@ std::string PlyExample() {
 }
 
 std::string PlyMessage(const std::string& bytes) {
-  return MessageOf([&] { (void)CheckPly("a.ply", bytes); });
+  return MessageOf([&] { (void)ParsePlyFile("a.ply", bytes); });
 }
 
-TEST(CheckPly, NamesTheFaultOfADamagedFile) {
+TEST(ParsePlyFile, NamesTheFaultOfADamagedFile) {
   const std::string sound = PlyExample();
   EXPECT_EQ(PlyMessage(sound), "no error");
   EXPECT_EQ(PlyMessage(""), "a.ply: is no PLY file: its first line must be \"ply\"");

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/pcd_encoder.h"
 #include "core/io/field_layout.h"
 #include "core/io/write_file.h"
@@ -226,6 +227,20 @@ TEST(EncodePcd, WritesCloudsThatPclReads) {
                                                                   Eigen::Quaternionf::Identity()) +
                                           "DATA " + data + "\n");
   }
+}
+
+TEST(RewrittenPcd, KeepsTheWordsOfNumbersThatStay) {
+  const CloudFile file = ParsePcdFile("a.pcd",
+                                      "FIELDS x n\nSIZE 4 2\nTYPE F I\nCOUNT 1 2\n WIDTH 2 \n"
+                                      "HEIGHT 1\nPOINTS 2\nDATA ascii\n1.50 7 8\nnan -1 9");
+  OtherPoints points{file.cloud.data, {0, 1, kNoSource}};
+  StoreAt<std::int16_t>(reinterpret_cast<char*>(points.data.data()) + 6, -5);
+  StoreAt<float>(reinterpret_cast<char*>(points.data.data()) + 8, 0.25F);
+  points.data.resize(points.data.size() + file.cloud.point_step);
+  EXPECT_EQ(Rewritten(file, points),
+            std::vector<std::string>{"FIELDS x n\nSIZE 4 2\nTYPE F I\nCOUNT 1 2\n WIDTH 3 \n"
+                                     "HEIGHT 1\nPOINTS 3\nDATA ascii\n1.50 7 -5\n0.25 -1 9\n"
+                                     "0 0 0\n"});
 }
 
 }  // namespace

@@ -6,7 +6,10 @@
 #include <pcl/point_types.h>
 
 #include <cstring>
+#include <string>
+#include <vector>
 
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
@@ -137,6 +140,19 @@ TEST(EncodePly, AllowsAFrameWithoutAPoint) {
   EncodePly(frame, FieldSelection(), PlyFlavour::kPcl, bytes);
   WriteFileWhole(directory.path() / "empty.ply", bytes);
   EXPECT_EQ(ReadPly(directory.path() / "empty.ply").width, 0U);
+}
+
+TEST(RewrittenPly, KeepsWhatStandsBesideThePoints) {
+  const std::string begin = "ply\nformat ascii 1.0\nelement  vertex ";
+  const std::string header =
+      " \nproperty float x\nproperty uchar label\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string whole = begin + "2" + header + "1.50 2\r\n-3e2  255\n3 0 1 0\n";
+  const CloudFile file = ParsePlyFile("a.ply", whole);
+  EXPECT_EQ(Rewritten(file, {file.cloud.data, {0, 1}}), std::vector<std::string>{whole});
+  const std::vector<std::uint8_t> first(file.cloud.data.begin(), file.cloud.data.begin() + 5);
+  EXPECT_EQ(Rewritten(file, {first, {0}}),
+            std::vector<std::string>{begin + "1" + header + "1.50 2\r\n3 0 1 0\n"});
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/units.h"
 #include "core/io/bag/bag.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
@@ -326,7 +326,7 @@ TEST(BagRecording, RefusesCloudsThatContradictThemselves) {
             "fields: must not share bytes of a big-endian cloud (got \"ring\")"}}) {
     ros::PointCloud2 cloud = CloudOf(kPoints, 0);
     change(cloud);
-    EXPECT_EQ(MessageOf([&] { (void)MakePointTable(cloud); }), message);
+    EXPECT_EQ(MessageOf([&] { (void)MakeCloud(cloud); }), message);
   }
 }
 
@@ -364,23 +364,23 @@ TEST(BagRecording, HasThePointsThatAnotherLibraryWrote) {
   const std::filesystem::path cloud =
       RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vls128_single_decoded.pcd";
   if (!exists(folder) || !exists(cloud)) GTEST_SKIP() << folder << " is not there";
-  const PointTable table = ParsePcdTable(cloud.string(), ReadFileWhole(cloud));
+  const Cloud table = ReadCloud(cloud);
   for (const char* name : {"vls128_pointcloud2_none.mcap", "vls128_pointcloud2_zstd.mcap"}) {
     const auto bag = bag::OpenBag(folder / name);
     std::size_t num_clouds = 0;
     while (const auto message = bag->Next()) {
-      const auto read = MakePointTable(ros::FromCdr<ros::PointCloud2>(message->data));
+      const auto read = MakeCloud(ros::FromCdr<ros::PointCloud2>(message->data));
       ASSERT_EQ(read.num_points(), 52'170U);
       for (const char* axis : {"x", "y", "z"}) {
         std::vector<float> expected;
-        VisitColumn(table, *table.Find(axis), [&](std::size_t i, auto value) {
+        VisitField(table, *table.Find(axis), [&](std::size_t i, auto value) {
           if (i % 4 == 0) expected.push_back(static_cast<float>(value));
         });
-        VisitColumn(read, *read.Find(axis), [&](std::size_t i, auto value) {
+        VisitField(read, *read.Find(axis), [&](std::size_t i, auto value) {
           ASSERT_EQ(static_cast<float>(value), expected.at(i));
         });
       }
-      VisitColumn(read, *read.Find("ring"), [&](std::size_t i, auto value) {
+      VisitField(read, *read.Find("ring"), [&](std::size_t i, auto value) {
         ASSERT_EQ(static_cast<std::size_t>(value), 4 * i % 128);
       });
       ++num_clouds;

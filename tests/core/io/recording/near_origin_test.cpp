@@ -16,17 +16,13 @@ using testing::ElementsAre;
 /// Returns an unorganised cloud with x, y and z stored as `Number`.
 template <typename Number>
 RecordedFrame FrameOf(const std::vector<Number>& coordinates_m) {
-  const auto type = sizeof(Number) == sizeof(double) ? NumberType::kDouble : NumberType::kFloat;
-  constexpr std::size_t kStep = 3 * sizeof(Number);
-  PointTable table{.width = static_cast<std::uint32_t>(coordinates_m.size() / 3),
-                   .height = 1,
-                   .columns = {{"x", type, 0, kStep},
-                               {"y", type, sizeof(Number), kStep},
-                               {"z", type, 2 * sizeof(Number), kStep}},
-                   .bytes = {}};
-  table.bytes.resize(coordinates_m.size() * sizeof(Number));
-  std::memcpy(table.bytes.data(), coordinates_m.data(), table.bytes.size());
-  return MakeCloudFrame(table, "a.pcd");
+  Cloud cloud;
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberTypeOf<Number>());
+  cloud.width = static_cast<std::uint32_t>(coordinates_m.size() / 3);
+  cloud.height = 1;
+  cloud.data.resize(coordinates_m.size() * sizeof(Number));
+  std::memcpy(cloud.data.data(), coordinates_m.data(), cloud.data.size());
+  return MakeCloudFrame(cloud, "a.pcd");
 }
 
 // A position in UTM zone 32 north.

@@ -10,7 +10,8 @@
 
 #include "core/base/random.h"
 #include "core/base/units.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
+#include "core/io/recording/slot_plans.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -266,11 +267,7 @@ TEST(RingTable, OfARealHalfTurnHoldsAllPointsAndCoversHalfATurn) {
   const std::filesystem::path file =
       RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vlp32c_single_decoded.pcd";
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
-  const PointTable table = ReadPointTable(file);
-  const PointPositions positions{.x = LoadFloats(table, *table.Find("x")),
-                                 .y = LoadFloats(table, *table.Find("y")),
-                                 .z = LoadFloats(table, *table.Find("z"))};
-  const auto plan = MakeRingTable(positions, {});
+  const auto plan = MakeRingTable(LoadPositions(ReadCloud(file)), {});
   ASSERT_TRUE(plan.has_value());
   EXPECT_EQ(plan->rows, 32U);
   // 63 of 26,216 points share a cell with another.

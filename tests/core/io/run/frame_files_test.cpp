@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 
@@ -64,7 +64,7 @@ TEST(FrameFormat, ReadsBackAsManyPointsAsItHolds) {
     std::vector<FrameFile> files;
     EncodeFrameFiles(frame, {&format, {}, ExampleLabels()}, 7, files);
     const auto second = files.size() > 1 ? std::optional(files[1].bytes) : std::nullopt;
-    EXPECT_EQ(format.parse(files[0].name, files[0].bytes, second).num_points(),
+    EXPECT_EQ(format.parse(files[0].name, files[0].bytes, second).cloud.num_points(),
               format.has_all_slots ? frame.num_slots() : num_points)
         << format.name;
     EXPECT_EQ(FindReader(files[0].name)->files.front().extension, format.files.front().extension);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/cloud/point_table.h"
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_frame.h"
 #include "tests/core/io/message_of.h"
 
@@ -44,10 +44,10 @@ struct EditedFrame {
   explicit EditedFrame(const std::vector<FrameFile>& files) {
     std::optional<std::string> labels;
     if (files.size() > 1) labels = files[1].bytes;
-    const PointTable table = FindReader(files[0].name)->parse("cloud", files[0].bytes, labels);
+    const Cloud cloud = FindReader(files[0].name)->parse("cloud", files[0].bytes, labels).cloud;
     firings.recorded.frame = SixFirings();
     firings.entry_of_slot.assign(6, kNoEntry);
-    const std::size_t num = table.num_points();
+    const std::size_t num = cloud.num_points();
     for (std::uint32_t i = 0; i < num; ++i) firings.entry_of_slot[i] = i;
     firings.recorded.fields = {"x", "y", "z", "intensity", "ring", "column"};
     inserted.recorded = firings.recorded;
@@ -81,10 +81,10 @@ std::vector<FrameFile> FilesIn(const std::string& format, const std::string& fie
 }
 
 std::vector<float> ColumnOf(const std::vector<FrameFile>& files, const std::string& name) {
-  const PointTable table = FindReader(files[0].name)->parse("cloud", files[0].bytes, {});
+  const Cloud cloud = FindReader(files[0].name)->parse("cloud", files[0].bytes, {}).cloud;
   std::vector<float> values;
-  VisitColumn(table, *table.Find(name),
-              [&](std::size_t, auto value) { values.push_back(static_cast<float>(value)); });
+  VisitField(cloud, *cloud.Find(name),
+             [&](std::size_t, auto value) { values.push_back(static_cast<float>(value)); });
   return values;
 }
 
@@ -128,12 +128,12 @@ TEST(EditedPly, SaturatesMeasuredValuesAndRefusesNumbersThatDoNotFit) {
   const auto edit = [](std::uint32_t instance) {
     std::vector<FrameFile> files = FilesIn("ply", "x,y,z,intensity,instance");
     // The same cloud with intensities and instances in a byte each.
-    const PointTable table = FindReader(files[0].name)->parse("cloud", files[0].bytes, {});
+    const Cloud cloud = FindReader(files[0].name)->parse("cloud", files[0].bytes, {}).cloud;
     std::string rows;
-    for (std::size_t i = 0; i < table.num_points(); ++i) {
+    for (std::size_t i = 0; i < cloud.num_points(); ++i) {
       rows += NumberText(10 + i) + " 1 1 64 3\n";
     }
-    files[0].bytes = "ply\nformat ascii 1.0\nelement vertex " + NumberText(table.num_points()) +
+    files[0].bytes = "ply\nformat ascii 1.0\nelement vertex " + NumberText(cloud.num_points()) +
                      "\nproperty float x\nproperty float y\nproperty float z\n"
                      "property uchar intensity\nproperty uchar instance\nend_header\n" +
                      rows;

@@ -128,11 +128,11 @@ TEST(BagOutput, EditsPacketsOfOustersDriver) {
 
 /// The points of a message by entry.
 std::vector<std::array<float, 4>> PointsOf(const std::string& data) {
-  const auto table = MakePointTable(ros::FromCdr<ros::PointCloud2>(std::as_bytes(std::span(data))));
+  const auto table = MakeCloud(ros::FromCdr<ros::PointCloud2>(std::as_bytes(std::span(data))));
   std::vector<std::array<float, 4>> points(table.num_points());
   std::size_t i = 0;
   for (const char* name : {"x", "y", "z", "intensity"}) {
-    VisitColumn(table, *table.Find(name), [&](std::size_t point, auto value) {
+    VisitField(table, *table.Find(name), [&](std::size_t point, auto value) {
       points[point].at(i) = static_cast<float>(value);
     });
     ++i;

@@ -1,0 +1,102 @@
+#include "core/io/cloud/cloud.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+/// Copies values of some rows from places that are a step apart to others.
+/// @tparam kSize Of a value in bytes, as the compiler needs it for a fast copy; 0 = `size` says it.
+template <std::size_t kSize>
+void CopyValues(std::size_t size,
+                std::size_t num,
+                const char* from,
+                std::size_t from_step,
+                char* to,
+                std::size_t to_step) {
+  for (std::size_t i = 0; i < num; ++i, from += from_step, to += to_step) {
+    std::memcpy(to, from, kSize == 0 ? size : kSize);
+  }
+}
+
+}  // namespace
+
+std::string_view CloudField::plain_name() const {
+  constexpr std::string_view kCloudComparePrefix = "scalar_";
+  std::string_view plain = name;
+  if (plain.starts_with(kCloudComparePrefix)) plain.remove_prefix(kCloudComparePrefix.size());
+  return plain;
+}
+
+const CloudField* Cloud::Find(std::string_view name) const {
+  const auto found = std::ranges::find(fields, name, &CloudField::plain_name);
+  return found == fields.end() ? nullptr : &*found;
+}
+
+void Cloud::AddField(std::string name, NumberType type, std::uint32_t count) {
+  fields.push_back({std::move(name), point_step, type, count});
+  point_step += static_cast<std::uint32_t>(fields.back().num_bytes());
+}
+
+bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_view>& words) {
+  auto word = words.begin();
+  for (const CloudField& field : fields) {
+    for (std::uint32_t i = 0; i < field.count; ++i, ++word) {
+      if (word == words.end()) return false;
+      VisitNumberType(field.type, [&](auto zero) {
+        using Value = decltype(zero);
+        // A number beyond float becomes infinite, as for C's own functions.
+        using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
+        const auto parsed = ParseNumber<Parsed>(*word);
+        if (!parsed) {
+          throw InputError(place + ": " + ShownText(field.name) + ": no value of its type (got " +
+                           ShownText(*word) + ")");
+        }
+        const auto value = static_cast<Value>(*parsed);
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);
+        data.insert(data.end(), bytes, bytes + sizeof value);
+      });
+    }
+  }
+  return true;
+}
+
+std::vector<std::size_t> FieldSizes(const Cloud& cloud) {
+  std::vector<std::size_t> sizes;
+  for (const CloudField& field : cloud.fields) sizes.push_back(field.num_bytes());
+  return sizes;
+}
+
+void Transpose(const std::vector<std::size_t>& part_sizes,
+               std::size_t num_rows,
+               const void* from,
+               bool is_to_rows,
+               void* to) {
+  std::size_t row_size = 0;
+  for (const std::size_t size : part_sizes) row_size += size;
+  // The rows of a block stay in the first-level cache from one part to the next.
+  constexpr std::size_t kBlock = 256;
+  for (std::size_t first = 0; first < num_rows; first += kBlock) {
+    const std::size_t num = std::min(kBlock, num_rows - first);
+    std::size_t before = 0;
+    for (const std::size_t size : part_sizes) {
+      const std::size_t in_rows = first * row_size + before;
+      const std::size_t in_parts = num_rows * before + first * size;
+      const auto copy = size == 8   ? CopyValues<8>
+                        : size == 4 ? CopyValues<4>
+                        : size == 2 ? CopyValues<2>
+                        : size == 1 ? CopyValues<1>
+                                    : CopyValues<0>;
+      copy(size, num, static_cast<const char*>(from) + (is_to_rows ? in_parts : in_rows),
+           is_to_rows ? size : row_size, static_cast<char*>(to) + (is_to_rows ? in_rows : in_parts),
+           is_to_rows ? row_size : size);
+      before += size;
+    }
+  }
+}
+
+}  // namespace railcast
