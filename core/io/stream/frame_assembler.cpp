@@ -37,15 +37,15 @@ void FrameAssembler::Take(std::span<const char> bytes,
   if (sender_.IsAnother(origin)) {
     ++counts_.other_sender_packets;
     counts_.other_sender = origin.from;
-    if (datagram && IsOtherSensor(*datagram)) counts_.other_sensor = datagram->sensor;
+    if (datagram && IsOtherSensor(*datagram)) counts_.other_sensor = datagram->head.sensor;
     return;
   }
   if (!datagram) {
     ++counts_.refused[static_cast<std::size_t>(fault)];
     return;
   }
-  if (wanted_.sensor && datagram->sensor != *wanted_.sensor) {
-    counts_.other_sensor = datagram->sensor;
+  if (wanted_.sensor && datagram->head.sensor != *wanted_.sensor) {
+    counts_.other_sensor = datagram->head.sensor;
     ++counts_.stray_packets;
     return;
   }
@@ -54,7 +54,7 @@ void FrameAssembler::Take(std::span<const char> bytes,
   if (place == Place::kElsewhere) {
     const bool is_other_sensor = IsOtherSensor(*datagram);
     if (!is_next_sender && !BeginsAnew(*datagram)) {
-      if (is_other_sensor) counts_.other_sensor = datagram->sensor;
+      if (is_other_sensor) counts_.other_sensor = datagram->head.sensor;
       ++counts_.stray_packets;
       return;
     }
@@ -62,8 +62,8 @@ void FrameAssembler::Take(std::span<const char> bytes,
     if (is_other_sensor) counts_.other_sensor = sensor_;
     if (has_run_) ++counts_.restarts;
     has_run_ = true;
-    run_ = datagram->run;
-    sensor_ = datagram->sensor;
+    run_ = datagram->head.run;
+    sensor_ = datagram->head.sensor;
     given_.clear();
     furthest_ = {};
     place = Place::kHere;
@@ -81,39 +81,41 @@ void FrameAssembler::Flush(std::vector<ReceivedFrame>& frames) {
 }
 
 bool FrameAssembler::IsOtherSensor(const StreamDatagram& datagram) const {
-  if (wanted_.sensor) return datagram.sensor != *wanted_.sensor;
-  return has_run_ && datagram.sensor != sensor_;
+  if (wanted_.sensor) return datagram.head.sensor != *wanted_.sensor;
+  return has_run_ && datagram.head.sensor != sensor_;
 }
 
 bool FrameAssembler::BeginsAnew(const StreamDatagram& datagram) {
-  const bool is_later_run = IsLaterRun(datagram.run, run_);
-  return !has_run_ || (datagram.sensor == sensor_ && is_later_run) || ++num_strays_ == kMaxStrays;
+  const bool is_later_run = IsLaterRun(datagram.head.run, run_);
+  return !has_run_ || (datagram.head.sensor == sensor_ && is_later_run) ||
+         ++num_strays_ == kMaxStrays;
 }
 
 FrameAssembler::Place FrameAssembler::PlaceOf(const StreamDatagram& datagram) const {
-  if (!has_run_ || datagram.run != run_ || datagram.sensor != sensor_) return Place::kElsewhere;
-  if (given_.empty() || datagram.frame > given_.back().number) return Place::kHere;
-  const std::uint32_t behind = given_.back().number - datagram.frame;
+  if (!has_run_ || datagram.head.run != run_ || datagram.head.sensor != sensor_)
+    return Place::kElsewhere;
+  if (given_.empty() || datagram.head.frame > given_.back().number) return Place::kHere;
+  const std::uint32_t behind = given_.back().number - datagram.head.frame;
   return behind > kMaxGivenFrames ? Place::kElsewhere : Place::kPast;
 }
 
 void FrameAssembler::CountPast(const StreamDatagram& datagram) {
   ++counts_.received_packets;
-  const auto given = std::ranges::find(given_, datagram.frame, &GivenFrame::number);
-  const bool is_copy = given != given_.end() && datagram.packet < given->had_packet.size() &&
-                       given->had_packet[datagram.packet];
+  const auto given = std::ranges::find(given_, datagram.head.frame, &GivenFrame::number);
+  const bool is_copy = given != given_.end() && datagram.head.packet < given->had_packet.size() &&
+                       given->had_packet[datagram.head.packet];
   ++(is_copy ? counts_.duplicate_packets : counts_.late_packets);
 }
 
 void FrameAssembler::Store(const StreamDatagram& datagram,
                            std::int64_t utc_ns,
                            std::vector<ReceivedFrame>& frames) {
-  const auto [at, is_new] = open_.try_emplace(datagram.frame);
+  const auto [at, is_new] = open_.try_emplace(datagram.head.frame);
   OpenFrame& open = at->second;
   if (is_new) {
     open.header.assign(datagram.header.begin(), datagram.header.end());
     open.points_each = datagram.points_each;
-    open.has_packet.resize(datagram.num_packets);
+    open.has_packet.resize(datagram.head.num_packets);
     open.first_utc_ns = utc_ns;
   } else if (!DescribeOneFrame(open.header, datagram.header) ||
              open.points_each != datagram.points_each) {
@@ -121,19 +123,19 @@ void FrameAssembler::Store(const StreamDatagram& datagram,
     return;
   }
   ++counts_.received_packets;
-  if (open.has_packet[datagram.packet]) {
+  if (open.has_packet[datagram.head.packet]) {
     ++counts_.duplicate_packets;
     return;
   }
-  const std::pair place(datagram.frame, datagram.packet);
+  const std::pair place(datagram.head.frame, datagram.head.packet);
   if (place < furthest_) ++counts_.reordered_packets;
   furthest_ = std::max(furthest_, place);
-  open.has_packet[datagram.packet] = true;
+  open.has_packet[datagram.head.packet] = true;
   open.last_utc_ns = utc_ns;
-  open.arrivals.push_back({datagram.packet, open.points.size(), datagram.points.size()});
+  open.arrivals.push_back({datagram.head.packet, open.points.size(), datagram.points.size()});
   open.points.insert(open.points.end(), datagram.points.begin(), datagram.points.end());
   if (open.arrivals.size() == open.has_packet.size()) {
-    while (!open_.empty() && open_.begin()->first <= datagram.frame) GiveFirst(frames);
+    while (!open_.empty() && open_.begin()->first <= datagram.head.frame) GiveFirst(frames);
   }
   while (open_.size() > kMaxOpenFrames) GiveFirst(frames);
 }

@@ -35,7 +35,7 @@ void ImageAssembler::Take(std::span<const char> bytes,
       return;
     }
     while (!open_.empty()) GiveUpFirst();
-    run_ = datagram->run;
+    run_ = datagram->head.run;
     last_closed_.reset();
   }
   num_strays_ = 0;
@@ -47,45 +47,44 @@ void ImageAssembler::Take(std::span<const char> bytes,
 }
 
 bool ImageAssembler::IsPast(const ImageDatagram& datagram) const {
-  return last_closed_ && datagram.frame <= *last_closed_;
+  return last_closed_ && datagram.head.frame <= *last_closed_;
 }
 
 bool ImageAssembler::FollowsOn(const ImageDatagram& datagram) const {
-  if (run_ != datagram.run) return false;
-  return !IsPast(datagram) || *last_closed_ - datagram.frame <= kLateFrames;
+  if (run_ != datagram.head.run) return false;
+  return !IsPast(datagram) || *last_closed_ - datagram.head.frame <= kLateFrames;
 }
 
 bool ImageAssembler::BeginsAnew(const ImageDatagram& datagram) {
-  const bool is_later_run = run_ && IsLaterRun(datagram.run, *run_);
+  const bool is_later_run = run_ && IsLaterRun(datagram.head.run, *run_);
   return !run_ || is_later_run || ++num_strays_ == kMaxImageStrays;
 }
 
 void ImageAssembler::Store(const ImageDatagram& datagram, std::vector<ReceivedImage>& images) {
-  const auto [at, is_new] = open_.try_emplace(datagram.frame);
+  const auto [at, is_new] = open_.try_emplace(datagram.head.frame);
   OpenImage& open = at->second;
   if (is_new) {
-    open.header.assign(datagram.header.begin(), datagram.header.end());
+    open.whole = datagram.head.OfWhole();
     open.bytes_each = datagram.bytes_each;
-    open.has_packet.resize(datagram.num_packets);
-  } else if (!DescribeOneImage(open.header, datagram.header) ||
-             open.bytes_each != datagram.bytes_each) {
+    open.has_packet.resize(datagram.head.num_packets);
+  } else if (open.whole != datagram.head.OfWhole() || open.bytes_each != datagram.bytes_each) {
     ++counts_.refused_packets;
     return;
   }
   ++counts_.received_packets;
-  if (open.has_packet[datagram.packet]) return;
-  open.has_packet[datagram.packet] = true;
-  open.pieces.push_back({datagram.packet, open.bytes.size(), datagram.piece.size()});
+  if (open.has_packet[datagram.head.packet]) return;
+  open.has_packet[datagram.head.packet] = true;
+  open.pieces.push_back({datagram.head.packet, open.bytes.size(), datagram.piece.size()});
   open.bytes.append(datagram.piece.begin(), datagram.piece.end());
-  if (open.pieces.size() == datagram.num_packets) {
-    while (open_.begin()->first < datagram.frame) GiveUpFirst();
-    images.push_back({.run = datagram.run,
-                      .frame = datagram.frame,
-                      .stamp_ns = datagram.stamp_ns,
-                      .size = datagram.size,
+  if (open.pieces.size() == datagram.head.num_packets) {
+    while (open_.begin()->first < datagram.head.frame) GiveUpFirst();
+    images.push_back({.run = datagram.head.run,
+                      .frame = datagram.head.frame,
+                      .stamp_ns = datagram.head.stamp_ns,
+                      .size = {datagram.head.width_px, datagram.head.height_px},
                       .jpeg = JoinArrivals(open.pieces, open.bytes)});
     ++counts_.complete_images;
-    last_closed_ = datagram.frame;
+    last_closed_ = datagram.head.frame;
     open_.erase(at);
   }
   while (open_.size() > kMaxOpenImages) GiveUpFirst();

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/io/image/png.h"
 #include "core/io/net/udp.h"
 #include "core/io/stream/arrivals.h"
 #include "core/io/stream/stream_datagram.h"
@@ -57,7 +58,7 @@ class ImageAssembler {
 
  private:
   struct OpenImage {
-    std::vector<char> header;
+    ImageHead whole;  ///< What its datagrams share.
     std::uint32_t bytes_each{};
     std::vector<bool> has_packet;
     std::vector<Arrival> pieces;

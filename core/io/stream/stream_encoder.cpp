@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -13,51 +14,39 @@
 #include "core/base/error.h"
 #include "core/io/field_layout.h"
 #include "core/io/image/jpeg.h"
-#include "core/io/stream/stream_layout.h"
 #include "railcast/io/stream.h"
 
 namespace railcast {
 namespace {
 
-using namespace image_layout;
-using namespace stream_layout;
-
-void PutPose(char* place, const Transform& world_from_sensor) {
-  const Eigen::Quaterniond q(world_from_sensor.linear());
-  const Vector3 position_m = world_from_sensor.translation();
-  const std::array<double, kNumPoseValues> values = {
-      position_m.x(), position_m.y(), position_m.z(), q.x(), q.y(), q.z(), q.w()};
-  Put(place, values);
+WirePose WirePoseOf(const Transform& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const Vector3 position_m = pose.translation();
+  return std::bit_cast<WirePose>(std::array<double, 7>{position_m.x(), position_m.y(),
+                                                       position_m.z(), q.x(), q.y(), q.z(), q.w()});
 }
 
 /// Writes the checksum behind the bytes of a datagram.
 void PutTrailer(char* datagram, std::size_t checked) {
   const auto crc = ::crc32_z(0, reinterpret_cast<const unsigned char*>(datagram), checked);
-  Put(datagram + checked, static_cast<std::uint32_t>(crc));
+  StoreAt<std::uint32_t>(datagram + checked, crc);
 }
 
 constexpr int kJpegQuality = 90;
 
-std::array<char, kImageHeaderSize> ImageHeader(const CameraImage& image,
-                                               const CameraSpec& spec,
-                                               const ImageSending& sending) {
-  std::array<char, kImageHeaderSize> header{};
-  const auto put = [&](std::size_t at, auto value) { Put(header.data() + at, value); };
-  put(0, kImageMagic);
-  put(kImageVersionAt, kImageVersion);
-  put(kEncodingAt, kJpeg);
-  put(kImageHeaderSizeAt, static_cast<std::uint16_t>(kImageHeaderSize));
-  put(kImageRunAt, sending.run);
-  put(kImageFrameAt, sending.frame);
-  put(kImageStampAt, image.stamp_ns);
-  put(kWidthAt, image.width_px);
-  put(kHeightAt, image.height_px);
-  PutPose(header.data() + kImagePoseAt, image.world_from_camera);
+ImageHead HeadOf(const CameraImage& image, const CameraSpec& spec, const ImageSending& sending) {
+  ImageHead head;
+  head.run = sending.run;
+  head.frame = sending.frame;
+  head.stamp_ns = image.stamp_ns;
+  head.width_px = image.width_px;
+  head.height_px = image.height_px;
+  head.pose = WirePoseOf(image.world_from_camera);
   const Intrinsics k = IntrinsicsOf(spec);
   const DistortionSpec d = spec.distortion.value_or(DistortionSpec{});
-  put(kLensAt, std::array<double, kNumLensValues>{k.focal_px, k.cx_px, k.cy_px, d.k1, d.k2, d.p1,
-                                                  d.p2, d.k3});
-  return header;
+  head.lens = std::bit_cast<WireDoubles<8>>(
+      std::array<double, 8>{k.focal_px, k.cx_px, k.cy_px, d.k1, d.k2, d.p1, d.p2, d.k3});
+  return head;
 }
 
 std::uint8_t FlagsOf(const StreamSpec& spec) {
@@ -88,24 +77,24 @@ void EncodeImageDatagrams(const CameraImage& image,
                           const ImageSending& sending,
                           Datagrams& datagrams) {
   const std::string jpeg = EncodeJpeg({image.width_px, image.height_px}, image.rgb, kJpegQuality);
-  constexpr std::size_t kBytesEach = kMaxStreamDatagram - kImageHeaderSize - kTrailerSize;
+  constexpr std::size_t kBytesEach = kMaxStreamDatagram - ImageHead::kSize - kTrailerSize;
   const std::size_t num_packets = (jpeg.size() + kBytesEach - 1) / kBytesEach;
   Check(num_packets <= std::numeric_limits<std::uint16_t>::max(),
         "images have at most 2^24 pixels");
-  std::array<char, kImageHeaderSize> header = ImageHeader(image, spec, sending);
-  Put(header.data() + kNumImagePacketsAt, static_cast<std::uint16_t>(num_packets));
-  Put(header.data() + kImageBytesAt, static_cast<std::uint32_t>(jpeg.size()));
+  ImageHead head = HeadOf(image, spec, sending);
+  head.num_packets = static_cast<std::uint16_t>(num_packets);
+  head.num_bytes = static_cast<std::uint32_t>(jpeg.size());
   for (std::size_t packet = 0; packet < num_packets; ++packet) {
     const std::size_t first = packet * kBytesEach;
     const std::size_t count = std::min(kBytesEach, jpeg.size() - first);
-    Put(header.data() + kImagePacketAt, static_cast<std::uint16_t>(packet));
-    Put(header.data() + kFirstByteAt, static_cast<std::uint32_t>(first));
+    head.packet = static_cast<std::uint16_t>(packet);
+    head.first_byte = static_cast<std::uint32_t>(first);
     const std::size_t offset = datagrams.bytes.size();
-    const std::size_t checked = header.size() + count;
+    const std::size_t checked = ImageHead::kSize + count;
     datagrams.bytes.resize(offset + checked + kTrailerSize);
     char* const datagram = datagrams.bytes.data() + offset;
-    std::copy(header.begin(), header.end(), datagram);
-    std::copy_n(jpeg.data() + first, count, datagram + header.size());
+    PutHead(head, datagram);
+    std::copy_n(jpeg.data() + first, count, datagram + ImageHead::kSize);
     PutTrailer(datagram, checked);
     const std::int64_t since_stamp_ns = sending.spread_ns / static_cast<std::int64_t>(num_packets) *
                                         static_cast<std::int64_t>(packet);
@@ -124,25 +113,20 @@ StreamEncoder::StreamEncoder(const ScanPattern& pattern, const StreamSpec& spec)
 }
 
 StreamEncoder::StreamEncoder(const StreamSpec& spec) : spec_(spec) {
-  header_.resize(kFieldsAt);
   ForEachPossibleField([&](std::string_view name, std::string_view, const auto& values) {
     if (!spec_.fields.Has(name)) return;
     using Stored = typename StoredType<ElementOf<decltype(values)>>::Type;
     static_assert(sizeof(Stored) == sizeof(ElementOf<decltype(values)>));
-    header_.push_back(static_cast<char>(kStreamTypeOf<Stored>));
-    header_.push_back(static_cast<char>(name.size()));
-    header_.insert(header_.end(), name.begin(), name.end());
+    list_ += {static_cast<char>(kStreamTypeOf<Stored>), static_cast<char>(name.size())};
+    list_ += name;
     point_size_ += sizeof(Stored);
   });
-  char* const header = header_.data();
-  Put(header + kMagicAt, kMagic);
-  Put(header + kVersionAt, kVersion);
-  Put(header + kFlagsAt, FlagsOf(spec));
-  Put(header + kHeaderSizeAt, static_cast<std::uint16_t>(header_.size()));
-  Put(header + kRunAt, spec.run);
-  Put(header + kSensorAt, spec.sensor);
-  Put(header + kPointSizeAt, static_cast<std::uint16_t>(point_size_));
-  Put(header + kNumFieldsAt, static_cast<std::uint16_t>(spec.fields.names().size()));
+  head_.flags = FlagsOf(spec);
+  head_.header_size = static_cast<std::uint16_t>(PointsHead::kSize + list_.size());
+  head_.run = spec.run;
+  head_.sensor = spec.sensor;
+  head_.point_size = static_cast<std::uint16_t>(point_size_);
+  head_.num_fields = static_cast<std::uint16_t>(spec.fields.names().size());
 }
 
 void StreamEncoder::OrderCells(const Frame& frame) {
@@ -178,17 +162,16 @@ void StreamEncoder::ChooseSlots(const Frame& frame) {
   slots_.resize(count);
 }
 
-void StreamEncoder::WriteFrameHeader(const Frame& frame) {
-  char* const header = header_.data();
-  Put(header + kFrameAt, frame.index);
-  Put(header + kStampAt, frame.stamp_ns);
-  Put(header + kDurationAt, frame.duration_ns);
-  Put(header + kFramePointsAt, static_cast<std::uint32_t>(slots_.size()));
-  Put(header + kRowsAt, frame.rows);
-  Put(header + kColumnsAt, frame.columns);
-  Put(header + kReturnsAt, static_cast<std::uint16_t>(frame.returns));
-  PutPose(header + kPoseAt, frame.world_from_sensor);
-  PutPose(header + kEndPoseAt, frame.world_from_sensor_end);
+void StreamEncoder::BeginFrame(const Frame& frame) {
+  head_.frame = frame.index;
+  head_.stamp_ns = frame.stamp_ns;
+  head_.duration_ns = frame.duration_ns;
+  head_.frame_points = static_cast<std::uint32_t>(slots_.size());
+  head_.rows = frame.rows;
+  head_.columns = frame.columns;
+  head_.returns = static_cast<std::uint16_t>(frame.returns);
+  head_.pose = WirePoseOf(frame.world_from_sensor);
+  head_.end_pose = WirePoseOf(frame.world_from_sensor_end);
 }
 
 void StreamEncoder::WriteDatagram(std::size_t packet,
@@ -196,12 +179,14 @@ void StreamEncoder::WriteDatagram(std::size_t packet,
                                   char* datagram) const {
   const std::size_t first = packet * points_each;
   const std::size_t count = std::min(points_each, slots_.size() - first);
-  std::memcpy(datagram, header_.data(), header_.size());
-  Put(datagram + kPacketAt, static_cast<std::uint16_t>(packet));
-  Put(datagram + kDatagramPointsAt, static_cast<std::uint16_t>(count));
-  Put(datagram + kFirstPointAt, static_cast<std::uint32_t>(first));
+  PointsHead head = head_;
+  head.packet = static_cast<std::uint16_t>(packet);
+  head.num_points = static_cast<std::uint16_t>(count);
+  head.first_point = static_cast<std::uint32_t>(first);
+  PutHead(head, datagram);
+  list_.copy(datagram + PointsHead::kSize, list_.size());
   const std::span slots = std::span(slots_).subspan(first, count);
-  char* const points = datagram + header_.size();
+  char* const points = datagram + head.header_size;
   for (const FieldSource& source : sources_) {
     char* const to = points + source.offset;
     if (source.size == 4) {
@@ -212,7 +197,7 @@ void StreamEncoder::WriteDatagram(std::size_t packet,
       GatherValues<1>(source.values, slots, point_size_, to);
     }
   }
-  const std::size_t checked = header_.size() + count * point_size_;
+  const std::size_t checked = head.header_size + count * point_size_;
   PutTrailer(datagram, checked);
 }
 
@@ -220,7 +205,7 @@ void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
   if (!shape_) OrderCells(frame);
   Check(!shape_ || (frame.rows == shape_->rows && frame.columns == shape_->columns),
         "frames are of the encoder's pattern");
-  const std::size_t overhead = header_.size() + kTrailerSize;
+  const std::size_t overhead = head_.header_size + kTrailerSize;
   const std::size_t points_each = (kMaxStreamDatagram - overhead) / point_size_;
   constexpr std::size_t kMaxPackets = std::numeric_limits<std::uint16_t>::max();
   if (frame.num_slots() > kMaxPackets * points_each) {
@@ -230,11 +215,11 @@ void StreamEncoder::Encode(const Frame& frame, Datagrams& datagrams) {
   }
   FindSources(frame);
   ChooseSlots(frame);
-  WriteFrameHeader(frame);
+  BeginFrame(frame);
   const std::size_t num_points = slots_.size();
   const std::size_t num_packets =
       std::max<std::size_t>(1, (num_points + points_each - 1) / points_each);
-  Put(header_.data() + kNumPacketsAt, static_cast<std::uint16_t>(num_packets));
+  head_.num_packets = static_cast<std::uint16_t>(num_packets);
   const std::size_t begin = datagrams.bytes.size();
   std::size_t offset = begin;
   datagrams.bytes.resize(offset + num_packets * overhead + num_points * point_size_);

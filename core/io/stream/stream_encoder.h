@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/datagrams.h"
+#include "core/io/stream/stream_layout.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"
 #include "railcast/io/cloud_files.h"
@@ -56,7 +57,7 @@ class StreamEncoder final : public FrameEncoder {
   void OrderCells(const Frame& frame);
   void FindSources(const Frame& frame);
   void ChooseSlots(const Frame& frame);
-  void WriteFrameHeader(const Frame& frame);
+  void BeginFrame(const Frame& frame);
   /// Writes the header and the points of a frame's datagram, each but the last of which has as
   /// many.
   void WriteDatagram(std::size_t packet, std::size_t points_each, char* datagram) const;
@@ -70,8 +71,8 @@ class StreamEncoder final : public FrameEncoder {
   StreamSpec spec_;
   std::optional<Shape> shape_;        ///< Absent: frames have any.
   std::vector<std::uint32_t> cells_;  ///< Cells of the grid in firing order.
-  /// Header of every datagram, except for the datagram's number and points.
-  std::vector<char> header_;
+  PointsHead head_;   ///< Of the current frame's datagrams, but for their numbers and points.
+  std::string list_;  ///< Of the fields, behind it.
   std::size_t point_size_{};
   std::vector<FieldSource> sources_;  ///< Sources of the current frame.
   std::vector<std::uint32_t> slots_;  ///< Slots to be sent, in firing order.

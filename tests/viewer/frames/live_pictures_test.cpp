@@ -111,7 +111,7 @@ TEST_F(LivePicturesTest, NameTheImageThatIsDamaged) {
   SendFrame(0);
   Datagrams datagrams;
   for (const std::string& datagram : ImageDatagramsOf(0, 0)) {
-    const std::string wider = With(datagram, image_layout::kWidthAt, 90U);
+    const std::string wider = With(datagram, offsetof(ImageHead, width_px), 90U);
     datagrams.items.push_back({datagrams.bytes.size(), static_cast<std::uint16_t>(wider.size())});
     datagrams.bytes.insert(datagrams.bytes.end(), wider.begin(), wider.end());
   }

@@ -11,8 +11,6 @@
 namespace railcast {
 namespace {
 
-using namespace image_layout;
-
 void ExpectImage(const ReceivedImage& image, std::uint32_t frame) {
   const CameraImage sent = NoiseImage(frame);
   EXPECT_EQ(image.frame, frame);
@@ -88,10 +86,11 @@ TEST(ImageAssembler, RefusesDatagramsThatContradictTheFirstOfTheirImage) {
   const auto datagrams = ImageDatagramsOf(0);
   ImageAssembler assembler;
   (void)Feed(assembler, {datagrams[0]});
-  EXPECT_TRUE(Feed(assembler, {With(datagrams[1], kWidthAt, 90U),
-                               With(datagrams[1], kImageStampAt, std::int64_t{5}),
-                               With(datagrams[1], kLensAt, 12.0), datagrams[1] + "x"})
-                  .empty());
+  EXPECT_TRUE(
+      Feed(assembler, {With(datagrams[1], offsetof(ImageHead, width_px), 90U),
+                       With(datagrams[1], offsetof(ImageHead, stamp_ns), std::int64_t{5}),
+                       With(datagrams[1], offsetof(ImageHead, lens), 12.0), datagrams[1] + "x"})
+          .empty());
   EXPECT_EQ(assembler.counts().refused_packets, 4U);
   const auto images = Feed(assembler, {datagrams.begin() + 1, datagrams.end()});
   ASSERT_EQ(images.size(), 1U);

@@ -11,8 +11,6 @@
 namespace railcast {
 namespace {
 
-using namespace image_layout;
-
 bool IsTaken(const std::string& datagram) {
   return CheckImageDatagram(datagram).has_value();
 }
@@ -27,14 +25,14 @@ TEST(ImageDatagram, SaysWhatWasSent) {
     EXPECT_LE(datagrams[i].size(), kMaxStreamDatagram);
     const auto datagram = CheckImageDatagram(datagrams[i]);
     ASSERT_TRUE(datagram) << i;
-    EXPECT_EQ(datagram->run, 3U);
-    EXPECT_EQ(datagram->frame, 7U);
-    EXPECT_EQ(datagram->stamp_ns, image.stamp_ns);
-    EXPECT_EQ(datagram->packet, i);
-    EXPECT_EQ(datagram->num_packets, datagrams.size());
+    EXPECT_EQ(datagram->head.run, 3U);
+    EXPECT_EQ(datagram->head.frame, 7U);
+    EXPECT_EQ(datagram->head.stamp_ns, image.stamp_ns);
+    EXPECT_EQ(datagram->head.packet, i);
+    EXPECT_EQ(datagram->head.num_packets, datagrams.size());
     EXPECT_EQ(datagram->bytes_each, 1232U);
-    EXPECT_EQ(datagram->size.width_px, 80U);
-    EXPECT_EQ(datagram->size.height_px, 60U);
+    EXPECT_EQ(datagram->head.width_px, 80U);
+    EXPECT_EQ(datagram->head.height_px, 60U);
     joined.append(datagram->piece.begin(), datagram->piece.end());
   }
   EXPECT_EQ(joined, jpeg);
@@ -53,22 +51,28 @@ TEST(ImageDatagram, IsRefusedIfItIsDamagedOrCutOff) {
 
 TEST(ImageDatagram, IsRefusedIfItContradictsTheProtocol) {
   const std::string first = ImageDatagramsOf(0).front();
-  ASSERT_TRUE(IsTaken(With(first, kImageFrameAt, std::uint32_t{4}))) << "a number like any other";
+  ASSERT_TRUE(IsTaken(With(first, offsetof(ImageHead, frame), std::uint32_t{4})))
+      << "a number like any other";
   EXPECT_FALSE(IsTaken(With(first, 0, 'r')));
-  EXPECT_FALSE(IsTaken(With(first, kImageVersionAt, std::uint8_t{2})));
-  EXPECT_FALSE(IsTaken(With(first, kEncodingAt, std::uint8_t{0})));
-  EXPECT_FALSE(IsTaken(With(first, kImageHeaderSizeAt, std::uint16_t{163})));
-  EXPECT_FALSE(IsTaken(With(first, kWidthAt, 0U)));
-  EXPECT_FALSE(IsTaken(With(first, kHeightAt, 0U)));
-  EXPECT_TRUE(IsTaken(With(With(first, kWidthAt, 4096U), kHeightAt, 4096U)));
-  EXPECT_FALSE(IsTaken(With(With(first, kWidthAt, 4096U), kHeightAt, 4097U)));
-  EXPECT_FALSE(IsTaken(With(With(first, kWidthAt, 0x8000'0000U), kHeightAt, 0x8000'0000U)));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, version), std::uint8_t{2})));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, encoding), std::uint8_t{0})));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, header_size), std::uint16_t{163})));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, width_px), 0U)));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, height_px), 0U)));
+  EXPECT_TRUE(IsTaken(With(With(first, offsetof(ImageHead, width_px), 4096U),
+                           offsetof(ImageHead, height_px), 4096U)));
+  EXPECT_FALSE(IsTaken(With(With(first, offsetof(ImageHead, width_px), 4096U),
+                            offsetof(ImageHead, height_px), 4097U)));
+  EXPECT_FALSE(IsTaken(With(With(first, offsetof(ImageHead, width_px), 0x8000'0000U),
+                            offsetof(ImageHead, height_px), 0x8000'0000U)));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(IsTaken(With(first, kImagePoseAt, nan)));
-  EXPECT_FALSE(IsTaken(With(first, kImagePoseAt + 6 * sizeof nan, 0.5))) << "no rotation";
-  EXPECT_FALSE(IsTaken(With(first, kLensAt, 0.0))) << "focal length";
-  EXPECT_FALSE(IsTaken(With(first, kLensAt + 7 * sizeof nan, nan)));
-  EXPECT_FALSE(IsTaken(With(first + std::string(100, 'x'), kImageFrameAt, 0U))) << "too long";
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, pose), nan)));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, pose) + 6 * sizeof nan, 0.5)))
+      << "no rotation";
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, lens), 0.0))) << "focal length";
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, lens) + 7 * sizeof nan, nan)));
+  EXPECT_FALSE(IsTaken(With(first + std::string(100, 'x'), offsetof(ImageHead, frame), 0U)))
+      << "too long";
 }
 
 TEST(ImageDatagram, IsRefusedIfItsCountsContradictEachOther) {
@@ -76,17 +80,19 @@ TEST(ImageDatagram, IsRefusedIfItsCountsContradictEachOther) {
   const std::string& first = datagrams.front();
   const std::string& last = datagrams.back();
   const auto count = static_cast<std::uint16_t>(datagrams.size());
-  EXPECT_FALSE(IsTaken(With(first, kImagePacketAt, count)));
-  EXPECT_FALSE(IsTaken(With(first, kImagePacketAt, std::uint16_t{1}))) << "begins elsewhere";
-  EXPECT_FALSE(IsTaken(With(first, kFirstByteAt, 1U)));
-  EXPECT_FALSE(IsTaken(With(last, kFirstByteAt, 0xFFFF'FFFFU)));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, packet), count)));
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, packet), std::uint16_t{1})))
+      << "begins elsewhere";
+  EXPECT_FALSE(IsTaken(With(first, offsetof(ImageHead, first_byte), 1U)));
+  EXPECT_FALSE(IsTaken(With(last, offsetof(ImageHead, first_byte), 0xFFFF'FFFFU)));
   for (const std::string& datagram : {first, last}) {
     for (const int wrong : {0, count - 1, count + 1, 65'535}) {
-      EXPECT_FALSE(IsTaken(With(datagram, kNumImagePacketsAt, static_cast<std::uint16_t>(wrong))))
+      EXPECT_FALSE(IsTaken(
+          With(datagram, offsetof(ImageHead, num_packets), static_cast<std::uint16_t>(wrong))))
           << wrong;
     }
     for (const std::uint32_t wrong : {0U, 1232U * (count - 1U), 1232U * count + 1U, 0xFFFF'FFFFU}) {
-      EXPECT_FALSE(IsTaken(With(datagram, kImageBytesAt, wrong))) << wrong;
+      EXPECT_FALSE(IsTaken(With(datagram, offsetof(ImageHead, num_bytes), wrong))) << wrong;
     }
   }
 }
