@@ -91,19 +91,8 @@ class CloudRecording : public Recording {
   std::size_t next_{};
 };
 
-/// A line of frames.csv.
-struct ReceivedLine {
-  std::filesystem::path file;
-  std::uint32_t frame{};
-  std::int64_t stamp_ns{};
-  Transform world_from_sensor = Transform::Identity();
-  /// At the last firing. In the lines of older programs, and of points in other axes, as at the
-  /// stamp.
-  std::uint32_t duration_ns{};
-  Transform world_from_sensor_end = Transform::Identity();
-};
-
-ReceivedLine ParseReceivedLine(const PlacedLine& line) {
+/// Reads the frame of a line of frames.csv.
+RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const PlacedLine& line) {
   constexpr std::size_t kNumWords = 13;    // file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost
   constexpr std::size_t kNumWithEnd = 21;  // end_time_ns,x,y,z,qx,qy,qz,qw
   constexpr std::size_t kNumWithTimes = 24;  // first_arrival_ns,last_arrival_ns,latency_ns
@@ -129,27 +118,19 @@ ReceivedLine ParseReceivedLine(const PlacedLine& line) {
     if (pose.size() != 7) fail();
     return MakePose(pose, line.place);
   };
-  const auto frame = ParseNumber<std::uint32_t>(words[2]);
+  const auto index = ParseNumber<std::uint32_t>(words[2]);
   const auto stamp_ns = ParseNumber<std::int64_t>(words[3]);
   const auto duration_ns =
       has_end ? ParseNumber<std::uint32_t>(words[kNumWords]) : std::optional<std::uint32_t>(0);
-  if (!frame || !stamp_ns || !duration_ns) fail();
+  if (!index || !stamp_ns || !duration_ns) fail();
   const Transform world_from_sensor = pose_from(4);
-  return {.file = words[0],
-          .frame = *frame,
-          .stamp_ns = *stamp_ns,
-          .world_from_sensor = world_from_sensor,
-          .duration_ns = *duration_ns,
-          .world_from_sensor_end = has_end ? pose_from(kNumWords + 1) : world_from_sensor};
-}
-
-RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const PlacedLine& line) {
-  const ReceivedLine parsed = ParseReceivedLine(line);
-  RecordedFrame recorded = ReadCloudFrame(directory / parsed.file, parsed.frame);
-  recorded.frame.stamp_ns = parsed.stamp_ns;
-  recorded.frame.world_from_sensor = parsed.world_from_sensor;
-  recorded.frame.duration_ns = parsed.duration_ns;
-  recorded.frame.world_from_sensor_end = parsed.world_from_sensor_end;
+  // In the lines of older programs, and of points in other axes, as at the stamp.
+  const Transform world_from_sensor_end = has_end ? pose_from(kNumWords + 1) : world_from_sensor;
+  RecordedFrame recorded = ReadCloudFrame(directory / words[0], *index);
+  recorded.frame.stamp_ns = *stamp_ns;
+  recorded.frame.world_from_sensor = world_from_sensor;
+  recorded.frame.duration_ns = *duration_ns;
+  recorded.frame.world_from_sensor_end = world_from_sensor_end;
   recorded.has_pose = true;
   return recorded;
 }
