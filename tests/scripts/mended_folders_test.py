@@ -170,7 +170,7 @@ def try_damage(folder, whole, wanted, damage, name):
 
 
 def try_stranger(folder, whole, within):
-    target = folder.place("stranger")
+    target = folder.place(f"stranger_{within.replace('/', '_')}")
     copy_of(whole, target)
     (target / within / "notes.txt").write_text("mine")
     before = hashes_of(target)
