@@ -217,5 +217,17 @@ TEST(LiveFrame, RefusesWhatIsNoPointOrNoSlot) {
             "live: column: must be a whole number from 0 to 3 (got 4)");
 }
 
+TEST(LiveFrame, HasTheVelocitiesThatWereSent) {
+  const Frame frame = WithVelocities(StreamFrame(1));
+  StreamSpec spec;
+  spec.has_all_slots = true;
+  EXPECT_FALSE(Live(frame, spec).frame.has_velocity);
+  spec.fields = FieldSelection("all", true);
+  const Frame live = Live(frame, spec).frame;
+  ASSERT_TRUE(live.has_velocity);
+  EXPECT_EQ(live.true_radial_velocity_mps, frame.true_radial_velocity_mps);
+  EXPECT_THAT(live.radial_velocity_mps, testing::Pointwise(IsSame(), frame.radial_velocity_mps));
+}
+
 }  // namespace
 }  // namespace railcast
