@@ -1,4 +1,4 @@
-#include "core/rail/ground/ground_cover.h"
+#include "core/rail/ground/terrain.h"
 
 #include <algorithm>
 #include <array>

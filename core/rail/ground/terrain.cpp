@@ -9,7 +9,6 @@
 #include "core/rail/chunk/coarse_grid.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/ground_cover.h"
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/structures/crossing_road.h"

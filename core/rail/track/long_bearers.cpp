@@ -1,4 +1,4 @@
-#include "core/rail/track/long_bearers.h"
+#include "core/rail/track/track_structure.h"
 
 #include <algorithm>
 #include <cmath>
