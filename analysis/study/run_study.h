@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/study/approach_record.h"
-#include "analysis/study/study_record.h"
+#include "analysis/study/study_directory.h"
 #include "analysis/study/study_spec.h"
 #include "core/io/run/dataset_files.h"
 #include "core/recipe/recipe.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "analysis/study/approach_record.h"
-#include "analysis/study/study_record.h"
+#include "analysis/study/study_directory.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/dataset_report_record.h"
 #include "core/io/run/insert_record.h"
