@@ -114,14 +114,6 @@ void BeamChanges::Add(const Frame& without, const Frame& with) {
   }
 }
 
-std::vector<std::string> StudiedEffects(const EffectSet& effects) {
-  std::vector<std::string> names;
-  for (const Effect& effect : EffectTable()) {
-    if (!ConflictIn(Switched(effects, effect))) names.emplace_back(effect.name);
-  }
-  return names;
-}
-
 std::vector<EffectStudy> Ablate(Simulator& simulator,
                                 const std::vector<std::uint32_t>& frames,
                                 const std::vector<double>& distances_m,

@@ -67,12 +67,9 @@ struct EffectStudy {
   Comparison clouds;                 ///< A: without the effect, B: with it.
 };
 
-/// The effects that can be studied: each one that is compatible with the others once it is
-/// switched.
-[[nodiscard]] std::vector<std::string> StudiedEffects(const EffectSet& effects);
-
-/// Which effects an ablation studies: those that go together with the scenario's, or all, where the
-/// others are switched among the effects of the first rung that has them.
+/// Which effects an ablation studies: those that are compatible with the scenario's once they are
+/// switched, or all, where the others are switched among the effects of the first rung that has
+/// them.
 enum class StudyScope { kCompatible, kAll };
 
 using AblationProgress = std::function<void(const std::string& what, double done)>;

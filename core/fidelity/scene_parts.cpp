@@ -21,18 +21,6 @@ double LeastShare(std::uint64_t num_found, std::uint64_t num) {
   return std::max((2.0 * n * p + kZ2 - 1.0 - kNormal95 * root) / (2.0 * (n + kZ2)), 0.0);
 }
 
-const char* NameOfKind(ScenePart::Kind kind) {
-  switch (kind) {
-    case ScenePart::Kind::kRangeBin:
-      return "range";
-    case ScenePart::Kind::kClass:
-      return "class";
-    case ScenePart::Kind::kObject:
-      break;
-  }
-  return "object";
-}
-
 std::vector<ScenePart> MakeSceneParts(double range_max_m,
                                       const LabelTable& labels,
                                       const std::vector<std::uint32_t>& other_labels,

@@ -43,7 +43,6 @@ struct ScenePart {
 
   bool operator==(const ScenePart&) const = default;
 };
-[[nodiscard]] const char* NameOfKind(ScenePart::Kind kind);
 
 /// Width of the range bins.
 inline constexpr double kRangeBin_m = 50.0;
