@@ -1,4 +1,4 @@
-#include "generator/dataset/dataset_files.h"
+#include "generator/dataset/dataset_directory.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "generator/dataset/merge_shards.h"
+#include "generator/dataset/run_dataset.h"
 
 #include <algorithm>
 #include <optional>
@@ -16,7 +16,6 @@
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 #include "generator/dataset/dataset_directory.h"
-#include "generator/dataset/dataset_files.h"
 
 namespace railcast {
 namespace {

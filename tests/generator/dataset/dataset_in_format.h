@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/io/verify/dataset_verification.h"
-#include "generator/dataset/merge_shards.h"
+#include "generator/dataset/run_dataset.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/dataset_project.h"

@@ -1,4 +1,4 @@
-#include "generator/dataset/merge_shards.h"
+#include "generator/dataset/run_dataset.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "core/recipe/recipe_files.h"
-#include "generator/dataset/merge_shards.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/dataset/dataset_project.h"

@@ -1,9 +1,11 @@
-#include "generator/dataset/inserted_item.h"
+#include "generator/dataset/inserted_scenarios.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -18,13 +20,36 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
-#include "generator/dataset/recorded_bases.h"
 #include "generator/insert/run/insert_folder.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
+
+class ReadBase final : public RecordedBase {
+ public:
+  explicit ReadBase(RecordedRun run)
+      : run_(std::move(run)), traits_(RecordingTraits(run_.recording)) {
+    for (std::uint32_t i = 0; i < run_.num_frames(); ++i) {
+      frames_.push_back({run_.way.frame_times_ns[i], run_.Chainage_m(i), run_.line.faces_up.at(i)});
+    }
+  }
+
+  [[nodiscard]] const RecordedRun& run() const { return run_; }
+  [[nodiscard]] const ScenarioSpec& plan() const override { return run_.plan; }
+  [[nodiscard]] const std::filesystem::path& recording() const override { return run_.recording; }
+  [[nodiscard]] const std::vector<FramePlace>& frames() const override { return frames_; }
+  [[nodiscard]] const std::string& Traits() const override { return traits_; }
+  [[nodiscard]] ScenarioSpec OnLine(ScenarioSpec plan) const override {
+    return OnRecordedLine(run_, std::move(plan));
+  }
+
+ private:
+  RecordedRun run_;
+  std::string traits_;
+  std::vector<FramePlace> frames_;
+};
 
 /// Hashes of all files of a folder, by their names in it.
 std::map<std::string, std::string> HashesIn(const fs::path& directory) {
@@ -55,6 +80,17 @@ double Speed_mps(const RecordedRun& run, std::uint32_t frame) {
 }
 
 }  // namespace
+
+std::shared_ptr<const RecordedBase> ReadRecordedBase(const std::filesystem::path& plan_file,
+                                                     const std::filesystem::path& recording) {
+  return std::make_shared<const ReadBase>(ReadRecordedRun(plan_file, recording));
+}
+
+const RecordedRun& RunOf(const RecordedBase& base) {
+  const auto* const read = dynamic_cast<const ReadBase*>(&base);
+  Check(read != nullptr, "the generator reads the recordings of its recipes");
+  return read->run();
+}
 
 InsertResult MakeInserted(const DrawnScenario& drawn,
                           const DatasetChoices& choices,

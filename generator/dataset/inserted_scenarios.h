@@ -1,13 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
+#include "core/recipe/recipe.h"
 #include "core/recipe/scenario_draw.h"
 #include "core/scenario/json_text.h"
 #include "generator/dataset/run_dataset.h"
+#include "generator/insert/plan/recorded_run.h"
 #include "generator/insert/run/insert_run.h"
 
 namespace railcast {
+
+// Scenarios of a data set that are plans for recordings.
+
+/// Reads a plan and its recording for recipes (RecordingReader).
+/// @throws InputError as ReadRecordedRun() does.
+[[nodiscard]] std::shared_ptr<const RecordedBase> ReadRecordedBase(
+    const std::filesystem::path& plan_file, const std::filesystem::path& recording);
+
+/// What was read.
+/// @pre ReadRecordedBase() made the base.
+[[nodiscard]] const RecordedRun& RunOf(const RecordedBase& base);
 
 /// Puts a drawn plan into its recording, in a folder that `insert` writes, or goes on with it.
 /// @param directory Of this scenario.
