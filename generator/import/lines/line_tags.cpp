@@ -38,14 +38,6 @@ struct TaggedLength {
   }
 };
 
-double LengthOfWay_m(const RailMap& map, const MapWay& way) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < way.nodes.size(); ++i) {
-    length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
-  }
-  return length_m;
-}
-
 }  // namespace
 
 std::optional<double> GaugeOf_mm(std::string_view gauge) {
@@ -77,7 +69,7 @@ void FillElectrified(RailMap& map) {
   std::map<std::string, TaggedLength, std::less<>> kinds;
   for (const MapWay& way : map.ways) {
     TaggedLength& kind = kinds[std::string(TagOf(way.tags, "railway"))];
-    const double length_m = LengthOfWay_m(map, way);
+    const double length_m = LengthOf_m(map, way);
     const std::string_view electrified = TagOf(way.tags, "electrified");
     kind.all_m += length_m;
     if (!electrified.empty()) kind.tagged_m += length_m;

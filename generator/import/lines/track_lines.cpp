@@ -22,14 +22,6 @@ constexpr double kOtherRef_rad = 6.0 * std::numbers::pi / 180.0;
 constexpr double kForDirection_m = 5.0;
 constexpr double kNearest_m = 0.5;
 
-double LengthOf_m(const RailMap& map, const MapWay& way) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < way.nodes.size(); ++i) {
-    length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
-  }
-  return length_m;
-}
-
 /// The direction in which a track leaves the first of its nodes: to the first one that is far
 /// enough, or to the last one.
 Eigen::Vector2d DirectionOf(const RailMap& map, std::span<const std::size_t> nodes) {
@@ -200,6 +192,14 @@ void NameLines(const RailMap& map, std::vector<TrackLine>& lines) {
 }
 
 }  // namespace
+
+double LengthOf_m(const RailMap& map, const MapWay& way) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way.nodes.size(); ++i) {
+    length_m += (map.nodes[way.nodes[i]].place_m - map.nodes[way.nodes[i - 1]].place_m).norm();
+  }
+  return length_m;
+}
 
 std::vector<TrackLine> FindLines(const RailMap& map, double shortest_m) {
   LineWalk walk(map);

@@ -33,6 +33,9 @@ struct TrackLine {
 /// Length from a node of a line to its next one.
 [[nodiscard]] double StepLength_m(const RailMap& map, const TrackLine& line, std::size_t node);
 
+/// Length of a way along its points.
+[[nodiscard]] double LengthOf_m(const RailMap& map, const MapWay& way);
+
 /// Length of a line along its points.
 [[nodiscard]] double LengthOf_m(const RailMap& map, const TrackLine& line);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -27,12 +26,8 @@ namespace railcast {
 
 /// The number that a text is; absent if it is anything else, or not finite.
 [[nodiscard]] inline std::optional<double> NumberIn(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
+  const std::optional<double> value = ParseNumber<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 inline constexpr double kMostLongitude_deg = 180.0;
@@ -87,16 +82,5 @@ void CheckGeoJsonPlaces(const std::filesystem::path& file);
 ///   that are no degrees, heights that are no numbers, heights of some points of a line but not of
 ///   all, two nodes or ways of one id.
 void CheckXmlPlaces(const std::filesystem::path& file);
-
-/// Whether a file begins as OpenStreetMap's PBF does.
-[[nodiscard]] bool IsPbf(std::string_view begin);
-
-/// Checks how the blobs of an OpenStreetMap PBF file are compressed. GDAL, which reads it, passes
-/// over what is compressed in another way than with zlib, so that a map would seem empty.
-///
-/// The format is that of https://wiki.openstreetmap.org/wiki/PBF_Format. Files that end too early
-/// are left to GDAL, which refuses them.
-/// @throws InputError for the first blob that GDAL would pass over.
-void CheckPbfBlobs(const std::filesystem::path& file);
 
 }  // namespace railcast

@@ -68,7 +68,6 @@ bool NamesOpenStreetMap(std::string begin) {
 
 /// What GDAL would pass over or take for 0 is refused before it reads the file.
 RailMap ReadWithGdal(const std::filesystem::path& file, const std::string& begin) {
-  if (IsPbf(begin)) CheckPbfBlobs(file);
   if (FirstOf(begin) == '<') CheckXmlPlaces(file);
   if (FirstOf(begin) == '{') CheckGeoJsonPlaces(file);
   RailMap map = ReadVectorMap(file);

@@ -1,5 +1,6 @@
 #include "generator/import/map/map_formats.h"
 
+#include <cpl_conv.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -157,6 +158,7 @@ std::optional<VectorFile> ReadFeatures(const std::filesystem::path& file, bool i
                                                    "LIBKML", "KML",     nullptr};
   constexpr std::array<const char*, 2> kAnyOrder = {"USE_CUSTOM_INDEXING=NO", nullptr};
   GdalErrors gdal_errors;
+  const CPLConfigOptionSetter says_what_it_passes_over("CPL_DEBUG", "PBF", false);
   const std::unique_ptr<GDALDataset> dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, kDrivers.data(),
                         is_in_order ? nullptr : kAnyOrder.data()));

@@ -94,9 +94,9 @@ TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
     return "no error";
   };
   const std::string rule =
-      file.string() + ": blob 2: must be compressed with zlib, or not at all (got ";
-  EXPECT_EQ(fault(kLz4), rule + "lz4)");
-  EXPECT_EQ(fault(kZstd), rule + "zstd)");
+      file.string() + ": must be readable to its end (blobs must be zlib or plain; field ";
+  EXPECT_EQ(fault(kLz4), rule + "6 (lz4) is passed over)");
+  EXPECT_EQ(fault(kZstd), rule + "7 (zstd) is passed over)");
 }
 
 TEST(OsmPbf, OfMonacoIsReadWithZlibAndRefusedWithLz4) {
