@@ -2,7 +2,7 @@
 
 #include <functional>
 #include <map>
-#include <set>
+#include <regex>
 #include <string>
 #include <utility>
 
@@ -15,6 +15,7 @@
 #include "core/io/record/record_text.h"
 #include "core/io/run/folder_identity.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
 #include "core/scenario/archive.h"
@@ -71,26 +72,19 @@ std::string StudyDifference(const std::string& key, const Json& found, const Jso
 
 // Refuses what a study and its report have not written, and removes what they have left unfinished.
 void RefuseStrangers(const fs::path& directory) {
-  const std::set<std::string, std::less<>> known = {std::string(kStudyFile),
-                                                    std::string(kApproachesFile),
-                                                    std::string(kManifestFile),
-                                                    std::string(kWorstFolder),
-                                                    std::string(kSampleFolder),
-                                                    "inputs",
-                                                    "csv",
-                                                    "charts",
-                                                    "report.html",
-                                                    "report.json"};
+  const std::regex own(
+      R"((study|manifest|report)\.json|approaches\.jsonl|report\.html|inputs/(study|recipe)\.json|)"
+      R"((worst|sample)/\d+/(scenario\.resolved\.json|inputs/.+)|csv/[^/]+\.csv|)"
+      R"(charts/[^/]+\.(svg|png))");
   std::vector<fs::path> unfinished;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    const bool is_unfinished =
-        entry.path().extension() == kUnfinishedSuffix && !entry.is_directory();
-    const fs::path name = is_unfinished ? entry.path().stem() : entry.path().filename();
-    if (!known.contains(name.string())) {
-      RefuseStranger(directory, entry.path().filename().string());
+  ForEachFileBelow(directory, directory, {}, [&](const std::string& name) {
+    if (std::regex_match(name, own)) return;
+    if (!name.ends_with(kUnfinishedSuffix) ||
+        !std::regex_match(name.begin(), name.end() - kUnfinishedSuffix.size(), own)) {
+      RefuseStranger(directory, name);
     }
-    if (is_unfinished) unfinished.push_back(entry.path());
-  }
+    unfinished.push_back(directory / name);
+  });
   for (const fs::path& file : unfinished) fs::remove(file);
 }
 
