@@ -101,6 +101,8 @@ std::vector<std::uint32_t> LoadRings(const Cloud& cloud, const std::string& name
 }
 
 SlotPlan PlanOfCloud(const Cloud& cloud, const std::string& name) {
+  // A message may claim any number of rows without a point.
+  if (cloud.height > 1 && cloud.width == 0) return LoosePlan(cloud, "it has no point");
   const bool is_ours = cloud.Find("ring") != nullptr && cloud.Find("column") != nullptr;
   if (cloud.height > 1) {
     return is_ours ? OrganisedPlan(cloud, ReturnsOf(cloud, name))

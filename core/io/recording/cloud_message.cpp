@@ -62,6 +62,7 @@ void PackRows(const ros::PointCloud2& message, std::vector<std::uint8_t>& data) 
 
 /// Turns big-endian numbers into little-endian ones.
 void SwapBytes(Cloud& cloud) {
+  if (cloud.num_points() == 0) return;  // The size of a point is not limited by the data.
   std::set<std::size_t> swapped;
   for (const CloudField& field : cloud.fields) {
     const std::size_t size = SizeOf(field.type);
