@@ -107,6 +107,26 @@ TEST_F(InsertCommand, SaysInOneLineWhatIsWrong) {
   EXPECT_FALSE(exists(out()));
 }
 
+TEST_F(InsertCommand, KeepsPositionsOfANationalGridByTheirOwnFormatAlone) {
+  const fs::path map = folder_.path() / "map.pcd";
+  WriteFileWhole(
+      map,
+      "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+      "POINTS 2\nDATA ascii\n494428.61 4877455.58 131.57\n494430.61 4877455.58 131.57\n");
+  (void)WriteRunPlan(folder_.path(), "", R"({"poses": "standing"})");
+  const std::string command =
+      "insert " + map.string() + " " + plan().string() + " --points-alone --out " + out().string();
+  const Ended ended = Generate(command + " --format pcd 2>&1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find("map.pcd: must keep its positions, which are far from 0 as in a "
+                            "national grid, by --format same (got pcd)\n"),
+            std::string::npos)
+      << ended.said;
+  EXPECT_FALSE(exists(out()));
+  EXPECT_EQ(Generate(command).status, 0);
+  EXPECT_EQ(ReadFileWhole(out() / "recording/map.pcd"), ReadFileWhole(map));
+}
+
 TEST_F(InsertCommand, LeavesNothingWhereThePlanDoesNotFitTheRecording) {
   Make(2);
   // The firings of a raster are not those of a spinning sensor.
