@@ -91,6 +91,7 @@ LIBRARIES = ("core/c", "core/io", "core/points", "core/recipe", "core/program", 
 ANONYMOUS_FUNCTION = re.compile(
     r"^(?!using|return|template|TEST|struct|class|enum)(?:\[\[\w+\]\] )?[\w:<>,&*][\w:<>,&* ]*?[ *&](\w+)\(",
     re.MULTILINE)
+LISTED_SOURCE = re.compile(r"\$\{PROJECT_SOURCE_DIR\}/([\w/]+\.(?:h|cpp))\b")
 ANONYMOUS_CONSTANT = re.compile(r"^(?:constexpr|const|static) [\w:<>, *&]+?(\w+)(?:\[\])? ?[={]", re.MULTILINE)
 
 # Names declared as float or double, or as containers of them. Functions other than accessors start
@@ -297,11 +298,25 @@ def lint_sizes(root):
             yield f"{name}:{MAX_FILE_LINES}: a file has at most {MAX_FILE_LINES} lines ({lines})"
 
 
+def lint_listed_sources(root):
+    """Yields the sources that CMake's lists name below the project and that do not exist: what is
+    built by an option that few use, such as the fuzzers, would be missed else."""
+    for path in sorted(root.glob("*/**/CMakeLists.txt")):
+        if path.relative_to(root).parts[0] not in TREES:
+            continue
+        text = path.read_text(encoding="utf-8")
+        for match in LISTED_SOURCE.finditer(text):
+            if not (root / match[1]).exists():
+                line = text.count("\n", 0, match.start()) + 1
+                yield f"{path.relative_to(root).as_posix()}:{line}: a source that is listed exists ({match[1]})"
+
+
 def lint(root):
     """Every fault of the tree at `root`."""
     sources = read_sources(root)
     return [*lint_includes(sources), *lint_rooms(sources), *lint_cycles(sources), *lint_units(sources),
-            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root)]
+            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root),
+            *lint_listed_sources(root)]
 
 
 def main(arguments):

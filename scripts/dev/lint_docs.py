@@ -5,9 +5,9 @@ Usage: lint_docs.py [ROOT]
 
 Prints one line per fault, "file:line: rule (what was found)", and exits 1 if there is any: links to
 files or headings that do not exist, links of the site's pages to files that scripts/make_site.sh does
-not put into it, pages of docs that docs/index.md has no link to, pictures of docs/images that no page
-shows or that lack words of their source, scripts of figures that do not exist, and quotes that are not
-in the file that they are from.
+not put into it, names of files that do not exist, pages of docs that docs/index.md has no link to,
+pictures of docs/images that no page shows or that lack words of their source, scripts of figures that
+do not exist, and quotes that are not in the file that they are from.
 """
 
 import html
@@ -26,6 +26,9 @@ INLINE_CODE = re.compile(r"(`+)(?!`).+?(?<!`)\1(?!`)")
 LINK = re.compile(r"\]\(\s*<?([^()\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)")
 MADE_BY = re.compile(r"<!-- figures: (scripts/\S+)")  # Beside a table: what made its figures.
 QUOTE = re.compile(r"<!-- from (\S+) -->\n(?:```\w*\n(.*?)^```)?", re.MULTILINE | re.DOTALL)  # Above a quote: whose.
+# A file of the project; capitals stand for any name.
+NAMED_FILE = re.compile(r"`((?:core|generator|analysis|viewer|tests|scripts|examples)/[\w/.*-]+\.(?:h|cpp|py|sh|json|md))`"
+                        r"(?!\s+of\s+revision)")
 LABEL = re.compile(r'label="([^"]*)"')  # In a text for graphviz.
 HEADING = re.compile(r"^#{1,6}[ \t]+(.+?)[ \t]*#*$", re.MULTILINE)
 
@@ -86,6 +89,17 @@ def lint_links(root, pages):
                 yield f"{place}:{line}: a link leads to a heading of the page ({link})"
 
 
+def lint_named_files(root, pages):
+    """Yields the files that pages name, but for the list of changes, and that do not exist."""
+    for path in pages:
+        text = path.read_text(encoding="utf-8")
+        for match in NAMED_FILE.finditer(text):
+            if path.name == "CHANGELOG.md" or any(root.glob(re.sub("[A-Z]{2,}", "*", match[1]))):
+                continue
+            line = text.count("\n", 0, match.start()) + 1
+            yield f"{path.relative_to(root).as_posix()}:{line}: a file that a page names exists ({match[1]})"
+
+
 def lint_start_page(root, pages):
     """Yields the pages of docs that the start page has no link to."""
     start = root / START
@@ -142,8 +156,8 @@ def lint_quotes(root, pages):
 def lint(root):
     """Every fault of the pages in the tree at `root`."""
     pages = read_pages(root)
-    return [*lint_links(root, pages), *lint_start_page(root, pages), *lint_pictures(root, pages),
-            *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages)]
+    return [*lint_links(root, pages), *lint_named_files(root, pages), *lint_start_page(root, pages),
+            *lint_pictures(root, pages), *lint_drawings(root), *lint_figures(root, pages), *lint_quotes(root, pages)]
 
 
 def main(arguments):

@@ -296,6 +296,12 @@ class CommandLine(unittest.TestCase):
             "core/base/c.cpp": "\n" * 300,
         }), (0, "long: core/base/b.cpp: 400 lines\nlong: core/base/a.cpp: 301 lines\n", ""))
 
+    def test_a_source_that_a_list_names_exists(self):
+        self.assertEqual(faults_of({
+            "core/a.cpp": "",
+            "tests/fuzz/CMakeLists.txt": "set(tried\n ${PROJECT_SOURCE_DIR}/core/a.cpp\n ${PROJECT_SOURCE_DIR}/core/b.cpp)\n",
+        }), ["tests/fuzz/CMakeLists.txt:3: a source that is listed exists (core/b.cpp)"])
+
     def test_faults_go_to_standard_error_and_fail(self):
         self.assertEqual(self.run_on({"core/base/a.h": "double time;\n"}), (
             1, "", "core/base/a.h:1: a dimensional name ends in its unit (time)\n"))

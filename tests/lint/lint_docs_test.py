@@ -37,6 +37,11 @@ class Links(unittest.TestCase):
                                     "core/x.h": "", "core/z.md": "[x](x.h)", "scripts/y.py": ""}),
                          ["docs/index.md:1: a page of the site leads to a file of the site (../core/x.h)"])
 
+    def test_a_file_that_a_page_names_exists(self):
+        self.assertEqual(faults_of({"a.md": "`core/x.h` `core/NAME.h` `core/y.h`\n`core/z.h`\nof revision 1 `docs/w.md`",
+                                    "CHANGELOG.md": "`core/y.h`", "core/x.h": ""}),
+                         ["a.md:1: a file that a page names exists (core/y.h)"])
+
     def test_headings_of_the_page_itself_are_found_and_equal_ones_are_counted(self):
         self.assertEqual(faults_of({"a.md": "# `x_y` (a)\n## Same\n## Same\n"
                                             "[a](#x_y-a) [b](#same) [c](#same-1) [d](#same-2)"}),
