@@ -3,6 +3,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "analysis/commands.h"
 #include "analysis/report/output.h"
@@ -128,42 +130,40 @@ std::string NamesText(const std::set<std::string>& names) {
   return text;
 }
 
-// Leaves those recordings of the sources that are of one sensor.
-void ChooseSensor(const std::string& sensor, std::vector<MeasuredSource>& sources) {
-  for (MeasuredSource& source : sources) {
-    std::set<std::string> all;
-    std::erase_if(source.recordings, [&](const std::filesystem::path& path) {
-      const std::string name = SensorOf(OpenRecording(path)->info());
-      if (!name.empty()) all.insert(name);
-      return name != sensor;
-    });
-    if (!source.recordings.empty()) continue;
-    throw InputError("--sensor: must be a sensor of " + ShownPath(source.source) + ", " +
-                     (all.empty() ? "which names none" : "of " + NamesText(all)) + " (got " +
-                     ShownText(sensor) + ")");
-  }
-}
-
 // Recordings are opened here and again when they are measured: a data set has more of them than a
 // program may have files open.
-SourcesAtFirstSight LookAtRecordings(const std::vector<MeasuredSource>& sources) {
+// @param wanted The only sensor whose recordings the sources keep; empty = all.
+// @throws InputError if a source has none of that sensor.
+SourcesAtFirstSight LookAtRecordings(const std::string& wanted,
+                                     std::vector<MeasuredSource>& sources) {
   SourcesAtFirstSight seen;
   std::optional<RecordingInfo> first;
-  for (const MeasuredSource& source : sources) {
+  for (MeasuredSource& source : sources) {
+    std::set<std::string> others;
+    std::vector<std::filesystem::path> kept;
     for (const std::filesystem::path& path : source.recordings) {
       const RecordingInfo info = OpenRecording(path)->info();
+      const std::string sensor = SensorOf(info);
+      const bool is_wanted = wanted.empty() || sensor == wanted;
+      if (!sensor.empty()) (is_wanted ? seen.sensors : others).insert(sensor);
+      if (!is_wanted) continue;
       if (!first) first = info;
       CheckSameKind(*first, info);
       seen.has_one_scan = seen.has_one_scan && HaveSameScan(*first, info);
       seen.num_frames += info.num_frames.value_or(0);
-      const std::string sensor = SensorOf(info);
-      if (!sensor.empty()) seen.sensors.insert(sensor);
       if (source.kind.empty()) {
         seen.infos.push_back(info);
-      } else if (&path == &source.recordings.front()) {
+      } else if (kept.empty()) {
         seen.infos.push_back(InfoOfWhole(source, info));
       }
+      kept.push_back(path);
     }
+    if (!wanted.empty() && kept.empty()) {
+      throw InputError("--sensor: must be a sensor of " + ShownPath(source.source) + ", " +
+                       (others.empty() ? "which names none" : "of " + NamesText(others)) +
+                       " (got " + ShownText(wanted) + ")");
+    }
+    source.recordings = std::move(kept);
   }
   return seen;
 }
@@ -238,8 +238,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   std::vector<MeasuredSource> sources = LookAtSources(WithTopic(options.sources, options.topic));
-  if (!options.sensor.empty()) ChooseSensor(options.sensor, sources);
-  SourcesAtFirstSight seen = LookAtRecordings(sources);
+  SourcesAtFirstSight seen = LookAtRecordings(options.sensor, sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {

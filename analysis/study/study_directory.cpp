@@ -15,6 +15,7 @@
 #include "core/io/record/record_text.h"
 #include "core/io/run/folder_identity.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 #include "core/recipe/scenario_lines.h"
@@ -79,8 +80,8 @@ void RefuseStrangers(const fs::path& directory) {
   std::vector<fs::path> unfinished;
   ForEachFileBelow(directory, directory, {}, [&](const std::string& name) {
     if (std::regex_match(name, own)) return;
-    if (!name.ends_with(kUnfinishedSuffix) ||
-        !std::regex_match(name.begin(), name.end() - kUnfinishedSuffix.size(), own)) {
+    const auto finished = FinishedName(name);
+    if (!finished || !std::regex_match(finished->begin(), finished->end(), own)) {
       RefuseStranger(directory, name);
     }
     unfinished.push_back(directory / name);

@@ -3,10 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+
+#include "core/io/write_file.h"
 
 namespace railcast {
+
+/// Returns the name that an unfinished file gets, "a.pcd" for "a.pcd.part"; nothing for a name that
+/// does not end so.
+[[nodiscard]] inline std::optional<std::string_view> FinishedName(std::string_view name) {
+  if (!name.ends_with(kUnfinishedSuffix)) return std::nullopt;
+  return name.substr(0, name.size() - kUnfinishedSuffix.size());
+}
 
 /// A file that has the suffix kUnfinishedSuffix until it is finished. All functions throw
 /// InputError if the system refuses.

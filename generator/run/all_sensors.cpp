@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <mutex>
 #include <ranges>
@@ -46,23 +45,11 @@ std::vector<MergedSensor> MergedSensorsOf(const FrameMaker& maker, const RunPlan
   return sensors;
 }
 
-const CloudField* CloudFieldNamed(const Cloud& cloud, std::string_view name) {
-  const auto found = std::ranges::find(cloud.fields, name, &CloudField::name);
-  return found == cloud.fields.end() ? nullptr : &*found;
-}
-
 std::size_t OffsetOf(const Cloud& cloud, std::string_view name) {
-  const CloudField* const field = CloudFieldNamed(cloud, name);
+  const CloudField* const field = cloud.Find(name);
   Check(field != nullptr && field->type == NumberType::kFloat,
         "a cloud that is merged has coordinates");
   return field->offset;
-}
-
-template <typename T>
-T ValueAt(const std::uint8_t* place) {
-  T value{};
-  std::memcpy(&value, place, sizeof value);
-  return value;
 }
 
 /// Points of several clouds with the same fields, one after another, with the field `sensor_index`
@@ -102,25 +89,25 @@ void MergedCloud::Add(const Cloud& cloud, const Part& part) {
   const std::size_t x = OffsetOf(cloud, "x");
   const std::size_t y = OffsetOf(cloud, "y");
   const std::size_t z = OffsetOf(cloud, "z");
-  const CloudField* const time = CloudFieldNamed(cloud, "time_ns");
+  const CloudField* const time = cloud.Find("time_ns");
   const std::size_t num_slots = cloud.num_points();
   merged_.data.reserve(merged_.data.size() + num_slots * (step + 1));
   for (std::size_t slot = 0; slot < num_slots; ++slot) {
-    const std::uint8_t* const from = cloud.data.data() + slot * step;
-    if (std::isnan(ValueAt<float>(from + x))) continue;
+    const char* const from = cloud.Row(slot).data();
+    if (std::isnan(LoadAt<float>(from + x))) continue;
     const std::size_t begin = merged_.data.size();
     merged_.data.insert(merged_.data.end(), from, from + step);
     merged_.data.push_back(part.sensor_index);
     char* const to = reinterpret_cast<char*>(merged_.data.data() + begin);
     const Vector3 point =
         part.merged_from_cloud *
-        Vector3(ValueAt<float>(from + x), ValueAt<float>(from + y), ValueAt<float>(from + z));
+        Vector3(LoadAt<float>(from + x), LoadAt<float>(from + y), LoadAt<float>(from + z));
     StoreAt<float>(to + x, point.x());
     StoreAt<float>(to + y, point.y());
     StoreAt<float>(to + z, point.z());
     if (time != nullptr) {
       const std::size_t offset = time->offset;
-      StoreAt<std::uint32_t>(to + offset, ValueAt<std::uint32_t>(from + offset) + part.later_ns);
+      StoreAt<std::uint32_t>(to + offset, LoadAt<std::uint32_t>(from + offset) + part.later_ns);
     }
   }
   merged_.width = static_cast<std::uint32_t>(merged_.data.size() / merged_.point_step);

@@ -9,6 +9,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "generator/run/run_topics.h"
 #include "railcast/scenario.h"
@@ -101,7 +102,7 @@ void RunBag::RefuseStrangers() const {
     if (is_mcap_) RefuseStranger(bag.parent_path(), bag.filename().string());
     for (const auto& entry : fs::directory_iterator(bag)) {
       std::string name = entry.path().filename().string();
-      if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
+      name = std::string(FinishedName(name).value_or(name));
       const bool is_own = name.starts_with(bag.filename().string() + "_0.db3") ||
                           name == "metadata.yaml" || name.ends_with(kManifestFile) ||
                           std::ranges::any_of(attachments_, [&](const auto& attachment) {

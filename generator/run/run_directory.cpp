@@ -19,6 +19,7 @@
 #include "core/io/run/run_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
 
@@ -37,12 +38,6 @@ std::set<std::uint32_t> MovingInstances(const std::vector<ObjectInFrame>& object
     if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
   }
   return moving;
-}
-
-// Returns "frames/000012.pcd" for "frames/000012.pcd.part", and nothing for other names.
-std::optional<std::string_view> FinishedName(std::string_view name) {
-  if (!name.ends_with(kUnfinishedSuffix)) return std::nullopt;
-  return name.substr(0, name.size() - kUnfinishedSuffix.size());
 }
 
 // Returns the number in the name of a frame's file: 12 for "frames/000012.pcd".

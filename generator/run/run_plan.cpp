@@ -14,6 +14,7 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/trace_name.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"
@@ -184,11 +185,8 @@ void RefuseOtherEntries(const std::filesystem::path& folder,
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
     const std::string name = entry.path().filename().string();
-    std::string finished = name;
-    if (name.ends_with(kUnfinishedSuffix) && !entry.is_directory()) {
-      finished.resize(name.size() - kUnfinishedSuffix.size());
-    }
-    if (is_known(finished)) continue;
+    const auto finished = entry.is_directory() ? std::nullopt : FinishedName(name);
+    if (is_known(std::string(finished.value_or(name)))) continue;
     throw InputError(ShownPath(folder) + ": must hold nothing but " + known + " (got " +
                      Quoted(name) + ")");
   }

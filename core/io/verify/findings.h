@@ -12,6 +12,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 
@@ -95,9 +96,8 @@ class Findings {
   void AddOther(const std::filesystem::path& folder,
                 const std::string& name,
                 const std::string& rule) {
-    const std::string_view suffix = kUnfinishedSuffix;
-    const bool is_unfinished =
-        name.ends_with(suffix) && known_.contains(name.substr(0, name.size() - suffix.size()));
+    const auto finished = FinishedName(name);
+    const bool is_unfinished = finished && known_.contains(*finished);
     ErrorList line;
     line.Add({ShownPath(folder / name), rule, ""});
     result_.others.push_back({folder / name, line.lines().front(), is_unfinished});

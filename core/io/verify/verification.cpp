@@ -13,6 +13,7 @@
 #include "core/io/run/motion_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
+#include "core/io/unfinished_file.h"
 #include "core/io/verify/bag_lines.h"
 #include "core/io/verify/findings.h"
 #include "core/io/verify/frame_clouds.h"
@@ -324,16 +325,15 @@ void Verifier::CheckNames(const FrameRecord& line, const std::string& place) {
 
 void Verifier::FindOthers() {
   if (summary_.run.bag) known_.insert({std::string(kBagLinesFile), summary_.run.bag->path});
-  ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](std::string name) {
+  ForEachFileBelow(summary_.directory, summary_.directory, {}, [&](const std::string& name) {
     if (known_.contains(name) || (summary_.run.bag && IsOfBag(name))) return;
     if (summary_.manifest && are_frames_known_) {
       return AddOther(summary_.directory, name,
                       "is named neither in manifest.json nor in frames.jsonl");
     }
     // A run that was interrupted or is in progress has files whose hashes are not recorded yet.
-    const std::string found = name;
-    if (name.ends_with(kUnfinishedSuffix)) name.resize(name.size() - kUnfinishedSuffix.size());
-    if (!IsSequenceFile(name)) Fault(found, "is no file of a sequence");
+    const auto finished = FinishedName(name);
+    if (!IsSequenceFile(finished.value_or(name))) Fault(name, "is no file of a sequence");
   });
 }
 
