@@ -218,9 +218,9 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
         }
       };
       AddTo(all, MeasureStatistics(*recording, show, track ? &*track : nullptr));
-      // Known only now.
+      // What the reader has to say is known only now.
       const auto info = std::ranges::find(infos, recording->info().source, &RecordingInfo::source);
-      if (info != infos.end()) info->left_out = recording->info().left_out;
+      if (info != infos.end()) info->remarks = recording->info().remarks;
     }
   }
   progress.End();

@@ -128,6 +128,13 @@ bool HasEstimates(const Table& table, std::size_t column) {
 std::string ReportJson(const Report& report, const std::string& details) {
   Json facts = Json::object();
   for (const auto& [name, fact] : report.facts) facts[name] = fact;
+  Json remarks = Json::array();
+  for (const Remark& remark : report.remarks) {
+    remarks.push_back({{"name", remark.type().name},
+                       {"number", remark.number},
+                       {"place", remark.place},
+                       {"text", remark.Text()}});
+  }
   Json headlines = Json::array();
   for (const Headline& headline : report.headlines) {
     headlines.push_back(
@@ -138,6 +145,7 @@ std::string ReportJson(const Report& report, const std::string& details) {
   Json json = {{"title", report.title},
                {"command", report.command},
                {"facts", std::move(facts)},
+               {"remarks", std::move(remarks)},
                {"headlines", std::move(headlines)},
                {"sections", std::move(sections)}};
   json.update(Json::parse(details));

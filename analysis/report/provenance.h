@@ -33,8 +33,11 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
     const std::vector<RecordingInfo>& sources,
     const std::function<std::string(const RecordingInfo&)>& text_of);
 
-/// Data hash, scenario, weather and maker of those sources that are railcast sequences. Facts that
-/// several sources share are stated once.
+/// The remarks of the sources' readers, source by source.
+[[nodiscard]] std::vector<Remark> RemarksOf(const std::vector<RecordingInfo>& sources);
+
+/// Data hash, remarks, scenario, weather and maker of those sources that are railcast sequences.
+/// Facts that several sources share are stated once.
 [[nodiscard]] Facts OriginFacts(const std::vector<RecordingInfo>& sources);
 
 /// "rain 12 mm/h, wetness 0.5", or "clear".

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,12 +15,14 @@
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/version.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 namespace {
@@ -79,12 +82,58 @@ bool IsOutOfThreads(const std::exception& error) {
   std::abort();
 }
 
+// Returns the line as a shell would read it, with the program's path reduced to its name.
+std::string CommandLine(const std::string& program, int argc, char** argv) {
+  std::string line = program;
+  for (int i = 1; i < argc; ++i) {
+    line += " ";
+    line += ShellWord(argv[i]);
+  }
+  return line;
+}
+
+/// Each once, although a command may read its sources several times, and not always to the end.
+class RemarksOfRun {
+ public:
+  RemarksOfRun() {
+    SetRemarkReceiver([this](const Remark& remark) { Take(remark); });
+  }
+  RemarksOfRun(const RemarksOfRun&) = delete;
+  RemarksOfRun& operator=(const RemarksOfRun&) = delete;
+  ~RemarksOfRun() { SetRemarkReceiver(nullptr); }
+
+  void Print(const std::string& program, std::ostream& out) const {
+    for (const Remark& remark : remarks_) {
+      out << program << ": remark " << remark.type().name << ": " << ShownLines(remark.Text())
+          << "\n";
+    }
+  }
+
+ private:
+  void Take(const Remark& remark) {
+    const auto known = std::ranges::find_if(remarks_, [&](const Remark& other) {
+      return other.kind == remark.kind && other.place == remark.place;
+    });
+    if (known == remarks_.end()) {
+      remarks_.push_back(remark);
+    } else {
+      known->number = std::max(known->number, remark.number);
+    }
+  }
+
+  std::vector<Remark> remarks_;
+};
+
 int RunMain(const std::string& program,
             const std::function<int()>& main,
             std::ostream& complaints) {
+  const RemarksOfRun remarks;
   try {
-    return main();
+    const int status = main();
+    remarks.Print(program, complaints);
+    return status;
   } catch (const InputError& error) {
+    remarks.Print(program, complaints);
     complaints << ShownLines(error.what()) << "\n";
   } catch (const std::bad_alloc&) {
     complaints << program << ": out of memory\n";
@@ -96,16 +145,6 @@ int RunMain(const std::string& program,
     }
   }
   return kExitFailure;
-}
-
-// Returns the line as a shell would read it, with the program's path reduced to its name.
-std::string CommandLine(const std::string& program, int argc, char** argv) {
-  std::string line = program;
-  for (int i = 1; i < argc; ++i) {
-    line += " ";
-    line += ShellWord(argv[i]);
-  }
-  return line;
 }
 
 int ParseAndRun(const ProgramSpec& spec, int argc, char** argv) {

@@ -26,6 +26,7 @@ class IndexedRecording {
 
   [[nodiscard]] const std::filesystem::path& source() const { return source_; }
   [[nodiscard]] const RecordingInfo& info() const { return recording_->info(); }
+  [[nodiscard]] const std::shared_ptr<RemarkLog>& remarks() const { return info().remarks; }
 
   /// Returns the frame at a place, or nothing beyond the last one.
   /// @throws InputError if its file cannot be read or is damaged.
@@ -53,16 +54,24 @@ class IndexedRecording {
 /// One pass over a recording, which keeps nothing of the frames before.
 class RecordingPass {
  public:
-  explicit RecordingPass(const std::filesystem::path& source) : recording_(OpenRecording(source)) {}
+  /// @param remarks Receives those of this pass at its end.
+  RecordingPass(const std::filesystem::path& source, std::shared_ptr<RemarkLog> remarks)
+      : remarks_(std::move(remarks)), recording_(OpenRecording(source)) {}
+  RecordingPass(const RecordingPass&) = delete;
+  RecordingPass& operator=(const RecordingPass&) = delete;
+  ~RecordingPass() { remarks_->AddAll(*recording_->info().remarks); }
 
   /// The next frame, or nothing at the end.
   [[nodiscard]] std::shared_ptr<RecordedFrame> Next() {
     const std::lock_guard lock(mutex_);
     const auto read = recording_->Next();
-    return read ? std::make_shared<RecordedFrame>((*read)()) : nullptr;
+    if (read) return std::make_shared<RecordedFrame>((*read)());
+    remarks_->AddAll(*recording_->info().remarks);
+    return nullptr;
   }
 
  private:
+  std::shared_ptr<RemarkLog> remarks_;
   std::unique_ptr<Recording> recording_;
   std::mutex mutex_;
 };
@@ -98,6 +107,19 @@ std::shared_ptr<RecordedFrame> NextOf(RecordingPass& pass) {
   return frame;
 }
 
+py::list RemarkList(const RemarkLog& log) {
+  py::list list;
+  for (const Remark& remark : log.List()) {
+    py::dict item;
+    item["name"] = remark.type().name;
+    item["number"] = remark.number;
+    item["place"] = remark.place;
+    item["text"] = remark.Text();
+    list.append(item);
+  }
+  return list;
+}
+
 }  // namespace
 
 void AddRecordingClass(pybind11::module_& module) {
@@ -117,7 +139,7 @@ Raises InputError for a file that cannot be read or is damaged.)")
       .def("__iter__",
            [](const IndexedRecording& self) {
              const OutsideInterpreter outside;
-             return std::make_unique<RecordingPass>(self.source());
+             return std::make_unique<RecordingPass>(self.source(), self.remarks());
            })
       .def("__len__", &LengthOf)
       .def("__getitem__", &FrameAt, py::arg("index"), "The frame at a place, from 0.")
@@ -125,6 +147,10 @@ Raises InputError for a file that cannot be read or is damaged.)")
       .def_property_readonly(
           "kind", [](const IndexedRecording& self) { return self.info().kind; },
           "What it is: \"sequence\", \"point cloud file\", \"capture of VLP-16\", ...")
+      .def_property_readonly(
+          "remarks", [](const IndexedRecording& self) { return RemarkList(*self.remarks()); },
+          "What was left out, bridged, guessed or rounded in what was read so far, by index or in\n"
+          "passes that have ended: dictionaries with name, number, place and text.")
       .def_property_readonly(
           "num_frames", [](const IndexedRecording& self) { return self.info().num_frames; },
           "Number of frames; None for a capture.")

@@ -30,7 +30,7 @@ ROOM_ORDERS = {
 # that implements it, or to a room of that folder.
 PUBLIC_ROOT = "core/include/"
 PUBLIC_OWNERS = {
-    "enum_names": "base", "error": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
+    "enum_names": "base", "error": "base", "remark": "base", "transform": "base", "frame": "frame", "outcome": "frame", "material": "scene",
     "scene": "scene", "objects": "rail/base", "structures": "rail/base", "lineside": "rail/base",
     "track_side": "rail/base", "alignment": "rail/line", "world_spec": "rail/line", "rail_world": "rail/world",
     "rigid_motion": "rail/motion", "lidar": "scan", "ray_caster": "trace", "effects": "detect",

@@ -26,6 +26,7 @@
 #include "railcast/outcome.h"
 #include "railcast/rail_world.h"
 #include "railcast/ray_caster.h"
+#include "railcast/remark.h"
 #include "railcast/rigid_motion.h"
 #include "railcast/scenario.h"
 #include "railcast/scene.h"

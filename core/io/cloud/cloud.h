@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/number_type.h"
+#include "railcast/remark.h"
 
 namespace pcl {
 struct PCLPointCloud2;
@@ -67,6 +68,7 @@ struct Cloud {
   std::uint32_t point_step{};      ///< Bytes of a point.
   bool is_dense{};                 ///< Whether all coordinates are known to be finite.
   std::vector<std::uint8_t> data;  ///< Rows without gaps between them.
+  std::vector<Remark> remarks{};   ///< Of its reader.
 
   [[nodiscard]] std::size_t num_points() const { return std::size_t{width} * height; }
   [[nodiscard]] std::string_view Row(std::size_t point) const {

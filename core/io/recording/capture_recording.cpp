@@ -64,19 +64,15 @@ class CaptureRecording : public Recording {
     }
     reader_.End(turns_);
     is_at_end_ = true;
-    info_.left_out = LeftOut();
+    AddRemarks();
   }
 
-  [[nodiscard]] std::string LeftOut() const {
-    std::string text;
-    const auto add = [&text](std::size_t num, const char* one, const char* several) {
-      if (num == 0) return;
-      text += (text.empty() ? "" : ", ") + NumberText(num) + (num == 1 ? one : several);
+  void AddRemarks() {
+    const auto add = [&](RemarkKind kind, std::size_t num) {
+      info_.remarks->Add({.kind = kind, .place = ShownPath(info_.source), .number = num});
     };
-    add(reader_.num_damaged(), " packet with a wrong checksum", " packets with a wrong checksum");
-    add(datagrams_->num_torn(), " datagram that lacks IP fragments",
-        " datagrams that lack IP fragments");
-    return text;
+    add(RemarkKind::kPacketsDamaged, reader_.num_damaged());
+    add(RemarkKind::kFragmentsMissing, datagrams_->num_torn());
   }
 
   RecordingInfo info_;

@@ -270,6 +270,7 @@ std::vector<std::uint32_t> LoadIndices(const Cloud& cloud,
 
 void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, recorded.name);
+  for (const Remark& remark : cloud.remarks) AddRemark(remark, recorded.remarks);
   Frame& frame = recorded.frame;
   frame.has_velocity = FindFieldOf(cloud, "radial_velocity_mps") != nullptr ||
                        FindFieldOf(cloud, "true_radial_velocity_mps") != nullptr;

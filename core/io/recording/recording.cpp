@@ -49,6 +49,49 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
                    ReadableExtensions(true) + " files (got neither)");
 }
 
+/// Gathers the remarks of the frames of another recording.
+class RemarkingRecording : public Recording {
+ public:
+  explicit RemarkingRecording(std::unique_ptr<Recording> recording)
+      : recording_(std::move(recording)) {}
+
+  [[nodiscard]] const RecordingInfo& info() const override { return recording_->info(); }
+
+  [[nodiscard]] std::optional<FrameReader> Next() override {
+    auto read = recording_->Next();
+    if (!read) return std::nullopt;
+    return [read = std::move(*read), remarks = info().remarks] {
+      RecordedFrame recorded = read();
+      // Those of the recording as a whole come first.
+      for (const Remark& remark : recorded.remarks) remarks->Add(remark, recorded.frame.index + 1U);
+      recorded.remarks.clear();
+      return recorded;
+    };
+  }
+
+ private:
+  std::unique_ptr<Recording> recording_;
+};
+
+std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
+  if (auto capture = OpenCaptureWithMetadata(source)) return capture;
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(source, error);
+  if (!exists(status)) {
+    if (const auto found = FindBag(source)) {
+      return OpenBagRecording(source, found->bag, found->topic);
+    }
+    throw FileError(source, error ? error.value() : ENOENT);
+  }
+  if (is_directory(status)) return OpenDirectory(source);
+  const std::filesystem::path extension = source.extension();
+  if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
+  if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
+  if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
+  throw InputError(ShownPath(source) + ": must be a directory or a " +
+                   ReadableExtensions(true, {".pcap", ".pcapng", ".mcap", ".db3"}) + " file");
+}
+
 }  // namespace
 
 std::optional<BagSource> FindBag(const std::filesystem::path& source) {
@@ -72,22 +115,7 @@ bool IsBagOfTopics(const std::filesystem::path& source) {
 }
 
 std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {
-  if (auto capture = OpenCaptureWithMetadata(source)) return capture;
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(source, error);
-  if (!exists(status)) {
-    if (const auto found = FindBag(source)) {
-      return OpenBagRecording(source, found->bag, found->topic);
-    }
-    throw FileError(source, error ? error.value() : ENOENT);
-  }
-  if (is_directory(status)) return OpenDirectory(source);
-  const std::filesystem::path extension = source.extension();
-  if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
-  if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
-  if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
-  throw InputError(ShownPath(source) + ": must be a directory or a " +
-                   ReadableExtensions(true, {".pcap", ".pcapng", ".mcap", ".db3"}) + " file");
+  return std::make_unique<RemarkingRecording>(OpenAny(source));
 }
 
 }  // namespace railcast

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/base/error.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 namespace {
@@ -33,6 +34,20 @@ TEST(RunProgram, SaysAnInputErrorAsItIs) {
       RunOf([]() -> int { throw InputError("a.json: must be valid\nb.json: too"); });
   EXPECT_EQ(run.status, kExitFailure);
   EXPECT_EQ(run.said, "a.json: must be valid\nb.json: too\n");
+}
+
+TEST(RunProgram, PrintsEachRemarkOnceAndBeforeAnError) {
+  const Outcome run = RunOf([]() -> int {
+    // The source was read twice, first in part.
+    for (const std::uint64_t number : {1U, 3U}) {
+      RemarkLog log;
+      log.Add({.kind = RemarkKind::kPacketsDamaged, .place = "a.pcap", .number = number});
+    }
+    throw InputError("a.json: must be valid");
+  });
+  EXPECT_EQ(run.said,
+            "railcast-test: remark packets-damaged: 3 packets with a wrong checksum (the first in "
+            "a.pcap)\na.json: must be valid\n");
 }
 
 TEST(RunProgram, SaysWhoseOtherErrorsAre) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "railcast/frame.h"
+#include "railcast/remark.h"
 #include "railcast/scenario.h"
 #include "railcast/transform.h"
 
@@ -91,6 +92,9 @@ struct RecordedFrame {
   /// Captures only, null for others: the beam of a cell as its packet and the sensor's angles state
   /// it, whether or not it returned anything.
   std::function<RecordedBeam(std::uint32_t row, std::uint32_t column)> beam_of{};
+  /// What the reader of this frame's file or message has to say; OpenRecording() moves it to
+  /// RecordingInfo::remarks.
+  std::vector<Remark> remarks{};
 
   [[nodiscard]] bool Has(std::string_view field) const { return fields.contains(field); }
 };
@@ -123,9 +127,9 @@ struct RecordingInfo {
   std::optional<ScenarioSpec> scenario;  ///< railcast sequences only, as resolved.
   /// railcast sequences only, including those in KITTI's format.
   std::optional<SequenceOrigin> origin;
-  /// What of a capture was left out because it was damaged: "3 packets with a wrong checksum".
-  /// Known once Next() has returned nothing; empty until then, and if nothing was left out.
-  std::string left_out{};
+  /// What was left out, bridged, guessed or rounded in what was read so far; all of it once Next()
+  /// has returned nothing and the frames have been read. Shared by all copies.
+  std::shared_ptr<RemarkLog> remarks = std::make_shared<RemarkLog>();
 };
 
 /// Reads frames one after another from a sequence directory, cloud files or a capture.

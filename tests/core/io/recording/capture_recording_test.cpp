@@ -301,14 +301,17 @@ TEST(CaptureRecording, LeavesOutPacketsWithAWrongChecksumAndCountsThem) {
   };
   const auto sound = capture("sound.pcap");
   EXPECT_EQ(ReadAll(*sound).at(0).frame.columns, 450U);
-  EXPECT_EQ(sound->info().left_out, "");
+  EXPECT_THAT(sound->info().remarks->List(), testing::IsEmpty());
   // A byte of the blocks, one of the functional safety, and one of the tail.
   for (const std::size_t place : {500U, 1050U, 1080U}) {
     datagrams.bytes[datagrams.items[place / 5].offset + place] ^= 1;
   }
   const auto damaged = capture("damaged.pcap");
   EXPECT_EQ(ReadAll(*damaged).at(0).frame.columns, 447U);
-  EXPECT_EQ(damaged->info().left_out, "3 packets with a wrong checksum");
+  const std::vector<Remark> remarks = damaged->info().remarks->List();
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].kind, RemarkKind::kPacketsDamaged);
+  EXPECT_EQ(remarks[0].number, 3U);
 }
 
 TEST(CaptureRecording, LeavesOutWhatIsNoPacketOfItsSensor) {

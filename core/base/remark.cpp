@@ -1,0 +1,125 @@
+#include "railcast/remark.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+std::mutex receiver_mutex;
+RemarkReceiver& Receiver() {
+  static RemarkReceiver receiver;
+  return receiver;
+}
+
+}  // namespace
+
+const std::vector<RemarkType>& RemarkTypes() {
+  using enum RemarkKind;
+  static const std::vector<RemarkType> types = {
+      {kPacketsLost, "packets-lost", "packet missing by the sensor's own numbers",
+       "packets missing by the sensor's own numbers", true},
+      {kPacketsDoubled, "packets-doubled", "packet that had come before",
+       "packets that had come before", true},
+      {kPacketsLate, "packets-late", "packet that came too late to be put in order",
+       "packets that came too late to be put in order", true},
+      {kPacketsDamaged, "packets-damaged", "packet with a wrong checksum",
+       "packets with a wrong checksum", true},
+      {kPacketsRefused, "packets-refused", "packet of the sensor that cannot be read",
+       "packets of the sensor that cannot be read", true},
+      {kBlocksEmpty, "blocks-empty", "block of a packet without an azimuth and points",
+       "blocks of packets without an azimuth and points", true},
+      {kFragmentsMissing, "fragments-missing", "datagram that lacks IP fragments",
+       "datagrams that lack IP fragments", true},
+      {kFramesUnknown, "frames-unknown", "frame of the network of an unknown type",
+       "frames of the network of an unknown type", true},
+      {kOtherSenders, "other-senders", "datagram of other senders", "datagrams of other senders",
+       true},
+      {kRecordingCut, "recording-cut", "recording that ends within a record",
+       "recordings that end within a record", true},
+      {kPointsBeyondData, "points-beyond", "point behind the number that the header states",
+       "points behind the number that the header states", true},
+      {kSurplusBytes, "surplus-bytes", "byte behind the data", "bytes behind the data", true},
+      {kViewpointUnused, "viewpoint-unused",
+       "cloud whose viewpoint is not the origin: points are taken as stored",
+       "clouds whose viewpoint is not the origin: points are taken as stored"},
+      {kPositionsRounded, "positions-rounded",
+       "point stored in single precision far from the origin",
+       "points stored in single precision far from the origin"},
+      {kColumnsGuessed, "columns-guessed", "file whose numbers a point were told by its values",
+       "files whose numbers a point were told by their values"},
+      {kFarReturns, "far-returns", "return beyond the sensor's range",
+       "returns beyond the sensor's range"},
+      {kTimesRelative, "times-relative",
+       "frame whose times count from elsewhere than its stamp: only their differences are taken",
+       "frames whose times count from elsewhere than their stamps: only their differences are "
+       "taken"},
+      {kFieldsLeftOut, "fields-left-out", "field left out", "fields left out", true},
+      {kFilesLeftOut, "files-left-out", "file left out", "files left out", true},
+      {kMaterialFileMissing, "material-file-missing", "material file that is not there",
+       "material files that are not there", true},
+      {kExtensionUnread, "extension-unread", "extension of the format that is not read",
+       "extensions of the format that are not read", true},
+  };
+  return types;
+}
+
+const RemarkType& Remark::type() const {
+  return RemarkTypes().at(static_cast<std::size_t>(kind));
+}
+
+std::string Remark::Text() const {
+  std::string text = NumberText(number) + " ";
+  text += number == 1 ? type().one : type().several;
+  if (!detail.empty()) text += ": " + detail;
+  if (place.empty()) return text;
+  return text + (number == 1 ? " (in " : " (the first in ") + place + ")";
+}
+
+void AddRemark(const Remark& remark, std::vector<Remark>& remarks) {
+  if (remark.number == 0) return;
+  const auto known = std::ranges::find(remarks, remark.kind, &Remark::kind);
+  if (known == remarks.end()) {
+    remarks.push_back(remark);
+  } else {
+    known->number += remark.number;
+  }
+}
+
+RemarkLog::~RemarkLog() {
+  for (const Remark& remark : List()) Publish(remark);
+}
+
+void RemarkLog::Add(const Remark& remark, std::uint64_t order) {
+  if (remark.number == 0) return;
+  const std::lock_guard lock(mutex_);
+  remarks_.insert_or_assign({remark.kind, order}, remark);
+}
+
+void RemarkLog::AddAll(const RemarkLog& other) {
+  const std::scoped_lock lock(mutex_, other.mutex_);
+  for (const auto& [key, remark] : other.remarks_) remarks_.insert_or_assign(key, remark);
+}
+
+std::vector<Remark> RemarkLog::List() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Remark> list;
+  for (const auto& [key, remark] : remarks_) {
+    AddRemark(remark, list);
+  }
+  return list;
+}
+
+void SetRemarkReceiver(RemarkReceiver receiver) {
+  const std::lock_guard lock(receiver_mutex);
+  Receiver() = std::move(receiver);
+}
+
+void Publish(const Remark& remark) {
+  const std::lock_guard lock(receiver_mutex);
+  if (Receiver()) Receiver()(remark);
+}
+
+}  // namespace railcast
