@@ -194,7 +194,8 @@ TEST(CaptureRecording, OfARealQt128HasTwoTurnsInDualMode) {
   EXPECT_EQ(frames[1].frame.rows, 192U);
   EXPECT_EQ(frames[1].frame.returns, 2U);
   EXPECT_EQ(NumPoints(frames[1].frame), 88'495U);
-  EXPECT_EQ(recording->info().left_out, "") << "all 1,800 packets have their three checksums";
+  EXPECT_THAT(recording->info().remarks->List(), testing::IsEmpty())
+      << "all 1,800 packets have their three checksums";
 }
 
 // Its maker's manual says that the bytes are no reflectivity: of this one, two thirds are above
