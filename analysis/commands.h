@@ -22,6 +22,8 @@ namespace railcast {
 
 /// Reports dropout, density, noise, intensity and coverage of recordings, ours or foreign.
 void AddStats(ProgramOptions& app, ProgramCommand& command);
+/// Says what a recording is, what is wrong with it, and what it is fit for.
+void AddInspect(ProgramOptions& app, ProgramCommand& command);
 /// Writes what a reader of a data set must know before using it.
 void AddCard(ProgramOptions& app, ProgramCommand& command);
 /// Measures how far two recordings are apart, or what each effect of a scenario changes.

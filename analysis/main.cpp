@@ -5,6 +5,7 @@ namespace {
 void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   app.RequireCommand();
   railcast::AddStats(app, command);
+  railcast::AddInspect(app, command);
   railcast::AddCard(app, command);
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "railcast/lidar.h"
 
@@ -11,6 +13,13 @@ namespace railcast {
 /// scenarios/sensors/NAME.json, a copy of which is part of the program.
 /// @param name One that core/io/CMakeLists.txt lists.
 [[nodiscard]] SpinningSpec SensorTable(std::string_view name);
+
+/// A sensor that SensorTable() knows.
+struct SensorTableName {
+  std::string file;     ///< "vlp16".
+  std::string product;  ///< "VLP-16".
+};
+[[nodiscard]] std::vector<SensorTableName> SensorTableNames();
 
 /// The text of spinning/packets.json: the packets of these sensors.
 [[nodiscard]] std::string_view PacketTable();

@@ -23,7 +23,7 @@ ROOM_ORDERS = {
     "generator": ". run check sequence insert live replay trace world dataset survey import python".split(),
     "generator/insert": ". plan firings clouds packets run".split(),
     "generator/import": "map fit heights lines network structures .".split(),
-    "analysis": "estimate report limits pictures stats card compare detectability detectors sight study preset fit frontier dossier receive .".split(),
+    "analysis": "estimate report limits pictures stats inspect card compare detectability detectors sight study preset fit frontier dossier receive .".split(),
     "viewer": "color frames overlays composition draw plan session pick picture gui .".split(),
 }
 # The public headers, included by programs that embed railcast. Each header belongs to the folder

@@ -54,6 +54,7 @@ MAKERS = (
 # (name in the table, the commands, with @ for the recording and OUT for what they write; the first that works counts)
 TAKERS = (
     ("`stats`", "analyze stats @ --out OUT"),
+    ("`inspect`", "analyze inspect @ --out OUT"),
     ("`view`", "view @ --size 160x100 --screenshot OUT.png"),
     ("`view --compare`", "view @ --compare @ --size 160x100 --screenshot OUT.png"),
     ("`railcast.open`", "python open"),

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <string>
+
+#include "analysis/inspect/inspection.h"
+#include "core/io/recording/recording_kinds.h"
+
+namespace railcast {
+namespace {
+
+using enum Fitness;
+
+/// What it takes to know where each firing went.
+JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
+  if (info.origin || seen.num_with_beams == seen.num_frames) return {"", kYes, ""};
+  if (seen.num_grids == seen.num_frames) {
+    const auto guesses = GuessSensor(seen.rings);
+    const bool is_known = !guesses.empty() && guesses.front().error_deg < kLikelyGuess_deg;
+    return {"", kWithOption,
+            "the plan must name its sensor as lidar" +
+                (is_known ? ", by its rings a " + guesses.front().name : std::string())};
+  }
+  return {"", kNo, "its firings are not known: " + seen.why_no_grid};
+}
+
+std::string WithPoses(const RecordingLook& seen, std::string needs) {
+  if (seen.num_with_pose == seen.num_frames) return needs;
+  if (!needs.empty()) needs += "; ";
+  return needs +
+         "since it has no poses, the plan needs world.recording.poses_file, or poses of "
+         "standing or registered";
+}
+
+JobFitness Insertion(const RecordingLook& seen, const RecordingInfo& info, bool is_weather) {
+  JobFitness firings = FiringsOf(seen, info);
+  firings.job = is_weather ? "weather" : "insert";
+  if (firings.fitness == kNo && is_weather) return firings;
+  if (firings.fitness == kNo) {
+    firings.fitness = kWithOption;
+    firings.why = "--points-alone, since " + firings.why;
+  }
+  firings.why = WithPoses(seen, firings.why);
+  if (!firings.why.empty()) firings.fitness = kWithOption;
+  return firings;
+}
+
+JobFitness Statistics(const RecordingLook& seen) {
+  if (seen.num_grids == seen.num_frames) return {"stats", kYes, ""};
+  return {"stats", kYes, "without dropout and figures by ring: " + seen.why_no_grid};
+}
+
+JobFitness Survey(const RecordingLook& seen) {
+  if (seen.num_with_pose == seen.num_frames) return {"survey", kYes, ""};
+  return {"survey", kWithOption, "--poses FILE, --standing or --world-axes, since it has no poses"};
+}
+
+JobFitness Evaluation(const RecordingLook& seen, const RecordingInfo& info) {
+  if (info.origin && seen.num_with_objects > 0) return {"evaluate", kYes, ""};
+  return {"evaluate", kNo, "it has no boxes of objects that railcast knows"};
+}
+
+JobFitness Fit(const RecordingLook& seen, const RecordingInfo& info) {
+  if (seen.num_grids < seen.num_frames) return {"fit", kNo, seen.why_no_grid};
+  if (info.origin) return {"fit", kYes, ""};
+  return {"fit", kWithOption, "--scenario SCENARIO with its sensor"};
+}
+
+}  // namespace
+
+std::vector<JobFitness> JobsOf(const RecordingLook& inspection, const RecordingInfo& info) {
+  if (inspection.num_points == 0) {
+    std::vector<JobFitness> none;
+    for (const char* const job : kJobs) none.push_back({job, kNo, "it has no point"});
+    return none;
+  }
+  return {{"view", kYes, ""},
+          Statistics(inspection),
+          Insertion(inspection, info, false),
+          Insertion(inspection, info, true),
+          Survey(inspection),
+          Evaluation(inspection, info),
+          Fit(inspection, info)};
+}
+
+}  // namespace railcast

@@ -1,0 +1,150 @@
+#include "analysis/inspect/inspection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/base/units.h"
+#include "core/points/point_alignment.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kFewest_m = 3.0;  // Nearer points tell little of their beam's elevation.
+constexpr std::size_t kMostMotions = 10;
+
+std::size_t SectorOf(double azimuth_rad) {
+  const double share = azimuth_rad / (2.0 * std::numbers::pi) + 0.5;
+  const auto sector = static_cast<std::size_t>(share * RecordingLook::kNumSectors);
+  return std::min(sector, RecordingLook::kNumSectors - 1);
+}
+
+void AddPoint(const RecordedFrame& recorded, std::size_t slot, RecordingLook& inspection) {
+  const Frame& frame = recorded.frame;
+  const auto x_m = static_cast<double>(frame.x[slot]);
+  const auto y_m = static_cast<double>(frame.y[slot]);
+  const double range_m = static_cast<double>(frame.range_m[slot]);
+  ++inspection.num_points;
+  inspection.range_m.Add(range_m);
+  if (range_m < RecordingLook::kNear_m) ++inspection.num_near;
+  ++inspection.sectors[SectorOf(std::atan2(y_m, x_m))];
+  if (recorded.Has("intensity"))
+    inspection.intensity.Add(static_cast<double>(frame.intensity[slot]));
+  if (!recorded.Has("ring")) return;
+  const std::size_t ring = frame.ring[slot];
+  if (ring >= inspection.rings.size()) inspection.rings.resize(ring + 1);
+  InspectedRing& of = inspection.rings[ring];
+  ++of.num_points;
+  if (range_m < kFewest_m) return;
+  of.elevation_deg.Add(
+      DegFromRad(std::atan2(static_cast<double>(frame.z[slot]), std::hypot(x_m, y_m))));
+}
+
+std::vector<Eigen::Vector3f> PointsOf(const Frame& frame) {
+  std::vector<Eigen::Vector3f> points_m;
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (!std::isnan(frame.x[i])) points_m.emplace_back(frame.x[i], frame.y[i], frame.z[i]);
+  }
+  return points_m;
+}
+
+/// Compares the poses of frames that follow one another with their clouds.
+class MotionCheck {
+ public:
+  void Add(const RecordedFrame& recorded, std::size_t frame, RecordingLook& inspection) {
+    if (!recorded.has_pose || inspection.motions.size() == kMostMotions) {
+      before_.reset();
+      return;
+    }
+    Place now{ThinnedCloud(PointsOf(recorded.frame)), recorded.frame.world_from_sensor};
+    if (before_ && before_->cloud.size() >= kFewestLaid && now.cloud.size() >= kFewestLaid) {
+      const Transform step = before_->world_from_sensor.inverse() * now.world_from_sensor;
+      if (const auto laid = LayOn(before_->cloud, now.cloud, step)) {
+        const Vector3 by_clouds_m = laid->onto_from_cloud.translation();
+        inspection.motions.push_back({.frame = frame,
+                                      .distance_m = step.translation().norm(),
+                                      .off_m = (by_clouds_m - step.translation()).norm(),
+                                      .registered_m = by_clouds_m.norm()});
+      }
+    }
+    before_ = std::move(now);
+  }
+
+ private:
+  struct Place {
+    ThinnedCloud cloud;
+    Transform world_from_sensor;
+  };
+  std::optional<Place> before_;
+};
+
+void AddFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
+  const Frame& frame = recorded.frame;
+  ++inspection.num_frames;
+  inspection.num_grids += recorded.is_grid ? 1 : 0;
+  inspection.num_with_beams += recorded.beam_of ? 1 : 0;
+  inspection.num_with_pose += recorded.has_pose ? 1 : 0;
+  inspection.num_with_objects += recorded.objects.empty() ? 0 : 1;
+  if (inspection.why_no_grid.empty()) inspection.why_no_grid = recorded.why_no_grid;
+  for (const std::string& field : recorded.fields) ++inspection.fields[field];
+  if (inspection.num_frames == 1) {
+    inspection.origin_m = recorded.origin_m;
+    for (const ForeignField& field : recorded.foreign) inspection.foreign.push_back(field.name);
+  }
+  inspection.stamps_ns.push_back(frame.stamp_ns);
+  if (recorded.Has("time_ns")) {
+    inspection.durations_s.push_back(SecondsFromNs(std::int64_t{frame.duration_ns}));
+  }
+  if (recorded.has_pose) {
+    inspection.world_from_sensor.push_back(frame.world_from_sensor);
+    inspection.pose_stamps_ns.push_back(frame.stamp_ns);
+  }
+  const std::uint64_t before = inspection.num_points;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    if (!std::isnan(frame.x[slot])) AddPoint(recorded, slot, inspection);
+  }
+  inspection.num_empty += inspection.num_points == before ? 1 : 0;
+}
+
+}  // namespace
+
+void InspectedValues::Add(double value) {
+  if (std::isnan(value)) {
+    ++num_missing;
+    return;
+  }
+  ++num;
+  num_zero += value == 0.0 ? 1 : 0;
+  least = std::min(least, value);
+  if (value > highest) num_highest = 0;
+  highest = std::max(highest, value);
+  num_highest += value == highest ? 1 : 0;
+  is_whole = is_whole && value == std::floor(value);
+}
+
+bool RecordingLook::HasAlways(const std::string& field) const {
+  const auto found = fields.find(field);
+  return found != fields.end() && found->second == num_frames;
+}
+
+bool RecordingLook::HasStamps() const {
+  return std::ranges::any_of(stamps_ns, [](std::int64_t stamp_ns) { return stamp_ns != 0; });
+}
+
+RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
+  RecordingLook inspection;
+  MotionCheck motion;
+  while (const auto read = recording.Next()) {
+    if (inspection.num_frames == most_frames) {
+      inspection.is_cut_short = true;
+      break;
+    }
+    const RecordedFrame recorded = (*read)();
+    AddFrame(recorded, inspection);
+    motion.Add(recorded, inspection.num_frames - 1, inspection);
+  }
+  return inspection;
+}
+
+}  // namespace railcast

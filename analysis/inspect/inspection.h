@@ -1,0 +1,124 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "analysis/estimate/streams.h"
+#include "analysis/report/report.h"
+#include "railcast/frame.h"
+#include "railcast/io/recording.h"
+#include "railcast/transform.h"
+
+namespace railcast {
+
+/// A ring of a recording's frames: a row of their grids, or what their field `ring` numbers.
+struct InspectedRing {
+  std::uint64_t num_points{};
+  Moments elevation_deg;  ///< Of points 3 m away and farther, positive upward.
+};
+
+/// Values of a field, over all points.
+struct InspectedValues {
+  std::uint64_t num{};
+  std::uint64_t num_missing{};  ///< NaN.
+  std::uint64_t num_zero{};
+  std::uint64_t num_highest{};  ///< As high as any.
+  double least = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  bool is_whole = true;  ///< Whether all are whole numbers.
+
+  void Add(double value);
+};
+
+/// What the poses of two frames say of the motion between them, and what their clouds say.
+struct MotionBetween {
+  std::size_t frame{};    ///< The second of the two.
+  double distance_m{};    ///< Between the poses.
+  double off_m{};         ///< From where registration lays the second cloud.
+  double registered_m{};  ///< Distance by registration.
+};
+
+/// What the first frames of a recording show of it.
+struct RecordingLook {
+  std::size_t num_frames{};
+  std::size_t num_empty{};  ///< Without a point.
+  std::size_t num_grids{};
+  std::size_t num_with_beams{};  ///< Whose packets state where each firing went.
+  std::size_t num_with_pose{};
+  std::size_t num_with_objects{};
+  bool is_cut_short{};  ///< Whether the recording goes on.
+  std::uint64_t num_points{};
+  std::string why_no_grid;                    ///< Of the first that is none.
+  std::map<std::string, std::size_t> fields;  ///< Number of frames that have it.
+  std::vector<std::string> foreign;           ///< Fields of others, of the first frame.
+  Vector3 origin_m = Vector3::Zero();         ///< Of the first frame.
+
+  std::vector<std::int64_t> stamps_ns;
+  std::vector<double> durations_s;           ///< Of frames whose points have times.
+  std::vector<Transform> world_from_sensor;  ///< Of frames that have one.
+  std::vector<std::int64_t> pose_stamps_ns;  ///< Of the same frames.
+  std::vector<MotionBetween> motions;        ///< Of some pairs of frames with poses.
+
+  std::vector<InspectedRing> rings;
+  InspectedValues intensity;
+  LogHistogram range_m;
+  std::uint64_t num_near{};  ///< Points nearer than kNear_m.
+  /// Points by azimuth, sectors of 5 deg from -180 deg, positive to the left.
+  static constexpr std::size_t kNumSectors = 72;
+  static constexpr double kNear_m = 0.5;
+  std::array<std::uint64_t, kNumSectors> sectors{};
+
+  /// Whether all frames have a field.
+  [[nodiscard]] bool HasAlways(const std::string& field) const;
+  /// Whether the frames have stamps of their own, rather than none at all.
+  [[nodiscard]] bool HasStamps() const;
+};
+
+/// Looks at frames from the first on.
+/// @param most_frames Frames that are read at most.
+/// @throws InputError as the recording does.
+[[nodiscard]] RecordingLook Inspect(Recording& recording, std::size_t most_frames);
+
+/// A sensor of railcast's presets whose channels a recording's rings could be.
+struct SensorGuess {
+  std::string name;    ///< "VLP-16".
+  double error_deg{};  ///< Root mean square of the differences of elevations.
+};
+
+/// The presets that have a channel for each ring, and at most a quarter more, the best first.
+[[nodiscard]] std::vector<SensorGuess> GuessSensor(const std::vector<InspectedRing>& rings);
+
+/// Elevations that differ by less from a preset's are that sensor's, those beyond are another's.
+inline constexpr double kSureGuess_deg = 0.1;
+inline constexpr double kLikelyGuess_deg = 0.5;
+
+/// What a recording can be used for.
+enum class Fitness : std::uint8_t { kYes, kWithOption, kNo };
+
+struct JobFitness {
+  std::string job;  ///< "stats".
+  Fitness fitness{};
+  std::string why;  ///< The option, or the reason; may be empty for kYes.
+};
+
+/// The jobs that JobsOf() knows.
+inline constexpr std::array<const char*, 7> kJobs = {"view",   "stats",    "insert", "weather",
+                                                     "survey", "evaluate", "fit"};
+
+/// Says for each of kJobs whether the recording is fit.
+[[nodiscard]] std::vector<JobFitness> JobsOf(const RecordingLook& inspection,
+                                             const RecordingInfo& info);
+
+/// @param command Command line, for a reader to repeat.
+[[nodiscard]] Report MakeInspectionReport(const RecordingLook& inspection,
+                                          const RecordingInfo& info,
+                                          const std::string& command);
+
+}  // namespace railcast

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/commands.h"
+#include "analysis/inspect/inspection.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "core/io/recording/with_topic.h"
+#include "core/program/version.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+namespace {
+
+struct InspectOptions {
+  std::filesystem::path source;
+  std::string topic;
+  std::string job;  // Empty = none.
+  std::size_t num_frames = 100;
+  int num_threads = 0;
+  ReportOutput output;
+};
+
+int RunInspect(const InspectOptions& options, const std::string& command_line) {
+  const tbb::global_control limit = LimitThreads(options.num_threads);
+  const auto recording = OpenRecording(WithTopic({options.source}, options.topic).front());
+  const RecordingLook inspection = Inspect(*recording, options.num_frames);
+  const RecordingInfo& info = recording->info();
+  if (inspection.num_frames == 0) {
+    throw InputError(ShownPath(options.source) + ": must hold a frame");
+  }
+  Report report = MakeInspectionReport(inspection, info, command_line);
+  AddProvenance({info}, ProgramVersion(), report);
+  EmitReport(report, options.output, "inspect");
+  for (const JobFitness& job : JobsOf(inspection, info)) {
+    if (job.job != options.job || job.fitness != Fitness::kNo) continue;
+    std::cerr << ShownPath(options.source) << ": is not fit for " << job.job << ": " << job.why
+              << "\n";
+    return kExitFailure;
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddInspect(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<InspectOptions>();
+  ProgramOptions inspect = app.AddCommand(
+      "inspect", "Say what a recording is, what is wrong with it, and what it is fit for");
+  inspect.AddOption("SOURCE", options->source, "Recording of any kind").Required();
+  AddTopic(inspect, options->topic);
+  inspect
+      .AddOption("--for", options->job,
+                 "Exit with status 1 if the recording is not fit for this job: " +
+                     std::string("view, stats, insert, weather, survey, evaluate or fit"))
+      .Check(Named({kJobs.begin(), kJobs.end()}));
+  inspect.AddOption("--frames", options->num_frames, "Frames to look at, from the first on")
+      .Check(Whole({1, 1'000'000}))
+      .ShowDefault();
+  AddThreads(inspect, options->num_threads);
+  AddReportOptions(inspect, options->output);
+  inspect.WhenParsed([&command, options] {
+    command = [options](const std::string& line) { return RunInspect(*options, line); };
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,164 @@
+#include "analysis/inspect/inspection.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/report/formats.h"
+#include "core/base/units.h"
+#include "tests/analysis/held_recording.h"
+#include "tests/analysis/recorded_frames.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+std::vector<RecordedFrame> FramesOf(const std::string& sensor, std::uint32_t num = 4) {
+  const MadeScan scan(ReadSensor(sensor));
+  std::vector<RecordedFrame> frames;
+  for (std::uint32_t i = 0; i < num; ++i) frames.push_back(RecordPointsOnly(scan.MakeFrame(i)));
+  return frames;
+}
+
+RecordingLook LookAt(std::vector<RecordedFrame> frames, std::size_t most = 100) {
+  HeldRecording recording(std::move(frames));
+  return Inspect(recording, most);
+}
+
+std::string TextOf(const RecordingLook& look) {
+  RecordingInfo info;
+  info.kind = "directory of point clouds";
+  return ReportText(MakeInspectionReport(look, info, "railcast-analyze inspect"));
+}
+
+Fitness FitnessFor(const std::string& job, const RecordingLook& look) {
+  for (const JobFitness& fitness : JobsOf(look, {})) {
+    if (fitness.job == job) return fitness.fitness;
+  }
+  ADD_FAILURE() << job;
+  return Fitness::kNo;
+}
+
+TEST(GuessSensor, NamesThePresetWhoseChannelsTheRingsAre) {
+  for (const auto& [sensor, name] : {std::pair("vlp16", "VLP-16"),
+                                     {"vlp32c", "VLP-32C"},
+                                     {"xt32", "XT32"},
+                                     {"pandar64", "Pandar64"},
+                                     {"vls128", "VLS-128"}}) {
+    const auto guesses = GuessSensor(LookAt(FramesOf(sensor, 1)).rings);
+    ASSERT_FALSE(guesses.empty()) << sensor;
+    EXPECT_EQ(guesses.front().name, name);
+    EXPECT_LT(guesses.front().error_deg, kSureGuess_deg);
+  }
+}
+
+TEST(GuessSensor, IsNotSureOfRingsThatNoPresetHas) {
+  RecordingLook look = LookAt(FramesOf("vlp16", 1));
+  for (InspectedRing& ring : look.rings) {
+    const double turned_deg = ring.elevation_deg.PlainMean() + 5.0;
+    ring.elevation_deg = {};
+    ring.elevation_deg.Add(turned_deg);
+  }
+  EXPECT_GT(GuessSensor(look.rings).front().error_deg, kLikelyGuess_deg);
+  EXPECT_THAT(TextOf(look), HasSubstr("its rings are no preset's"));
+}
+
+TEST(Inspect, CountsFramesAndLooksAtNoMoreThanAskedFor) {
+  const RecordingLook look = LookAt(FramesOf("vlp16", 4), 3);
+  EXPECT_EQ(look.num_frames, 3U);
+  EXPECT_TRUE(look.is_cut_short);
+  EXPECT_EQ(look.num_grids, 3U);
+  EXPECT_FALSE(LookAt(FramesOf("vlp16", 3), 3).is_cut_short);
+}
+
+TEST(Inspect, FindsGapsAndDoubledAndTurnedBackStamps) {
+  auto frames = FramesOf("vlp16", 8);
+  const std::vector<std::int64_t> times_ms = {100, 200, 300, 300, 250, 400, 500, 900};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].frame.stamp_ns = times_ms[i] * 1'000'000;
+  }
+  const std::string text = TextOf(LookAt(std::move(frames)));
+  EXPECT_THAT(text, testing::ContainsRegex("gaps +1 "));
+  EXPECT_THAT(text, testing::ContainsRegex("doubled stamps +1\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("stamps before the one before them +1\n"));
+}
+
+TEST(Inspect, FindsADeadAndAWeakRing) {
+  auto frames = FramesOf("vlp16");
+  for (RecordedFrame& recorded : frames) {
+    Frame& frame = recorded.frame;
+    for (std::size_t i = 0; i < frame.width(); ++i) {
+      frame.x[3 * frame.width() + i] = kNaN;
+      if (i % 4 != 0) frame.x[9 * frame.width() + i] = kNaN;
+    }
+  }
+  const std::string text = TextOf(LookAt(std::move(frames)));
+  EXPECT_THAT(text, testing::ContainsRegex("dead, with under 1 % of the median's points +1 +3\n"));
+  EXPECT_THAT(text, testing::ContainsRegex("weak, [^\n]* points +1 +9\n"));
+}
+
+TEST(Inspect, FindsABlockedSector) {
+  auto frames = FramesOf("vlp16");
+  for (RecordedFrame& recorded : frames) {
+    Frame& frame = recorded.frame;
+    for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+      const double azimuth_deg =
+          DegFromRad(std::atan2(static_cast<double>(frame.y[i]), static_cast<double>(frame.x[i])));
+      if (azimuth_deg > 29.0 && azimuth_deg < 46.0) frame.x[i] = kNaN;
+    }
+  }
+  EXPECT_THAT(TextOf(LookAt(std::move(frames))), HasSubstr("30 to 45 deg"));
+}
+
+TEST(Inspect, FindsPosesThatJump) {
+  auto frames = FramesOf("vlp16");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].has_pose = true;
+    frames[i].frame.stamp_ns = static_cast<std::int64_t>(i + 1) * 100'000'000;
+    frames[i].frame.world_from_sensor.translation().x() =
+        i < 3 ? 2.0 * static_cast<double>(i) : 500.0;
+  }
+  const std::string text = TextOf(LookAt(std::move(frames)));
+  EXPECT_THAT(text, testing::ContainsRegex("highest speed from frame to frame +4960 m/s +a jump"));
+}
+
+TEST(JobsOf, TellsWhatIsMissingForWhat) {
+  const RecordingLook grid = LookAt(FramesOf("vlp16"));
+  EXPECT_EQ(FitnessFor("stats", grid), Fitness::kYes);
+  EXPECT_EQ(FitnessFor("weather", grid), Fitness::kWithOption);
+  EXPECT_EQ(FitnessFor("evaluate", grid), Fitness::kNo);
+  EXPECT_EQ(FitnessFor("fit", grid), Fitness::kWithOption);
+  auto frames = FramesOf("vlp16");
+  for (RecordedFrame& recorded : frames) {
+    recorded.is_grid = false;
+    recorded.why_no_grid = "it has no rings";
+  }
+  const RecordingLook loose = LookAt(std::move(frames));
+  EXPECT_EQ(FitnessFor("weather", loose), Fitness::kNo);
+  EXPECT_EQ(FitnessFor("insert", loose), Fitness::kWithOption);
+  EXPECT_EQ(FitnessFor("fit", loose), Fitness::kNo);
+  EXPECT_THAT(TextOf(loose), HasSubstr("it has no rings"));
+}
+
+TEST(JobsOf, IsNoForEverythingWithoutAPoint) {
+  auto frames = FramesOf("vlp16", 1);
+  for (float& x : frames[0].frame.x) x = kNaN;
+  for (const JobFitness& job : JobsOf(LookAt(std::move(frames)), {})) {
+    EXPECT_EQ(job.fitness, Fitness::kNo) << job.job;
+  }
+}
+
+}  // namespace
+}  // namespace railcast
