@@ -20,6 +20,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/limited_process.h"
 #include "core/mesh/mesh_format.h"

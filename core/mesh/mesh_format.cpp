@@ -8,12 +8,11 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/base/text_encoding.h"
 #include "core/mesh/mesh_readers.h"
 
 namespace railcast {
 namespace {
-
-using std::string_view_literals::operator""sv;
 
 constexpr std::string_view kWordBreaks = " \t\r\n\v\f";
 
@@ -57,7 +56,7 @@ bool HasExtension(const std::filesystem::path& file, std::string_view lower) {
 
 std::optional<MeshFormat> SceneFormatOf(const std::string& bytes) {
   constexpr std::size_t kSearched = 4096;
-  // UTF-16 has a zero in every other byte.
+  // UTF-16 has two bytes for each letter.
   const std::string text = AsUtf8(std::string(Begin(bytes, 2 * kSearched)));
   const std::string_view begin = Begin(text, kSearched);
   const auto holds = [&](std::string_view word) {
@@ -68,9 +67,7 @@ std::optional<MeshFormat> SceneFormatOf(const std::string& bytes) {
     return MeshFormat::kFbx;
   }
   if (begin.starts_with("MM") && bytes.size() >= 16) return MeshFormat::k3ds;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  const std::size_t first = begin.find_first_not_of(
-      " \t\r\n", begin.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  const std::size_t first = begin.find_first_not_of(" \t\r\n");
   if (first == std::string_view::npos) return std::nullopt;
   if (begin[first] == '<' && holds("<COLLADA")) return MeshFormat::kDae;
   if (begin[first] == '{' && bytes.find("\"asset\"") != std::string::npos) {
@@ -94,21 +91,6 @@ bool HasLikelyTriangles(const std::string& bytes) {
     if (!are_likely) return false;
   }
   return place > kStlHeaderBytes;
-}
-
-/// Appends a code point. What is none in UTF-16 becomes the replacement character.
-void AppendUtf8(std::uint32_t code, std::string& text) {
-  constexpr std::array<std::uint32_t, 3> kFirstOfLength = {0x80, 0x800, 0x10000};
-  if (code < kFirstOfLength[0]) {
-    text += static_cast<char>(code);
-    return;
-  }
-  const int num_more = code < kFirstOfLength[1] ? 1 : code < kFirstOfLength[2] ? 2 : 3;
-  const std::uint32_t mark = (0xFF00U >> static_cast<unsigned>(num_more + 1)) & 0xFFU;
-  text += static_cast<char>(mark | (code >> static_cast<unsigned>(6 * num_more)));
-  for (int i = num_more - 1; i >= 0; --i) {
-    text += static_cast<char>(0x80U | ((code >> static_cast<unsigned>(6 * i)) & 0x3FU));
-  }
 }
 
 }  // namespace
@@ -138,33 +120,6 @@ std::optional<UnevenStl> UnevenStlOf(const std::string& bytes, const std::filesy
   const bool is_cut = num_bytes > bytes.size() && HasLikelyTriangles(bytes);
   if (!is_cut && !HasExtension(file, ".stl")) return std::nullopt;
   return UnevenStl{num_triangles, num_bytes};
-}
-
-std::string AsUtf8(std::string bytes) {
-  const std::string_view begin = Begin(bytes, 2);
-  const bool is_little = begin == "\xFF\xFE"sv || begin == "<\0"sv;
-  const bool is_big = begin == "\xFE\xFF"sv || begin == "\0<"sv;
-  if (!is_little && !is_big) return bytes;
-  const auto unit_at = [&](std::size_t place) {
-    const auto first = static_cast<unsigned char>(bytes[place]);
-    const auto second = static_cast<unsigned char>(bytes[place + 1]);
-    return static_cast<std::uint32_t>(is_little ? second << 8U | first : first << 8U | second);
-  };
-  std::string text;
-  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
-    std::uint32_t code = unit_at(i);
-    if (i == 0 && code == 0xFEFF) continue;
-    const bool is_high = code >= 0xD800 && code < 0xDC00;
-    const std::uint32_t low = is_high && i + 3 < bytes.size() ? unit_at(i + 2) : 0;
-    if (low >= 0xDC00 && low < 0xE000) {
-      code = 0x10000 + ((code - 0xD800) << 10U) + (low - 0xDC00);
-      i += 2;
-    } else if (code >= 0xD800 && code < 0xE000) {
-      code = 0xFFFD;
-    }
-    AppendUtf8(code, text);
-  }
-  return text;
 }
 
 }  // namespace railcast

@@ -31,8 +31,4 @@ struct UnevenStl {
 [[nodiscard]] std::optional<UnevenStl> UnevenStlOf(const std::string& bytes,
                                                    const std::filesystem::path& file);
 
-/// The text as UTF-8 if it is UTF-16, by its byte order mark or by the zeros between its letters;
-/// else unchanged.
-[[nodiscard]] std::string AsUtf8(std::string bytes);
-
 }  // namespace railcast

@@ -176,13 +176,6 @@ TEST_F(SceneImport, ReadsDaeInUtf16) {
   }
 }
 
-TEST(AsUtf8, EncodesEveryLength) {
-  // "<", U+00E9, U+20AC, U+1F682 as two units, and half of such a pair.
-  const std::string utf16("<\0\xE9\0\xAC\x20\x3D\xD8\x82\xDE\x3D\xD8", 12);
-  EXPECT_EQ(AsUtf8(utf16), "<\xC3\xA9\xE2\x82\xAC\xF0\x9F\x9A\x82\xEF\xBF\xBD");
-  EXPECT_EQ(AsUtf8("<a"), "<a");
-}
-
 std::string GltfWithMaterials(const std::string& materials) {
   return TriangleGltf("{\"mesh\": 0}", ", \"materials\": [" + materials + "]");
 }
