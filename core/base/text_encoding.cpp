@@ -1,5 +1,6 @@
 #include "core/base/text_encoding.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,23 @@ void AppendUtf8(std::uint32_t code, std::string& text) {
 }
 
 }  // namespace
+
+bool IsUtf16(std::string_view bytes) {
+  return Utf16Of(bytes) != ByteOrder::kNone;
+}
+
+std::string_view WithoutMark(std::string_view bytes) {
+  if (bytes.starts_with(kUtf8Mark)) bytes.remove_prefix(kUtf8Mark.size());
+  return bytes;
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  });
+  return lower;
+}
 
 std::string AsUtf8(std::string bytes) {
   if (bytes.starts_with(kUtf8Mark)) bytes.erase(0, kUtf8Mark.size());

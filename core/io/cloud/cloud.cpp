@@ -1,6 +1,7 @@
 #include "core/io/cloud/cloud.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "core/base/error.h"
@@ -38,13 +39,13 @@ const CloudField* Cloud::Find(std::string_view name) const {
 }
 
 void Cloud::AddField(std::string name, NumberType type, std::uint32_t count) {
-  fields.push_back({std::move(name), point_step, type, count});
+  fields.push_back({.name = std::move(name), .offset = point_step, .type = type, .count = count});
   point_step += static_cast<std::uint32_t>(fields.back().num_bytes());
 }
 
 bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_view>& words) {
   auto word = words.begin();
-  for (const CloudField& field : fields) {
+  for (CloudField& field : fields) {
     for (std::uint32_t i = 0; i < field.count; ++i, ++word) {
       if (word == words.end()) return false;
       VisitNumberType(field.type, [&](auto zero) {
@@ -57,12 +58,37 @@ bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_
                            ShownText(*word) + ")");
         }
         const auto value = static_cast<Value>(*parsed);
+        if constexpr (std::is_same_v<Value, float>) {
+          const bool is_far = std::abs(*parsed) > kFarPosition_m;
+          field.is_rounded = field.is_rounded || (is_far && double{value} != *parsed);
+        }
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);
         data.insert(data.end(), bytes, bytes + sizeof value);
       });
     }
   }
   return true;
+}
+
+bool Cloud::WidenRounded() {
+  if (std::ranges::none_of(fields, &CloudField::is_rounded)) return false;
+  point_step = 0;
+  for (const CloudField& field : std::exchange(fields, {})) {
+    AddField(field.name, field.is_rounded ? NumberType::kDouble : field.type, field.count);
+  }
+  data.clear();
+  return true;
+}
+
+void SwapBytes(const Cloud& cloud, std::vector<std::uint8_t>& rows) {
+  for (auto row = rows.begin(); row != rows.end(); row += cloud.point_step) {
+    for (const CloudField& field : cloud.fields) {
+      auto number = row + field.offset;
+      for (std::uint32_t i = 0; i < field.count; ++i, number += SizeOf(field.type)) {
+        std::reverse(number, number + SizeOf(field.type));
+      }
+    }
+  }
 }
 
 std::vector<std::size_t> FieldSizes(const Cloud& cloud) {

@@ -39,12 +39,25 @@ template <typename Number>
   return std::is_signed_v<Number> ? is_signed : NumberType(static_cast<int>(is_signed) + 1);
 }
 
+/// Positions farther from 0 are stored from an origin near them, or in double precision.
+inline constexpr double kFarPosition_m = 10e3;
+
+/// Whether a number can be a coordinate in metres, seen from the sensor: finite, below
+/// kFarPosition_m, and not so small that it is no length but other data.
+[[nodiscard]] inline bool IsLikelyPosition(double value_m) {
+  constexpr double kLeast_m = 1e-20;
+  const double size_m = std::abs(value_m);
+  return value_m == 0.0 || (size_m >= kLeast_m && size_m < kFarPosition_m);
+}
+
 /// What every point has: a number, or several of one type.
 struct CloudField {
   std::string name;
   std::uint32_t offset{};  ///< In a point, bytes.
   NumberType type{};
   std::uint32_t count = 1;  ///< Numbers of a point.
+  /// Whether text had numbers beyond kFarPosition_m with digits that the type cannot hold.
+  bool is_rounded{};
 
   /// Returns the name without CloudCompare's prefix `scalar_`.
   [[nodiscard]] std::string_view plain_name() const;
@@ -82,6 +95,10 @@ struct Cloud {
   /// @return Whether there are enough words.
   /// @throws InputError "place: name: no value of its type (got 256)".
   bool AppendWords(const std::string& place, const std::vector<std::string_view>& words);
+  /// Makes fields double whose words were rounded (CloudField::is_rounded), so that the lines can
+  /// be read again with all their digits.
+  /// @return Whether there are any; then the cloud has no data any more.
+  bool WidenRounded();
 };
 
 /// Calls `visit(point, value)` for the field's (first) number of every point, in its stored type.
@@ -126,6 +143,9 @@ void Transpose(const std::vector<std::size_t>& part_sizes,
                const void* from,
                bool is_to_rows,
                void* to);
+
+/// Turns the byte order of all numbers of rows that a cloud's fields describe.
+void SwapBytes(const Cloud& cloud, std::vector<std::uint8_t>& rows);
 
 /// The cloud as PCL has it; the header stays empty.
 [[nodiscard]] pcl::PCLPointCloud2 ToPcl(Cloud cloud);

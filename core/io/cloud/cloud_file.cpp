@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/cloud/pcd_encoder.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -19,8 +20,10 @@ std::string WithNumber(std::string_view header, std::size_t number) {
   while (const auto line = TakeLine(header)) {
     const auto words = Words(*line);
     if (words.empty()) continue;
-    const bool is_ply = words[0] == "element" && words.size() == 3 && words[1] == "vertex";
-    if (!is_ply && words[0] != "WIDTH" && words[0] != "POINTS") continue;
+    const std::string key = LowerCase(words[0]);
+    if (key == "end_header") break;
+    const bool is_ply = key == "element" && words.size() == 3 && words[1] == "vertex";
+    if (!is_ply && key != "width" && key != "points") continue;
     changed.append(kept, words.back().data()) += NumberText(number);
     kept = words.back().data() + words.back().size();
   }
@@ -97,9 +100,12 @@ std::vector<std::string> Rewritten(const CloudFile& file, const OtherPoints& poi
     return {parts.substr(0, num * point_bytes), parts.substr(num * point_bytes)};
   }
   switch (file.storage) {
-    case PointStorage::kRows:
-      bytes.append(reinterpret_cast<const char*>(points.data.data()), points.data.size());
+    case PointStorage::kRows: {
+      std::vector<std::uint8_t> rows = points.data;
+      if (file.is_big_endian) SwapBytes(cloud, rows);
+      bytes.append(reinterpret_cast<const char*>(rows.data()), rows.size());
       break;
+    }
     case PointStorage::kFields:
       Transpose(FieldSizes(cloud), num, points.data.data(), false, parts.data());
       AppendCompressed(parts, bytes);
@@ -124,14 +130,26 @@ std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& f
   return exists(beside) ? std::optional(beside) : std::nullopt;
 }
 
-Cloud ReadCloud(const std::filesystem::path& file) {
+CloudFile ParseCloudFile(const std::filesystem::path& file,
+                         std::string_view bytes,
+                         const std::optional<std::string>& second,
+                         const std::string& columns) {
   const FrameFormat* const format = FindReader(file);
   if (format == nullptr) {
     throw InputError(ShownPath(file) + ": must be a " + ReadableExtensions(true) + " file");
   }
+  if (columns.empty()) return format->parse(ShownPath(file), bytes, second);
+  if (!format->dataset) {
+    throw InputError(ShownPath(file) + ": must be a .bin file for its columns to be chosen (got " +
+                     columns + ")");
+  }
+  return ParseKittiColumns(ShownPath(file), bytes, second, columns);
+}
+
+Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns) {
   std::optional<std::string> second;
   if (const auto beside = SecondFileOf(file)) second = ReadFileWhole(*beside);
-  return format->parse(ShownPath(file), ReadFileWhole(file), second).cloud;
+  return ParseCloudFile(file, ReadFileWhole(file), second, columns).cloud;
 }
 
 }  // namespace railcast

@@ -28,29 +28,51 @@ struct CloudFile {
   std::string_view points;    ///< As stored, but for KITTI; behind lines of points may be others.
   std::string_view tail;      ///< What follows them, such as the faces of a PLY file.
   std::size_t label_bytes{};  ///< KITTI: at the end of each point, from the file of the labels.
+  bool is_big_endian{};       ///< PLY: the byte order of the points as stored.
 };
 
 // Each of FrameFormat::parse (railcast/io/cloud_files.h). `file` is named in errors, which are
 // InputErrors with one line: "file: place: rule (got value)".
 
-/// Reads a PCD file held in `bytes`, of any encoding.
+/// Reads a PCD file held in `bytes`, of any encoding. Keys may be in any case, fields of COUNT 0
+/// are none, and text has all its digits, whatever SIZE says (Cloud::WidenRounded()).
 [[nodiscard]] CloudFile ParsePcdFile(const std::string& file,
                                      std::string_view bytes,
                                      const std::optional<std::string>& second = {});
 
-/// Reads a PLY file held in `bytes`, ASCII or binary little-endian. Element vertex must come first
-/// and have only scalar properties, as in all known point clouds; other elements (faces, camera)
-/// may follow and are not read.
+/// Reads a PLY file held in `bytes`, ASCII or binary, in either byte order. Element vertex must
+/// have only scalar properties, as in all known point clouds; other elements (faces, camera) are
+/// passed over, but nothing may stand behind them.
 [[nodiscard]] CloudFile ParsePlyFile(const std::string& file,
                                      std::string_view bytes,
                                      const std::optional<std::string>& second = {});
 
 /// Reads KITTI's velodyne/*.bin held in `bytes`: float32 x, y, z, remission of each point. With
 /// `labels`, the bytes of SemanticKITTI's .label (one uint32 per point: label in the lower half,
-/// instance in the upper), label and instance become fields as well.
+/// instance in the upper), label and instance become fields as well. The file does not say what its
+/// numbers are: where the values are not those of four a point, the error names what fits.
 [[nodiscard]] CloudFile ParseKittiFile(const std::string& file,
                                        std::string_view bytes,
                                        const std::optional<std::string>& labels);
+
+/// Whether it is a choice of the numbers of a point in .bin files: 3 to 16 (float32 x y z intensity
+/// and others), "nuscenes" (x y z intensity ring), "waymo" (x y z intensity elongation timestamp)
+/// or "float64" (x y z intensity).
+[[nodiscard]] bool IsKittiColumns(std::string_view choice);
+
+/// As ParseKittiFile(), with the numbers of a point that were chosen.
+/// @pre IsKittiColumns(choice).
+[[nodiscard]] CloudFile ParseKittiColumns(const std::string& file,
+                                          std::string_view bytes,
+                                          const std::optional<std::string>& labels,
+                                          std::string_view choice);
+
+/// Parses a cloud file by the ending of its name.
+/// @param columns One of IsKittiColumns(); empty = none was chosen.
+[[nodiscard]] CloudFile ParseCloudFile(const std::filesystem::path& file,
+                                       std::string_view bytes,
+                                       const std::optional<std::string>& second,
+                                       const std::string& columns);
 
 /// Returns the file of the labels of a .bin file, ../labels/NAME.label, if it is there.
 [[nodiscard]] std::optional<std::filesystem::path> SecondFileOf(const std::filesystem::path& file);
@@ -58,7 +80,7 @@ struct CloudFile {
 /// Reads a cloud file. A .bin file takes its labels from ../labels if they are there.
 /// @throws InputError with one line if the file is not a .pcd, .ply or .bin, cannot be read or is
 ///   damaged.
-[[nodiscard]] Cloud ReadCloud(const std::filesystem::path& file);
+[[nodiscard]] Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns = {});
 
 /// Points to write into a file in place of its own.
 struct OtherPoints {

@@ -16,7 +16,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/field_layout.h"
 
@@ -84,37 +83,6 @@ constexpr std::size_t kPointBytes = 4 * sizeof(float);
 constexpr std::size_t kLabelBytes = sizeof(std::uint32_t);
 
 }  // namespace
-
-CloudFile ParseKittiFile(const std::string& file,
-                         std::string_view bytes,
-                         const std::optional<std::string>& labels) {
-  const std::size_t num_points = bytes.size() / kPointBytes;
-  if (bytes.size() % kPointBytes != 0 || num_points > std::numeric_limits<std::uint32_t>::max()) {
-    throw InputError(file + ": must have 16 bytes for each point (got " + NumberText(bytes.size()) +
-                     ")");
-  }
-  if (labels && labels->size() != num_points * kLabelBytes) {
-    throw InputError(file + ": its .label file must have " + NumberText(num_points * kLabelBytes) +
-                     " bytes (got " + NumberText(labels->size()) + ")");
-  }
-  CloudFile read;
-  Cloud& cloud = read.cloud;
-  cloud.width = static_cast<std::uint32_t>(num_points);
-  cloud.height = 1;
-  for (const char* name : {"x", "y", "z", "intensity"}) cloud.AddField(name, NumberType::kFloat);
-  if (!labels) {
-    const auto* const rows = reinterpret_cast<const std::uint8_t*>(bytes.data());
-    cloud.data.assign(rows, rows + bytes.size());
-    return read;
-  }
-  cloud.AddField("label", NumberType::kUint16);
-  cloud.AddField("instance", NumberType::kUint16);
-  read.label_bytes = kLabelBytes;
-  cloud.data.resize(num_points * cloud.point_step);
-  Transpose({kPointBytes, kLabelBytes}, num_points, (std::string(bytes) + *labels).data(), true,
-            cloud.data.data());
-  return read;
-}
 
 void EncodeKittiPoints(const Frame& frame, std::string& bytes) {
   bytes.resize(frame.num_slots() * kPointBytes);

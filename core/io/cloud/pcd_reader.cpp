@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -8,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/pcd_encoder.h"
 
@@ -21,7 +23,11 @@ namespace {
 
 constexpr std::uint64_t kMaxCloudBytes = std::numeric_limits<std::uint32_t>::max();
 
-// Collects the lines of one header; errors name the file.
+char UpperLetter(char letter) {
+  return letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+}
+
+// Collects the lines of one header, by their keys in upper case; errors name the file.
 class HeaderReader {
  public:
   HeaderReader(const std::string& file, std::string_view bytes) : file_(file), rest_(bytes) {
@@ -29,7 +35,9 @@ class HeaderReader {
     while (const auto line = TakeLine(rest_)) {
       const auto words = Words(*line);
       if (words.empty() || words[0].starts_with('#')) continue;
-      const std::string key(words[0] == "COLUMNS" ? "FIELDS" : words[0]);
+      std::string key(words[0]);
+      std::ranges::transform(key, key.begin(), UpperLetter);
+      if (key == "COLUMNS") key = "FIELDS";
       if (key != "VERSION" && key != "FIELDS" && key != "SIZE" && key != "TYPE" && key != "COUNT" &&
           key != "WIDTH" && key != "HEIGHT" && key != "VIEWPOINT" && key != "POINTS" &&
           key != "DATA") {
@@ -79,15 +87,16 @@ class HeaderReader {
 };
 
 /// The type that a letter of TYPE and a size in bytes stand for.
-NumberType TypeOf(const HeaderReader& reader, std::string_view letter, std::uint64_t size) {
+NumberType TypeOf(const HeaderReader& reader, std::string_view word, std::uint64_t size) {
+  const std::string letter(1, word.size() == 1 ? UpperLetter(word[0]) : ' ');
   if (letter != "I" && letter != "U" && letter != "F") {
-    reader.Fail("TYPE: must be I, U or F (got " + ShownText(letter) + ")");
+    reader.Fail("TYPE: must be I, U or F (got " + ShownText(word) + ")");
   }
   for (int i = 1; i <= static_cast<int>(NumberType::kUint64); ++i) {
     const auto type = static_cast<NumberType>(i);
     if (letter[0] == PcdLetter(type) && size == SizeOf(type)) return type;
   }
-  reader.Fail("SIZE: no " + std::string(letter) + " has " + std::to_string(size) + " bytes");
+  reader.Fail("SIZE: no " + letter + " has " + std::to_string(size) + " bytes");
 }
 
 /// Adds the fields to the cloud.
@@ -109,22 +118,37 @@ std::uint64_t ReadFields(const HeaderReader& reader, Cloud& cloud) {
     const std::uint64_t count =
         reader.Has("COUNT") ? reader.Number("COUNT", reader.Entries("COUNT")[i]) : 1;
     const NumberType type = TypeOf(reader, reader.Entries("TYPE")[i], size);
-    if (count == 0) reader.Fail("COUNT: must be > 0 (got 0)");
+    if (count == 0) continue;  // It has no bytes and no words.
     cloud.AddField(std::string(names[i]), type, static_cast<std::uint32_t>(count));
     step += cloud.fields.back().num_bytes();
   }
+  if (cloud.fields.empty()) reader.Fail("COUNT: must not be 0 for all of FIELDS");
   return step;
 }
 
-void ReadPcdText(const HeaderReader& reader, const std::string& file, CloudFile& read) {
+void CheckViewpoint(const HeaderReader& reader, const std::string& file, Cloud& cloud) {
+  constexpr std::array<double, 7> kOrigin = {0, 0, 0, 1, 0, 0, 0};
+  if (!reader.Has("VIEWPOINT")) return;
+  const auto& words = reader.Entries("VIEWPOINT");
+  bool is_origin = true;
+  for (std::size_t i = 0; i < words.size() && i < kOrigin.size(); ++i) {
+    const auto number = ParseSignedNumber<double>(words[i]);
+    if (!number) reader.Fail("VIEWPOINT: must have 7 numbers (got " + ShownText(words[i]) + ")");
+    is_origin = is_origin && *number == kOrigin[i];
+  }
+  if (words.size() != kOrigin.size()) reader.Fail("VIEWPOINT: must have 7 numbers");
+  if (!is_origin) AddRemark({.kind = RemarkKind::kViewpointUnused, .place = file}, cloud.remarks);
+}
+
+void ReadPcdLines(const HeaderReader& reader, const std::string& file, CloudFile& read) {
   const std::uint64_t num_points = read.cloud.num_points();
   std::uint64_t num_values = 0;
   for (const CloudField& field : read.cloud.fields) num_values += field.count;
   std::uint64_t num_lines = 0;
   std::string_view rest = read.points;
   while (const auto line = TakeLine(rest)) {
-    if (line->empty()) continue;
     const auto words = Words(*line);
+    if (words.empty()) continue;
     // The data grow with the text, whatever the header says.
     if (!read.cloud.AppendWords(file, words)) {
       reader.Fail("a point has fewer values than FIELDS asks for");
@@ -136,6 +160,11 @@ void ReadPcdText(const HeaderReader& reader, const std::string& file, CloudFile&
     reader.Fail("POINTS: " + std::to_string(num_points) + " need as many lines, the file has " +
                 std::to_string(num_lines));
   }
+}
+
+void ReadPcdText(const HeaderReader& reader, const std::string& file, CloudFile& read) {
+  ReadPcdLines(reader, file, read);
+  if (read.cloud.WidenRounded()) ReadPcdLines(reader, file, read);
 }
 
 /// Whether data have this size, or end in the zeros that PCL's writer of PCLPointCloud2 leaves
@@ -158,6 +187,7 @@ void ReadBinary(const HeaderReader& reader, CloudFile& read) {
 }
 
 void ReadCompressed(const HeaderReader& reader, CloudFile& read) {
+  if (read.cloud.num_points() == 0) return;
   std::array<std::uint32_t, 2> sizes{};  // Of the compressed and of the plain data.
   if (read.points.size() < sizeof sizes) reader.Fail("DATA: the compressed sizes are missing");
   std::memcpy(sizes.data(), read.points.data(), sizeof sizes);
@@ -190,6 +220,8 @@ void ReadCompressed(const HeaderReader& reader, CloudFile& read) {
 CloudFile ParsePcdFile(const std::string& file,
                        std::string_view bytes,
                        const std::optional<std::string>& /*second*/) {
+  if (IsUtf16(bytes)) throw InputError(file + ": is UTF-16; save as UTF-8");
+  bytes = WithoutMark(bytes);
   const HeaderReader reader(file, bytes);
   CloudFile read{.cloud = {},
                  .header = bytes.substr(0, reader.data_begin()),
@@ -200,21 +232,19 @@ CloudFile ParsePcdFile(const std::string& file,
   const std::uint64_t height = reader.Number("HEIGHT");
   const std::uint64_t points = reader.Has("POINTS") ? reader.Number("POINTS") : width * height;
   const auto& data = reader.Entries("DATA");
-  if (reader.Has("VIEWPOINT") && reader.Entries("VIEWPOINT").size() != 7) {
-    reader.Fail("VIEWPOINT: must have 7 numbers");
-  }
+  CheckViewpoint(reader, file, read.cloud);
   // Width and height are below 2^32 each, so their product cannot wrap.
-  if (points != width * height || points == 0) {
-    reader.Fail("POINTS: must be WIDTH x HEIGHT and > 0 (got " + std::to_string(points) + " for " +
+  if (points != width * height) {
+    reader.Fail("POINTS: must be WIDTH x HEIGHT (got " + std::to_string(points) + " for " +
                 std::to_string(width) + " x " + std::to_string(height) + ")");
   }
-  if (points > kMaxCloudBytes || step > kMaxCloudBytes / points) {
+  if (points > kMaxCloudBytes || step > kMaxCloudBytes / std::max<std::uint64_t>(1, points)) {
     reader.Fail("POINTS: " + std::to_string(points) + " points of " + std::to_string(step) +
                 " bytes are 4 GiB or more");
   }
   read.cloud.width = static_cast<std::uint32_t>(width);
   read.cloud.height = static_cast<std::uint32_t>(height);
-  const std::string_view encoding = data.size() == 1 ? data[0] : std::string_view();
+  const std::string encoding = data.size() == 1 ? LowerCase(data[0]) : "";
   if (encoding == "ascii") {
     read.storage = PointStorage::kText;
     ReadPcdText(reader, file, read);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -6,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/cloud/cloud_file.h"
 
 namespace railcast {
@@ -15,31 +19,97 @@ namespace {
   throw InputError(file + ": " + rule);
 }
 
-bool ReadFormat(const std::string& file, const std::vector<std::string_view>& words) {
-  if (words.size() == 3 && words[1] == "ascii") return true;
-  if (words.size() == 3 && words[1] == "binary_little_endian") return false;
-  Fail(file, "format: must be ascii or binary_little_endian (got " +
+/// A property of an element: a number, or a list of numbers behind their count.
+struct PlyProperty {
+  std::string name;
+  NumberType type{};
+  std::optional<NumberType> length;  ///< The type of a list's count.
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint32_t count{};
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  bool is_text{};
+  bool is_big_endian{};
+  std::vector<PlyElement> elements;
+};
+
+void ReadFormat(const std::string& file,
+                const std::vector<std::string_view>& words,
+                PlyHeader& header) {
+  const std::string_view name = words.size() == 3 ? words[1] : std::string_view();
+  header.is_text = name == "ascii";
+  header.is_big_endian = name == "binary_big_endian";
+  if (header.is_text || header.is_big_endian || name == "binary_little_endian") return;
+  Fail(file, "format: must be ascii, binary_little_endian or binary_big_endian (got " +
                  (words.size() > 1 ? ShownText(words[1]) : "nothing") + ")");
 }
 
-void ReadProperty(const std::string& file,
-                  const std::vector<std::string_view>& words,
-                  Cloud& cloud) {
-  if (words.size() != 3) Fail(file, "element vertex: every property must be one number");
-  const auto type = PlyTypeNamed(words[1]);
-  if (!type) {
-    Fail(file, "property " + ShownText(words[2]) + ": unknown type " + ShownText(words[1]));
+PlyProperty ReadProperty(const std::string& file, const std::vector<std::string_view>& words) {
+  const auto type_of = [&](std::string_view name) {
+    const auto type = PlyTypeNamed(name);
+    if (!type)
+      Fail(file, "property " + ShownText(words.back()) + ": unknown type " + ShownText(name));
+    return *type;
+  };
+  if (words.size() == 5 && words[1] == "list") {
+    return {std::string(words[4]), type_of(words[3]), type_of(words[2])};
   }
-  cloud.AddField(std::string(words[2]), *type);
+  if (words.size() != 3) Fail(file, "is no PLY file: a property must have a type and a name");
+  return {std::string(words[2]), type_of(words[1]), {}};
 }
 
-std::uint32_t ReadCount(const std::string& file, const std::vector<std::string_view>& words) {
+PlyElement ReadElement(const std::string& file, const std::vector<std::string_view>& words) {
   const auto count = words.size() == 3 ? ParseNumber<std::uint32_t>(words[2]) : std::nullopt;
   if (!count) {
-    Fail(file, "element vertex: must be a whole number below 2^32 (got " +
+    Fail(file, "element " + ShownText(words.size() > 1 ? words[1] : "") +
+                   ": must be a whole number below 2^32 (got " +
                    (words.size() > 2 ? ShownText(words[2]) : "nothing") + ")");
   }
-  return *count;
+  return {std::string(words[1]), *count, {}};
+}
+
+/// The number that binary data begin with, such as the count of a list.
+double NumberAt(std::string_view data, NumberType type, bool is_big_endian) {
+  return VisitNumberType(type, [&](auto number) {
+    std::array<char, sizeof number> bytes{};
+    std::copy_n(data.begin(), bytes.size(), bytes.begin());
+    if (is_big_endian) std::reverse(bytes.begin(), bytes.end());
+    std::memcpy(&number, bytes.data(), sizeof number);
+    return static_cast<double>(number);
+  });
+}
+
+/// Takes an element off the data: as many lines, or its bytes.
+/// @return Whether the data have all of it.
+bool TakeElement(const PlyHeader& header, const PlyElement& element, std::string_view& data) {
+  const auto take = [&](double size) {
+    if (!(size >= 0.0 && size <= static_cast<double>(data.size()))) return false;
+    data.remove_prefix(static_cast<std::size_t>(size));
+    return true;
+  };
+  if (element.properties.empty()) return true;
+  for (std::uint32_t i = 0; i < element.count; ++i) {
+    if (header.is_text) {
+      if (!TakeLine(data)) return false;
+      continue;
+    }
+    for (const PlyProperty& property : element.properties) {
+      double num = 1.0;
+      if (property.length) {
+        const std::size_t size = SizeOf(*property.length);
+        if (data.size() < size) return false;
+        num = NumberAt(data, *property.length, header.is_big_endian);
+        data.remove_prefix(size);
+      }
+      if (!take(num * SizeOf(property.type))) return false;
+    }
+  }
+  return true;
 }
 
 void CheckLength(const std::string& file, const CloudFile& read) {
@@ -76,10 +146,10 @@ std::string_view ReadPlyText(const std::string& file, std::string_view text, Clo
 }
 
 /// Reads the header up to `rest`.
-void ReadPlyHeader(const std::string& file, std::string_view& rest, CloudFile& read) {
+PlyHeader ReadPlyHeader(const std::string& file, std::string_view& rest) {
   if (TakeLine(rest) != "ply") Fail(file, "is no PLY file: its first line must be \"ply\"");
+  PlyHeader header;
   bool has_format = false;
-  std::size_t num_elements = 0;
   while (true) {
     const auto line = TakeLine(rest);
     if (!line) Fail(file, "is no PLY file: its header has no end_header line");
@@ -87,21 +157,54 @@ void ReadPlyHeader(const std::string& file, std::string_view& rest, CloudFile& r
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") break;
     if (words[0] == "format") {
-      read.storage = ReadFormat(file, words) ? PointStorage::kText : PointStorage::kRows;
+      ReadFormat(file, words, header);
       has_format = true;
     } else if (words[0] == "element") {
-      const bool is_vertex = words.size() > 1 && words[1] == "vertex";
-      if (is_vertex != (num_elements == 0)) Fail(file, "element vertex: must come first, and once");
-      if (is_vertex) read.cloud.width = ReadCount(file, words);
-      ++num_elements;
-    } else if (words[0] == "property" && num_elements == 1) {
-      ReadProperty(file, words, read.cloud);
-    } else if (words[0] != "property" || num_elements == 0) {
+      header.elements.push_back(ReadElement(file, words));
+    } else if (words[0] == "property" && !header.elements.empty()) {
+      header.elements.back().properties.push_back(ReadProperty(file, words));
+    } else {
       Fail(file, "is no PLY file: a header line begins with " + std::string(words[0]));
     }
   }
   if (!has_format) Fail(file, "format: missing");
-  if (read.cloud.fields.empty()) Fail(file, "element vertex: must have properties");
+  return header;
+}
+
+/// Makes the fields of the cloud.
+/// @return Where its element is.
+std::size_t ReadVertexFields(const std::string& file, const PlyHeader& header, Cloud& cloud) {
+  const auto vertex = std::ranges::find(header.elements, "vertex", &PlyElement::name);
+  if (std::ranges::count(header.elements, "vertex", &PlyElement::name) != 1) {
+    Fail(file, "element vertex: must come once");
+  }
+  for (const PlyProperty& property : vertex->properties) {
+    if (property.length) Fail(file, "element vertex: every property must be one number");
+    cloud.AddField(property.name, property.type);
+  }
+  if (cloud.fields.empty()) Fail(file, "element vertex: must have properties");
+  cloud.width = vertex->count;
+  return static_cast<std::size_t>(vertex - header.elements.begin());
+}
+
+/// Takes those elements off the tail that are behind the points, and refuses what is left.
+void CheckTail(const std::string& file,
+               const PlyHeader& header,
+               std::size_t vertex,
+               std::string_view tail) {
+  for (std::size_t i = vertex + 1; i < header.elements.size(); ++i) {
+    if (!TakeElement(header, header.elements[i], tail)) return;  // What is cut is not read.
+  }
+  using std::string_view_literals::operator""sv;
+  if (tail.find_first_not_of(" \t\r\n\0"sv) == std::string_view::npos) return;
+  const std::size_t num_bytes = tail.size();
+  const std::string num = NumberText(header.elements[vertex].count);
+  std::size_t num_lines = 0;
+  while (const auto line = TakeLine(tail)) num_lines += Words(*line).empty() ? 0 : 1;
+  Fail(file,
+       "element vertex: " + num + " points, but the file has " +
+           (header.is_text ? NumberText(num_lines) + " lines" : NumberText(num_bytes) + " bytes") +
+           " more than its elements need");
 }
 
 }  // namespace
@@ -109,22 +212,36 @@ void ReadPlyHeader(const std::string& file, std::string_view& rest, CloudFile& r
 CloudFile ParsePlyFile(const std::string& file,
                        std::string_view bytes,
                        const std::optional<std::string>& /*second*/) {
+  if (IsUtf16(bytes)) Fail(file, "is UTF-16; save as UTF-8");
+  bytes = WithoutMark(bytes);
   CloudFile read;
-  read.cloud.height = 1;
+  Cloud& cloud = read.cloud;
+  cloud.height = 1;
   read.points = bytes;
-  ReadPlyHeader(file, read.points, read);
+  const PlyHeader header = ReadPlyHeader(file, read.points);
+  read.storage = header.is_text ? PointStorage::kText : PointStorage::kRows;
+  read.is_big_endian = header.is_big_endian;
+  const std::size_t vertex = ReadVertexFields(file, header, cloud);
+  for (std::size_t i = 0; i < vertex; ++i) {
+    const PlyElement& element = header.elements[i];
+    if (TakeElement(header, element, read.points)) continue;
+    Fail(file,
+         "ends within its " + NumberText(element.count) + " elements " + ShownText(element.name));
+  }
   read.header = bytes.substr(0, bytes.size() - read.points.size());
   CheckLength(file, read);
-  const std::size_t size = std::size_t{read.cloud.width} * read.cloud.point_step;
-  if (read.storage == PointStorage::kText) {
-    read.cloud.data.reserve(size);
-    read.tail = ReadPlyText(file, read.points, read.cloud);
+  if (header.is_text) {
+    read.tail = ReadPlyText(file, read.points, cloud);
+    if (cloud.WidenRounded()) read.tail = ReadPlyText(file, read.points, cloud);
   } else {
+    const std::size_t size = std::size_t{cloud.width} * cloud.point_step;
     read.tail = read.points.substr(size);
     const auto* const rows = reinterpret_cast<const std::uint8_t*>(read.points.data());
-    read.cloud.data.assign(rows, rows + size);
+    cloud.data.assign(rows, rows + size);
+    if (header.is_big_endian) SwapBytes(cloud, cloud.data);
   }
   read.points.remove_suffix(read.tail.size());
+  CheckTail(file, header, vertex, read.tail);
   return read;
 }
 

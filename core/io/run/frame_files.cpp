@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/run/sequence_files.h"
@@ -109,9 +110,10 @@ const FrameFormat& ParseFrameFormat(std::string_view name) {
 }
 
 const FrameFormat* FindReader(const std::filesystem::path& file) {
+  const std::string extension = LowerCase(file.extension().string());
   for (const FrameFormat& format : FrameFormats()) {
     if (format.parse == nullptr) continue;
-    if (file.extension() == format.files.front().extension) return &format;
+    if (extension == format.files.front().extension) return &format;
   }
   return nullptr;
 }

@@ -38,9 +38,10 @@ TEST(ParsePlyFile, NamesTheFaultOfADamagedFile) {
   EXPECT_EQ(PlyMessage(Replaced(sound, "property float y", "property list uchar int y")),
             "a.ply: element vertex: every property must be one number");
   EXPECT_EQ(PlyMessage(Replaced(sound, "element vertex", "element face")),
-            "a.ply: element vertex: must come first, and once");
-  EXPECT_EQ(PlyMessage(Replaced(sound, "little_endian", "big_endian")),
-            "a.ply: format: must be ascii or binary_little_endian (got binary_big_endian)");
+            "a.ply: element vertex: must come once");
+  EXPECT_EQ(PlyMessage(Replaced(sound, "little_endian", "middle_endian")),
+            "a.ply: format: must be ascii, binary_little_endian or binary_big_endian (got "
+            "binary_middle_endian)");
   EXPECT_EQ(PlyMessage(Replaced(sound, "format binary_little_endian 1.0\n", "")),
             "a.ply: format: missing");
 }
