@@ -10,7 +10,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/fidelity/sample_frames.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/program/progress_line.h"
 #include "core/program/version.h"
@@ -23,7 +23,7 @@ namespace {
 
 struct CompareOptions {
   std::vector<std::filesystem::path> sources;  // Recordings A and B.
-  std::string topic;
+  SourceChoice choice;
   std::optional<Pairing> pairing;
   std::string distances = "0.05,0.1,0.2,0.5";
   bool registers = false;
@@ -55,7 +55,7 @@ std::vector<double> ParseDistances(std::string_view text) {
 
 int RunPairs(const CompareOptions& options, const std::string& command_line) {
   Comparison comparison(ParseDistances(options.distances), options.registers);
-  const auto sources = WithTopic(options.sources, options.topic);
+  const auto sources = WithChoice(options.sources, options.choice);
   const auto a = OpenRecording(sources[0]);
   const auto b = OpenRecording(sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
@@ -172,7 +172,7 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
       "RECORDINGS", options->sources,
       "Two recordings to compare, the first the reference: each a sequence directory, a .pcd or "
       ".ply file, a directory of such files, a .pcap capture or a bag of ROS 2");
-  AddTopic(compare, options->topic);
+  AddSourceChoice(compare, options->choice);
   compare
       .AddText(
           "--pair",
@@ -198,7 +198,7 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
     if (options->sources.size() != (is_ablation ? 0 : 2)) {
       FailUsage("compare", "takes two recordings, or --ablate SCENARIO");
     }
-    if (is_ablation && !options->topic.empty()) {
+    if (is_ablation && !options->choice.topic.empty()) {
       FailUsage("--topic", "applies to two recordings only");
     }
     if (is_ablation && options->pairing) {

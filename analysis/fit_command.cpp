@@ -10,7 +10,7 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
@@ -23,7 +23,7 @@ namespace {
 
 struct FitOptions {
   std::vector<std::filesystem::path> sources;
-  std::string topic;
+  SourceChoice choice;
   std::optional<std::filesystem::path> scenario;
   std::string rung;  // Empty: the rung of the scenario.
   std::string intensity = "auto";
@@ -110,7 +110,7 @@ void Judge(const FitProof& proof,
 
 int RunFit(const FitOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const auto sources = WithTopic(options.sources, options.topic);
+  const auto sources = WithChoice(options.sources, options.choice);
   CheckDistinct(sources);
   std::vector<RecordingInfo> infos;
   for (const std::filesystem::path& source : sources) {
@@ -181,7 +181,7 @@ void AddFit(ProgramOptions& app, ProgramCommand& command) {
                 "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture "
                 "or bag of ROS 2; several are taken together")
       .Required();
-  AddTopic(fit, options->topic);
+  AddSourceChoice(fit, options->choice);
   AddKnowledgeOptions(fit, *options);
   AddThreads(fit, options->num_threads);
   AddReportOptions(fit, options->output);

@@ -5,7 +5,7 @@
 #include "analysis/preset/preset_comparison.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 #include "railcast/scenario.h"
@@ -15,7 +15,7 @@ namespace {
 
 struct PresetOptions {
   std::filesystem::path source;
-  std::string topic;
+  SourceChoice choice;
   std::filesystem::path scenario;
   std::string sectors = "all";
   int num_threads = 0;
@@ -30,7 +30,7 @@ Sectors SectorsOf(const std::string& name) {
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
-  const auto recording = OpenRecording(WithTopic({options.source}, options.topic).front());
+  const auto recording = OpenRecording(WithChoice({options.source}, options.choice).front());
   const PresetComparison comparison =
       ComparePreset(*recording, scenario, SectorsOf(options.sectors));
   const RecordingInfo& info = recording->info();
@@ -51,7 +51,7 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
       .AddOption("SOURCE", options->source,
                  "Capture or other recording of a sensor that stands, as grids")
       .Required();
-  AddTopic(preset, options->topic);
+  AddSourceChoice(preset, options->choice);
   preset
       .AddOption("--scenario", options->scenario,
                  "Scenario whose sensor, rung, weather and materials are compared")

@@ -14,7 +14,7 @@
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -85,7 +85,7 @@ RecordingInfo InfoOfWhole(const MeasuredSource& whole, const RecordingInfo& firs
 
 struct StatsOptions {
   std::vector<std::filesystem::path> sources;
-  std::string topic;
+  SourceChoice choice;
   std::string sensor;                          // Empty = all.
   std::optional<std::filesystem::path> track;  // Scenario with the track of the vehicle.
   int num_threads = 0;
@@ -237,7 +237,7 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  std::vector<MeasuredSource> sources = LookAtSources(WithTopic(options.sources, options.topic));
+  std::vector<MeasuredSource> sources = LookAtSources(WithChoice(options.sources, options.choice));
   SourcesAtFirstSight seen = LookAtRecordings(options.sensor, sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
@@ -274,7 +274,7 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
               ", bag of ROS 2 (.mcap, .db3 or rosbag2's directory), or a folder of KITTI's layout "
               "or a data set; several are summed up")
       .Required();
-  AddTopic(stats, options->topic);
+  AddSourceChoice(stats, options->choice);
   stats
       .AddOption("--sensor", options->sensor,
                  "Name of the only sensor to measure, where there are several; default: all, taken "

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
@@ -122,7 +122,7 @@ class Viewer {
   /// Opens the sources, of which recordings have shown their first frame.
   std::unique_ptr<Session> OpenSession() {
     if (options_.is_live()) OpenLive();
-    for (const auto& source : WithTopic({options_.source, options_.compare}, options_.topic)) {
+    for (const auto& source : WithChoice({options_.source, options_.compare}, options_.choice)) {
       if (source.empty() || options_.is_live()) continue;
       recorded_.push_back(std::make_unique<RecordedFrames>(source));
       UseScenario(*recorded_.back());

@@ -114,7 +114,7 @@ void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw
                 "udp://HOST:PORT, or "
                 "a scenario, SCENARIO.json, whose plan --screenshot draws")
       .Required();
-  AddTopic(app, options.topic);
+  AddSourceChoice(app, options.choice);
   app.AddOption("--frame", options.frame, "Number of the frame to begin with; default: the first")
       .Check(Whole({0, std::numeric_limits<std::uint32_t>::max()}));
   app.AddOption("--compare", options.compare,

@@ -18,7 +18,7 @@ namespace railcast {
 struct ViewOptions {
   std::filesystem::path source;
   std::filesystem::path compare;  ///< Empty: nothing is compared.
-  std::string topic;              ///< Of sources that are bags; empty: their only one.
+  SourceChoice choice;            ///< Of sources that do not say it themselves.
   std::filesystem::path scenario;
   std::optional<std::string> sensor;        ///< Name of a sensor of the scenario.
   std::optional<std::string> from;          ///< HOST or HOST:PORT of a live source's sender.

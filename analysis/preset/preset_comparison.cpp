@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/detect/base/beam_optics.h"
+#include "core/io/recording/plausibility.h"
 
 namespace railcast {
 namespace {
@@ -288,6 +289,10 @@ PresetComparison ComparePreset(Recording& recording,
                                const ScenarioSpec& scenario,
                                Sectors sectors) {
   const std::vector<RecordedFrame> turns = WholeTurns(recording);
+  for (const RecordedFrame& turn : turns) {
+    const auto far = CheckRanges(turn, scenario.lidar.range_max_m);
+    if (far) recording.info().remarks->Add(*far, turn.frame.index + 1U);
+  }
   PresetComparison comparison =
       CompareTurns(SeePlanesOf(turns, sectors), scenario, ShownPath(recording.info().source));
   const double dead_length_m = DeadLength_m(scenario.lidar.receiver);

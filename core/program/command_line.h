@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/io/recording/source_choice.h"
 #include "core/program/options.h"
 
 namespace CLI {
@@ -105,10 +106,15 @@ inline Option AddThreads(ProgramOptions& command,
 /// Adds the option --isa.
 void AddIsa(ProgramOptions& command, std::string& isa);
 
-/// Adds the option --topic, for WithTopic().
-inline void AddTopic(ProgramOptions& command, std::string& topic) {
+/// Adds the options --topic and --kitti-columns, for WithChoice().
+inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
   command
-      .AddOption("--topic", topic,
+      .AddOption("--kitti-columns", choice.kitti_columns,
+                 "Numbers of a point in sources that are .bin files: nuscenes, waymo, float64, or "
+                 "how many float32, x y z intensity first; default: the four of KITTI")
+      .Check(NonEmpty());
+  command
+      .AddOption("--topic", choice.topic,
                  "Topic to read of sources that are bags of ROS 2; needed only where a bag has "
                  "several with points")
       .Check(NonEmpty());

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/packet_recording.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
@@ -50,7 +50,8 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
     if (options.sensor) {
       throw InputError("--sensor: is for captures, since bags do not say who sent packets");
     }
-    if (auto packets = FindBagPackets(options.recording, options.topic)) return std::move(*packets);
+    if (auto packets = FindBagPackets(options.recording, options.choice.topic))
+      return std::move(*packets);
   }
   throw InputError(
       ShownPath(options.recording) +
@@ -60,7 +61,7 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
 
 /// The recording as OpenRecording() takes it.
 std::filesystem::path SourceOf(const ReplayOptions& options) {
-  return WithTopic({options.recording}, options.topic).front();
+  return WithChoice({options.recording}, options.choice).front();
 }
 
 std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {
@@ -77,8 +78,8 @@ std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {
 }
 
 std::unique_ptr<ReplayFeed> OpenMessages(const ReplayOptions& options) {
-  auto feed =
-      std::make_unique<MessageFeed>(options.recording, options.topic, options.pace, options.frames);
+  auto feed = std::make_unique<MessageFeed>(options.recording, options.choice.topic, options.pace,
+                                            options.frames);
   const dds::ParticipantSpec spec = ParticipantOf(options, {});
   feed->Join(JoinDomain(spec), PlaceText(spec));
   return feed;
@@ -126,7 +127,7 @@ std::unique_ptr<ReplayFeed> OpenUdp(const ReplayOptions& options) {
 
 std::unique_ptr<ReplayFeed> OpenFeed(const ReplayOptions& options) {
   // Says so where a topic is given for what is no bag.
-  static_cast<void>(WithTopic({options.recording}, options.topic));
+  static_cast<void>(WithChoice({options.recording}, options.choice));
   switch (KindOf(options)) {
     case ReplayKind::kPackets:
       return OpenPackets(options);

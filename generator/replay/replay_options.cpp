@@ -88,7 +88,7 @@ void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
                  "What to replay: a capture, a bag of ROS 2, a sequence, or clouds")
       .Required()
       .Check(NonEmpty());
-  AddTopic(replay, options.topic);
+  AddSourceChoice(replay, options.choice);
   replay.AddOption("--sensor", options.sensor,
                    "Address of the sensor whose packets to send, where a capture has several; "
                    "default: all of them");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/recording/source_choice.h"
 #include "core/program/options.h"
 #include "generator/live/live_options.h"
 #include "generator/replay/replay_feed.h"
@@ -19,7 +20,7 @@ inline constexpr const char* kRecordedPackets = "packets";
 /// The options of `railcast-generate replay`.
 struct ReplayOptions : CommandOptions, RosOptions {
   std::filesystem::path recording;
-  std::string topic;  ///< Of a bag; empty = all, or the only one.
+  SourceChoice choice{};  ///< Of a bag without a topic: all, or the only one.
   /// Plan of what is put into the recording.
   std::optional<std::filesystem::path> insert;
   std::optional<std::string> sensor;    ///< Address in a capture; absent = all sensors.

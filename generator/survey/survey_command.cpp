@@ -26,6 +26,7 @@ namespace {
 
 struct SurveyCommandOptions {
   SurveySource source;
+  SourceChoice choice;
   SurveyOptions made;
   std::filesystem::path out;
 };
@@ -58,7 +59,9 @@ std::string SurveyReport(const Survey& survey, std::size_t num_bytes) {
 SurveyedRecord ContentOf(const std::filesystem::path& source) {
   const auto capture = FindCapture(source);
   const auto bag = FindBag(source);
-  const std::filesystem::path recording = capture ? capture->file : bag ? bag->bag : source;
+  const std::filesystem::path recording = capture ? capture->file
+                                          : bag   ? bag->bag
+                                                  : KittiSourceOf(source).clouds;
   std::map<std::string, FileHash> files;
   if (!is_directory(recording)) {
     files[recording.filename().string()] = HashFile(recording);
@@ -80,7 +83,7 @@ SurveyedRecord ContentOf(const std::filesystem::path& source) {
 }
 
 SurveyRecord SurveyRecordOf(const SurveyCommandOptions& options, const Survey& survey) {
-  const auto& [source, made, out] = options;
+  const auto& [source, choice, made, out] = options;
   SurveyRecord record{.version = ProgramVersion(),
                       .start_frame = source.first_frame,
                       .stride = source.stride,
@@ -174,9 +177,10 @@ void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
                                          "Frames without a pose have points in the world's axes")
                                 .Excludes(standing);
   command
-      .AddOption("--poses", source.poses,
-                 "Poses of the sensor in the world, one for each frame: lines of KITTI's, .csv as "
-                 "railcast's poses.csv, or .json of OpenLABEL with the sensor \"lidar\"")
+      .AddOption(
+          "--poses", source.poses,
+          "Poses of the sensor in the world, one for each frame: lines of KITTI's or TUM's, .csv "
+          "as railcast's poses.csv, or .json of OpenLABEL with the sensor \"lidar\"")
       .Excludes(standing)
       .Excludes(world_axes)
       .Check(NonEmpty());
@@ -224,7 +228,10 @@ void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
           "seen")
       .Check(Number({-100.0, 100.0}));
   survey.WhenParsed([&command, options] {
-    command = [options](const std::string& /*all*/) { return RunSurvey(*options); };
+    command = [options](const std::string& /*all*/) {
+      options->source.recordings = WithChoice(options->source.recordings, options->choice);
+      return RunSurvey(*options);
+    };
   });
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/turn_reader.h"
@@ -115,7 +116,8 @@ DatagramPlace PlaceOfFile(const std::filesystem::path& file) {
 }
 
 bool IsCaptureName(const std::filesystem::path& file) {
-  return file.extension() == ".pcap" || file.extension() == ".pcapng";
+  const std::string extension = LowerCase(file.extension().string());
+  return extension == ".pcap" || extension == ".pcapng";
 }
 
 std::optional<DatagramPlace> FindCaptureWithMetadata(const std::filesystem::path& source) {

@@ -13,12 +13,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/field_layout.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kFar_m = 10e3;
 constexpr double kStep_m = 1e3;
 
 /// Calls `visit(slot, stored value)` for every point of the frame.
@@ -51,14 +51,12 @@ struct Alias {
   std::string_view ours;
   std::string_view theirs;
 };
-constexpr std::array<Alias, 11> kAliases = {{
+constexpr std::array<Alias, 9> kAliases = {{
     {"intensity", "reflectivity"},
     {"intensity", "remission"},
-    {"intensity", "Intensity"},
     {"ring", "channel"},
     {"ring", "laser"},
     {"ring", "line"},
-    {"label", "Label"},
     // Aeva's sensors, as their recordings and Nebula name them.
     {"radial_velocity_mps", "velocity"},
     {"radial_velocity_mps", "range_rate"},
@@ -196,6 +194,27 @@ void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& record
   }
 }
 
+/// Says that positions far from 0 are stored in single precision.
+void RemarkRounded(const std::array<const CloudField*, 3>& columns,
+                   const Vector3& middle_m,
+                   RecordedFrame& recorded) {
+  double step_m = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (columns.at(axis)->type != NumberType::kFloat) continue;
+    const auto at_m = static_cast<float>(std::abs(middle_m[static_cast<Eigen::Index>(axis)]));
+    const float next_m = std::nextafter(at_m, std::numeric_limits<float>::infinity());
+    if (double{at_m} > kFarPosition_m) step_m = std::max(step_m, double{next_m - at_m});
+  }
+  if (step_m == 0.0) return;
+  const auto num = std::ranges::count_if(recorded.frame.range_m,
+                                         [](float range_m) { return !std::isnan(range_m); });
+  AddRemark({.kind = RemarkKind::kPositionsRounded,
+             .place = recorded.name,
+             .number = static_cast<std::uint64_t>(num),
+             .detail = "in steps of " + ShortText(step_m) + " m"},
+            recorded.remarks);
+}
+
 }  // namespace
 
 void FillGridIndices(Frame& frame) {
@@ -216,11 +235,13 @@ void FillGridIndices(Frame& frame) {
 
 void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
+  const bool is_near = std::ranges::none_of(
+      frame.range_m, [](float range_m) { return double{range_m} > kFarPosition_m; });
+  if (is_near) return;
   const std::array<const CloudField*, 3> columns = {
       FindFieldOf(cloud, "x"), FindFieldOf(cloud, "y"), FindFieldOf(cloud, "z")};
-  const bool is_double = std::ranges::all_of(
+  const bool is_double = std::ranges::any_of(
       columns, [](const CloudField* column) { return column->type == NumberType::kDouble; });
-  if (!is_double) return;
   Vector3 middle_m = Vector3::Zero();
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values_m;
@@ -229,7 +250,9 @@ void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame&
     if (values_m.empty()) return;
     middle_m[axis] = Median(values_m);
   }
-  if (!(middle_m.norm() > kFar_m)) return;
+  if (!(middle_m.norm() > kFarPosition_m)) return;
+  RemarkRounded(columns, middle_m, recorded);
+  if (!is_double) return;
   recorded.origin_m = kStep_m * (middle_m / kStep_m).array().round().matrix();
   const std::array<std::vector<float>*, 3> positions_m = {&frame.x, &frame.y, &frame.z};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -246,7 +269,13 @@ const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name) {
     if (alias.ours != name) continue;
     if (const CloudField* const theirs = cloud.Find(alias.theirs)) return theirs;
   }
-  return nullptr;
+  const auto in_capitals = std::ranges::find_if(cloud.fields, [&](const CloudField& field) {
+    const std::string lower = LowerCase(field.plain_name());
+    return lower == name || std::ranges::any_of(kAliases, [&](const Alias& alias) {
+             return alias.ours == name && alias.theirs == lower;
+           });
+  });
+  return in_capitals == cloud.fields.end() ? nullptr : &*in_capitals;
 }
 
 const CloudField& NeedFieldOf(const Cloud& cloud, std::string_view field, const std::string& name) {

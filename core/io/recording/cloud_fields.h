@@ -35,14 +35,16 @@ void FillFrame(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded
 /// @pre Slots without a point have NaN positions.
 void FillGridIndices(Frame& frame);
 
-/// Moves positions far from 0 to an origin near them. Where x, y and z are stored as float64 and
+/// Moves positions far from 0 to an origin near them. Where x, y or z is stored as float64 and
 /// the median of the points lies more than 10 km from 0, as in a national grid, the positions are
 /// taken from a whole kilometre near them, RecordedFrame::origin_m; as float32 they would otherwise
-/// be rounded to 0.5 m at 5000 km. Leaves range_m unchanged.
+/// be rounded to 0.5 m at 5000 km. Leaves range_m unchanged. What is stored there as float32 is
+/// told (RemarkKind::kPositionsRounded).
 /// @pre The frame has the positions as stored; slots without a point have NaN.
 void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded);
 
-/// Returns the column of the file that holds our field of this name, or null if none does.
+/// Returns the column of the file that holds our field of this name, or null if none does. Its
+/// letters may be capitals, as in X, Y, Z.
 [[nodiscard]] const CloudField* FindFieldOf(const Cloud& cloud, std::string_view name);
 /// As FindFieldOf(), but requires the column.
 /// @throws InputError "name: has no field x" if the file does not have it.

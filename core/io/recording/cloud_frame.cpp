@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/recording/cloud_fields.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/recording/ring_table.h"
 #include "core/io/recording/slot_plans.h"
 #include "core/io/run/sensors_record.h"
@@ -145,6 +146,8 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   RecordedFrame recorded;
   recorded.name = name;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
+  const std::string fault = FaultOfPositions(cloud);
+  if (!fault.empty()) throw InputError(name + ": " + fault);
   const SlotPlan plan = PlanOfCloud(cloud, name);
   FillFrame(cloud, plan, recorded);
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);

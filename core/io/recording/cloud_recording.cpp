@@ -17,45 +17,10 @@
 namespace railcast {
 namespace {
 
-/// Takes the digits off the front of the text and returns them without leading zeros.
-std::string_view TakeDigits(std::string_view& text) {
-  const auto end = std::ranges::find_if_not(text, IsDigit);
-  std::string_view digits = text.substr(0, static_cast<std::size_t>(end - text.begin()));
-  text.remove_prefix(digits.size());
-  digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
-  return digits;
-}
-
-/// Compares names naturally: numbers by value, all other characters one by one.
-bool ComesBefore(std::string_view a, std::string_view b) {
-  while (!a.empty() && !b.empty()) {
-    if (IsDigit(a.front()) && IsDigit(b.front())) {
-      const std::string_view a_digits = TakeDigits(a);
-      const std::string_view b_digits = TakeDigits(b);
-      if (a_digits.size() != b_digits.size()) return a_digits.size() < b_digits.size();
-      if (a_digits != b_digits) return a_digits < b_digits;
-    } else {
-      if (a.front() != b.front()) return a.front() < b.front();
-      a.remove_prefix(1);
-      b.remove_prefix(1);
-    }
-  }
-  return a.size() < b.size();
-}
-
-/// Sorts paths of one folder by the natural order of their names, so that 9.pcd comes
-/// before 10.pcd.
-void SortNaturally(std::vector<std::filesystem::path>& paths) {
-  std::ranges::sort(paths, [](const std::filesystem::path& a, const std::filesystem::path& b) {
-    const std::string a_name = a.filename().string();
-    const std::string b_name = b.filename().string();
-    if (ComesBefore(a_name, b_name)) return true;
-    return !ComesBefore(b_name, a_name) && a_name < b_name;
-  });
-}
-
-RecordedFrame ReadCloudFrame(const std::filesystem::path& file, std::uint32_t index) {
-  RecordedFrame recorded = MakeCloudFrame(ReadCloud(file), ShownPath(file));
+RecordedFrame ReadCloudFrame(const std::filesystem::path& file,
+                             std::uint32_t index,
+                             const std::string& columns = {}) {
+  RecordedFrame recorded = MakeCloudFrame(ReadCloud(file, columns), ShownPath(file));
   recorded.frame.index = index;
   return recorded;
 }
@@ -65,11 +30,13 @@ class CloudRecording : public Recording {
   CloudRecording(const std::filesystem::path& source,
                  const std::string& kind,
                  std::vector<std::filesystem::path> files)
-      : files_(std::move(files)) {
+      : files_(std::move(files)),
+        stamps_ns_(StampsOfNames(files_)),
+        columns_(KittiSourceOf(source).columns) {
     info_.source = source;
     info_.kind = kind;
     info_.num_frames = files_.size();
-    info_.has_kitti_labels = !files_.empty() && files_.front().extension() == ".bin";
+    info_.has_kitti_labels = !files_.empty() && IsKittiFile(files_.front());
     if (info_.has_kitti_labels) {
       info_.labels = SemanticKittiNamesOf(files_.front().parent_path());
     }
@@ -80,14 +47,19 @@ class CloudRecording : public Recording {
   [[nodiscard]] std::optional<FrameReader> Next() override {
     if (next_ == files_.size()) return std::nullopt;
     const std::size_t index = next_++;
-    return [file = files_[index], index] {
-      return ReadCloudFrame(file, static_cast<std::uint32_t>(index));
+    const std::int64_t stamp_ns = stamps_ns_.empty() ? 0 : stamps_ns_[index];
+    return [file = files_[index], index, stamp_ns, columns = columns_] {
+      RecordedFrame recorded = ReadCloudFrame(file, static_cast<std::uint32_t>(index), columns);
+      recorded.frame.stamp_ns = stamp_ns;
+      return recorded;
     };
   }
 
  private:
   RecordingInfo info_;
   std::vector<std::filesystem::path> files_;
+  std::vector<std::int64_t> stamps_ns_;  ///< Empty: not known.
+  std::string columns_;
   std::size_t next_{};
 };
 
@@ -162,55 +134,20 @@ class ReceivedRecording : public Recording {
 
 }  // namespace
 
-bool IsCloudFile(const std::filesystem::path& file) {
-  return FindReader(file) != nullptr;
-}
-
-std::vector<std::filesystem::path> CloudFilesIn(const std::filesystem::path& directory) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory, error)) {
-    if (IsCloudFile(entry.path())) files.push_back(entry.path());
-  }
-  SortNaturally(files);
-  return files;
-}
-
-std::vector<std::filesystem::path> KittiSequencesIn(const std::filesystem::path& directory) {
-  std::vector<std::filesystem::path> sequences;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory / "sequences", error)) {
-    if (!CloudFilesIn(entry.path() / "velodyne").empty()) sequences.push_back(entry.path());
-  }
-  SortNaturally(sequences);
-  return sequences;
-}
-
-std::vector<std::filesystem::path> CloudsOfDirectory(const std::filesystem::path& directory) {
-  for (const auto& place : {directory, directory / "frames", directory / "velodyne"}) {
-    auto files = CloudFilesIn(place);
-    if (!files.empty()) return files;
-  }
-  std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& sequence : KittiSequencesIn(directory)) {
-    const auto more = CloudFilesIn(sequence / "velodyne");
-    files.insert(files.end(), more.begin(), more.end());
-  }
-  return files;
-}
-
 std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
                                       const std::string& kind,
                                       std::vector<std::filesystem::path> files) {
   return std::make_unique<CloudRecording>(source, kind, std::move(files));
 }
 
-std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& directory) {
-  if (exists(directory / kReceivedFile)) return std::make_unique<ReceivedRecording>(directory);
+std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& source) {
+  const auto [directory, columns] = KittiSourceOf(source);
+  const bool is_received = columns.empty() && exists(directory / kReceivedFile);
+  if (is_received) return std::make_unique<ReceivedRecording>(directory);
   auto files = CloudsOfDirectory(directory);
   if (files.empty()) return nullptr;
-  const bool is_kitti = files.front().extension() == ".bin";
-  return OpenClouds(directory, is_kitti ? "KITTI sequence" : "directory of point clouds",
+  const bool is_kitti = IsKittiFile(files.front());
+  return OpenClouds(source, is_kitti ? "KITTI sequence" : "directory of point clouds",
                     std::move(files));
 }
 

@@ -112,7 +112,9 @@ class InsertionRecording : public Recording {
     const auto run = ReadRecord<InsertRunRecord>(ReadFileWhole(directory / kRunFile),
                                                  ShownPath(directory / kRunFile));
     const fs::path folder = directory / kRecordingFolder;
-    clouds_ = OpenCloudsIn(folder);
+    // Files that stay as they were have the columns that were chosen.
+    const std::string columns = run.format == "same" ? ColumnsBehind(run.recording) : "";
+    clouds_ = OpenCloudsIn(columns.empty() ? folder : fs::path(folder.string() + ":" + columns));
     is_copy_ = clouds_ == nullptr;
     if (is_copy_) clouds_ = OpenRecording(CopyIn(folder, run.recording));
     info_ = clouds_->info();

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/io/bag/bag.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
@@ -73,18 +74,28 @@ class RemarkingRecording : public Recording {
   std::unique_ptr<Recording> recording_;
 };
 
+/// Opens clouds of KITTI's layout with other numbers a point.
+std::unique_ptr<Recording> OpenColumns(const std::filesystem::path& source,
+                                       const std::filesystem::path& clouds) {
+  if (!is_directory(clouds)) return OpenClouds(source, "point cloud file", {clouds});
+  if (auto recording = OpenCloudsIn(source)) return recording;
+  throw InputError(ShownPath(clouds) + ": must hold .bin files for their columns to be chosen");
+}
+
 std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   if (auto capture = OpenCaptureWithMetadata(source)) return capture;
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) {
+    const auto [clouds, columns] = KittiSourceOf(source);
+    if (!columns.empty()) return OpenColumns(source, clouds);
     if (const auto found = FindBag(source)) {
       return OpenBagRecording(source, found->bag, found->topic);
     }
     throw FileError(source, error ? error.value() : ENOENT);
   }
   if (is_directory(status)) return OpenDirectory(source);
-  const std::filesystem::path extension = source.extension();
+  const std::string extension = LowerCase(source.extension().string());
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
   if (bag::IsBag(source)) return OpenBagRecording(source, source, "");

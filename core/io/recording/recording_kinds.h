@@ -121,11 +121,15 @@ struct BagSource {
 /// Whether the messages of a topic hold points: clouds, or the packets of a sensor.
 [[nodiscard]] bool HoldsPoints(const bag::BagTopic& topic);
 
-/// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's).
+/// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's), in any case.
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
 
-/// Returns the cloud files in a directory in the natural order of their names: 9.pcd comes before
-/// 10.pcd.
+/// Whether it is one of KITTI's layout.
+[[nodiscard]] bool IsKittiFile(const std::filesystem::path& file);
+
+/// Returns the cloud files in a directory, but for those whose names begin with a point, in the
+/// order of their names: where all have one decimal number in the same place, as 0.05.pcd, by these
+/// numbers; else naturally, so that 9.pcd comes before 10.pcd.
 [[nodiscard]] std::vector<std::filesystem::path> CloudFilesIn(
     const std::filesystem::path& directory);
 
@@ -139,8 +143,24 @@ struct BagSource {
 [[nodiscard]] std::vector<std::filesystem::path> CloudsOfDirectory(
     const std::filesystem::path& directory);
 
-/// Opens clouds without poses, in this order. The names of KITTI's labels are those of the
-/// configuration beside the first (FindSemanticKittiYaml).
+/// The stamps that files have by their names, where all of these are decimal numbers of seconds, as
+/// 1700000000.05.pcd; else none.
+[[nodiscard]] std::vector<std::int64_t> StampsOfNames(
+    const std::vector<std::filesystem::path>& files);
+
+/// Clouds of KITTI's layout and the numbers of their points.
+struct KittiSource {
+  std::filesystem::path clouds;  ///< A file or a directory.
+  std::string columns;           ///< As IsKittiColumns(); empty: those of KITTI.
+};
+
+/// Splits "drive:nuscenes"; other sources are as they are, and have no columns.
+[[nodiscard]] KittiSource KittiSourceOf(const std::filesystem::path& source);
+/// The columns that KittiSourceOf() would find if nothing had the whole name.
+[[nodiscard]] std::string ColumnsBehind(const std::filesystem::path& source);
+
+/// Opens clouds without poses, in this order, with the columns of KittiSourceOf(). The names of
+/// KITTI's labels are those of the configuration beside the first (FindSemanticKittiYaml).
 /// @param kind The kind of recording as shown to users.
 /// @throws InputError if that cannot be read.
 [[nodiscard]] std::unique_ptr<Recording> OpenClouds(const std::filesystem::path& source,
@@ -152,9 +172,10 @@ inline constexpr std::string_view kReceivedFile = "frames.csv";
 
 /// Opens the clouds of a directory: those that `railcast-analyze receive --out` wrote with the
 /// poses of frames.csv, whose points are assumed to be in the sensor's axes, the default of a
-/// stream; else CloudsOfDirectory(). Null if there are none.
+/// stream; else CloudsOfDirectory(). Null if there are none. The columns of KITTI's points may
+/// stand behind it (KittiSourceOf()).
 /// @throws InputError if frames.csv cannot be read.
-[[nodiscard]] std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& directory);
+[[nodiscard]] std::unique_ptr<Recording> OpenCloudsIn(const std::filesystem::path& source);
 
 // The kinds of recordings that OpenRecording opens.
 

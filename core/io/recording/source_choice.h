@@ -6,10 +6,16 @@
 
 namespace railcast {
 
-/// Returns the sources with those that are bags replaced by this topic of theirs.
-/// @param topic Empty: the sources as they are.
-/// @throws InputError if a topic is given and no source is a bag.
-[[nodiscard]] std::vector<std::filesystem::path> WithTopic(
-    std::vector<std::filesystem::path> sources, const std::string& topic);
+/// What users say of recordings that do not say it themselves; empty: nothing.
+struct SourceChoice {
+  std::string topic{};          ///< Of bags.
+  std::string kitti_columns{};  ///< Of .bin files, as IsKittiColumns().
+};
+
+/// Returns the sources with what was chosen behind those that it is for: "run.mcap:/points",
+/// "drive:nuscenes".
+/// @throws InputError if something is chosen that is for no source.
+[[nodiscard]] std::vector<std::filesystem::path> WithChoice(
+    std::vector<std::filesystem::path> sources, const SourceChoice& choice);
 
 }  // namespace railcast

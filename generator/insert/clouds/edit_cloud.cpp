@@ -15,7 +15,8 @@ std::vector<std::uint32_t> EditCloud(const RecordedFirings& firings,
   if (inserted.edits.empty()) return SlotsOfEntries(firings);
   std::optional<std::string> labels;
   if (files.size() > 1) labels = files[1].bytes;
-  const CloudFile file = FindReader(files[0].name)->parse(files[0].name, files[0].bytes, labels);
+  const CloudFile file =
+      ParseCloudFile(files[0].name, files[0].bytes, labels, context.kitti_columns);
   EditedRows edited = EditRows(file.cloud, firings, inserted, context);
   std::vector<std::string> changed = Rewritten(file, edited.points);
   for (std::size_t i = 0; i < changed.size(); ++i) files[i].bytes = std::move(changed[i]);

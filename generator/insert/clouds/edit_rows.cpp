@@ -280,7 +280,7 @@ class RowEdit {
   [[nodiscard]] bool marks_by_zero() const {
     if (!marks_by_zero_) {
       marks_by_zero_ = false;
-      const CloudField* const x = cloud_.Find("x");
+      const CloudField* const x = FindFieldOf(cloud_, "x");
       bool is_known = false;
       VisitField(cloud_, *x, [&](std::size_t i, auto value) {
         if (is_known || slots_[i] == kNoSlot || !std::isnan(before_.x[slots_[i]])) return;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/io/cloud/cloud_file.h"
@@ -21,6 +22,7 @@ struct EditedRows {
 /// What there is to know of a cloud besides its rows.
 struct RowContext {
   const LabelNumbers* labels{};  ///< Null: as the plan's.
+  std::string kitti_columns{};   ///< As ParseCloudFile() takes them.
   /// Whether every slot has a row, so that none may be left out or added. Clouds with several rows
   /// of slots, and those in which rows without a point were found, are so in any case.
   bool is_organised{};

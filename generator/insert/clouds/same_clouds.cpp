@@ -66,7 +66,8 @@ class SameClouds : public RecordingOutput {
     }
     WrittenFrame output;
     output.source_hash = SourceHash(files);
-    output.slots = EditCloud(firings, inserted, {.labels = &labels_}, files);
+    output.slots = EditCloud(firings, inserted,
+                             {.labels = &labels_, .kitti_columns = source_.kitti_columns}, files);
     output.files = std::move(files);
     if (!source_.lines.empty()) output.lines = {source_.lines[frame + 1] + "\n"};
     return output;

@@ -61,11 +61,14 @@ void FindOthers(SourceFiles& source) {
 
 }  // namespace
 
-std::optional<SourceFiles> FindSourceFiles(const fs::path& recording) {
+std::optional<SourceFiles> FindSourceFiles(const fs::path& opened) {
+  const auto [recording, columns] = KittiSourceOf(opened);
   std::error_code none;
   if (fs::is_regular_file(recording, none)) {
     if (!IsCloudFile(recording)) return std::nullopt;
-    return SingleCloud(recording);
+    SourceFiles source = SingleCloud(recording);
+    source.kitti_columns = columns;
+    return source;
   }
   if (!fs::is_directory(recording, none)) return std::nullopt;
   for (const auto name : {kFramesFile, kMergedFile}) {
@@ -73,6 +76,7 @@ std::optional<SourceFiles> FindSourceFiles(const fs::path& recording) {
   }
   SourceFiles source;
   source.directory = recording.lexically_normal();
+  source.kitti_columns = columns;
   if (fs::exists(recording / kReceivedFile)) {
     ReadReceived(source);
   } else {

@@ -18,6 +18,7 @@ struct SourceFiles {
   /// Received streams: the first line of frames.csv, and that of each frame. Such a file is none of
   /// `others`.
   std::vector<std::string> lines;
+  std::string kitti_columns{};  ///< KittiSource::columns.
 };
 
 /// Finds the files of a cloud, of a directory of clouds, of KITTI's layout or of a received stream.

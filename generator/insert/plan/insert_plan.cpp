@@ -15,6 +15,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sequence_files.h"
@@ -302,7 +303,11 @@ void UseIntensities(const std::filesystem::path& recording, InsertPlan& plan) {
   const auto opened = OpenRecording(recording);
   IntensityScaleFinder finder(opened->info());
   for (std::size_t frame = 0; frame < kMostFrames; ++frame) {
-    if (const auto read = opened->Next()) finder.Add((*read)());
+    const auto read = opened->Next();
+    if (!read) break;
+    const RecordedFrame recorded = (*read)();
+    (void)CheckRanges(recorded, plan.scenario.lidar.range_max_m);  // Before anything is written.
+    finder.Add(recorded);
   }
   plan.intensity_scale = finder.Found();
   plan.remarks.push_back(plan.intensity_scale.remark);

@@ -54,7 +54,7 @@ std::string RecordingTraits(const fs::path& source) {
     return traits.Text();
   }
   const auto bag = FindBag(source);
-  const fs::path recording = bag ? bag->bag : source;
+  const fs::path recording = bag ? bag->bag : KittiSourceOf(source).clouds;
   if (fs::exists(recording / kFramesFile) && fs::exists(recording / kManifestFile)) {
     traits.Add(std::string(kManifestFile), recording / kManifestFile);
     return traits.Text();

@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/run/run_folder.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
@@ -23,7 +23,7 @@ namespace {
 struct InsertOptions {
   InsertChoices choices;
   std::string frames;
-  std::string topic;
+  SourceChoice choice;
   bool is_check = false;
 };
 
@@ -48,7 +48,7 @@ int RunInsertCommand(InsertOptions options) {
     throw InputError("--out: missing (only --check writes nothing)");
   }
   if (!choices.directory.empty()) CheckIsApart(choices);
-  choices.recording = WithTopic({choices.recording}, options.topic).front();
+  choices.recording = WithChoice({choices.recording}, options.choice).front();
   const InsertPlan plan = ReadInsertPlan(choices.plan, choices.recording);
   for (const std::string& remark : plan.remarks) std::cout << ShownLines(remark) << "\n";
   if (options.is_check) {
@@ -105,7 +105,7 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
       insert.AddFlag("--check", options->is_check,
                      "Print what the objects meet in the recording, and write nothing");
   for (const Option other : {format, points_alone, threads}) check.Excludes(other);
-  AddTopic(insert, options->topic);
+  AddSourceChoice(insert, options->choice);
   insert.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

@@ -17,6 +17,8 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/line_reader.h"
+#include "core/io/recording/plausibility.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
@@ -251,16 +253,21 @@ class InsertRun {
       slots[i].read = std::move(*reader);
       return true;
     };
-    pipe.stages = {{false,
-                    [&](std::size_t i) {
-                      slots[i].firings = finder_.Find(std::exchange(slots[i].read, {})());
-                    }},
-                   {true, [&](std::size_t i) { Insert(slots[i]); }},
-                   {false, [&](std::size_t i) { Encode(slots[i]); }}};
+    pipe.stages = {
+        {false, [&](std::size_t i) { slots[i].firings = finder_.Find(ReadFrame(slots[i])); }},
+        {true, [&](std::size_t i) { Insert(slots[i]); }},
+        {false, [&](std::size_t i) { Encode(slots[i]); }}};
     pipe.write = [&](std::size_t i) { Write(slots[i]); };
     pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
     hooks_.on_progress(num_done, range_.num);
     RunPipe(pipe);
+  }
+
+  [[nodiscard]] RecordedFrame ReadFrame(FrameOnWay& way) const {
+    RecordedFrame recorded = std::exchange(way.read, {})();
+    const auto far = CheckRanges(recorded, plan_.scenario.lidar.range_max_m);
+    if (far) recording_.info().remarks->Add(*far, way.frame + 1U);
+    return recorded;
   }
 
   void Insert(FrameOnWay& way) {
@@ -358,7 +365,7 @@ InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
 }
 
 void CheckIsApart(const InsertChoices& choices) {
-  if (!IsInFolder(choices.directory, choices.recording)) return;
+  if (!IsInFolder(choices.directory, KittiSourceOf(choices.recording).clouds)) return;
   throw InputError("--out: must not be in the recording's directory (got " +
                    ShownPath(choices.directory) + ")");
 }

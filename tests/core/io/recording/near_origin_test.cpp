@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_frame.h"
 
 namespace railcast {
@@ -59,18 +60,32 @@ TEST(NearOrigin, StaysZeroOfFloat32WhichHasNothingMoreToGive) {
   const RecordedFrame recorded = FrameOf<float>({691234.5F, 5334567.0F, 520.0F});
   EXPECT_EQ(recorded.origin_m, Vector3(Vector3::Zero()));
   EXPECT_THAT(recorded.frame.y, ElementsAre(5334567.0F));
+  EXPECT_THAT(recorded.remarks, ElementsAre(Remark{.kind = RemarkKind::kPositionsRounded,
+                                                   .place = "a.pcd",
+                                                   .detail = "in steps of 0.5 m"}));
+}
+
+TEST(NearOrigin, IsThatOfTextWithAllItsDigits) {
+  const CloudFile read =
+      ParsePcdFile("a.pcd",
+                   "FIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n"
+                   "691234.15 5334567.61 520.5\n691234.64 5334567.84 520.5\n");
+  const RecordedFrame recorded = MakeCloudFrame(read.cloud, "a.pcd");
+  EXPECT_EQ(recorded.origin_m, Vector3(691000.0, 5335000.0, 1000.0));
+  EXPECT_NEAR(double{recorded.frame.x[1] - recorded.frame.x[0]}, 0.49, 1e-4);
+  EXPECT_TRUE(recorded.remarks.empty());
 }
 
 TEST(NearOrigin, IsNearMostPointsWhereverAFewAre) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const RecordedFrame recorded = FrameOf<double>({0.0, 0.0, 0.0,            // Not a point.
-                                                  nan, nan, nan,            //
-                                                  1e9, 1e9, 1e9,            //
-                                                  kEast_m, kNorth_m, 20.0,  //
-                                                  kEast_m, kNorth_m, 20.0});
+  std::vector<double> points_m = {0.0, 0.0, 0.0,  // Not a point.
+                                  nan, nan, nan, 1e9, 1e9, 1e9};
+  for (int i = 0; i < 99; ++i) points_m.insert(points_m.end(), {kEast_m, kNorth_m, 20.0});
+  const RecordedFrame recorded = FrameOf<double>(points_m);
   EXPECT_EQ(recorded.origin_m, Vector3(691000.0, 5335000.0, 0.0));
-  EXPECT_THAT(recorded.frame.x, ElementsAre(testing::Gt(9e8F), 234.5F, 234.5F));
-  EXPECT_THAT(recorded.frame.z, ElementsAre(testing::Gt(9e8F), 20.0F, 20.0F));
+  EXPECT_GT(recorded.frame.x.front(), 9e8F);
+  EXPECT_EQ(recorded.frame.x.back(), 234.5F);
+  EXPECT_EQ(recorded.frame.z.back(), 20.0F);
 }
 
 TEST(NearOrigin, StaysZeroOfACloudWithoutPoints) {

@@ -1,30 +1,69 @@
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
 #include <vector>
 
+#include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
 namespace {
 
-TEST(WithTopic, NamesTheTopicOfBagsAlone) {
+TEST(WithChoice, NamesTheTopicOfBagsAlone) {
   const TemporaryDirectory folder;
   const std::filesystem::path bag = folder.path() / "run.mcap";
   std::ofstream(bag) << "";
   const std::vector<std::filesystem::path> sources = {"sequence", bag};
-  EXPECT_EQ(WithTopic(sources, ""), sources);
-  EXPECT_EQ(WithTopic(sources, "/lidar/points"),
+  EXPECT_EQ(WithChoice(sources, {}), sources);
+  EXPECT_EQ(WithChoice(sources, {.topic = "/lidar/points"}),
             (std::vector<std::filesystem::path>{"sequence", bag.string() + ":/lidar/points"}));
-  EXPECT_EQ(WithTopic({bag}, "points"),
+  EXPECT_EQ(WithChoice({bag}, {.topic = "points"}),
             (std::vector<std::filesystem::path>{bag.string() + ":/points"}));
-  EXPECT_EQ(MessageOf([&] { (void)WithTopic({"sequence"}, "/lidar/points"); }),
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({"sequence"}, {.topic = "/lidar/points"}); }),
             "--topic: must come with a bag of ROS 2, .mcap, .db3 or a directory of them (got "
             "sequence)");
+}
+
+/// Five float32 a point, as nuScenes has them.
+void WriteNuScenes(const std::filesystem::path& file) {
+  std::string bytes;
+  for (int i = 0; i < 100; ++i) {
+    const auto ring = static_cast<float>(i % 20);
+    const std::array<float, 5> point = {9.5F, 0.25F * ring - 2.0F, 0.5F * ring - 1.0F, 0.25F, ring};
+    bytes.append(reinterpret_cast<const char*>(point.data()), sizeof point);
+  }
+  WriteFileWhole(file, bytes);
+}
+
+TEST(WithChoice, NamesTheColumnsOfKittisFilesAndFolders) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path drive = folder.path() / "drive";
+  std::filesystem::create_directory(drive);
+  WriteNuScenes(drive / "0.pcd.bin");
+  EXPECT_THAT(MessageOf([&] { (void)ReadAll(drive); }),
+              testing::EndsWith("fit: --kitti-columns nuscenes"));
+  for (const std::filesystem::path& source : {drive, drive / "0.pcd.bin"}) {
+    const auto chosen = WithChoice({source}, {.kitti_columns = "nuscenes"});
+    EXPECT_EQ(chosen.front(), source.string() + ":nuscenes");
+    const auto frames = ReadAll(chosen.front());
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_TRUE(frames[0].Has("ring"));
+    EXPECT_EQ(std::ranges::max(frames[0].frame.range_m), std::hypot(9.5F, 2.75F, 8.5F));
+  }
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({drive}, {.kitti_columns = "two"}); }),
+            "--kitti-columns: must be 3 to 16, nuscenes, waymo or float64 (got two)");
+  EXPECT_EQ(MessageOf([&] { (void)WithChoice({"a.pcd"}, {.kitti_columns = "5"}); }),
+            "--kitti-columns: must come with .bin files or a directory of them (got a.pcd)");
 }
 
 }  // namespace

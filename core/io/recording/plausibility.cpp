@@ -1,0 +1,107 @@
+#include "core/io/recording/plausibility.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/recording/cloud_fields.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kMostWrong = 0.01;
+
+using Positions = std::vector<Vector3>;
+
+/// The positions of a cloud as stored, but for those that are not a number, or 0 for "no return".
+Positions StoredPositions(const Cloud& cloud) {
+  Positions positions(cloud.num_points());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const CloudField* const field = FindFieldOf(cloud, std::string_view("xyz").substr(axis, 1));
+    Check(field != nullptr, "the cloud has x, y and z");
+    VisitField(cloud, *field,
+               [&](std::size_t i, auto value) { positions[i][axis] = static_cast<double>(value); });
+  }
+  std::erase_if(positions,
+                [](const Vector3& position) { return position.hasNaN() || position.isZero(0.0); });
+  return positions;
+}
+
+/// Whether most positions are within a distance of a place along each axis.
+bool AreTogether(const Positions& positions, const Vector3& place_m, double distance_m) {
+  const auto num_wrong = std::ranges::count_if(positions, [&](const Vector3& position_m) {
+    return !((position_m - place_m).cwiseAbs().maxCoeff() < distance_m);
+  });
+  return static_cast<double>(num_wrong) <= kMostWrong * static_cast<double>(positions.size());
+}
+
+Vector3 MiddleOf(const Positions& positions) {
+  Vector3 middle_m = Vector3::Zero();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double> values_m;
+    for (const Vector3& position_m : positions) values_m.push_back(position_m[axis]);
+    const auto middle = values_m.begin() + static_cast<std::ptrdiff_t>(values_m.size() / 2);
+    std::ranges::nth_element(values_m, middle);
+    middle_m[axis] = *middle;
+  }
+  return middle_m;
+}
+
+/// Whether the positions lie far from 0 as a whole: within 10 km, or in the numbers of a national
+/// grid or of the whole earth within 100 km, as a line of railway.
+bool AreFarTogether(const Positions& positions) {
+  constexpr double kGrid_m = 1e5;
+  constexpr double kEarth_m = 1e8;
+  const Vector3 middle_m = MiddleOf(positions);
+  const double far_m = middle_m.norm();
+  if (!(far_m > kFarPosition_m && far_m < kEarth_m)) return false;
+  return AreTogether(positions, middle_m, far_m > kGrid_m ? kGrid_m : kFarPosition_m);
+}
+
+}  // namespace
+
+std::string FaultOfPositions(const Cloud& cloud) {
+  const Positions positions = StoredPositions(cloud);
+  const auto num_likely = std::ranges::count_if(positions, [](const Vector3& position) {
+    return std::ranges::all_of(position, &IsLikelyPosition);
+  });
+  const double share = static_cast<double>(num_likely) / static_cast<double>(positions.size());
+  if (positions.empty() || share >= 1.0 - kMostWrong || AreFarTogether(positions)) return {};
+  return "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a "
+         "grid "
+         "(got " +
+         ShortText(100.0 * share) + " %): other columns, another byte order or unit?";
+}
+
+std::optional<Remark> CheckRanges(const RecordedFrame& recorded, double range_max_m) {
+  if (!recorded.origin_m.isZero()) return std::nullopt;  // The sensor's place is not known.
+  std::size_t num = 0;
+  std::size_t num_far = 0;
+  float farthest_m = 0.0F;
+  for (const float range_m : recorded.frame.range_m) {
+    if (!std::isfinite(range_m)) continue;
+    ++num;
+    if (double{range_m} <= range_max_m) continue;
+    ++num_far;
+    farthest_m = std::max(farthest_m, range_m);
+  }
+  if (num_far == 0) return std::nullopt;
+  const double share = static_cast<double>(num_far) / static_cast<double>(num);
+  const std::string got =
+      ShortText(100.0 * share) + " %, the farthest " + NumberText(std::round(farthest_m)) + " m";
+  if (share > kMostWrong) {
+    throw InputError(recorded.name +
+                     ": range_m: at most 1 % of the returns may be beyond the sensor's "
+                     "range_max_m of " +
+                     ShortText(range_max_m) + " (got " + got + "): another unit?");
+  }
+  return Remark{
+      .kind = RemarkKind::kFarReturns, .place = recorded.name, .number = num_far, .detail = got};
+}
+
+}  // namespace railcast

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/io/cloud/cloud.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+
+// Whether values can be what they are said to be. A wrong layout, byte order or unit shows in them.
+
+/// What is wrong with the positions of a cloud; empty if they can be metres: 99 % of the points are
+/// finite and less than 10 km from 0, or all of them lie together farther away, as in a national
+/// grid. Points that are not a number, or 0, are none.
+/// @pre The cloud has x, y and z (FindFieldOf()).
+[[nodiscard]] std::string FaultOfPositions(const Cloud& cloud);
+
+/// A remark (RemarkKind::kFarReturns) if the frame has returns beyond the sensor's range.
+/// @throws InputError "NAME: range_m: rule (got value)" if more than 1 % of them are.
+[[nodiscard]] std::optional<Remark> CheckRanges(const RecordedFrame& recorded, double range_max_m);
+
+}  // namespace railcast

@@ -1,0 +1,94 @@
+#include "core/io/recording/plausibility.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/io/recording/cloud_frame.h"
+#include "tests/core/io/message_of.h"
+
+namespace railcast {
+namespace {
+
+/// A cloud of as many points in a room, in this unit, about a place.
+Cloud RoomOf(std::size_t num_points, double metre, const Vector3& middle_m = Vector3::Zero()) {
+  Cloud cloud;
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kDouble);
+  cloud.width = static_cast<std::uint32_t>(num_points);
+  cloud.height = 1;
+  for (std::size_t i = 0; i < num_points; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(num_points);
+    const Vector3 point = metre * (middle_m + Vector3(20.0 * share - 10.0, 12.0, 1.0));
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+    cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof point);
+  }
+  return cloud;
+}
+
+void SetX(double value, std::size_t num, Cloud& cloud) {
+  for (std::size_t i = 0; i < num; ++i) {
+    std::memcpy(cloud.data.data() + i * cloud.point_step, &value, sizeof value);
+  }
+}
+
+TEST(FaultOfPositions, IsNoneOfMetresAboutTheSensorOrInAGrid) {
+  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0)), "");
+  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0, {691234.0, 5334567.0, 520.0})), "");
+  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0, {12'000.0, 30'000.0, 520.0})), "");
+  EXPECT_EQ(FaultOfPositions(RoomOf(0, 1.0)), "");
+}
+
+TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
+  const std::string rule =
+      "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a grid "
+      "(got ";
+  const std::string end = " %): other columns, another byte order or unit?";
+  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1000.0)), rule + "0" + end);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double wrong : {kInfinity, 1e19, 1e-30}) {
+    Cloud cloud = RoomOf(200, 1.0);
+    SetX(wrong, 2, cloud);
+    EXPECT_EQ(FaultOfPositions(cloud), "");
+    SetX(wrong, 50, cloud);
+    EXPECT_EQ(FaultOfPositions(cloud), rule + "75" + end) << wrong;
+  }
+}
+
+TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
+  Cloud cloud = RoomOf(200, 1.0);
+  SetX(std::numeric_limits<double>::quiet_NaN(), 150, cloud);
+  EXPECT_EQ(FaultOfPositions(cloud), "");
+}
+
+TEST(FaultOfPositions, IsSaidByWhatMakesFramesOfClouds) {
+  EXPECT_THAT(MessageOf([] { (void)MakeCloudFrame(RoomOf(200, 1000.0), "mm.pcd"); }),
+              testing::StartsWith("mm.pcd: x, y, z: 99 % of the points must be"));
+}
+
+RecordedFrame WithRanges(std::size_t num, std::size_t num_far) {
+  RecordedFrame recorded;
+  recorded.name = "a.pcd";
+  recorded.frame.range_m.assign(num, 20.0F);
+  recorded.frame.range_m.push_back(std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(recorded.frame.range_m.begin(), num_far, 16681.0F);
+  return recorded;
+}
+
+TEST(CheckRanges, TellsFewAndRefusesMore) {
+  EXPECT_EQ(CheckRanges(WithRanges(200, 0), 100.0), std::nullopt);
+  EXPECT_EQ(CheckRanges(WithRanges(200, 2), 100.0),
+            (Remark{.kind = RemarkKind::kFarReturns,
+                    .place = "a.pcd",
+                    .number = 2,
+                    .detail = "1 %, the farthest 16681 m"}));
+  EXPECT_EQ(MessageOf([] { (void)CheckRanges(WithRanges(200, 50), 100.0); }),
+            "a.pcd: range_m: at most 1 % of the returns may be beyond the sensor's range_max_m of "
+            "100 (got 25 %, the farthest 16681 m): another unit?");
+}
+
+}  // namespace
+}  // namespace railcast
