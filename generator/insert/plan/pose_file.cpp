@@ -1,6 +1,7 @@
 #include "generator/insert/plan/pose_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/base/units.h"
 #include "core/io/openlabel.h"
 #include "core/io/recording/recording_kinds.h"
@@ -24,15 +26,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kMost_s = 9'000'000'000;  // As ns in 64 bits.
+
+constexpr std::size_t kTumNumbers = 8;
+
+/// Whether frames of a recording can be this far apart.
+bool IsFrameStep(double step_s) {
+  constexpr double kLeast_s = 0.01;
+  constexpr double kMostStep_s = 10.0;
+  constexpr double kRounding = 1e-6;  // Of times in microseconds.
+  return step_s >= kLeast_s - kRounding && step_s <= kMostStep_s + kRounding;
+}
+
 std::string PlaceInFile(const fs::path& file, std::size_t line) {
   return ShownPath(file) + ":" + NumberText(line);
 }
 
 std::vector<std::string> AllLines(const fs::path& file) {
-  const std::string text = ReadFileWhole(file);
+  const std::string text = ReadTextWhole(file);
   std::string_view rest = text;
   std::vector<std::string> lines;
   while (const auto line = TakeLine(rest)) lines.emplace_back(*line);
+  while (!lines.empty() && Words(lines.back()).empty()) lines.pop_back();
   return lines;
 }
 
@@ -67,7 +82,7 @@ Transform ReadKittiPose(const std::string& line, const std::string& place) {
 /// The pose of the velodyne in the axes of camera 0.
 std::optional<Transform> ReadCalibration(const fs::path& file) {
   if (!exists(file)) return std::nullopt;
-  const std::string text = ReadFileWhole(file);
+  const std::string text = ReadTextWhole(file);
   std::string_view rest = text;
   for (std::size_t number = 1; const auto line = TakeLine(rest); ++number) {
     if (!line->starts_with("Tr:")) continue;
@@ -83,23 +98,29 @@ struct Link {
   bool is_of_frame = false;
 };
 
-/// "1631441453.299504000", or a number, in ns.
-std::int64_t StampOf_ns(const Json& json, const OpenLabelPlace& place) {
-  constexpr std::int64_t kMost_s = 9'000'000'000;
-  if (json.is_number() && std::abs(json.get<double>()) <= static_cast<double>(kMost_s)) {
-    return std::llround(json.get<double>() * static_cast<double>(kNsPerS));
-  }
-  const std::string text = json.is_string() ? json.get<std::string>() : "";
+/// A time in seconds with all its digits, "1631441453.299504000", in ns.
+std::optional<std::int64_t> TimeOf_ns(const std::string& text) {
   const std::size_t point = text.find('.');
   std::string fraction = point == std::string::npos ? "" : text.substr(point + 1);
   constexpr std::size_t kDigits = 9;
   const auto seconds = ParseNumber<std::int64_t>(text.substr(0, point));
-  const bool is_digits = std::ranges::all_of(fraction, [](char c) { return c >= '0' && c <= '9'; });
+  const bool is_digits = std::ranges::all_of(fraction, &IsDigit);
   if (!seconds || *seconds < 0 || *seconds > kMost_s || !is_digits || fraction.size() > kDigits) {
-    place.Fail("must be a time in seconds");
+    return std::nullopt;
   }
   fraction.resize(kDigits, '0');
   return *seconds * kNsPerS + ParseNumber<std::int64_t>(fraction).value();
+}
+
+/// As TimeOf_ns(), or a number.
+std::int64_t StampOf_ns(const Json& json, const OpenLabelPlace& place) {
+  if (json.is_number() && std::abs(json.get<double>()) <= static_cast<double>(kMost_s)) {
+    return std::llround(json.get<double>() * static_cast<double>(kNsPerS));
+  }
+  const std::string text = json.is_string() ? json.get<std::string>() : "";
+  const auto time_ns = TimeOf_ns(text);
+  if (!time_ns) place.Fail("must be a time in seconds");
+  return *time_ns;
 }
 
 class OpenLabel {
@@ -208,17 +229,93 @@ PoseFile ReadOpenLabelPoses(const std::filesystem::path& file, const std::string
   return OpenLabel(json, place, sensor).Read();
 }
 
-PoseFile ReadKittiLines(const fs::path& file) {
+/// Reads a line as SLAM programs write it for TUM's benchmark: time, x, y, z, qx, qy, qz, qw.
+void ReadTumLine(const std::vector<std::string_view>& words,
+                 const std::string& place,
+                 PoseFile& poses) {
+  std::vector<double> numbers;
+  for (const std::string_view word : words) {
+    if (const auto number = ParseSignedNumber<double>(word)) numbers.push_back(*number);
+  }
+  if (words.size() != kTumNumbers || numbers.size() != kTumNumbers) {
+    throw InputError(place + ": must be the 8 numbers of a time and a pose, as in TUM's format");
+  }
+  auto stamp_ns = TimeOf_ns(std::string(words[0]));
+  if (!stamp_ns && std::abs(numbers[0]) <= static_cast<double>(kMost_s)) {
+    stamp_ns = std::llround(numbers[0] * static_cast<double>(kNsPerS));
+  }
+  if (!stamp_ns) throw InputError(place + ": must be a time in seconds" + Got(numbers[0]));
+  poses.stamps_ns.push_back(*stamp_ns);
+  poses.world_from_sensor.push_back(
+      MakePose(std::vector<double>(numbers.begin() + 1, numbers.end()), place));
+}
+
+/// Lines of KITTI's or TUM's numbers, between which comments may stand.
+PoseFile ReadNumberLines(const fs::path& file) {
   PoseFile poses;
+  std::size_t number = 0;
   for (const std::string& line : AllLines(file)) {
-    poses.world_from_sensor.push_back(
-        ReadKittiPose(line, PlaceInFile(file, poses.world_from_sensor.size() + 1)));
+    const std::string place = PlaceInFile(file, ++number);
+    const auto words = Words(line);
+    if (!words.empty() && words[0].starts_with('#')) continue;
+    const bool is_first = poses.world_from_sensor.empty();
+    if (is_first ? words.size() == kTumNumbers : !poses.stamps_ns.empty()) {
+      ReadTumLine(words, place, poses);
+    } else {
+      poses.world_from_sensor.push_back(ReadKittiPose(line, place));
+    }
   }
   return poses;
 }
 
+/// What a time would be if its unit were another one, so that frames are this far apart.
+std::string OtherUnit(double step_s) {
+  struct Unit {
+    double factor;
+    std::string_view name;
+  };
+  constexpr auto kUnits = std::to_array<Unit>({{1e3, "microseconds"},
+                                               {1e6, "milliseconds"},
+                                               {1e9, "seconds"},
+                                               {1e-3, "milliseconds"},
+                                               {1e-6, "microseconds"},
+                                               {1e-9, "nanoseconds"}});
+  for (const Unit& unit : kUnits) {
+    if (IsFrameStep(step_s * unit.factor)) return ": are they " + std::string(unit.name) + "?";
+  }
+  return "";
+}
+
+/// Checks that times are those of frames.
+void CheckSteps(const std::vector<std::int64_t>& stamps_ns, const std::string& place) {
+  std::vector<std::int64_t> steps_ns;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
+    steps_ns.push_back(stamps_ns[i] - stamps_ns[i - 1]);
+  }
+  if (steps_ns.empty()) return;
+  const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
+  std::ranges::nth_element(steps_ns, middle);
+  const double step_s = SecondsFromNs(*middle);
+  if (IsFrameStep(step_s)) return;
+  throw InputError(place + ": times: must be 0.01 to 10 s apart in the median (got " +
+                   ShortText(step_s) + " s)" + OtherUnit(step_s));
+}
+
+/// Checks the times of a file's poses, if it has any, and the speed over the whole way.
+void CheckTimes(const PoseFile& poses, const std::string& place) {
+  if (poses.stamps_ns.empty()) return;
+  CheckSteps(poses.stamps_ns, place);
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < poses.world_from_sensor.size(); ++i) {
+    length_m +=
+        (poses.world_from_sensor[i].translation() - poses.world_from_sensor[i - 1].translation())
+            .norm();
+  }
+  CheckSpeed(length_m, SecondsFromNs(poses.stamps_ns.back() - poses.stamps_ns.front()), place);
+}
+
 PoseFile ReadCsv(const fs::path& file) {
-  const std::string text = ReadFileWhole(file);
+  const std::string text = ReadTextWhole(file);
   std::string_view rest = text;
   const auto header = TakeLine(rest);
   if (!header || std::string(*header) + "\n" != kPosesHeader) {
@@ -228,6 +325,7 @@ PoseFile ReadCsv(const fs::path& file) {
   }
   PoseFile poses;
   for (std::size_t number = 2; const auto line = TakeLine(rest); ++number) {
+    if (line->empty() && rest.find_first_not_of("\r\n") == std::string_view::npos) break;
     const std::string place = PlaceInFile(file, number);
     const std::string_view word = line->substr(0, line->find(','));
     const auto stamp_ns = ParseNumber<std::int64_t>(word);
@@ -273,13 +371,24 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
     read.times_ns.push_back(std::llround(*time_s * kNsPerS));
     ++number;
   }
+  CheckSteps(read.times_ns, ShownPath(times));
   return read;
 }
 
 PoseFile ReadPoseFile(const fs::path& file, const std::string& sensor) {
-  if (file.extension() == ".csv") return ReadCsv(file);
-  if (file.extension() == ".json") return ReadOpenLabelPoses(file, sensor);
-  return ReadKittiLines(file);
+  const std::string extension = LowerCase(file.extension().string());
+  PoseFile poses = extension == ".csv"    ? ReadCsv(file)
+                   : extension == ".json" ? ReadOpenLabelPoses(file, sensor)
+                                          : ReadNumberLines(file);
+  CheckTimes(poses, ShownPath(file));
+  return poses;
+}
+
+void CheckSpeed(double length_m, double time_s, const std::string& place) {
+  constexpr double kNoise_m = 1.0;
+  if (length_m <= kMostSpeed_mps * time_s + kNoise_m) return;
+  throw InputError(place + ": poses: must not be faster than 150 m/s over the whole way (got " +
+                   ShortText(length_m) + " m in " + ShortText(time_s) + " s)");
 }
 
 }  // namespace railcast

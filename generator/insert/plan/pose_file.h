@@ -10,6 +10,12 @@
 
 namespace railcast {
 
+inline constexpr double kMostSpeed_mps = 150.0;  ///< That of the fastest train was 168, on rails.
+
+/// Checks the speed over a whole way.
+/// @throws InputError "place: poses: rule (got value)" if it is more than kMostSpeed_mps.
+void CheckSpeed(double length_m, double time_s, const std::string& place);
+
 /// What stands beside the clouds of a sequence of KITTI's odometry benchmark.
 struct KittiPoses {
   std::vector<Transform> world_from_sensor;  ///< The world is the first sensor frame. Or empty.
@@ -35,9 +41,13 @@ struct PoseFile {
 /// - `.json`: OpenLABEL 1.0, where the `transforms` of each frame's `frame_properties` and the
 ///   `coordinate_systems` lead from the sensor's coordinate system to that of the world, and where
 ///   `timestamp` is in seconds;
-/// - else lines of KITTI's: the 12 numbers of the upper three rows of a matrix.
+/// - else lines of KITTI's: the 12 numbers of the upper three rows of a matrix; or of TUM's: time
+/// in
+///   seconds, x, y, z, qx, qy, qz, qw.
+/// Text may have a byte order mark or be UTF-16.
 /// @param sensor Name of the sensor's coordinate system in OpenLABEL.
-/// @throws InputError "FILE:3: rule" or "FILE: pointer: rule" if it is none of these.
+/// @throws InputError "FILE:3: rule" or "FILE: pointer: rule" if it is none of these, if its times
+///   are not 0.01 to 10 s apart in the median, or as CheckSpeed().
 [[nodiscard]] PoseFile ReadPoseFile(const std::filesystem::path& file, const std::string& sensor);
 
 }  // namespace railcast

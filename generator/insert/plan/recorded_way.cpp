@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
 #include "core/points/point_alignment.h"
@@ -149,12 +150,15 @@ std::vector<PosedFrame> ReadLinesOfSequence(const fs::path& directory) {
 /// The frames of files that have neither stamps nor poses: what stands beside KITTI's clouds.
 std::vector<PosedFrame> FramesOfFiles(const RecordingInfo& info) {
   std::vector<PosedFrame> frames(info.num_frames.value_or(0));
+  const fs::path clouds = KittiSourceOf(info.source).clouds;
+  const auto stamps_ns = StampsOfNames(CloudsOfDirectory(clouds));
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].name = ShownPath(info.source) + ": frame " + NumberText(i);
+    if (!stamps_ns.empty()) frames[i].stamp_ns = stamps_ns.at(i);
   }
   if (!info.has_kitti_labels) return frames;
   for (PosedFrame& frame : frames) frame.axes = PointAxes::kSensorAtStamp;
-  const auto poses = ReadKittiPoses(info.source, frames.size());
+  const auto poses = ReadKittiPoses(clouds, frames.size());
   for (std::size_t i = 0; i < poses.world_from_sensor.size(); ++i) {
     frames[i].poses = {{0, poses.world_from_sensor[i]}};
   }
@@ -239,7 +243,6 @@ void SetTimes(const std::vector<PosedFrame>& frames,
 
 /// Checks that no railway vehicle is asked to jump.
 void CheckStep(const VehiclePose& from, const VehiclePose& to, const std::string& name) {
-  constexpr double kMostSpeed_mps = 150.0;  // That of the fastest train was 168 m/s, on rails.
   constexpr double kMostTurn_radps = 3.0;
   constexpr double kNoise_m = 1.0;
   constexpr double kNoise_rad = 0.1;
@@ -302,6 +305,15 @@ void TakePoses(const std::vector<PosedFrame>& frames,
       way.poses.push_back(next);
     }
   }
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < way.poses.size(); ++i) {
+    length_m += (way.poses[i].world_from_vehicle.translation() -
+                 way.poses[i - 1].world_from_vehicle.translation())
+                    .norm();
+  }
+  if (way.poses.empty()) return;
+  CheckSpeed(length_m, SecondsFromNs(way.poses.back().time_ns - way.poses.front().time_ns),
+             frames.back().name);
 }
 
 void Register(const fs::path& source,

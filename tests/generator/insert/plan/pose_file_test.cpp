@@ -76,6 +76,43 @@ TEST(PoseFile, SaysTheSameInEachFormat) {
   }
 }
 
+TEST(PoseFile, ReadsTheLinesOfTum) {
+  const PoseFile tum = ReadText("poses.tum",
+                                "# timestamp tx ty tz qx qy qz qw\n"
+                                "1700000000.000000001 100 20 7 0 0 0.7071067811865476 "
+                                "0.7071067811865476\n1.7000000001e9 100 22 7 0 0 0 1\n\n");
+  EXPECT_THAT(tum.stamps_ns, ElementsAre(1'700'000'000'000'000'001, 1'700'000'000'100'000'000));
+  ASSERT_EQ(tum.world_from_sensor.size(), 2U);
+  const PoseFile kitti = ReadText("poses.txt", kKittiLines);
+  EXPECT_TRUE(tum.world_from_sensor[0].isApprox(kitti.world_from_sensor[0], 1e-9));
+  EXPECT_EQ(FaultOf("a.txt", "0 0 0 0 0 0 0 1\n1 2 3\n"),
+            "a.txt:2: must be the 8 numbers of a time and a pose, as in TUM's format");
+}
+
+TEST(PoseFile, MayHaveAByteOrderMarkOrBeUtf16) {
+  EXPECT_EQ(ReadText("poses.csv", "\xEF\xBB\xBF" + std::string(kCsv) + "\r\n").stamps_ns.size(),
+            2U);
+  std::string utf16 = "\xFF\xFE";
+  for (const char letter : std::string(kKittiLines)) utf16 += {letter, '\0'};
+  EXPECT_EQ(ReadText("poses.txt", utf16).world_from_sensor.size(), 2U);
+}
+
+TEST(PoseFile, NamesTheUnitThatItsTimesHave) {
+  const auto csv = [](const std::string& second_stamp, const std::string& second_x) {
+    return "stamp_ns,x,y,z,qx,qy,qz,qw\n0,100,0,0,0,0,0,1\n" + second_stamp + "," + second_x +
+           ",0,0,0,0,0,1\n";
+  };
+  const std::string rule = "a.csv: times: must be 0.01 to 10 s apart in the median (got ";
+  EXPECT_EQ(FaultOf("a.csv", csv("100000", "100.9")), rule + "0.0001 s): are they microseconds?");
+  EXPECT_EQ(FaultOf("a.csv", csv("100", "100.9")), rule + "1e-07 s): are they milliseconds?");
+  EXPECT_EQ(FaultOf("a.csv", csv("30000000000", "100.9")), rule + "30 s)");
+  EXPECT_EQ(FaultOf("a.txt", "0 0 0 0 0 0 0 1\n100 0 0 0 0 0 0 1\n"),
+            "a.txt: times: must be 0.01 to 10 s apart in the median (got 100 s): are they "
+            "milliseconds?");
+  EXPECT_EQ(FaultOf("a.csv", csv("100000000", "120")),
+            "a.csv: poses: must not be faster than 150 m/s over the whole way (got 20 m in 0.1 s)");
+}
+
 TEST(PoseFile, SaysWhatIsWrong) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
             "a.txt:1: must be the 12 numbers of a pose");
