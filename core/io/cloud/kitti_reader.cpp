@@ -17,7 +17,7 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kLabelBytes = sizeof(std::uint32_t);
+constexpr std::size_t kBytesOfLabel = sizeof(std::uint32_t);
 
 /// The numbers of a point in a .bin file.
 struct BinColumns {
@@ -151,10 +151,10 @@ void CheckLabels(const std::string& file,
                  std::string_view bytes,
                  std::size_t num_points,
                  std::string_view labels) {
-  if (labels.size() == num_points * kLabelBytes) return;
+  if (labels.size() == num_points * kBytesOfLabel) return;
   std::string message = file + ": its .label file must have " +
-                        NumberText(num_points * kLabelBytes) + " bytes" + Got(labels.size());
-  const std::size_t num_labels = labels.size() / kLabelBytes;
+                        NumberText(num_points * kBytesOfLabel) + " bytes" + Got(labels.size());
+  const std::size_t num_labels = labels.size() / kBytesOfLabel;
   const std::size_t num_floats = bytes.size() / sizeof(float);
   if (num_labels > 0 && num_floats % num_labels == 0 &&
       ColumnsNamed(NumberText(num_floats / num_labels))) {
@@ -192,9 +192,9 @@ CloudFile ReadColumns(const std::string& file,
   }
   cloud.AddField("label", NumberType::kUint16);
   cloud.AddField("instance", NumberType::kUint16);
-  read.label_bytes = kLabelBytes;
+  read.label_bytes = kBytesOfLabel;
   cloud.data.resize(num_points * cloud.point_step);
-  Transpose({point_bytes, kLabelBytes}, num_points, (std::string(bytes) + *labels).data(), true,
+  Transpose({point_bytes, kBytesOfLabel}, num_points, (std::string(bytes) + *labels).data(), true,
             cloud.data.data());
   return read;
 }
