@@ -91,14 +91,14 @@ bool CanBePositions(const std::vector<Number>& numbers, std::size_t num_columns)
 }
 
 /// The choice of other columns that fits the values of a file that is read with four; "4" if these
-/// do, or if there are too few points to tell; empty if none fits.
+/// do, or if there are too few to tell; empty if none fits.
 std::string FittingColumns(std::string_view bytes) {
-  constexpr std::size_t kLeastPoints = 64;
+  constexpr std::size_t kLeastNumbers = 256;
   constexpr double kClear = 0.9;
   constexpr std::array<std::size_t, 5> kOthers = {3, 5, 6, 7, 8};
   const auto numbers = FirstNumbers<float>(bytes);
   const std::size_t num_floats = bytes.size() / sizeof(float);
-  if (numbers.size() < kLeastPoints * kOthers.back()) return "4";
+  if (numbers.size() < kLeastNumbers) return "4";
   const bool is_four = bytes.size() % (4 * sizeof(float)) == 0 && CanBePositions(numbers, 4);
   std::size_t best = 4;
   double least = DifferenceAt(numbers, best);
