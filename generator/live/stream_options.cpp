@@ -28,7 +28,7 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
       "With protocols railcast and ros2: fields to send, separated by commas, or all; "
       "default: x,y,z,intensity,ring,time_ns,label,instance, and radial_velocity_mps where it is "
       "measured. With ros2 also the names of sensors' drivers, whose fields are sent then: "
-      "velodyne, ouster, hesai, livox, aeva");
+      "velodyne, ouster, hesai, livox, aeva, autoware");
   stream.AddFlag("--all-slots", options.has_all_slots,
                  "With protocol railcast: also send firings without a return");
   stream

@@ -76,7 +76,7 @@ ROWS = (
     ("railcast-view", "drive --frame 20 --size 320x200 --frames 2 --video film", ["film/000001.png"], None),
 )
 
-LAYOUTS = ("railcast", "velodyne", "ouster", "hesai", "livox")
+LAYOUTS = ("railcast", "velodyne", "ouster", "hesai", "livox", "autoware")
 # Of a protocol whose preset is not called as it is.
 PRESETS = {"railcast": "vlp16", "vlp16-dual": "vlp16", "pandar128e4x-standard": "pandar128e4x_standard"}
 # What is inserted into: one recording of each kind, of those that the rows make.

@@ -1,6 +1,7 @@
 #include "core/io/ros/point_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -123,6 +124,40 @@ constexpr auto kLivoxFields = std::to_array<LayoutField>({
      [](const PointSource& point, char* place) { StoreAt<double>(place, point.time_ns()); }},
 });
 
+// Autoware's PointXYZIRCAEDT. Its return types are those of Nebula: 3 strongest, 1 last, 2 first;
+// 0, unknown, where a firing has one return, since a frame does not say which.
+constexpr auto kAutowareFields = std::to_array<LayoutField>({
+    kX,
+    kY,
+    kZ,
+    {"intensity", 12, PointField::kUint8,
+     [](const PointSource& point, char* place) {
+       StoreAt<std::uint8_t>(place, static_cast<std::uint8_t>(std::lround(point.reflectivity())));
+     }},
+    {"return_type", 13, PointField::kUint8,
+     [](const PointSource& point, char* place) {
+       constexpr std::array<std::uint8_t, 3> kTypes = {3, 1, 2};
+       StoreAt<std::uint8_t>(
+           place, point.frame.returns == 1 ? 0 : kTypes.at(point.slot % point.frame.returns));
+     }},
+    {"channel", 14, PointField::kUint16, &StoreChannel},
+    {"azimuth", 16, PointField::kFloat32,
+     [](const PointSource& point, char* place) {
+       StoreAt<float>(place, std::atan2(point.frame.y[point.slot], point.frame.x[point.slot]));
+     }},
+    {"elevation", 20, PointField::kFloat32,
+     [](const PointSource& point, char* place) {
+       StoreAt<float>(place,
+                      std::atan2(point.frame.z[point.slot],
+                                 std::hypot(point.frame.x[point.slot], point.frame.y[point.slot])));
+     }},
+    {"distance", 24, PointField::kFloat32, &StoreMember<&Frame::range_m>},
+    {"time_stamp", 28, PointField::kUint32,
+     [](const PointSource& point, char* place) {
+       StoreAt<std::uint32_t>(place, point.frame.time_ns[point.slot]);
+     }},
+});
+
 constexpr const char* kNeedsVelocity = "--fields aeva: needs a sensor with lidar.velocity";
 
 constexpr auto kAevaFields = std::to_array<LayoutField>({
@@ -206,6 +241,8 @@ VendorLayout LayoutOf(PointLayout layout, const Frame& frame, std::uint32_t clou
       return {kLivoxFields, 26, PointsOnly(frame, true)};
     case PointLayout::kAeva:
       return {kAevaFields, 25, PointsOnly(frame, true)};
+    case PointLayout::kAutoware:
+      return {kAutowareFields, 32, PointsOnly(frame, true)};
     case PointLayout::kRailcast:
       break;
   }
@@ -217,7 +254,8 @@ VendorLayout LayoutOf(PointLayout layout, const Frame& frame, std::uint32_t clou
 std::vector<std::uint16_t> ChannelsInRows(PointLayout layout,
                                           std::uint32_t rows,
                                           const std::vector<std::uint16_t>& channel_of_row) {
-  if (layout == PointLayout::kHesai && channel_of_row.size() == rows) return channel_of_row;
+  const bool has_own = layout == PointLayout::kHesai || layout == PointLayout::kAutoware;
+  if (has_own && channel_of_row.size() == rows) return channel_of_row;
   std::vector<std::uint16_t> channels(rows);
   for (std::uint32_t row = 0; row < rows; ++row) {
     const bool is_from_above = layout == PointLayout::kOuster || layout == PointLayout::kHesai ||

@@ -19,7 +19,8 @@ namespace railcast::ros {
 ///
 /// Sources: ros-drivers/velodyne (velodyne_pointcloud, organize_cloud), ouster-lidar/ouster-ros
 /// (point_type original), HesaiTechnology/HesaiLidar_ROS_2.0, Livox-SDK/livox_ros_driver2
-/// (xfer_format 0); recordings of Aeva's Aeries II in HeLiPR and HeRCULES.
+/// (xfer_format 0); recordings of Aeva's Aeries II in HeLiPR and HeRCULES; Autoware's
+/// documentation, "Point cloud pre-processing design".
 enum class PointLayout {
   kRailcast,  ///< A frame's own fields, packed; organised, NaN where there is no point.
   kVelodyne,  ///< 22 bytes; a row for each firing of all channels, NaN where there is no point.
@@ -27,6 +28,7 @@ enum class PointLayout {
   kHesai,     ///< 26 bytes; points only; `timestamp` in seconds.
   kLivox,     ///< 26 bytes; points only; `timestamp` in nanoseconds.
   kAeva,      ///< 25 bytes; points only; `velocity`, positive = receding.
+  kAutoware,  ///< 32 bytes; points only; XYZIRCAEDT, `time_stamp` in nanoseconds since the stamp.
 };
 
 }  // namespace railcast::ros
@@ -40,7 +42,8 @@ inline constexpr auto kEnumNames<ros::PointLayout> =
                                                {ros::PointLayout::kOuster, "ouster"},
                                                {ros::PointLayout::kHesai, "hesai"},
                                                {ros::PointLayout::kLivox, "livox"},
-                                               {ros::PointLayout::kAeva, "aeva"}});
+                                               {ros::PointLayout::kAeva, "aeva"},
+                                               {ros::PointLayout::kAutoware, "autoware"}});
 
 }  // namespace railcast
 
@@ -71,8 +74,8 @@ struct CloudSpec {
 
 /// Makes a frame's cloud, stamped with the frame's stamp.
 /// @param frame_id Of the axes in which its points are.
-/// @param channel_of_row The vendor's number, from 0, of each row's channel, which the layout
-///   `hesai` stores; empty = counted from the highest.
+/// @param channel_of_row The vendor's number, from 0, of each row's channel, which the layouts
+///   `hesai` and `autoware` store; empty = counted from the highest.
 /// @param cloud Less than NumClouds().
 /// @throws InputError if the layout cannot hold the frame: Livox's and Aeva's have at most 256
 ///   lines, Aeva's needs velocities.

@@ -126,6 +126,39 @@ TEST(PointLayout, OusterIsThatOfItsDriversOriginalPointType) {
   }
 }
 
+TEST(PointLayout, AutowareIsItsXyzircaedt) {
+  Frame frame = ExampleFrame(0, 2, 4);
+  const PointCloud2 cloud = CloudIn(PointLayout::kAutoware, frame);
+  EXPECT_EQ(FieldsOf(cloud),
+            (std::vector<std::string>{"x 0 7", "y 4 7", "z 8 7", "intensity 12 2",
+                                      "return_type 13 2", "channel 14 4", "azimuth 16 7",
+                                      "elevation 20 7", "distance 24 7", "time_stamp 28 6"}));
+  EXPECT_EQ(cloud.point_step, 32U);
+  const auto slots = PointSlots(frame);
+  ASSERT_EQ(cloud.width, slots.size());
+  for (std::size_t point = 0; point < slots.size(); ++point) {
+    const std::size_t slot = slots[point];
+    EXPECT_EQ(ValueAt<std::uint8_t>(cloud, point, 12), ReflectivityByte(frame.intensity[slot]));
+    EXPECT_EQ(ValueAt<std::uint8_t>(cloud, point, 13), 0);
+    EXPECT_EQ(ValueAt<std::uint16_t>(cloud, point, 14), frame.ring[slot]);
+    const float azimuth_rad = ValueAt<float>(cloud, point, 16);
+    const float elevation_rad = ValueAt<float>(cloud, point, 20);
+    const float plan_m = std::hypot(frame.x[slot], frame.y[slot]);
+    EXPECT_NEAR(plan_m * std::cos(azimuth_rad), frame.x[slot], 1e-5F * plan_m);
+    EXPECT_NEAR(plan_m * std::sin(azimuth_rad), frame.y[slot], 1e-5F * plan_m);
+    EXPECT_NEAR(plan_m * std::tan(elevation_rad), frame.z[slot], 1e-4F * plan_m);
+    EXPECT_EQ(ValueAt<float>(cloud, point, 24), frame.range_m[slot]);
+    EXPECT_EQ(ValueAt<std::uint32_t>(cloud, point, 28), frame.time_ns[slot]);
+  }
+  frame.returns = 2;
+  frame.columns = 2;
+  const PointCloud2 dual = CloudIn(PointLayout::kAutoware, frame);
+  const auto dual_slots = PointSlots(frame);
+  for (std::size_t point = 0; point < dual_slots.size(); ++point) {
+    EXPECT_EQ(ValueAt<std::uint8_t>(dual, point, 13), dual_slots[point] % 2 == 0 ? 3 : 1);
+  }
+}
+
 TEST(PointLayout, OusterHasACloudForEachReturn) {
   Frame frame = ExampleFrame(0, 2, 4);
   frame.returns = 2;
