@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/recorded_motion.h"
 #include "generator/insert/plan/pose_file.h"
@@ -16,10 +18,18 @@ namespace {
 /// Things that are in no scene: what the air sends back, and the vehicle itself.
 constexpr double kLeastRange_m = 0.5;
 
+constexpr std::uint32_t kUnclassified = 1;
+
 Transform BodyOf(const RecordedFrame& recorded, const RecordingInfo& info) {
   const Transform& world_from_sensor = recorded.frame.world_from_sensor;
   if (!info.scenario) return world_from_sensor;
   return world_from_sensor * VehicleFromSensor(info.scenario->lidar.mount).inverse();
+}
+
+/// Whether it is a recording in LAS, which has classes of its own.
+bool IsOfAsprs(const RecordingInfo& info) {
+  const Label* const label = info.labels.Find(kUnclassified);
+  return label != nullptr && label->name == "unclassified";
 }
 
 double WhiteIntensity(const RecordedFrame& recorded,
@@ -28,7 +38,11 @@ double WhiteIntensity(const RecordedFrame& recorded,
   if (source.white_intensity) return *source.white_intensity;
   if (info.origin || info.kind.starts_with("capture")) return 1.0;
   const auto& values = recorded.frame.intensity;
-  return std::ranges::any_of(values, [](float value) { return value > 1.0F; }) ? 255.0 : 1.0;
+  const float highest = std::accumulate(values.begin(), values.end(), 0.0F, [](float a, float b) {
+    return b > a ? b : a;  // Whatever is NaN.
+  });
+  if (IsOfAsprs(info) && highest > 255.0F) return 65535.0;
+  return highest > 1.0F ? 255.0 : 1.0;
 }
 
 std::uint16_t RecordedLabelOf(std::uint32_t id, const RecordingInfo& info, SurveyLabels& labels) {
@@ -40,7 +54,10 @@ std::uint16_t RecordedLabelOf(std::uint32_t id, const RecordingInfo& info, Surve
   }
   if (id == 0) return SurveyLabels::kUnknown;
   const Label* const label = info.labels.Find(id);
-  return label == nullptr ? SurveyLabels::kObject : labels.IndexOf(label->name);
+  if (label == nullptr) return SurveyLabels::kObject;
+  if (IsOfAsprs(info) && id == kUnclassified) return SurveyLabels::kUnknown;
+  const std::string name(IsOfAsprs(info) ? ScenarioLabelOf(label->name) : label->name);
+  return name.empty() ? SurveyLabels::kObject : labels.IndexOf(name);
 }
 
 /// The poses of a file beside a recording, if there is one.

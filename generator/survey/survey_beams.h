@@ -27,7 +27,8 @@ struct SurveySource {
   /// ... or are in the world's axes, from where nobody knows.
   bool is_in_world = false;
   double range_max_m = 60.0;  ///< Points farther from the sensor are left out.
-  /// The recorded intensity of a white surface; absent: 1, or 255 where a frame has more than 1.
+  /// The recorded intensity of a white surface; absent: 1, 255 where a frame has more than 1, or
+  /// 65535 where one of LAS has more than 255.
   std::optional<double> white_intensity{};
 };
 

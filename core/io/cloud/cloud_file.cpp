@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/cloud/pcd_encoder.h"
 #include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
@@ -147,6 +148,7 @@ CloudFile ParseCloudFile(const std::filesystem::path& file,
 }
 
 Cloud ReadCloud(const std::filesystem::path& file, const std::string& columns) {
+  if (columns.empty() && IsLasFile(file)) return ReadLas(file);
   std::optional<std::string> second;
   if (const auto beside = SecondFileOf(file)) second = ReadFileWhole(*beside);
   return ParseCloudFile(file, ReadFileWhole(file), second, columns).cloud;

@@ -21,7 +21,8 @@
 namespace railcast {
 namespace {
 
-constexpr std::array<std::string_view, 4> kTimeNames = {"t", "time", "timestamp", "time_stamp"};
+constexpr std::array<std::string_view, 5> kTimeNames = {"t", "time", "timestamp", "time_stamp",
+                                                        "gps_time"};
 // The durations of scans at 50 Hz and at 1 Hz.
 constexpr double kMinScan_s = 0.02;
 constexpr double kMaxScan_s = 1.0;

@@ -17,9 +17,9 @@ namespace railcast {
 /// points put into their slots. Other clouds go into a ring/azimuth table (ring_table.h) if one can
 /// be made; if not, the frame has one row of points and is not a grid.
 ///
-/// A time field of another name (t, time, timestamp, time_stamp) is used only if its unit is
-/// certain: floating-point values that span 0.02 to 1 s, as scans do, or values that span as many
-/// nanoseconds.
+/// A time field of another name (t, time, timestamp, time_stamp, gps_time) is used only if its unit
+/// is certain: floating-point values that span 0.02 to 1 s, as scans do, or values that span as
+/// many nanoseconds.
 ///
 /// @param name Names the frame in messages.
 /// @throws InputError with one line if x, y or z is missing, the positions cannot be metres

@@ -7,6 +7,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/cloud_files.h"
 
@@ -111,7 +112,7 @@ void SortClouds(std::vector<fs::path>& files) {
 }  // namespace
 
 bool IsCloudFile(const fs::path& file) {
-  return FindReader(file) != nullptr;
+  return FindReader(file) != nullptr || IsLasFile(file);
 }
 
 bool IsKittiFile(const fs::path& file) {

@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti_names.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/frame_record.h"
@@ -40,6 +41,7 @@ class CloudRecording : public Recording {
     if (info_.has_kitti_labels) {
       info_.labels = SemanticKittiNamesOf(files_.front().parent_path());
     }
+    if (!files_.empty() && IsLasFile(files_.front())) info_.labels = AsprsLabels();
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }

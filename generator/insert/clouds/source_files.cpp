@@ -4,11 +4,15 @@
 #include <set>
 #include <utility>
 
+#include "core/base/error.h"
+#include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
+#include "railcast/io/cloud_files.h"
 
 namespace railcast {
 namespace {
@@ -20,7 +24,12 @@ std::string NameIn(const fs::path& directory, const fs::path& file) {
 }
 
 /// Adds a frame's cloud and its labels.
+/// @throws InputError if it is of a format that is read, but not written.
 void AddSourceFrame(const fs::path& cloud, SourceFiles& source) {
+  if (IsLasFile(cloud)) {
+    throw InputError(ShownPath(cloud) + ": must be a " + ReadableExtensions(true) +
+                     " file to be inserted into (got .las, which is read, but not written)");
+  }
   std::vector<std::string> names = {NameIn(source.directory, cloud)};
   if (const auto labels = SecondFileOf(cloud)) names.push_back(NameIn(source.directory, *labels));
   source.frames.push_back(std::move(names));

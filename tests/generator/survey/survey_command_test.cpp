@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -12,6 +14,7 @@
 #include "core/rail/survey/survey_file.h"
 #include "core/scenario/json_text.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/cloud/made_las.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/project_folder.h"
 #include "tests/generator/run_command.h"
@@ -45,6 +48,26 @@ TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
     EXPECT_NEAR(GroundHeight_m(tile, {3'400'001.0, 5'800'001.0}).value(), 412.5, 1e-3);
   }
   EXPECT_FALSE(exists(directory.path() / "out" / "world.json"));
+}
+
+// A class of LAS becomes the label that scenarios have for the same thing.
+TEST(SurveyCommand, TakesPointsAndClassesOfLas) {
+  const TemporaryDirectory directory;
+  std::string las = MadeLas{.minor_version = 4, .format = 6}.Bytes(900);
+  for (std::size_t i = 0; i < 900; ++i) {
+    char* const point = &las[375 + 30 * i];
+    const std::array<std::int32_t, 3> position_mm = {static_cast<std::int32_t>(100 * (i % 30)),
+                                                     static_cast<std::int32_t>(100 * (i / 30)), 0};
+    std::memcpy(point, position_mm.data(), sizeof position_mm);
+    point[16] = 11;
+  }
+  WriteFileWhole(directory.path() / "road.las", las);
+  const Ended ended = Generate("survey " + (directory.path() / "road.las").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 900U);
+  EXPECT_EQ(file.labels().back(), "road");
 }
 
 TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {

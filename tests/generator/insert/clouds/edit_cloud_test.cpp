@@ -12,7 +12,10 @@
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/cloud_frame.h"
+#include "core/io/write_file.h"
+#include "generator/insert/clouds/source_files.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
 
 namespace railcast {
 namespace {
@@ -161,6 +164,15 @@ TEST(EditedKitti, KeepsPointsAndLabelsTogether) {
   EXPECT_EQ(label, 49U);
   std::memcpy(&label, &files[1].bytes[16], sizeof label);
   EXPECT_EQ(label, (9U << 16U) + 4U);
+}
+
+TEST(SourceFiles, AreNoneOfLas) {
+  const TemporaryDirectory folder;
+  WriteFileWhole(folder.path() / "site.las", "");
+  EXPECT_EQ(MessageOf([&] { (void)FindSourceFiles(folder.path() / "site.las"); }),
+            (folder.path() / "site.las").string() +
+                ": must be a .pcd, .ply or .bin file to be inserted into (got .las, which is read, "
+                "but not written)");
 }
 
 TEST(EditedClouds, StayAsTheyAreWithoutEdits) {

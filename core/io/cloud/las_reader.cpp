@@ -1,0 +1,274 @@
+#include "core/io/cloud/las_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "railcast/remark.h"
+
+namespace railcast {
+namespace {
+
+/// What the points of a format have behind what all have; places in bytes, 0 = none.
+struct PointFormat {
+  std::size_t num_bytes{};
+  std::size_t time{};
+  bool has_colour{};
+  bool has_near_infrared{};
+  bool has_wave{};
+
+  [[nodiscard]] bool is_newer() const { return time == 22; }
+};
+constexpr std::array<PointFormat, 11> kPointFormats = {{{20, 0},
+                                                        {28, 20},
+                                                        {26, 0, true},
+                                                        {34, 20, true},
+                                                        {57, 20, false, false, true},
+                                                        {63, 20, true, false, true},
+                                                        {30, 22},
+                                                        {36, 22, true},
+                                                        {38, 22, true, true},
+                                                        {59, 22, false, false, true},
+                                                        {67, 22, true, true, true}}};
+
+/// The bytes of a file, little-endian.
+class Bytes {
+ public:
+  explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
+
+  template <typename Number>
+  [[nodiscard]] Number At(std::uint64_t place) const {
+    if (place > bytes_.size() || bytes_.size() - place < sizeof(Number)) {
+      throw InputError("must have its whole header (got " + NumberText(bytes_.size()) + " bytes)");
+    }
+    Number number{};
+    std::memcpy(&number, bytes_.data() + place, sizeof number);
+    return number;
+  }
+  [[nodiscard]] std::string_view Text(std::uint64_t place, std::size_t size) const {
+    return place < bytes_.size() ? bytes_.substr(place, size) : std::string_view();
+  }
+  [[nodiscard]] std::uint64_t size() const { return bytes_.size(); }
+
+ private:
+  std::string_view bytes_;
+};
+
+struct LasHeader {
+  int minor_version{};
+  std::size_t header_bytes{};
+  std::uint64_t points_begin{};
+  std::uint32_t num_records{};  ///< Variable length records behind the header.
+  PointFormat format;
+  std::size_t point_bytes{};
+  std::uint64_t num_points{};
+  std::array<double, 3> scale{};
+  std::array<double, 3> offset_m{};
+};
+
+LasHeader ReadLasHeader(const Bytes& file) {
+  if (file.Text(0, 4) != "LASF") throw InputError("must begin with LASF");
+  LasHeader header;
+  const int major = file.At<std::uint8_t>(24);
+  header.minor_version = file.At<std::uint8_t>(25);
+  if (major != 1 || header.minor_version > 4) {
+    throw InputError("version: must be 1.0 to 1.4 (got " + NumberText(major) + "." +
+                     NumberText(header.minor_version) + ")");
+  }
+  header.header_bytes = file.At<std::uint16_t>(94);
+  header.points_begin = file.At<std::uint32_t>(96);
+  header.num_records = file.At<std::uint32_t>(100);
+  const int format = file.At<std::uint8_t>(104);
+  if ((format & 0xC0) != 0) {
+    throw InputError(
+        "is compressed LAS (LAZ), which is not read: pdal translate or las2las makes "
+        "a .las of it");
+  }
+  if (format > 10) throw InputError("point format: must be 0 to 10" + Got(format));
+  header.format = kPointFormats.at(static_cast<std::size_t>(format));
+  header.point_bytes = file.At<std::uint16_t>(105);
+  if (header.point_bytes < header.format.num_bytes) {
+    throw InputError("length of points: must be at least that of their format, " +
+                     NumberText(header.format.num_bytes) + Got(header.point_bytes));
+  }
+  header.num_points = file.At<std::uint32_t>(107);
+  if (header.minor_version == 4) header.num_points = file.At<std::uint64_t>(247);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    header.scale.at(axis) = file.At<double>(131 + 8 * axis);
+    header.offset_m.at(axis) = file.At<double>(155 + 8 * axis);
+    if (!(std::abs(header.scale.at(axis)) > 0.0) || !std::isfinite(header.scale.at(axis)) ||
+        !std::isfinite(header.offset_m.at(axis))) {
+      throw InputError("scale and offset: must be finite, the scale not 0");
+    }
+  }
+  const std::size_t least = header.minor_version == 4 ? 375 : 227;
+  if (header.header_bytes < least || header.points_begin < header.header_bytes ||
+      header.points_begin > file.size()) {
+    throw InputError("begin of points: must lie in the file, behind the header" +
+                     Got(header.points_begin));
+  }
+  const std::uint64_t most = (file.size() - header.points_begin) / header.point_bytes;
+  if (header.num_points > most || most > std::numeric_limits<std::uint32_t>::max()) {
+    throw InputError("must hold the points that its header states, " +
+                     NumberText(header.num_points) + Got(most));
+  }
+  return header;
+}
+
+[[noreturn]] void RefuseUnit(const std::string& got) {
+  throw InputError("coordinates: must be metres in plan and height (got " + got +
+                   "); pdal translate with filters.reprojection makes them such");
+}
+
+/// Throws if a GeoTIFF directory says that coordinates are no metres.
+void CheckGeoKeys(const Bytes& keys) {
+  const std::size_t num = keys.size() / 8;
+  for (std::size_t i = 1; i < num; ++i) {
+    const int key = keys.At<std::uint16_t>(8 * i);
+    const int value = keys.At<std::uint16_t>(8 * i + 6);
+    if (keys.At<std::uint16_t>(8 * i + 2) != 0) continue;  // It stands elsewhere.
+    if (key == 1024 && value == 2) RefuseUnit("degrees");
+    const bool is_unit = key == 3076 || key == 4099;  // Of projected and of vertical coordinates.
+    if (is_unit && value != 0 && value != 9001) RefuseUnit("unit EPSG:" + NumberText(value));
+  }
+}
+
+void CheckWkt(std::string_view text) {
+  const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
+  if ((has("GEOGCS[") || has("GEOGCRS[")) && !has("PROJC")) RefuseUnit("degrees");
+  if (has("foot") || has("Foot") || has("FOOT") || has("feet")) RefuseUnit("feet");
+}
+
+/// Throws if a record says that coordinates are no metres.
+void CheckRecords(const Bytes& file, const LasHeader& header) {
+  constexpr std::size_t kHead_bytes = 54;
+  std::uint64_t place = header.header_bytes;
+  for (std::uint32_t i = 0; i < header.num_records; ++i) {
+    if (place + kHead_bytes > header.points_begin) {
+      throw InputError("records: must end before the points, " + NumberText(header.points_begin));
+    }
+    const std::size_t size = file.At<std::uint16_t>(place + 20);
+    const std::string_view content = file.Text(place + kHead_bytes, size);
+    const int id = file.At<std::uint16_t>(place + 18);
+    if (file.Text(place + 2, 15) == "LASF_Projection") {
+      if (id == 34735) CheckGeoKeys(Bytes(content));
+      if (id == 2112) CheckWkt(content);
+    }
+    place += kHead_bytes + size;
+  }
+}
+
+/// Where the points and what belongs to them end: behind them stand waveforms and further records.
+std::uint64_t EndOfPoints(const Bytes& file, const LasHeader& header) {
+  std::uint64_t end = file.size();
+  const auto limit = [&](std::uint64_t begin) {
+    if (begin >= header.points_begin && begin > 0) end = std::min(end, begin);
+  };
+  if (header.minor_version >= 3 && header.header_bytes >= 235) limit(file.At<std::uint64_t>(227));
+  if (header.minor_version >= 4 && file.At<std::uint32_t>(243) > 0) {
+    limit(file.At<std::uint64_t>(235));
+  }
+  return end;
+}
+
+Cloud EmptyCloud(const LasHeader& header) {
+  Cloud cloud{.height = 1, .width = 0, .fields = {}, .point_step = 0, .is_dense = true, .data = {}};
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kDouble);
+  if (header.format.time > 0) cloud.AddField("gps_time", NumberType::kDouble);
+  cloud.AddField("intensity", NumberType::kUint16);
+  cloud.AddField("point_source_id", NumberType::kUint16);
+  for (const char* name : {"return_index", "return_count", "label", "user_data"}) {
+    cloud.AddField(name, NumberType::kUint8);
+  }
+  return cloud;
+}
+
+/// Appends a point; nothing if it is withheld.
+/// @return Whether it was appended.
+bool Append(const Bytes& point, const LasHeader& header, Cloud& cloud) {
+  const bool is_newer = header.format.is_newer();
+  const int returns = point.At<std::uint8_t>(14);
+  const int flags = point.At<std::uint8_t>(15);
+  if ((flags & (is_newer ? 0x04 : 0x80)) != 0) return false;
+  const auto put = [&](auto number) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(&number);
+    cloud.data.insert(cloud.data.end(), begin, begin + sizeof number);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    put(point.At<std::int32_t>(4 * axis) * header.scale.at(axis) + header.offset_m.at(axis));
+  }
+  if (header.format.time > 0) put(point.At<double>(header.format.time));
+  put(point.At<std::uint16_t>(12));
+  put(point.At<std::uint16_t>(is_newer ? 20 : 18));
+  const int number = is_newer ? returns & 0x0F : returns & 0x07;
+  put(static_cast<std::uint8_t>(std::max(number, 1) - 1));
+  put(static_cast<std::uint8_t>(is_newer ? returns >> 4 : (returns >> 3) & 0x07));
+  put(is_newer ? point.At<std::uint8_t>(16) : static_cast<std::uint8_t>(flags & 0x1F));
+  put(point.At<std::uint8_t>(17));
+  ++cloud.width;
+  return true;
+}
+
+/// The fields that ReadLas() does not give.
+std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
+  std::vector<std::string> names = {"scan angle"};
+  if (header.format.has_colour) names.emplace_back("colour");
+  if (header.format.has_near_infrared) names.emplace_back("near infrared");
+  if (header.format.has_wave) names.emplace_back("waveform");
+  if (header.point_bytes > header.format.num_bytes) {
+    names.push_back(NumberText(header.point_bytes - header.format.num_bytes) + " extra bytes");
+  }
+  return names;
+}
+
+Cloud ParseLas(const std::string& name, std::string_view bytes) {
+  const Bytes file(bytes);
+  const LasHeader header = ReadLasHeader(file);
+  CheckRecords(file, header);
+  Cloud cloud = EmptyCloud(header);
+  cloud.data.reserve(header.num_points * cloud.point_step);
+  std::uint64_t num_withheld = 0;
+  for (std::uint64_t i = 0; i < header.num_points; ++i) {
+    const Bytes point(file.Text(header.points_begin + i * header.point_bytes, header.point_bytes));
+    if (!Append(point, header, cloud)) ++num_withheld;
+  }
+  const std::uint64_t end = header.points_begin + header.num_points * header.point_bytes;
+  const std::uint64_t rest = std::max(EndOfPoints(file, header), end) - end;
+  const std::vector<std::string> left_out = FieldsLeftOut(header);
+  std::string names;
+  for (const std::string& field : left_out) names += (names.empty() ? "" : ", ") + field;
+  cloud.remarks = {
+      {.kind = RemarkKind::kPointsBeyondData, .place = name, .number = rest / header.point_bytes},
+      {.kind = RemarkKind::kSurplusBytes, .place = name, .number = rest % header.point_bytes},
+      {.kind = RemarkKind::kPointsWithheld, .place = name, .number = num_withheld},
+      {.kind = RemarkKind::kFieldsLeftOut,
+       .place = name,
+       .number = left_out.size(),
+       .detail = names}};
+  std::erase_if(cloud.remarks, [](const Remark& remark) { return remark.number == 0; });
+  return cloud;
+}
+
+}  // namespace
+
+bool IsLasFile(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& letter : ending) letter = static_cast<char>(letter | 0x20);
+  return ending == ".las";
+}
+
+Cloud ReadLas(const std::filesystem::path& file) {
+  const std::string name = ShownPath(file);
+  const std::string bytes = ReadFileWhole(file);
+  return AtPlace(name + ": ", [&] { return ParseLas(name, bytes); });
+}
+
+}  // namespace railcast

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/cloud/las_reader.h"
+#include "core/io/write_file.h"
+#include "railcast/io/recording.h"
+#include "tests/core/io/cloud/made_las.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+class LasFile : public testing::Test {
+ protected:
+  std::filesystem::path Write(const std::string& bytes, const std::string& name = "site.las") {
+    WriteFileWhole(folder_.path() / name, bytes);
+    return folder_.path() / name;
+  }
+  Cloud Read(const std::string& bytes) { return ReadLas(Write(bytes)); }
+  std::string MessageAbout(const std::string& bytes) {
+    const auto file = Write(bytes);
+    const std::string message = MessageOf([&] { (void)ReadLas(file); });
+    EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
+    return message.substr(std::min(message.size(), file.string().size() + 2));
+  }
+
+  TemporaryDirectory folder_;
+};
+
+std::vector<double> ColumnOf(const Cloud& cloud, const char* name) {
+  std::vector<double> values;
+  VisitField(cloud, *cloud.Find(name),
+             [&](std::size_t, auto value) { values.push_back(static_cast<double>(value)); });
+  return values;
+}
+using Values = std::vector<double>;
+
+/// "points-beyond 2".
+std::vector<std::string> RemarksOf(const Cloud& cloud) {
+  std::vector<std::string> names;
+  for (const Remark& remark : cloud.remarks) {
+    names.push_back(std::string(remark.type().name) + " " + std::to_string(remark.number));
+  }
+  return names;
+}
+
+TEST_F(LasFile, IsReadInEveryVersionAndFormat) {
+  for (int format = 0; format <= 10; ++format) {
+    for (int version = format >= 6 ? 4 : 0; version <= 4; ++version) {
+      SCOPED_TRACE(std::to_string(version) + " " + std::to_string(format));
+      const Cloud cloud = Read(MadeLas{.minor_version = version, .format = format}.Bytes(3));
+      ASSERT_EQ(cloud.num_points(), 3U);
+      EXPECT_EQ(ColumnOf(cloud, "x"), (Values{5001.0, 5002.0, 5003.0}));
+      EXPECT_EQ(ColumnOf(cloud, "y"), (Values{299'998.0, 299'996.0, 299'994.0}));
+      EXPECT_EQ(ColumnOf(cloud, "z"), (Values{0.345, 0.345, 0.345}));
+      EXPECT_EQ(ColumnOf(cloud, "intensity"), (Values{100, 200, 300}));
+      EXPECT_EQ(ColumnOf(cloud, "return_index"), (Values{0, 1, 2}));
+      EXPECT_EQ(ColumnOf(cloud, "return_count"), (Values{3, 3, 3}));
+      EXPECT_EQ(ColumnOf(cloud, "label"), (Values{1, 2, 3}));
+      EXPECT_EQ(ColumnOf(cloud, "user_data"), (Values{41, 42, 43}));
+      EXPECT_EQ(ColumnOf(cloud, "point_source_id"), (Values{7, 7, 7}));
+      const bool has_time = format == 1 || format >= 3;
+      EXPECT_EQ(cloud.Find("gps_time") != nullptr, has_time);
+      if (!has_time) continue;
+      EXPECT_NEAR(ColumnOf(cloud, "gps_time")[2], 7.15, 1e-9);
+    }
+  }
+}
+
+TEST_F(LasFile, TellsWhatItLeavesOut) {
+  const auto left_out = [&](int format, std::size_t extra_bytes) {
+    return Read(MadeLas{.minor_version = 4, .format = format, .extra_bytes = extra_bytes}.Bytes(1))
+        .remarks.at(0)
+        .detail;
+  };
+  EXPECT_EQ(left_out(6, 0), "scan angle");
+  EXPECT_EQ(left_out(10, 5), "scan angle, colour, near infrared, waveform, 5 extra bytes");
+}
+
+TEST_F(LasFile, LeavesOutPointsThatAreWithheld) {
+  for (const auto& [format, place, mark] :
+       std::vector<std::tuple<int, std::size_t, char>>{{0, 15, '\x80'}, {6, 15, '\x04'}}) {
+    const MadeLas las{.minor_version = 4, .format = format};
+    std::string bytes = las.Bytes(3);
+    bytes[las.header_bytes() + las.point_bytes() + place] |= mark;
+    const Cloud cloud = Read(bytes);
+    EXPECT_EQ(ColumnOf(cloud, "label"), (Values{1, 3}));
+    EXPECT_EQ(RemarksOf(cloud),
+              (std::vector<std::string>{"points-withheld 1", "fields-left-out 1"}));
+  }
+}
+
+TEST_F(LasFile, TellsOfPointsBeyondThoseThatItsHeaderStates) {
+  const std::vector<std::string> expected = {"points-beyond 2", "fields-left-out 1"};
+  EXPECT_EQ(RemarksOf(Read(MadeLas{}.Bytes(5, 3))), expected);
+  EXPECT_EQ(MessageAbout(MadeLas{}.Bytes(3, 5)),
+            "must hold the points that its header states, 5 (got 3)");
+  // What belongs to the waveforms is none.
+  const MadeLas las{.minor_version = 3, .format = 4};
+  std::string bytes = las.Bytes(5, 3);
+  Put(bytes, 227, std::uint64_t{las.header_bytes() + 3 * las.point_bytes()});
+  EXPECT_EQ(RemarksOf(Read(bytes)), std::vector<std::string>{"fields-left-out 2"});
+}
+
+/// A record behind the header.
+std::string RecordOf(int id, const std::string& content) {
+  std::string record(54, '\0');
+  std::memcpy(&record[2], "LASF_Projection", 15);
+  Put(record, 18, static_cast<std::uint16_t>(id));
+  Put(record, 20, static_cast<std::uint16_t>(content.size()));
+  return record + content;
+}
+
+/// A GeoTIFF directory of one key.
+std::string GeoKey(std::uint16_t key, std::uint16_t value) {
+  const std::array<std::uint16_t, 8> words = {1, 1, 0, 1, key, 0, 1, value};
+  return {reinterpret_cast<const char*>(words.data()), sizeof words};
+}
+
+TEST_F(LasFile, IsRefusedIfItsCoordinatesAreNoMetres) {
+  const auto with = [&](const std::string& record) {
+    return MadeLas{.records = record, .num_records = 1}.Bytes(1);
+  };
+  const std::string rule = "coordinates: must be metres in plan and height (got ";
+  const std::string advice = "); pdal translate with filters.reprojection makes them such";
+  EXPECT_EQ(MessageAbout(with(RecordOf(34735, GeoKey(1024, 2)))), rule + "degrees" + advice);
+  EXPECT_EQ(MessageAbout(with(RecordOf(34735, GeoKey(3076, 9003)))),
+            rule + "unit EPSG:9003" + advice);
+  EXPECT_EQ(MessageAbout(with(RecordOf(2112, "GEOGCS[\"WGS 84\"]"))), rule + "degrees" + advice);
+  EXPECT_EQ(MessageAbout(with(RecordOf(2112, "PROJCS[\"X\",UNIT[\"US survey foot\",0.3]]"))),
+            rule + "feet" + advice);
+  EXPECT_EQ(Read(with(RecordOf(34735, GeoKey(3076, 9001)))).num_points(), 1U);
+  EXPECT_EQ(
+      Read(with(RecordOf(2112, "PROJCS[\"X\",GEOGCS[\"Y\"],UNIT[\"metre\",1]]"))).num_points(), 1U);
+}
+
+TEST_F(LasFile, IsRefusedIfItIsNoneOrCompressed) {
+  std::string bytes = MadeLas{}.Bytes(2);
+  EXPECT_EQ(MessageAbout("LASS"), "must begin with LASF");
+  EXPECT_EQ(MessageAbout(bytes.substr(0, 150)), "must have its whole header (got 150 bytes)");
+  bytes[104] = '\x81';
+  EXPECT_EQ(MessageAbout(bytes),
+            "is compressed LAS (LAZ), which is not read: pdal translate or las2las makes a .las of "
+            "it");
+  bytes[104] = 11;
+  EXPECT_EQ(MessageAbout(bytes), "point format: must be 0 to 10 (got 11)");
+  bytes[104] = 1;
+  EXPECT_EQ(MessageAbout(bytes),
+            "length of points: must be at least that of their format, 28 (got 20)");
+  bytes[25] = 5;
+  EXPECT_EQ(MessageAbout(bytes), "version: must be 1.0 to 1.4 (got 1.5)");
+}
+
+// Whatever it is given, it reads it or says why not.
+TEST_F(LasFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
+  const std::string whole = MadeLas{.minor_version = 4,
+                                    .format = 6,
+                                    .records = RecordOf(34735, GeoKey(3076, 9001)),
+                                    .num_records = 1}
+                                .Bytes(2);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string bytes = whole;
+    bytes[i] = static_cast<char>(~bytes[i]);
+    const auto file = Write(bytes);
+    const std::string message = MessageOf([&] { (void)ReadLas(file); });
+    EXPECT_TRUE(message == "no error" || message.starts_with(file.string() + ": ")) << message;
+  }
+}
+
+TEST_F(LasFile, IsARecordingWithTheNamesOfItsClassesAndItsOrigin) {
+  (void)Write(MadeLas{.minor_version = 4, .format = 6}.Bytes(3), "10.LAS");
+  (void)Write(MadeLas{.format = 1}.Bytes(2), "9.las");
+  const auto recording = OpenRecording(folder_.path());
+  EXPECT_EQ(recording->info().labels.Find(2U)->name, "ground");
+  EXPECT_EQ(recording->info().labels.Find(10U)->name, "rail");
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 2U);
+  const RecordedFrame& last = frames[1];
+  ASSERT_EQ(last.frame.num_slots(), 3U);
+  EXPECT_EQ(last.origin_m, Vector3(5000.0, 300'000.0, 0.0));
+  EXPECT_NEAR(last.frame.x[0], 1.0, 1e-6);
+  EXPECT_EQ(last.frame.label, (std::vector<std::uint32_t>{1, 2, 3}));
+  EXPECT_EQ(last.frame.return_count[0], 3);
+  EXPECT_EQ(last.frame.time_ns, (std::vector<std::uint32_t>{0, 50'000'000, 100'000'000}));
+  EXPECT_FALSE(recording->info().remarks->List().empty());
+}
+
+}  // namespace
+}  // namespace railcast

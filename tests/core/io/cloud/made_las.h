@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace railcast {
+
+inline constexpr std::array<std::size_t, 11> kLasPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+template <typename Number>
+void Put(std::string& bytes, std::size_t place, Number number) {
+  std::memcpy(&bytes.at(place), &number, sizeof number);
+}
+
+/// A file that is written as LAS says, field by field.
+struct MadeLas {
+  int minor_version = 2;
+  int format = 0;
+  std::size_t extra_bytes = 0;
+  std::string records{};  ///< Behind the header.
+  std::uint32_t num_records = 0;
+
+  [[nodiscard]] std::size_t point_bytes() const {
+    return kLasPointBytes.at(static_cast<std::size_t>(format)) + extra_bytes;
+  }
+  [[nodiscard]] std::size_t header_bytes() const {
+    return minor_version == 4 ? 375 : minor_version == 3 ? 235 : 227;
+  }
+
+  /// Points 5 km east and 300 km north, 1 m apart: the number-th has class number, intensity
+  /// 100 x number, is return number of 3, and was measured at 7 s + number x 0.05 s.
+  [[nodiscard]] std::string Bytes(std::size_t num_points, std::size_t num_stated) const {
+    std::string bytes(header_bytes(), '\0');
+    std::memcpy(bytes.data(), "LASF", 4);
+    bytes[24] = 1;
+    bytes[25] = static_cast<char>(minor_version);
+    Put(bytes, 94, static_cast<std::uint16_t>(header_bytes()));
+    Put(bytes, 96, static_cast<std::uint32_t>(header_bytes() + records.size()));
+    Put(bytes, 100, num_records);
+    bytes[104] = static_cast<char>(format);
+    Put(bytes, 105, static_cast<std::uint16_t>(point_bytes()));
+    if (minor_version == 4) {
+      Put(bytes, 247, std::uint64_t{num_stated});
+    } else {
+      Put(bytes, 107, static_cast<std::uint32_t>(num_stated));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) Put(bytes, 131 + 8 * axis, 0.001);
+    Put(bytes, 155, 5000.0);
+    Put(bytes, 163, 300'000.0);
+    bytes += records;
+    for (std::size_t i = 1; i <= num_points; ++i) bytes += Point(i);
+    return bytes;
+  }
+  [[nodiscard]] std::string Bytes(std::size_t num_points) const {
+    return Bytes(num_points, num_points);
+  }
+
+ private:
+  [[nodiscard]] std::string Point(std::size_t i) const {
+    std::string point(point_bytes(), '\0');
+    const bool is_newer = format >= 6;
+    Put(point, 0, static_cast<std::int32_t>(1000 * i));
+    Put(point, 4, static_cast<std::int32_t>(-2000 * static_cast<int>(i)));
+    Put(point, 8, std::int32_t{345});
+    Put(point, 12, static_cast<std::uint16_t>(100 * i));
+    point[14] = static_cast<char>(is_newer ? 3U << 4U | i : 3U << 3U | i);
+    point[is_newer ? 16 : 15] = static_cast<char>(i);
+    point[17] = static_cast<char>(40 + i);
+    Put(point, is_newer ? 20 : 18, static_cast<std::uint16_t>(7));
+    const double time_s = 7.0 + 0.05 * static_cast<double>(i);
+    if (is_newer) Put(point, 22, time_s);
+    if (format == 1 || (format >= 3 && format <= 5)) Put(point, 20, time_s);
+    return point;
+  }
+};
+
+}  // namespace railcast
