@@ -36,6 +36,7 @@ MessageFeed::MessageFeed(const std::filesystem::path& bag,
                          double pace,
                          const ReplayedFrames& frames)
     : name_(ShownPath(bag.filename())), bag_(bag::OpenBag(bag)), times_(pace), frames_(frames) {
+  for (const Remark& remark : bag_->remarks()) Publish(remark);
   AtPlace(ShownPath(bag) + ": ", [&] { ChooseTopics(topic); });
   Read();
   Skip(frames.start);

@@ -8,17 +8,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/mcap/compression.h"
 #include "core/io/mcap/mcap_records.h"
+#include "railcast/remark.h"
 
 namespace railcast::bag {
 
 /// A topic of a bag: a name under which messages of one type are recorded.
 struct BagTopic {
   std::string name;        ///< "/lidar/points"
-  std::string type;        ///< "sensor_msgs/msg/PointCloud2"
+  std::string type;        ///< "sensor_msgs/msg/PointCloud2"; as read, by FullTypeName().
   std::string definition;  ///< The type's ros2msg text; empty where the bag has none.
   std::string hash;        ///< "RIHS01_..." (REP 2016); empty where the bag has none.
   /// Whether late subscribers get the last message, too (transient local, as /tf_static).
@@ -50,6 +52,11 @@ struct BagAttachment {
   std::string media_type;
   std::vector<std::byte> bytes;
 };
+
+/// The name of a type of ROS 2: some recorders write "sensor_msgs/PointCloud2", as ROS 1 does, for
+/// "sensor_msgs/msg/PointCloud2".
+/// @param encoding Of its messages: names stay as they are unless it is "cdr".
+[[nodiscard]] std::string FullTypeName(std::string type, std::string_view encoding);
 
 /// Writes a bag. The same calls give the same bytes.
 ///
@@ -140,12 +147,14 @@ class BagReader {
   /// The files inside the bag; none unless it is MCAP.
   /// @throws InputError as Next() does.
   [[nodiscard]] virtual std::vector<BagAttachment> ReadAttachments() = 0;
+  /// What is missing of the bag as a whole.
+  [[nodiscard]] virtual std::vector<Remark> remarks() const { return {}; }
 };
 
 /// Opens a bag: an MCAP file, a database of rosbag2 (.db3), either of them compressed by zstd, or
 /// a rosbag2 directory, with or without metadata.yaml. Files are known by their content. An
-/// interrupted MCAP file is read up to its last complete chunk or record. Nothing is written beside
-/// the bag.
+/// interrupted MCAP file is read up to its last complete chunk or record, with a remark. Nothing is
+/// written beside the bag.
 /// @throws InputError "file: rule (got value)" if it is none or is damaged.
 [[nodiscard]] std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path);
 

@@ -24,7 +24,9 @@ std::set<std::uint16_t> ChannelsOfTopic(const std::filesystem::path& file,
   std::set<std::uint16_t> channels;
   for (const auto& [id, channel] : index.channels) {
     const auto schema = index.schemas.find(channel.schema_id);
-    const bool is_of_type = schema != index.schemas.end() && schema->second.name == topic.type;
+    const bool is_of_type =
+        schema != index.schemas.end() &&
+        FullTypeName(schema->second.name, channel.message_encoding) == topic.type;
     if (is_of_type && channel.topic == topic.name && channel.message_encoding == topic.encoding) {
       channels.insert(id);
     }
@@ -109,6 +111,14 @@ class McapBagReader : public BagReader {
     return attachments;
   }
 
+  [[nodiscard]] std::vector<Remark> remarks() const override {
+    const auto& cut = reader_.index().cut;
+    if (!cut) return {};
+    return {{.kind = RemarkKind::kRecordingCut,
+             .place = name_ + ": record at " + NumberText(cut->offset),
+             .detail = "the last " + NumberText(cut->num_bytes) + " bytes are no whole record"}};
+  }
+
  private:
   [[nodiscard]] std::int64_t CheckedTime_ns(std::uint64_t time_ns) const {
     if (time_ns <= std::uint64_t{std::numeric_limits<std::int64_t>::max()}) {
@@ -126,7 +136,7 @@ class McapBagReader : public BagReader {
                    .encoding = channel.message_encoding};
     const auto schema = reader_.index().schemas.find(channel.schema_id);
     if (schema == reader_.index().schemas.end()) return topic;
-    topic.type = schema->second.name;
+    topic.type = FullTypeName(schema->second.name, topic.encoding);
     if (schema->second.encoding == "ros2msg") topic.definition = schema->second.data;
     return topic;
   }

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/unread_formats.h"
 #include "core/io/bag/bag.h"
 #include "core/io/bag/bag_metadata.h"
 #include "core/io/bag/temporary_copy.h"
@@ -99,6 +100,14 @@ class MergedReader : public BagReader {
     return all;
   }
 
+  [[nodiscard]] std::vector<Remark> remarks() const override {
+    std::vector<Remark> all;
+    for (const BagPart& part : parts_) {
+      for (const Remark& remark : part.reader->remarks()) AddRemark(remark, all);
+    }
+    return all;
+  }
+
  private:
   std::size_t IndexOf(const BagTopic& topic) {
     const auto known = std::ranges::find_if(topics_, [&](const BagTopic& other) {
@@ -140,6 +149,7 @@ class UncompressingReader : public BagReader {
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override {
     return bag_->ReadAttachments();
   }
+  [[nodiscard]] std::vector<Remark> remarks() const override { return bag_->remarks(); }
 
  private:
   std::unique_ptr<BagReader> bag_;
@@ -184,7 +194,10 @@ std::unique_ptr<BagReader> OpenBagFile(const std::filesystem::path& file, const 
     if (IsMcap(plain)) return OpenMcapBag(plain, name);
     if (IsSqlite(plain)) return OpenSqliteBag(plain, name);
   }
-  throw InputError(name + ": must be an MCAP file or a database of rosbag2 (got neither)");
+  const std::string advice = AdviceOnFile(file);
+  throw InputError(
+      name + ": " +
+      (advice.empty() ? "must be an MCAP file or a database of rosbag2 (got neither)" : advice));
 }
 
 /// Returns the bag's files in a directory without metadata.yaml, by their names' numbers.
@@ -310,6 +323,12 @@ std::unique_ptr<BagCopy> CopyBag(const std::filesystem::path& bag,
                                  const BagTopic& topic) {
   if (is_directory(bag)) return std::make_unique<DirectoryCopy>(bag, copy, topic);
   return CopyBagFile(bag, copy, topic);
+}
+
+std::string FullTypeName(std::string type, std::string_view encoding) {
+  const std::size_t slash = type.find('/');
+  const bool is_short = encoding == "cdr" && slash != std::string::npos && slash == type.rfind('/');
+  return is_short ? type.insert(slash, "/msg") : type;
 }
 
 std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path) {

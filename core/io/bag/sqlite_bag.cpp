@@ -123,8 +123,8 @@ std::map<std::string, std::string> ReadDefinitions(SqliteDatabase& database) {
 
 class SqliteBagReader : public BagReader {
  public:
-  explicit SqliteBagReader(std::unique_ptr<SqliteDatabase> database)
-      : database_(std::move(database)) {
+  SqliteBagReader(std::unique_ptr<SqliteDatabase> database, std::vector<Remark> remarks)
+      : database_(std::move(database)), remarks_(std::move(remarks)) {
     NeedTable(*database_, "topics");
     NeedTable(*database_, "messages");
     NeedOwnIds(*database_, "topics");
@@ -159,6 +159,7 @@ class SqliteBagReader : public BagReader {
   }
 
   [[nodiscard]] std::vector<BagAttachment> ReadAttachments() override { return {}; }
+  [[nodiscard]] std::vector<Remark> remarks() const override { return remarks_; }
 
  private:
   [[noreturn]] void Refuse(const std::string& rule) const {
@@ -189,12 +190,13 @@ class SqliteBagReader : public BagReader {
                                          " FROM topics ORDER BY id");
     while (list.Step()) {
       BagTopic topic{.name = list.Text(1),
-                     .type = list.Text(2),
+                     .type = {},
                      .definition = {},
                      .hash = list.Text(5),
                      .is_latched = IsLatchedQos(list.Text(4))};
       if (const std::string encoding = list.Text(3); !encoding.empty()) topic.encoding = encoding;
-      const auto definition = definitions.find(topic.type);
+      topic.type = FullTypeName(list.Text(2), topic.encoding);
+      const auto definition = definitions.find(list.Text(2));
       if (definition != definitions.end()) topic.definition = definition->second;
       topic_by_id_.emplace(list.Integer(0), topics_.size());
       topics_.push_back(std::move(topic));
@@ -209,6 +211,7 @@ class SqliteBagReader : public BagReader {
   }
 
   std::unique_ptr<SqliteDatabase> database_;
+  std::vector<Remark> remarks_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_by_id_;
   std::optional<std::set<std::size_t>> wanted_;  ///< Topics; absent = all.
@@ -252,10 +255,18 @@ std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
                                          const std::string& name) {
   CheckIsReadable(file);
   const auto changes = ChangesBeside(file);
+  std::vector<Remark> remarks;
+  for (const std::filesystem::path& beside : changes) {
+    if (!beside.native().ends_with("-journal")) continue;
+    remarks.push_back({.kind = RemarkKind::kRecordingCut,
+                       .place = name,
+                       .detail = "what its recorder had not committed is undone by " +
+                                 ShownPath(beside.filename())});
+  }
   auto database = changes.empty()
                       ? std::make_unique<SqliteDatabase>(file, SqliteAccess::kRead, name)
                       : OpenCopy(file, name, changes);
-  return std::make_unique<SqliteBagReader>(std::move(database));
+  return std::make_unique<SqliteBagReader>(std::move(database), std::move(remarks));
 }
 
 std::unique_ptr<BagCopy> CopySqliteBag(const std::filesystem::path& file,

@@ -227,9 +227,25 @@ void ScanUpTo(const ByteFile& file, std::uint64_t end, ScannedFile& scanned) {
       scanned.crc = Crc32(file.Read(place->offset, kRecordHead_bytes), scanned.crc);
       scanned.crc = Crc32(content, scanned.crc);
     });
-    if (is_end) return;
+    if (is_end) {
+      scanned.is_whole = true;
+      return;
+    }
     scanned.size = place->end();
   }
+}
+
+/// What stands behind the last whole record; nothing if nothing does.
+/// @throws InputError if it is damaged rather than cut off.
+std::optional<CutEnd> CutAt(const ByteFile& file, std::uint64_t offset) {
+  const std::uint64_t num_bytes = file.size() - offset;
+  if (num_bytes == 0) return std::nullopt;
+  if (FooterOf(file)) {
+    if (num_bytes == kMagic.size()) return std::nullopt;
+    throw InputError(PlaceOf(file, offset) +
+                     "must end within the file, since that has its own end (got another length)");
+  }
+  return CutEnd{offset, num_bytes};
 }
 
 }  // namespace
@@ -323,7 +339,11 @@ ScannedFile ScanUndamaged(const ByteFile& file) {
 McapIndex ReadIndex(const ByteFile& file) {
   McapHeader header = ReadHeader(file);
   auto index = ReadSummary(file);
-  if (!index || !IsComplete(*index)) index = ScanWhole(file, file.size()).index;
+  if (!index || !IsComplete(*index)) {
+    ScannedFile scanned = ScanWhole(file, file.size());
+    index = std::move(scanned.index);
+    if (!scanned.is_whole) index->cut = CutAt(file, scanned.size);
+  }
   index->header = std::move(header);
   return std::move(*index);
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "core/io/mcap/byte_file.h"
@@ -18,6 +19,12 @@ struct LooseMessage {
   std::uint16_t channel_id{};
 };
 
+/// The end of a file that was cut off within a record.
+struct CutEnd {
+  std::uint64_t offset{};     ///< Where the last whole record ends.
+  std::uint64_t num_bytes{};  ///< That follow it.
+};
+
 /// What an MCAP file holds and where, as its summary says it.
 struct McapIndex {
   McapHeader header;
@@ -28,6 +35,7 @@ struct McapIndex {
   std::vector<McapMetadataIndex> metadata;
   McapStatistics statistics;
   std::vector<LooseMessage> loose;  ///< In the order of the file; only of a file without summary.
+  std::optional<CutEnd> cut{};      ///< Likewise.
 
   /// Notes a schema, unless its id is 0.
   /// @throws InputError "schema 3: rule" if another one has its id.
@@ -64,7 +72,8 @@ McapChunkIndex& AddChunk(const McapChunk& chunk,
 
 /// Returns what the file holds: as its summary says if that is complete, else as found by reading
 /// the whole file, up to where it was cut off.
-/// @throws InputError "file: place: rule (got value)" if the file is no MCAP file or damaged.
+/// @throws InputError "file: place: rule (got value)" if the file is no MCAP file or damaged: so is
+///   a record that does not fit into a file which has its end.
 [[nodiscard]] McapIndex ReadIndex(const ByteFile& file);
 
 /// What was found in the data section of a file, without its summary.
@@ -72,6 +81,7 @@ struct ScannedFile {
   McapIndex index;
   std::uint64_t size{};  ///< Where the last record ends that was found whole.
   std::uint32_t crc{};   ///< Of the file up to there.
+  bool is_whole{};       ///< Whether the end of the data was found.
 };
 
 /// As ReadIndex(), without the summary.

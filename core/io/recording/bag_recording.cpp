@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -23,11 +25,6 @@ namespace {
 
 std::int64_t NsOf(const ros::Time& time) {
   return time.sec * kNsPerS + time.nanosec;
-}
-
-bool CanBeOpened(const bag::BagTopic& topic) {
-  return topic.encoding == "cdr" &&
-         (topic.type == ros::PointCloud2::kName || FindPacketsOf(topic.type) != nullptr);
 }
 
 /// Reads the metadata of an Ouster sensor, which its driver records as `metadata` beside the topic
@@ -92,17 +89,61 @@ DatagramPlace PlaceOfPackets(const std::filesystem::path& source,
                             [&] { return OusterMetadataBeside(name, reader); })};
 }
 
-/// Returns when the first point was measured. Times of points count from the message's stamp, or
-/// as the stamp itself does; whichever they are nearer to.
-std::int64_t StampOf(const ros::Header& header, const Cloud& cloud) {
-  const std::int64_t stamp_ns = NsOf(header.stamp);
+/// A message with points.
+struct CloudMessage {
+  ros::Header header;
+  Cloud cloud;
+  /// When the first point was measured: since the stamp or, where these are nearer, as the stamp
+  /// counts.
+  std::optional<double> first_ns;
+  /// Where the type of the message defines it, as the stamp counts.
+  std::optional<std::int64_t> defined_ns{};
+};
+
+CloudMessage ReadLivox(std::span<const std::byte> data) {
+  const auto message = ros::FromCdr<ros::LivoxCloud>(data);
+  std::int64_t offset_ns = 0;
+  Cloud cloud = MakeCloud(message, offset_ns);
+  CloudMessage read{message.header, std::move(cloud), static_cast<double>(offset_ns)};
+  // The time base may be on the sensor's own clock.
+  constexpr std::int64_t kSameClock_ns = kNsPerS / 10;
+  const std::int64_t stamp_ns = NsOf(message.header.stamp);
+  const auto base_ns = static_cast<std::int64_t>(message.timebase & ~(std::uint64_t{1} << 63U));
+  if (stamp_ns >= 0 && std::abs(base_ns - stamp_ns) <= kSameClock_ns) {
+    read.defined_ns = base_ns + offset_ns;
+  }
+  return read;
+}
+
+CloudMessage ReadCloud2(std::span<const std::byte> data) {
+  auto message = ros::FromCdr<ros::PointCloud2>(data);
+  const ros::Header header = message.header;
+  Cloud cloud = MakeCloud(std::move(message));
   const auto first_ns = FirstTimeIn_ns(cloud);
-  if (!first_ns) return stamp_ns;
-  constexpr double kLongest_ns = 3600.0 * kNsPerS;
-  const double since_stamp_ns = *first_ns - static_cast<double>(stamp_ns);
-  const bool is_absolute = std::abs(since_stamp_ns) < std::abs(*first_ns);
-  const double offset_ns = is_absolute ? since_stamp_ns : *first_ns;
-  return std::abs(offset_ns) < kLongest_ns ? stamp_ns + std::llround(offset_ns) : stamp_ns;
+  return {header, std::move(cloud), first_ns};
+}
+
+/// Gives the frame the time of its first point. A time farther from the message's stamp than the
+/// frame is long is none since the stamp, nor on its clock: then the stamp stays, with a remark.
+void FillStamp(const CloudMessage& message, RecordedFrame& recorded) {
+  Frame& frame = recorded.frame;
+  const std::int64_t stamp_ns = NsOf(message.header.stamp);
+  frame.stamp_ns = message.defined_ns.value_or(stamp_ns);
+  if (!message.first_ns || message.defined_ns) return;
+  const double first_ns = *message.first_ns;
+  const double since_stamp_ns = first_ns - static_cast<double>(stamp_ns);
+  const bool is_absolute = std::abs(since_stamp_ns) < std::abs(first_ns);
+  const double offset_ns = is_absolute ? since_stamp_ns : first_ns;
+  // Where the stamp is that of the last packet, its points come behind it.
+  constexpr double kPacket = 0.1;
+  if (offset_ns <= frame.duration_ns && -offset_ns <= (1.0 + kPacket) * frame.duration_ns) {
+    frame.stamp_ns += std::llround(offset_ns);
+    return;
+  }
+  AddRemark({.kind = RemarkKind::kTimesRelative,
+             .place = recorded.name,
+             .detail = "the first time is " + ShortText(offset_ns / kNsPerS) + " s from the stamp"},
+            recorded.remarks);
 }
 
 /// Gives the frame its poses, if they are known for the whole scan.
@@ -124,26 +165,31 @@ void FillPoses(const TfPoses& poses, RecordedFrame& recorded) {
   recorded.has_pose = true;
 }
 
+/// How the messages of a topic with clouds are read.
+using ReadMessage = CloudMessage (*)(std::span<const std::byte> data);
+
 RecordedFrame ReadCloudMessage(std::span<const std::byte> data,
+                               ReadMessage read,
                                const std::string& name,
                                const std::string& frame_id,
                                const TfPoses& poses) {
-  auto message = AtPlace(name + ": ", [&] { return ros::FromCdr<ros::PointCloud2>(data); });
-  const ros::Header header = message.header;
-  const Cloud cloud = AtPlace(name + ": ", [&] { return MakeCloud(std::move(message)); });
-  RecordedFrame recorded = MakeCloudFrame(cloud, name);
-  recorded.frame.stamp_ns = StampOf(header, cloud);
-  if (header.frame_id == frame_id) FillPoses(poses, recorded);
+  CloudMessage message = AtPlace(name + ": ", [&] { return read(data); });
+  for (Remark& remark : message.cloud.remarks) remark.place = name;
+  RecordedFrame recorded = MakeCloudFrame(message.cloud, name);
+  FillStamp(message, recorded);
+  if (message.header.frame_id == frame_id) FillPoses(poses, recorded);
   return recorded;
 }
 
 /// Returns the frame of reference of a topic's first cloud; empty if it has none.
-std::string FrameIdOf(bag::BagReader& bag, std::size_t topic, const std::string& name) {
+std::string FrameIdOf(bag::BagReader& bag,
+                      std::size_t topic,
+                      ReadMessage read,
+                      const std::string& name) {
   bag.Select({topic});
   const auto message = bag.Next();
   if (!message) return {};
-  return AtPlace(name + ": message 0: ",
-                 [&] { return ros::FromCdr<ros::PointCloud2>(message->data).header.frame_id; });
+  return AtPlace(name + ": message 0: ", [&] { return read(message->data).header.frame_id; });
 }
 
 class CloudTopicRecording : public Recording {
@@ -153,7 +199,8 @@ class CloudTopicRecording : public Recording {
                       std::size_t topic)
       : bag_(std::move(bag)),
         name_(ShownPath(source)),
-        frame_id_(FrameIdOf(*bag_, topic, name_)),
+        read_(IsOfLivox(bag_->topics()[topic]) ? &ReadLivox : &ReadCloud2),
+        frame_id_(FrameIdOf(*bag_, topic, read_, name_)),
         poses_(AtPlace(name_ + ": ",
                        [&] { return std::make_shared<const TfPoses>(*bag_, frame_id_); })) {
     info_.source = source;
@@ -170,8 +217,8 @@ class CloudTopicRecording : public Recording {
         std::make_shared<const std::vector<std::byte>>(message->data.begin(), message->data.end());
     const std::uint32_t index = num_frames_++;
     return [data = std::move(data), index, name = name_ + ": message " + NumberText(index),
-            frame_id = frame_id_, poses = poses_] {
-      RecordedFrame recorded = ReadCloudMessage(*data, name, frame_id, *poses);
+            read = read_, frame_id = frame_id_, poses = poses_] {
+      RecordedFrame recorded = ReadCloudMessage(*data, read, name, frame_id, *poses);
       recorded.frame.index = index;
       return recorded;
     };
@@ -181,38 +228,13 @@ class CloudTopicRecording : public Recording {
   RecordingInfo info_;
   std::unique_ptr<bag::BagReader> bag_;
   std::string name_;
+  ReadMessage read_;
   std::string frame_id_;
   std::shared_ptr<const TfPoses> poses_;
   std::uint32_t num_frames_{};
 };
 
 }  // namespace
-
-std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
-                      const std::filesystem::path& bag,
-                      const std::string& name) {
-  std::string names;
-  std::vector<std::size_t> candidates;
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    if (!CanBeOpened(topics[i])) continue;
-    candidates.push_back(i);
-    names += (names.empty() ? "" : ", ") + ShownText(topics[i].name);
-    // Some recorders leave out the first slash.
-    if (topics[i].name == name || '/' + topics[i].name == name) return i;
-  }
-  const std::string place = ShownPath(bag) + ": ";
-  if (candidates.empty()) {
-    throw InputError(place + "must have a topic of type " + std::string(ros::PointCloud2::kName) +
-                     " or of a sensor's packets (got none)");
-  }
-  if (!name.empty()) {
-    throw InputError(place + "--topic: must be one of " + names + " (got " + ShownText(name) + ")");
-  }
-  if (candidates.size() > 1) {
-    throw InputError(place + "--topic: must be one of " + names + " (got none)");
-  }
-  return candidates.front();
-}
 
 std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag) {
   const std::vector<bag::BagTopic> topics = bag::OpenBag(bag)->topics();
@@ -222,10 +244,6 @@ std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag)
   }
   throw InputError(ShownPath(bag) + ": must hold packets of a sensor (got " +
                    ShownText(topics[picked].type) + ")");
-}
-
-bool HoldsPoints(const bag::BagTopic& topic) {
-  return CanBeOpened(topic);
 }
 
 std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
@@ -241,10 +259,15 @@ std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
                                             const std::string& topic) {
   auto reader = bag::OpenBag(bag);
   const std::size_t picked = PickTopic(reader->topics(), bag, topic);
+  const std::vector<Remark> remarks = reader->remarks();
+  std::unique_ptr<Recording> recording;
   if (FindPacketsOf(reader->topics()[picked].type) == nullptr) {
-    return std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
+    recording = std::make_unique<CloudTopicRecording>(source, std::move(reader), picked);
+  } else {
+    recording = OpenDatagrams(PlaceOfPackets(source, bag, picked, *reader));
   }
-  return OpenDatagrams(PlaceOfPackets(source, bag, picked, *reader));
+  for (const Remark& remark : remarks) recording->info().remarks->Add(remark);
+  return recording;
 }
 
 }  // namespace railcast

@@ -1,12 +1,14 @@
 #include "railcast/io/recording.h"
 
 #include <cerrno>
+#include <set>
 #include <string>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/unread_formats.h"
 #include "core/io/bag/bag.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
@@ -29,6 +31,16 @@ void CheckIsOfOneSensor(const std::filesystem::path& directory) {
                    (merged ? all + ShownPath(merged->folder) : all.substr(0, all.size() - 2)));
 }
 
+/// Throws an error about the first file of a directory that is of a known format which is not read.
+void RefuseUnread(const std::filesystem::path& directory) {
+  std::set<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory)) files.insert(entry);
+  for (const std::filesystem::path& file : files) {
+    const std::string advice = AdviceOnFile(file);
+    if (!advice.empty()) throw InputError(ShownPath(file) + ": " + advice);
+  }
+}
+
 /// Opens a directory of clouds: side by side, or in the layout of a sequence, of an insertion, of
 /// merged clouds, of a received stream or of KITTI.
 std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory) {
@@ -46,8 +58,9 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
   }
   if (auto clouds = OpenCloudsIn(directory)) return clouds;
   if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
+  RefuseUnread(directory);
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
-                   ReadableExtensions(true) + " files (got neither)");
+                   ReadableExtensions(true, {".las"}) + " files (got neither)");
 }
 
 /// Gathers the remarks of the frames of another recording.
@@ -99,8 +112,12 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
   if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
+  if (const std::string advice = AdviceOnFile(source); !advice.empty()) {
+    throw InputError(ShownPath(source) + ": " + advice);
+  }
   throw InputError(ShownPath(source) + ": must be a directory or a " +
-                   ReadableExtensions(true, {".pcap", ".pcapng", ".mcap", ".db3"}) + " file");
+                   ReadableExtensions(true, {".las", ".pcap", ".pcapng", ".mcap", ".db3"}) +
+                   " file");
 }
 
 }  // namespace

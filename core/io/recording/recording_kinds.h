@@ -99,8 +99,12 @@ struct BagSource {
                                     const std::filesystem::path& bag,
                                     const std::string& topic);
 
-/// Opens a topic of a bag: clouds (sensor_msgs/msg/PointCloud2) with the poses that its transforms
-/// say, or the packets of a sensor whose captures can be opened, as ROS drivers record them.
+/// Whether the messages of a topic are clouds of Livox's drivers.
+[[nodiscard]] bool IsOfLivox(const bag::BagTopic& topic);
+
+/// Opens a topic of a bag: clouds (sensor_msgs/msg/PointCloud2 or Livox's) with the poses that its
+/// transforms say, or the packets of a sensor whose captures can be opened, as ROS drivers record
+/// them.
 /// @param source As messages and RecordingInfo name it: the bag, with the topic if that was given.
 /// @param topic Empty: the only one that can be opened.
 /// @throws InputError with one line that lists the topics if there is no such topic, or if several
@@ -121,7 +125,7 @@ struct BagSource {
 /// Whether the messages of a topic hold points: clouds, or the packets of a sensor.
 [[nodiscard]] bool HoldsPoints(const bag::BagTopic& topic);
 
-/// Whether a file's extension is that of a cloud: .pcd, .ply or .bin (KITTI's), in any case.
+/// Whether a file's extension is that of a cloud: .pcd, .ply, .bin (KITTI's) or .las, in any case.
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);
 
 /// Whether it is one of KITTI's layout.

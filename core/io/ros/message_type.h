@@ -99,6 +99,8 @@ inline constexpr FieldTypeText kTypeText<std::int32_t> = {"int32", 6};
 template <>
 inline constexpr FieldTypeText kTypeText<std::uint32_t> = {"uint32", 7};
 template <>
+inline constexpr FieldTypeText kTypeText<std::uint64_t> = {"uint64", 9};
+template <>
 inline constexpr FieldTypeText kTypeText<float> = {"float32", 10};
 template <>
 inline constexpr FieldTypeText kTypeText<double> = {"float64", 11};

@@ -36,9 +36,10 @@ struct EditedCloudMessage {
 /// Puts rows of points into an organised message, which keeps what stands between its rows.
 void PutRows(const std::vector<std::uint8_t>& points, ros::PointCloud2& cloud) {
   const std::size_t row_size = std::size_t{cloud.width} * cloud.point_step;
+  const std::size_t row_step = RowStepOf(cloud);
   for (std::size_t row = 0; row < cloud.height; ++row) {
     std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(row * row_size), row_size,
-                cloud.data.begin() + static_cast<std::ptrdiff_t>(row * cloud.row_step));
+                cloud.data.begin() + static_cast<std::ptrdiff_t>(row * row_step));
   }
 }
 
@@ -50,8 +51,18 @@ EditedCloudMessage EditCloudMessage(std::span<const std::byte> data,
                                     const RecordedFirings& firings,
                                     const InsertedFrame& inserted) {
   auto cloud = ros::FromCdr<ros::PointCloud2>(data);
-  EditedRows edited = EditRows(MakeCloud(cloud), firings, inserted, {});
+  const Cloud points = MakeCloud(cloud);
+  EditedRows edited = EditRows(points, firings, inserted, {});
   cloud.is_bigendian = false;
+  if (points.num_points() == 0) {
+    // It may not have said what points have.
+    cloud.point_step = points.point_step;
+    cloud.fields.clear();
+    for (const CloudField& field : points.fields) {
+      cloud.fields.push_back(
+          {field.name, field.offset, static_cast<std::uint8_t>(field.type), field.count});
+    }
+  }
   const bool has_lost = std::ranges::any_of(
       inserted.edits, [](const SlotEdit& edit) { return edit.had_point && !edit.has_point; });
   if (edited.slots.size() == std::size_t{cloud.width} * cloud.height) {
@@ -160,6 +171,11 @@ TopicCopy CopyTopic(const BagSource& source, const std::filesystem::path& folder
   auto messages = bag::OpenBag(source.bag);
   const std::size_t picked = PickTopic(messages->topics(), source.bag, source.topic);
   const bag::BagTopic topic = messages->topics()[picked];
+  if (topic.type != ros::PointCloud2::kName && FindPacketsOf(topic.type) == nullptr) {
+    throw InputError(ShownPath(source.bag) + ": must have clouds of type " +
+                     std::string(ros::PointCloud2::kName) +
+                     " or packets to be inserted into (got " + ShownText(topic.type) + ")");
+  }
   messages->Select({picked});
   // A directory may be named with a slash at its end.
   const auto path = source.bag.has_filename() ? source.bag : source.bag.parent_path();

@@ -139,6 +139,22 @@ TEST_F(McapFile, IsReadUpToTheLastWholeChunkWhereverItWasCutOff) {
   EXPECT_EQ(most, 3U);
 }
 
+// A length that is too large for a file which has its end is none of a recorder that was killed.
+TEST_F(McapFile, IsRefusedIfARecordDoesNotFitIntoIt) {
+  std::string whole = MadeFile({{{1, "a"}}, {{2, "b"}}}, McapCompression::kNone);
+  const std::string name = (folder_.path() / "whole.mcap").string();
+  WriteFileWhole(name, whole);
+  const auto last = ReadIndex(ByteFile(name, "file")).chunks.at(1).chunk_start_offset;
+  constexpr std::uint64_t kMany = std::uint64_t{1} << 60U;
+  std::memcpy(&whole[last + 1], &kMany, sizeof kMany);
+  // Without what leads to the summary, the file is gone through.
+  const std::size_t footer = whole.size() - kMagic.size() - 20;
+  std::fill_n(whole.begin() + static_cast<std::ptrdiff_t>(footer), 20, '\0');
+  EXPECT_EQ(MessageOf([&] { (void)Read(whole); }),
+            "file: record at " + std::to_string(last) +
+                ": must end within the file, since that has its own end (got another length)");
+}
+
 TEST_F(McapFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
   for (const bool has_summary : {true, false}) {
     const std::string whole =

@@ -16,7 +16,9 @@
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/sensor_messages.h"
 #include "tests/core/io/bag/read_bag.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/ouster/shared_captures.h"
+#include "tests/core/io/recording/made_bag.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/insert/packets/frame_edits.h"
@@ -206,6 +208,49 @@ TEST(BagOutput, EditsTheCloudsOfARealBag) {
     EXPECT_TRUE(after[1] == before[1]);
     EXPECT_LT(after[0].data.size(), before[0].data.size());
   }
+}
+
+TEST(BagOutput, PutsRowsWhereTheyStandWhateverTheStepOfRowsIs) {
+  const std::vector<std::array<float, 4>> points = {{1.0F, 2.0F, 3.0F, 0.0F},
+                                                    {4.0F, 5.0F, 6.0F, 0.0F},
+                                                    {7.0F, 8.0F, 9.0F, 0.0F},
+                                                    {9.0F, 2.0F, 1.0F, 0.0F}};
+  ros::PointCloud2 message =
+      CloudOf({{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {7.0F, 8.0F, 9.0F}, {9.0F, 2.0F, 1.0F}}, 0);
+  message.height = message.width = 2;
+  message.row_step = 0;
+  MadeBag bag;
+  bag.Add("/points", 0, message);
+  const fs::path file = bag.Closed();
+  const TemporaryDirectory folder;
+  const auto output = MakeCopyOutput(file, folder.path());
+  const RecordedFirings firings = FiringsOf((*OpenRecording(file)->Next())(), points);
+  HandEdit edit(firings.recorded);
+  edit.Remove(static_cast<std::uint32_t>(std::ranges::find(firings.recorded.frame.x, 4.0F) -
+                                         firings.recorded.frame.x.begin()));
+  ASSERT_TRUE(output->Write(firings, edit.Take()));
+  output->Finish();
+  const auto after = bag::MessagesIn(folder.path() / file.filename());
+  const Cloud cloud =
+      MakeCloud(ros::FromCdr<ros::PointCloud2>(std::as_bytes(std::span(after.at(0).data))));
+  VisitField(cloud, *cloud.Find("x"), [&](std::size_t i, auto value) {
+    if (i == 1) {
+      EXPECT_TRUE(std::isnan(static_cast<float>(value)));
+    } else {
+      EXPECT_EQ(static_cast<float>(value), points[i][0]);
+    }
+  });
+}
+
+TEST(BagOutput, RefusesCloudsOfLivox) {
+  MadeBag bag;
+  bag.Add("/livox", 0, ros::LivoxCloud{.header = {}, .points = {}});
+  const fs::path file = bag.Closed();
+  const TemporaryDirectory folder;
+  EXPECT_EQ(MessageOf([&] { (void)MakeCopyOutput(file, folder.path()); }),
+            file.string() +
+                ": must have clouds of type sensor_msgs/msg/PointCloud2 or packets to be inserted "
+                "into (got livox_ros_driver2/msg/CustomMsg)");
 }
 
 }  // namespace

@@ -1,0 +1,132 @@
+#include "core/base/unread_formats.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::string_view kUnread = ", which is not read: ";
+
+/// A format by the ending of its files, in lower case, or by their first bytes; either may be
+/// empty.
+struct UnreadFormat {
+  std::string_view ending;
+  std::string_view begin;
+  std::string_view name;
+  std::string_view advice;  ///< FILE stands for the file's name, NAME for it without ending.
+};
+
+constexpr auto kFormats = std::to_array<UnreadFormat>({
+    {".bag", "#ROSBAG V", "a bag of ROS 1", "rosbags-convert --src FILE --dst NAME"},
+    {".osf", "", "a recording of Ouster's SDK", "ouster-cli source FILE save NAME.pcap"},
+    {".e57", "ASTM-E57", "a survey in E57", "pdal translate FILE NAME.las"},
+    {".laz", "", "compressed LAS", "pdal translate FILE NAME.las (or las2las)"},
+    {".lvx", "livox_tech", "a recording of Livox Viewer",
+     "livox_ros_driver2 plays it as sensor_msgs/msg/PointCloud2 for ros2 bag record"},
+    {".lvx2", "", "a recording of Livox Viewer",
+     "livox_ros_driver2 plays it as sensor_msgs/msg/PointCloud2 for ros2 bag record"},
+    {".drc", "DRACO", "a cloud compressed by Draco", "draco_decoder -i FILE -o NAME.ply"},
+    {".npy", "\x93NUMPY", "an array of NumPy",
+     "numpy.load('FILE')[:, :4].astype('<f4').tofile('NAME.bin'), with x, y, z and "
+     "reflectance, makes it a file of KITTI's"},
+    {".npz", "", "an archive of NumPy",
+     "write x, y, z and reflectance of its points as '<f4' to "
+     "NAME.bin, a file of KITTI's"},
+    {".xyz", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
+    {".asc", "", "a cloud as text", "CloudCompare -O FILE -C_EXPORT_FMT PLY -SAVE_CLOUDS"},
+    {".pts", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
+    {".ptx", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
+    {".tum", "", "poses", "name the clouds, and these with --poses"},
+});
+
+constexpr auto kTextEndings = std::to_array<std::string_view>({".txt", ".csv"});
+
+std::string InLowerCase(std::string text) {
+  for (char& letter : text) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return text;
+}
+
+/// What a file of text holds, by the numbers of its first line.
+std::string AdviceOnText(std::string_view begin) {
+  while (const auto line = TakeLine(begin)) {
+    std::string plain(*line);
+    std::ranges::replace_if(
+        plain, [](char letter) { return letter == ',' || letter == ';'; }, ' ');
+    const auto words = Words(plain);
+    if (words.empty() || words[0].starts_with('#')) continue;
+    const bool are_numbers = std::ranges::all_of(
+        words, [](std::string_view word) { return ParseSignedNumber<double>(word).has_value(); });
+    if (!are_numbers) continue;  // The names of columns.
+    if (words.size() == 8 || words.size() == 12) {
+      return "is a file of poses, with " + NumberText(words.size()) +
+             " numbers a line: name the clouds, and these with --poses";
+    }
+    break;
+  }
+  return "is text" + std::string(kUnread) +
+         "if it is a cloud, CloudCompare and pdal convert it to .ply, .pcd or .las";
+}
+
+}  // namespace
+
+std::string AdviceOnFile(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  std::string begin(4096, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  const std::string ending = InLowerCase(file.extension().string());
+  if (std::ranges::find(kTextEndings, ending) != kTextEndings.end()) return AdviceOnText(begin);
+  const auto format = std::ranges::find_if(kFormats, [&](const UnreadFormat& known) {
+    return known.ending == ending || (!known.begin.empty() && begin.starts_with(known.begin));
+  });
+  if (format == kFormats.end()) return {};
+  std::string advice(format->advice);
+  for (const auto& [word, name] : {std::pair("FILE", file.filename()), {"NAME", file.stem()}}) {
+    const std::string shown = ShownPath(name);
+    for (std::size_t at = advice.find(word); at != std::string::npos;
+         at = advice.find(word, at + shown.size())) {
+      advice.replace(at, 4, shown);
+    }
+  }
+  return "is " + std::string(format->name) + std::string(kUnread) + advice;
+}
+
+std::string_view AdviceOnType(std::string_view type, std::string_view encoding) {
+  const auto has = [&](std::string_view part) { return type.find(part) != std::string_view::npos; };
+  if (encoding == "ros1" && has("Point")) {
+    return "of ROS 1, which is not read: rosbags-convert makes a bag of ROS 2 of its .bag";
+  }
+  if (has("CompressedPointCloud")) {
+    return "compressed, which is not read: ros2 run point_cloud_transport republish makes clouds "
+           "of sensor_msgs/msg/PointCloud2";
+  }
+  if (has("foxglove") && has("PointCloud")) {
+    return "Foxglove's own, which is not read: record sensor_msgs/msg/PointCloud2 beside it";
+  }
+  if (type == "sensor_msgs/msg/PointCloud") {
+    return "the older cloud, which is not read: point_cloud_converter makes "
+           "sensor_msgs/msg/PointCloud2";
+  }
+  if (type == "sensor_msgs/msg/LaserScan") {
+    return "a scan of one plane, which is not read: laser_geometry makes "
+           "sensor_msgs/msg/PointCloud2";
+  }
+  if (has("rslidar_msg")) {
+    return "packets of RoboSense, which are not read: rslidar_sdk plays them as "
+           "sensor_msgs/msg/PointCloud2";
+  }
+  return {};
+}
+
+}  // namespace railcast

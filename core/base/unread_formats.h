@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace railcast {
+
+// Formats of other people's data that are known, but not read.
+
+/// What a file is by its name or its first bytes, and how to convert it: "is a bag of ROS 1, which
+/// is not read: ...". Empty if the file is of no such format, or cannot be opened.
+[[nodiscard]] std::string AdviceOnFile(const std::filesystem::path& file);
+
+/// As above, for a type of messages: "is compressed: ...".
+/// @param encoding Of the messages: "cdr", "ros1", "protobuf", ...
+[[nodiscard]] std::string_view AdviceOnType(std::string_view type, std::string_view encoding);
+
+}  // namespace railcast

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/unread_formats.h"
+#include "core/io/bag/bag.h"
+#include "core/io/recording/message_packets.h"
+#include "core/io/recording/packet_messages.h"
+#include "core/io/recording/recording_kinds.h"
+#include "core/io/ros/sensor_messages.h"
+
+namespace railcast {
+namespace {
+
+/// A topic with its type and, if points of this type are known but not read, what to do.
+std::string Described(const bag::BagTopic& topic) {
+  const std::string_view advice = AdviceOnType(topic.type, topic.encoding);
+  return ShownText(topic.name) + " of " + ShownText(topic.type) +
+         (advice.empty() ? "" : ", " + std::string(advice));
+}
+
+/// The topics of a bag of which none can be read.
+std::string Described(const std::vector<bag::BagTopic>& topics) {
+  constexpr std::size_t kMost = 40;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(topics.size(), kMost); ++i) {
+    text += (i == 0 ? "" : "; ") + Described(topics[i]);
+  }
+  if (topics.size() > kMost) text += "; and " + NumberText(topics.size() - kMost) + " others";
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+bool IsOfLivox(const bag::BagTopic& topic) {
+  const auto& older = ros::LivoxCloud::kOlderNames;
+  return topic.type == ros::LivoxCloud::kName ||
+         std::ranges::find(older, topic.type) != older.end();
+}
+
+bool HoldsPoints(const bag::BagTopic& topic) {
+  return topic.encoding == "cdr" && (topic.type == ros::PointCloud2::kName || IsOfLivox(topic) ||
+                                     FindPacketsOf(topic.type) != nullptr);
+}
+
+std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
+                      const std::filesystem::path& bag,
+                      const std::string& name) {
+  std::string names;
+  std::vector<std::size_t> candidates;
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    if (!HoldsPoints(topics[i])) continue;
+    candidates.push_back(i);
+    names += (names.empty() ? "" : ", ") + ShownText(topics[i].name);
+    // Some recorders leave out the first slash.
+    if (topics[i].name == name || '/' + topics[i].name == name) return i;
+  }
+  const std::string place = ShownPath(bag) + ": ";
+  if (candidates.empty()) {
+    throw InputError(place + "must have a topic of type " + std::string(ros::PointCloud2::kName) +
+                     " or of a sensor's packets (got " + Described(topics) + ")");
+  }
+  if (!name.empty()) {
+    const auto other = std::ranges::find(topics, name, &bag::BagTopic::name);
+    throw InputError(place + "--topic: must be one of " + names + " (got " +
+                     (other == topics.end() ? ShownText(name) : Described(*other)) + ")");
+  }
+  if (candidates.size() > 1) {
+    throw InputError(place + "--topic: must be one of " + names + " (got none)");
+  }
+  return candidates.front();
+}
+
+}  // namespace railcast

@@ -1,0 +1,278 @@
+// Bags as drivers and recorders of others write them, in other ways than the messages' definitions
+// say.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/bag/sqlite_database.h"
+#include "core/io/mcap/byte_file.h"
+#include "core/io/mcap/mcap_index.h"
+#include "core/io/recording/cloud_message.h"
+#include "core/io/recording/packet_messages.h"
+#include "railcast/io/recording.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/recording/made_bag.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+
+namespace railcast {
+namespace {
+
+/// The remarks of a cloud: "points-beyond 2".
+std::vector<std::string> NamesOf(const std::vector<Remark>& remarks) {
+  std::vector<std::string> names;
+  for (const Remark& remark : remarks) {
+    names.push_back(std::string(remark.type().name) + " " + std::to_string(remark.number));
+  }
+  return names;
+}
+using Names = std::vector<std::string>;
+
+std::vector<float> ColumnOf(const Cloud& cloud, const char* name) {
+  std::vector<float> values;
+  VisitField(cloud, *cloud.Find(name),
+             [&](std::size_t, auto value) { values.push_back(static_cast<float>(value)); });
+  return values;
+}
+
+const std::vector<std::array<float, 3>> kFour = {
+    {1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {7.0F, 8.0F, 9.0F}, {10.0F, 11.0F, 12.0F}};
+
+TEST(ForeignBag, TakesRowsByTheirDataWhateverTheStepOfRowsIs) {
+  for (const std::uint32_t row_step : {0U, 5U, 68U}) {
+    ros::PointCloud2 message = CloudOf(kFour, 0);
+    message.height = message.width = 2;
+    message.row_step = row_step;
+    const Cloud cloud = MakeCloud(message);
+    EXPECT_EQ(ColumnOf(cloud, "x"), (std::vector<float>{1.0F, 4.0F, 7.0F, 10.0F})) << row_step;
+    EXPECT_EQ(NamesOf(cloud.remarks), Names());
+  }
+}
+
+TEST(ForeignBag, TellsOfPointsBeyondThoseThatTheMessageStates) {
+  ros::PointCloud2 message = CloudOf(kFour, 0);
+  message.width = 3;
+  EXPECT_EQ(NamesOf(MakeCloud(message).remarks), Names{"points-beyond 1"});
+  message.data.push_back(7);
+  EXPECT_EQ(NamesOf(MakeCloud(message).remarks), (Names{"points-beyond 1", "surplus-bytes 1"}));
+  // The second point of each of two rows.
+  message = CloudOf(kFour, 0);
+  message.height = 2;
+  message.width = 1;
+  message.row_step = 34;
+  const Cloud rows = MakeCloud(message);
+  EXPECT_EQ(ColumnOf(rows, "x"), (std::vector<float>{1.0F, 7.0F}));
+  EXPECT_EQ(NamesOf(rows.remarks), Names{"points-beyond 2"});
+}
+
+TEST(ForeignBag, TakesZerosForPadding) {
+  ros::PointCloud2 message = CloudOf(kFour, 0);
+  message.data.resize(message.data.size() + 100);
+  EXPECT_EQ(NamesOf(MakeCloud(message).remarks), Names());
+}
+
+ros::PointCloud2 NoCloudAt(std::int64_t stamp_ns) {
+  ros::PointCloud2 message;
+  message.header.stamp = TimeAt(stamp_ns);
+  return message;
+}
+
+TEST(ForeignBag, HasAFrameForAMessageWithoutPointsAndFields) {
+  MadeBag bag;
+  bag.Add("/points", 0, CloudOf(kFour, 0));
+  bag.Add("/points", 1, NoCloudAt(kSecond_ns));
+  bag.Add("/points", 2, CloudOf(kFour, 2 * kSecond_ns));
+  const auto frames = ReadAll(bag.Closed());
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[1].frame.num_slots(), 0U);
+  EXPECT_EQ(frames[1].frame.stamp_ns, kSecond_ns);
+}
+
+TEST(ForeignBag, TellsTheByteOrderByTheValues) {
+  for (const bool is_bigendian : {false, true}) {
+    ros::PointCloud2 message = CloudOf(kFour, 0, is_bigendian);
+    message.is_bigendian = !is_bigendian;
+    const Cloud cloud = MakeCloud(message);
+    EXPECT_EQ(ColumnOf(cloud, "y"), (std::vector<float>{2.0F, 5.0F, 8.0F, 11.0F}));
+    EXPECT_EQ(ColumnOf(cloud, "ring"), (std::vector<float>{0.0F, 1.0F, 2.0F, 3.0F}));
+    EXPECT_EQ(NamesOf(cloud.remarks), Names{"byte-order-guessed 1"});
+  }
+}
+
+// A fifth of a turn of a driver that counts from its start, in three messages 1.2 s apart.
+TEST(ForeignBag, TakesTimesFarFromTheStampAsDifferences) {
+  MadeBag bag;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    const std::int64_t start_ns = i * 1'200'000'000;
+    ros::PointCloud2 message = CloudOf(kFour, 7 * kSecond_ns + start_ns);
+    message.fields[3] = {"time", 13, 7, 1};
+    for (std::size_t point = 0; point < 4; ++point) {
+      const auto time_s = static_cast<float>(1e-9 * static_cast<double>(start_ns)) +
+                          0.025F * static_cast<float>(point);
+      std::memcpy(&message.data[17 * point + 13], &time_s, sizeof time_s);
+    }
+    bag.Add("/points", start_ns, message);
+  }
+  const auto recording = OpenRecording(bag.Closed());
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(frames[i].frame.stamp_ns,
+              7 * kSecond_ns + static_cast<std::int64_t>(i) * 1'200'000'000);
+    // float32 rounds 2.4 s to 0.24 us.
+    EXPECT_NEAR(frames[i].frame.duration_ns, 75e6, 500.0);
+  }
+  EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names{"times-relative 2"});
+}
+
+// As Velodyne's driver does without timestamp_first_packet.
+TEST(ForeignBag, TakesTimesBeforeAStampAtTheEndOfTheTurn) {
+  MadeBag bag;
+  ros::PointCloud2 message = CloudOf(kFour, 7 * kSecond_ns);
+  message.fields[3] = {"time", 13, 7, 1};
+  for (std::size_t point = 0; point < 4; ++point) {
+    const float time_s = 0.025F * static_cast<float>(point) - 0.076F;
+    std::memcpy(&message.data[17 * point + 13], &time_s, sizeof time_s);
+  }
+  bag.Add("/points", 0, message);
+  const auto recording = OpenRecording(bag.Closed());
+  EXPECT_NEAR(static_cast<double>(ReadAll(*recording).at(0).frame.stamp_ns), 6.924e9, 10.0);
+  EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names());
+}
+
+TEST(ForeignBag, ReadsTypesThatAreNamedAsInRos1) {
+  MadeBag bag;
+  bag.Add("/points", 0, CloudOf(kFour, 0), "sensor_msgs/PointCloud2");
+  EXPECT_EQ(ReadAll(bag.Closed()).size(), 1U);
+  const TemporaryDirectory folder;
+  const auto database = bag::CreateRosbag2(folder.path() / "bag");
+  const auto topic = database->Add(
+      {.name = "/points", .type = "sensor_msgs/PointCloud2", .definition = {}, .hash = {}});
+  database->Write({topic, 0, ros::ToCdr(CloudOf(kFour, 0))});
+  database->Close();
+  EXPECT_EQ(ReadAll(folder.path() / "bag").size(), 1U);
+}
+
+TEST(ForeignBag, ListsItsTopicsWhereNoneCanBeRead) {
+  MadeBag bag;
+  bag.Add("/clock", 0, ros::Clock{});
+  bag.Add("/draco", 0, ros::Clock{}, "point_cloud_interfaces/msg/CompressedPointCloud2");
+  const auto file = bag.Closed();
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }),
+            file.string() +
+                ": must have a topic of type sensor_msgs/msg/PointCloud2 or of a sensor's packets "
+                "(got /clock of rosgraph_msgs/msg/Clock; /draco of "
+                "point_cloud_interfaces/msg/CompressedPointCloud2, compressed, which is not read: "
+                "ros2 run point_cloud_transport republish makes clouds of "
+                "sensor_msgs/msg/PointCloud2)");
+  MadeBag empty;
+  const auto none = empty.Closed();
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(none); }),
+            none.string() +
+                ": must have a topic of type sensor_msgs/msg/PointCloud2 or of a "
+                "sensor's packets (got none)");
+}
+
+ros::LivoxCloud LivoxCloudAt(std::int64_t stamp_ns,
+                             std::uint64_t timebase,
+                             std::uint32_t offset_ns) {
+  return {.header = {TimeAt(stamp_ns), "livox"},
+          .timebase = timebase,
+          .point_num = 3,
+          .points = {{offset_ns + 20, 1.0F, 2.0F, 3.0F, 200, 16, 1},
+                     {offset_ns, 0.0F, 0.0F, 0.0F, 0, 0, 2},
+                     {offset_ns + 40, 4.0F, 5.0F, 6.0F, 10, 0, 3}}};
+}
+
+TEST(ForeignBag, ReadsTheCloudsOfLivoxsDrivers) {
+  for (const char* type : {"livox_ros_driver2/msg/CustomMsg", "livox_ros_driver/CustomMsg"}) {
+    MadeBag bag;
+    bag.Add("/livox/lidar", 0, LivoxCloudAt(kSecond_ns, kSecond_ns, 5), type);
+    const auto frames = ReadAll(bag.Closed());
+    ASSERT_EQ(frames.size(), 1U);
+    const Frame& frame = frames[0].frame;
+    ASSERT_EQ(frame.num_slots(), 3U);
+    EXPECT_EQ(frame.stamp_ns, kSecond_ns + 5);
+    EXPECT_EQ(frame.duration_ns, 40U);
+    const auto last = static_cast<std::size_t>(std::ranges::find(frame.x, 4.0F) - frame.x.begin());
+    EXPECT_EQ(frame.z.at(last), 6.0F);
+    EXPECT_EQ(frame.intensity.at(last), 10.0F);
+    EXPECT_EQ(frame.ring.at(last), 3);
+    EXPECT_EQ(frame.time_ns.at(last), 40U);
+    // Nothing came back where a point is at 0.
+    EXPECT_EQ(std::ranges::count_if(frame.x, [](float x) { return std::isnan(x); }), 1);
+  }
+}
+
+// Whose stamps stand still while the offsets grow.
+TEST(ForeignBag, TakesTheTimesOfLivoxFromItsTimeBase) {
+  MadeBag bag;
+  bag.Add("/livox/lidar", 0, LivoxCloudAt(kSecond_ns, kSecond_ns, 0));
+  bag.Add("/livox/lidar", 1, LivoxCloudAt(kSecond_ns, kSecond_ns, 2'000'000'000));
+  // The sensor's own clock.
+  bag.Add("/livox/lidar", 2, LivoxCloudAt(5 * kSecond_ns, 77, 2'000'000'000));
+  const auto recording = OpenRecording(bag.Closed());
+  const auto frames = ReadAll(*recording);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0].frame.stamp_ns, kSecond_ns);
+  EXPECT_EQ(frames[1].frame.stamp_ns, 3 * kSecond_ns);
+  EXPECT_EQ(frames[2].frame.stamp_ns, 5 * kSecond_ns);
+  EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names{"times-relative 1"});
+}
+
+TEST(ForeignBag, TellsOfPointsBeyondThoseThatLivoxStates) {
+  ros::LivoxCloud message = LivoxCloudAt(0, 0, 0);
+  std::int64_t first_ns = 0;
+  message.point_num = 2;
+  EXPECT_EQ(NamesOf(MakeCloud(message, first_ns).remarks), Names{"points-beyond 1"});
+  message.point_num = 4;
+  EXPECT_EQ(MessageOf([&] { (void)MakeCloud(message, first_ns); }),
+            "point_num: must be at most the number of points, 3 (got 4)");
+}
+
+TEST(ForeignBag, TellsThatItsEndIsCutOff) {
+  MadeBag bag;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    bag.Add("/points", i, CloudOf(kFour, i));
+    bag.Commit();
+  }
+  const auto file = bag.Closed();
+  const auto last = mcap::ReadIndex(mcap::ByteFile(file, "run")).chunks.at(2).chunk_start_offset;
+  std::filesystem::resize_file(file, last + 30);
+  const auto recording = OpenRecording(file);
+  EXPECT_EQ(ReadAll(*recording).size(), 2U);
+  const auto remarks = recording->info().remarks->List();
+  ASSERT_EQ(NamesOf(remarks), Names{"recording-cut 1"});
+  EXPECT_TRUE(remarks[0].place.starts_with(file.string() + ": record at ")) << remarks[0].place;
+}
+
+TEST(ForeignBag, TellsThatItsRecorderWasInterrupted) {
+  const TemporaryDirectory folder;
+  const auto writer = bag::CreateRosbag2(folder.path() / "bag");
+  const auto topic = writer->Add({.name = "/points",
+                                  .type = std::string(ros::PointCloud2::kName),
+                                  .definition = {},
+                                  .hash = {}});
+  writer->Write({topic, 0, ros::ToCdr(CloudOf(kFour, 0))});
+  writer->Close();
+  const std::filesystem::path file = folder.path() / "bag/bag_0.db3";
+  const std::filesystem::path copy = folder.path() / "copy.db3";
+  {
+    bag::SqliteDatabase database(file, bag::SqliteAccess::kChange, "bag");
+    database.Run("PRAGMA cache_size = 1; BEGIN; UPDATE messages SET data = zeroblob(200000)");
+    std::filesystem::copy_file(file, copy);
+    std::filesystem::copy_file(file.string() + "-journal", copy.string() + "-journal");
+  }
+  const auto recording = OpenRecording(copy);
+  EXPECT_EQ(ReadAll(*recording).size(), 1U);
+  EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names{"recording-cut 1"});
+}
+
+}  // namespace
+}  // namespace railcast
