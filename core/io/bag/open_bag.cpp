@@ -37,7 +37,8 @@ struct BagPart {
 
 class MergedReader : public BagReader {
  public:
-  explicit MergedReader(std::vector<std::unique_ptr<BagReader>> parts) {
+  MergedReader(std::vector<std::unique_ptr<BagReader>> parts, std::vector<Remark> remarks)
+      : remarks_(std::move(remarks)) {
     for (auto& reader : parts) {
       BagPart part{.reader = std::move(reader),
                    .number = parts_.size(),
@@ -101,7 +102,7 @@ class MergedReader : public BagReader {
   }
 
   [[nodiscard]] std::vector<Remark> remarks() const override {
-    std::vector<Remark> all;
+    std::vector<Remark> all = remarks_;
     for (const BagPart& part : parts_) {
       for (const Remark& remark : part.reader->remarks()) AddRemark(remark, all);
     }
@@ -119,6 +120,7 @@ class MergedReader : public BagReader {
     return index;
   }
 
+  std::vector<Remark> remarks_;
   std::vector<BagPart> parts_;
   std::vector<BagTopic> topics_;
   BagPart* last_ = nullptr;  ///< The part of which the last message was returned.
@@ -159,9 +161,11 @@ class UncompressingReader : public BagReader {
 
 /// Reads the parts of a bag as one. Topics of several parts that are the same in all but their
 /// definitions are one; messages come in the order of their times.
-std::unique_ptr<BagReader> Merged(std::vector<std::unique_ptr<BagReader>> parts) {
-  if (parts.size() == 1) return std::move(parts.front());
-  return std::make_unique<MergedReader>(std::move(parts));
+/// @param remarks On the bag as a whole.
+std::unique_ptr<BagReader> Merged(std::vector<std::unique_ptr<BagReader>> parts,
+                                  std::vector<Remark> remarks) {
+  if (parts.size() == 1 && remarks.empty()) return std::move(parts.front());
+  return std::make_unique<MergedReader>(std::move(parts), std::move(remarks));
 }
 
 /// Whether rosbag2 compressed the file as a whole.
@@ -217,6 +221,22 @@ std::vector<std::filesystem::path> BagFilesIn(const std::filesystem::path& direc
 BagParts PartsIn(const std::filesystem::path& directory) {
   if (exists(directory / kMetadataFile)) return ReadBagParts(directory);
   return {.files = BagFilesIn(directory)};
+}
+
+/// Files of bags beside those that metadata.yaml names. Players leave what they uncompressed.
+std::vector<Remark> FilesLeftOut(const std::filesystem::path& directory, const BagParts& parts) {
+  std::vector<Remark> remarks;
+  for (const std::filesystem::path& file : BagFilesIn(directory)) {
+    const bool is_part = std::ranges::any_of(parts.files, [&](const auto& part) {
+      return part.filename() == file.filename() || part.stem() == file.filename();
+    });
+    if (is_part) continue;
+    AddRemark({.kind = RemarkKind::kFilesLeftOut,
+               .place = ShownPath(directory / kMetadataFile),
+               .detail = ShownPath(file.filename()) + " is not named there"},
+              remarks);
+  }
+  return remarks;
 }
 
 /// A copy of a file that rosbag2 compressed as a whole.
@@ -344,7 +364,7 @@ std::unique_ptr<BagReader> OpenBag(const std::filesystem::path& path) {
   if (readers.empty()) {
     throw InputError(ShownPath(path) + ": must hold .mcap or .db3 files (got none)");
   }
-  auto bag = Merged(std::move(readers));
+  auto bag = Merged(std::move(readers), FilesLeftOut(path, parts));
   if (!parts.are_messages_compressed) return bag;
   return std::make_unique<UncompressingReader>(std::move(bag), ShownPath(path));
 }

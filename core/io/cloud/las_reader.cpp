@@ -100,7 +100,9 @@ LasHeader ReadLasHeader(const Bytes& file) {
                      NumberText(header.format.num_bytes) + Got(header.point_bytes));
   }
   header.num_points = file.At<std::uint32_t>(107);
-  if (header.minor_version == 4) header.num_points = file.At<std::uint64_t>(247);
+  // The older number is for programs that do not know the newer one.
+  const auto newer_num = header.minor_version == 4 ? file.At<std::uint64_t>(247) : 0;
+  if (newer_num > 0) header.num_points = newer_num;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     header.scale.at(axis) = file.At<double>(131 + 8 * axis);
     header.offset_m.at(axis) = file.At<double>(155 + 8 * axis);
@@ -185,7 +187,8 @@ Cloud EmptyCloud(const LasHeader& header) {
   if (header.format.time > 0) cloud.AddField("gps_time", NumberType::kDouble);
   cloud.AddField("intensity", NumberType::kUint16);
   cloud.AddField("point_source_id", NumberType::kUint16);
-  for (const char* name : {"return_index", "return_count", "label", "user_data"}) {
+  cloud.AddField("scan_angle", NumberType::kFloat);
+  for (const char* name : {"return_index", "return_count", "label", "user_data", "flags"}) {
     cloud.AddField(name, NumberType::kUint8);
   }
   return cloud;
@@ -196,8 +199,11 @@ Cloud EmptyCloud(const LasHeader& header) {
 bool Append(const Bytes& point, const LasHeader& header, Cloud& cloud) {
   const bool is_newer = header.format.is_newer();
   const int returns = point.At<std::uint8_t>(14);
-  const int flags = point.At<std::uint8_t>(15);
-  if ((flags & (is_newer ? 0x04 : 0x80)) != 0) return false;
+  const int second = point.At<std::uint8_t>(15);
+  // As the newer formats have them: synthetic, key, withheld, overlap, channel, direction, edge.
+  const int flags = is_newer ? second : (second >> 5) | (returns & 0xC0);
+  constexpr int kWithheld = 0x04;
+  if ((flags & kWithheld) != 0) return false;
   const auto put = [&](auto number) {
     const auto* begin = reinterpret_cast<const std::uint8_t*>(&number);
     cloud.data.insert(cloud.data.end(), begin, begin + sizeof number);
@@ -208,18 +214,21 @@ bool Append(const Bytes& point, const LasHeader& header, Cloud& cloud) {
   if (header.format.time > 0) put(point.At<double>(header.format.time));
   put(point.At<std::uint16_t>(12));
   put(point.At<std::uint16_t>(is_newer ? 20 : 18));
+  put(is_newer ? 0.006F * point.At<std::int16_t>(18)
+               : static_cast<float>(point.At<std::int8_t>(16)));
   const int number = is_newer ? returns & 0x0F : returns & 0x07;
   put(static_cast<std::uint8_t>(std::max(number, 1) - 1));
   put(static_cast<std::uint8_t>(is_newer ? returns >> 4 : (returns >> 3) & 0x07));
-  put(is_newer ? point.At<std::uint8_t>(16) : static_cast<std::uint8_t>(flags & 0x1F));
+  put(is_newer ? point.At<std::uint8_t>(16) : static_cast<std::uint8_t>(second & 0x1F));
   put(point.At<std::uint8_t>(17));
+  put(static_cast<std::uint8_t>(flags));
   ++cloud.width;
   return true;
 }
 
 /// The fields that ReadLas() does not give.
 std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
-  std::vector<std::string> names = {"scan angle"};
+  std::vector<std::string> names;
   if (header.format.has_colour) names.emplace_back("colour");
   if (header.format.has_near_infrared) names.emplace_back("near infrared");
   if (header.format.has_wave) names.emplace_back("waveform");

@@ -13,8 +13,9 @@ namespace railcast {
 
 /// Reads a file of LAS 1.0 to 1.4, with points of the formats 0 to 10 (ASPRS, LAS 1.4 R15): x, y, z
 /// as float64, m; intensity, return_index (from 0), return_count, label (the class), gps_time (s),
-/// user_data and point_source_id. Points that are marked as withheld are left out. That, other
-/// fields and what stands behind the points are remarks.
+/// scan_angle (degrees), user_data, point_source_id and flags (bits as in format 6). Points that
+/// are marked as withheld are left out. That, other fields and what stands behind the points are
+/// remarks.
 /// @throws InputError "file: place: rule (got value)" if it is damaged or compressed (LAZ), or if
 ///   its coordinates are stated to be in degrees or feet.
 [[nodiscard]] Cloud ReadLas(const std::filesystem::path& file);

@@ -341,8 +341,11 @@ RailMap RailMlReader::Map() const {
 }  // namespace
 
 bool IsRailMl(std::string_view begin) {
-  return begin.find("<railML") != std::string_view::npos ||
-         begin.find(":railML") != std::string_view::npos;
+  // Version 2 has small letters.
+  for (const std::string_view root : {"<railML", ":railML", "<railml ", ":railml "}) {
+    if (begin.find(root) != std::string_view::npos) return true;
+  }
+  return false;
 }
 
 RailMap ReadRailMl(const std::filesystem::path& file) {
@@ -358,6 +361,12 @@ RailMap ReadRailMl(const std::filesystem::path& file) {
   reader.Read(tree.get());
   AtPlace(ShownPath(file) + ": ", [&] { reader.errors().ThrowIfAny(); });
   RailMap map = reader.Map();
+  const std::string version = CPLGetXMLValue(tree.get(), "=railML.version", "");
+  if (map.ways.empty() && version.starts_with('2')) {
+    throw InputError(ShownPath(file) + ": is railML " + ShownText(version) +
+                     ", which is not read: must be exported as railML 3, which has coordinates of "
+                     "its net");
+  }
   if (map.ways.empty()) {
     throw InputError(ShownPath(file) +
                      ": must have a netElement with geometricCoordinates (got none)");

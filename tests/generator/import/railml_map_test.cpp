@@ -127,6 +127,13 @@ TEST_F(RailMl, TakesOtherCoordinateSystems) {
   EXPECT_NEAR(map.nodes[0].geographic_deg.y(), 48.2, 0.05);
 }
 
+TEST_F(RailMl, IsRefusedByNameInItsOlderVersion) {
+  EXPECT_EQ(FaultOf(R"(<railml xmlns="https://www.railml.org/schemas/2018" version="2.4">
+<infrastructure><tracks/></infrastructure></railml>)"),
+            "net.xml: is railML 2.4, which is not read: must be exported as railML 3, which has "
+            "coordinates of its net");
+}
+
 TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
   EXPECT_EQ(Fault(""), "net.xml: must have a netElement with geometricCoordinates (got none)");
   EXPECT_EQ(Fault(Track(), "EPSG:99999"),

@@ -66,6 +66,8 @@ TEST_F(LasFile, IsReadInEveryVersionAndFormat) {
       EXPECT_EQ(ColumnOf(cloud, "return_count"), (Values{3, 3, 3}));
       EXPECT_EQ(ColumnOf(cloud, "label"), (Values{1, 2, 3}));
       EXPECT_EQ(ColumnOf(cloud, "user_data"), (Values{41, 42, 43}));
+      EXPECT_EQ(ColumnOf(cloud, "flags"), (Values{0x42, 0x42, 0x42}));
+      EXPECT_NEAR(ColumnOf(cloud, "scan_angle")[0], -12.0, 1e-6);
       EXPECT_EQ(ColumnOf(cloud, "point_source_id"), (Values{7, 7, 7}));
       const bool has_time = format == 1 || format >= 3;
       EXPECT_EQ(cloud.Find("gps_time") != nullptr, has_time);
@@ -77,12 +79,13 @@ TEST_F(LasFile, IsReadInEveryVersionAndFormat) {
 
 TEST_F(LasFile, TellsWhatItLeavesOut) {
   const auto left_out = [&](int format, std::size_t extra_bytes) {
-    return Read(MadeLas{.minor_version = 4, .format = format, .extra_bytes = extra_bytes}.Bytes(1))
-        .remarks.at(0)
-        .detail;
+    const Cloud cloud =
+        Read(MadeLas{.minor_version = 4, .format = format, .extra_bytes = extra_bytes}.Bytes(1));
+    return cloud.remarks.empty() ? "nothing" : cloud.remarks[0].detail;
   };
-  EXPECT_EQ(left_out(6, 0), "scan angle");
-  EXPECT_EQ(left_out(10, 5), "scan angle, colour, near infrared, waveform, 5 extra bytes");
+  EXPECT_EQ(left_out(6, 0), "nothing");
+  EXPECT_EQ(left_out(2, 0), "colour");
+  EXPECT_EQ(left_out(10, 5), "colour, near infrared, waveform, 5 extra bytes");
 }
 
 TEST_F(LasFile, LeavesOutPointsThatAreWithheld) {
@@ -93,13 +96,12 @@ TEST_F(LasFile, LeavesOutPointsThatAreWithheld) {
     bytes[las.header_bytes() + las.point_bytes() + place] |= mark;
     const Cloud cloud = Read(bytes);
     EXPECT_EQ(ColumnOf(cloud, "label"), (Values{1, 3}));
-    EXPECT_EQ(RemarksOf(cloud),
-              (std::vector<std::string>{"points-withheld 1", "fields-left-out 1"}));
+    EXPECT_EQ(RemarksOf(cloud), std::vector<std::string>{"points-withheld 1"});
   }
 }
 
 TEST_F(LasFile, TellsOfPointsBeyondThoseThatItsHeaderStates) {
-  const std::vector<std::string> expected = {"points-beyond 2", "fields-left-out 1"};
+  const std::vector<std::string> expected = {"points-beyond 2"};
   EXPECT_EQ(RemarksOf(Read(MadeLas{}.Bytes(5, 3))), expected);
   EXPECT_EQ(MessageAbout(MadeLas{}.Bytes(3, 5)),
             "must hold the points that its header states, 5 (got 3)");
@@ -107,7 +109,7 @@ TEST_F(LasFile, TellsOfPointsBeyondThoseThatItsHeaderStates) {
   const MadeLas las{.minor_version = 3, .format = 4};
   std::string bytes = las.Bytes(5, 3);
   Put(bytes, 227, std::uint64_t{las.header_bytes() + 3 * las.point_bytes()});
-  EXPECT_EQ(RemarksOf(Read(bytes)), std::vector<std::string>{"fields-left-out 2"});
+  EXPECT_EQ(RemarksOf(Read(bytes)), std::vector<std::string>{"fields-left-out 1"});
 }
 
 /// A record behind the header.
@@ -176,7 +178,7 @@ TEST_F(LasFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {
 }
 
 TEST_F(LasFile, IsARecordingWithTheNamesOfItsClassesAndItsOrigin) {
-  (void)Write(MadeLas{.minor_version = 4, .format = 6}.Bytes(3), "10.LAS");
+  (void)Write(MadeLas{.minor_version = 4, .format = 7}.Bytes(3), "10.LAS");
   (void)Write(MadeLas{.format = 1}.Bytes(2), "9.las");
   const auto recording = OpenRecording(folder_.path());
   EXPECT_EQ(recording->info().labels.Find(2U)->name, "ground");

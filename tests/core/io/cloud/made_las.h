@@ -8,7 +8,8 @@
 
 namespace railcast {
 
-inline constexpr std::array<std::size_t, 11> kLasPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+inline constexpr std::array<std::size_t, 11> kLasPointBytes = {20, 28, 26, 34, 57, 63,
+                                                               30, 36, 38, 59, 67};
 
 template <typename Number>
 void Put(std::string& bytes, std::size_t place, Number number) {
@@ -31,7 +32,8 @@ struct MadeLas {
   }
 
   /// Points 5 km east and 300 km north, 1 m apart: the number-th has class number, intensity
-  /// 100 x number, is return number of 3, and was measured at 7 s + number x 0.05 s.
+  /// 100 x number, is return number of 3, and was measured at 7 s + number x 0.05 s at -12 degrees.
+  /// Each is a key point, seen while the mirror went forward.
   [[nodiscard]] std::string Bytes(std::size_t num_points, std::size_t num_stated) const {
     std::string bytes(header_bytes(), '\0');
     std::memcpy(bytes.data(), "LASF", 4);
@@ -66,8 +68,17 @@ struct MadeLas {
     Put(point, 4, static_cast<std::int32_t>(-2000 * static_cast<int>(i)));
     Put(point, 8, std::int32_t{345});
     Put(point, 12, static_cast<std::uint16_t>(100 * i));
-    point[14] = static_cast<char>(is_newer ? 3U << 4U | i : 3U << 3U | i);
-    point[is_newer ? 16 : 15] = static_cast<char>(i);
+    const auto number = static_cast<std::uint8_t>(i);
+    if (is_newer) {
+      point[14] = static_cast<char>(3U << 4U | number);
+      point[15] = 0x42;
+      point[16] = static_cast<char>(number);
+      Put(point, 18, std::int16_t{-2000});
+    } else {
+      point[14] = static_cast<char>(0x40U | 3U << 3U | number);
+      point[15] = static_cast<char>(0x40U | number);
+      point[16] = -12;
+    }
     point[17] = static_cast<char>(40 + i);
     Put(point, is_newer ? 20 : 18, static_cast<std::uint16_t>(7));
     const double time_s = 7.0 + 0.05 * static_cast<double>(i);

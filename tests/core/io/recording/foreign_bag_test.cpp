@@ -146,17 +146,23 @@ TEST(ForeignBag, TakesTimesBeforeAStampAtTheEndOfTheTurn) {
   EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names());
 }
 
+/// Writes a bag of one message of this type in a folder, and returns its database.
+std::filesystem::path DatabaseIn(const std::filesystem::path& folder,
+                                 std::string_view type = ros::PointCloud2::kName) {
+  const auto writer = bag::CreateRosbag2(folder / "bag");
+  const auto topic =
+      writer->Add({.name = "/points", .type = std::string(type), .definition = {}, .hash = {}});
+  writer->Write({topic, 0, ros::ToCdr(CloudOf(kFour, 0))});
+  writer->Close();
+  return folder / "bag/bag_0.db3";
+}
+
 TEST(ForeignBag, ReadsTypesThatAreNamedAsInRos1) {
   MadeBag bag;
   bag.Add("/points", 0, CloudOf(kFour, 0), "sensor_msgs/PointCloud2");
   EXPECT_EQ(ReadAll(bag.Closed()).size(), 1U);
   const TemporaryDirectory folder;
-  const auto database = bag::CreateRosbag2(folder.path() / "bag");
-  const auto topic = database->Add(
-      {.name = "/points", .type = "sensor_msgs/PointCloud2", .definition = {}, .hash = {}});
-  database->Write({topic, 0, ros::ToCdr(CloudOf(kFour, 0))});
-  database->Close();
-  EXPECT_EQ(ReadAll(folder.path() / "bag").size(), 1U);
+  EXPECT_EQ(ReadAll(DatabaseIn(folder.path(), "sensor_msgs/PointCloud2")).size(), 1U);
 }
 
 TEST(ForeignBag, ListsItsTopicsWhereNoneCanBeRead) {
@@ -252,16 +258,18 @@ TEST(ForeignBag, TellsThatItsEndIsCutOff) {
   EXPECT_TRUE(remarks[0].place.starts_with(file.string() + ": record at ")) << remarks[0].place;
 }
 
+TEST(ForeignBag, TellsOfFilesThatItsMetadataDoNotName) {
+  const TemporaryDirectory folder;
+  const auto file = DatabaseIn(folder.path());
+  std::filesystem::copy_file(file, file.parent_path() / "bag_1.db3");
+  const auto recording = OpenRecording(file.parent_path());
+  EXPECT_EQ(ReadAll(*recording).size(), 1U);
+  EXPECT_EQ(NamesOf(recording->info().remarks->List()), Names{"files-left-out 1"});
+}
+
 TEST(ForeignBag, TellsThatItsRecorderWasInterrupted) {
   const TemporaryDirectory folder;
-  const auto writer = bag::CreateRosbag2(folder.path() / "bag");
-  const auto topic = writer->Add({.name = "/points",
-                                  .type = std::string(ros::PointCloud2::kName),
-                                  .definition = {},
-                                  .hash = {}});
-  writer->Write({topic, 0, ros::ToCdr(CloudOf(kFour, 0))});
-  writer->Close();
-  const std::filesystem::path file = folder.path() / "bag/bag_0.db3";
+  const auto file = DatabaseIn(folder.path());
   const std::filesystem::path copy = folder.path() / "copy.db3";
   {
     bag::SqliteDatabase database(file, bag::SqliteAccess::kChange, "bag");
