@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/cloud/las_reader.h"
 #include "core/io/recording/cloud_frame.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -82,6 +83,11 @@ void CheckRewriting(char kind, const CloudFile& file) {
 
 void ReadFile(char kind, const std::string& bytes) {
   try {
+    if (kind == 'a') {
+      const Cloud cloud = ParseLas("fuzz", bytes);
+      CheckCloud(cloud);
+      return CheckFrame(MakeCloudFrame(cloud, "fuzz"));
+    }
     const CloudFile file = ParseCloud(kind, bytes);
     const Cloud& cloud = file.cloud;
     CheckCloud(cloud);
@@ -98,8 +104,8 @@ void ReadFile(char kind, const std::string& bytes) {
 }  // namespace
 }  // namespace railcast
 
-/// Entry point for libFuzzer. The first byte selects the format of the rest: p PCD, l PLY, k KITTI;
-/// P and L are files of a railcast sequence.
+/// Entry point for libFuzzer. The first byte selects the format of the rest: p PCD, l PLY, k KITTI,
+/// a LAS; P and L are files of a railcast sequence.
 RAILCAST_FUZZ_TARGET(cloud) {
   if (size == 0) return 0;
   railcast::ReadFile(static_cast<char>(data[0]),

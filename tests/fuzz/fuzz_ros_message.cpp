@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/io/recording/packet_messages.h"
 #include "core/io/ros/cdr.h"
 #include "core/io/ros/discovery_messages.h"
 #include "core/io/ros/geometry_messages.h"
@@ -36,6 +37,7 @@ void Decode(char kind, std::span<const std::byte> bytes) {
   if (kind == 'c') ReadAndWrite<CameraInfo>(bytes);
   if (kind == 'b') ReadAndWrite<TwistStamped>(bytes);
   if (kind == 's') ReadAndWrite<SceneUpdate>(bytes);
+  if (kind == 'l') ReadAndWrite<LivoxCloud>(bytes);
   if (kind == 'd') ReadAndWrite<ParticipantEntitiesInfo<>>(bytes);
 }
 

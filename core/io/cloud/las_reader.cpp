@@ -238,7 +238,7 @@ std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
   return names;
 }
 
-Cloud ParseLas(const std::string& name, std::string_view bytes) {
+Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
   const Bytes file(bytes);
   const LasHeader header = ReadLasHeader(file);
   CheckRecords(file, header);
@@ -274,10 +274,12 @@ bool IsLasFile(const std::filesystem::path& file) {
   return ending == ".las";
 }
 
+Cloud ParseLas(const std::string& file, std::string_view bytes) {
+  return AtPlace(file + ": ", [&] { return CloudOfLas(file, bytes); });
+}
+
 Cloud ReadLas(const std::filesystem::path& file) {
-  const std::string name = ShownPath(file);
-  const std::string bytes = ReadFileWhole(file);
-  return AtPlace(name + ": ", [&] { return ParseLas(name, bytes); });
+  return ParseLas(ShownPath(file), ReadFileWhole(file));
 }
 
 }  // namespace railcast

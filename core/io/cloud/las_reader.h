@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "core/io/cloud/cloud.h"
@@ -19,6 +20,9 @@ namespace railcast {
 /// @throws InputError "file: place: rule (got value)" if it is damaged or compressed (LAZ), or if
 ///   its coordinates are stated to be in degrees or feet.
 [[nodiscard]] Cloud ReadLas(const std::filesystem::path& file);
+
+/// As above, for a file held in `bytes`, which errors call `file`.
+[[nodiscard]] Cloud ParseLas(const std::string& file, std::string_view bytes);
 
 /// The classes that ASPRS defines (LAS 1.4 R15, tables 9 and 17).
 [[nodiscard]] const LabelTable& AsprsLabels();

@@ -342,7 +342,7 @@ RailMap RailMlReader::Map() const {
 
 bool IsRailMl(std::string_view begin) {
   // Version 2 has small letters.
-  for (const std::string_view root : {"<railML", ":railML", "<railml ", ":railml "}) {
+  for (const std::string_view root : {"<railML", ":railML", "<railml", ":railml"}) {
     if (begin.find(root) != std::string_view::npos) return true;
   }
   return false;
