@@ -8,7 +8,7 @@
 #include "analysis/inspect/inspection.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 struct InspectOptions {
   std::filesystem::path source;
-  std::string topic;
+  SourceChoice choice;
   std::string job;  // Empty = none.
   std::size_t num_frames = 100;
   int num_threads = 0;
@@ -26,7 +26,7 @@ struct InspectOptions {
 
 int RunInspect(const InspectOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const auto recording = OpenRecording(WithTopic({options.source}, options.topic).front());
+  const auto recording = OpenRecording(WithChoice({options.source}, options.choice).front());
   const RecordingLook inspection = Inspect(*recording, options.num_frames);
   const RecordingInfo& info = recording->info();
   if (inspection.num_frames == 0) {
@@ -51,7 +51,7 @@ void AddInspect(ProgramOptions& app, ProgramCommand& command) {
   ProgramOptions inspect = app.AddCommand(
       "inspect", "Say what a recording is, what is wrong with it, and what it is fit for");
   inspect.AddOption("SOURCE", options->source, "Recording of any kind").Required();
-  AddTopic(inspect, options->topic);
+  AddSourceChoice(inspect, options->choice);
   inspect
       .AddOption("--for", options->job,
                  "Exit with status 1 if the recording is not fit for this job: " +
