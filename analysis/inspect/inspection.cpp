@@ -41,7 +41,7 @@ void AddPoint(const RecordedFrame& recorded, std::size_t slot, RecordingLook& in
       DegFromRad(std::atan2(static_cast<double>(frame.z[slot]), std::hypot(x_m, y_m))));
 }
 
-std::vector<Eigen::Vector3f> PointsOf(const Frame& frame) {
+std::vector<Eigen::Vector3f> PointsToLay(const Frame& frame) {
   std::vector<Eigen::Vector3f> points_m;
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
     if (!std::isnan(frame.x[i])) points_m.emplace_back(frame.x[i], frame.y[i], frame.z[i]);
@@ -57,7 +57,7 @@ class MotionCheck {
       before_.reset();
       return;
     }
-    Place now{ThinnedCloud(PointsOf(recorded.frame)), recorded.frame.world_from_sensor};
+    Place now{ThinnedCloud(PointsToLay(recorded.frame)), recorded.frame.world_from_sensor};
     if (before_ && before_->cloud.size() >= kFewestLaid && now.cloud.size() >= kFewestLaid) {
       const Transform step = before_->world_from_sensor.inverse() * now.world_from_sensor;
       if (const auto laid = LayOn(before_->cloud, now.cloud, step)) {
@@ -79,7 +79,7 @@ class MotionCheck {
   std::optional<Place> before_;
 };
 
-void AddFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
+void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   const Frame& frame = recorded.frame;
   ++inspection.num_frames;
   inspection.num_grids += recorded.is_grid ? 1 : 0;
@@ -141,7 +141,7 @@ RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
       break;
     }
     const RecordedFrame recorded = (*read)();
-    AddFrame(recorded, inspection);
+    LookAtFrame(recorded, inspection);
     motion.Add(recorded, inspection.num_frames - 1, inspection);
   }
   return inspection;

@@ -13,7 +13,6 @@ namespace railcast {
 namespace {
 
 constexpr std::string_view kOfPackets = "capture of ";
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Rows of a name, a figure and what it means.
 class Findings {
@@ -42,8 +41,8 @@ class Findings {
   Table table_;
 };
 
-double MiddleOf(std::vector<double> values) {
-  if (values.empty()) return kNaN;
+double MedianOf(std::vector<double> values) {
+  if (values.empty()) return std::nan("");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
@@ -124,7 +123,7 @@ Section TimesSection(const RecordingLook& seen) {
       steps_s.push_back(SecondsFromNs(step_ns));
     }
     if (!steps_s.empty()) {
-      const double median_s = MiddleOf(steps_s);
+      const double median_s = MedianOf(steps_s);
       constexpr double kGap = 1.5;
       const auto num_gaps =
           std::ranges::count_if(steps_s, [&](double step_s) { return step_s > kGap * median_s; });
@@ -139,7 +138,7 @@ Section TimesSection(const RecordingLook& seen) {
   if (seen.durations_s.empty()) {
     findings.Add("times of points", "none that are certain", "all points of a frame take its pose");
   } else {
-    findings.Add("span of a frame's times", ShortText(MiddleOf(seen.durations_s)) + " s",
+    findings.Add("span of a frame's times", ShortText(MedianOf(seen.durations_s)) + " s",
                  "median of " + CountText(seen.durations_s.size()) + " frames");
   }
   return findings.MakeSection();
@@ -164,14 +163,14 @@ Section RingsSection(const RecordingLook& seen) {
   std::vector<double> points;
   for (const InspectedRing& ring : seen.rings)
     points.push_back(static_cast<double>(ring.num_points));
-  const double median = MiddleOf(points);
+  const double median = MedianOf(points);
   std::vector<std::size_t> dead;
   std::vector<std::size_t> weak;
   std::vector<std::size_t> misordered;
   std::vector<std::size_t> gaps;
   const auto elevation_deg = [&](std::size_t ring) {
     const Moments& of = seen.rings[ring].elevation_deg;
-    return of.num() == 0 ? kNaN : of.PlainMean();
+    return of.num() == 0 ? std::nan("") : of.PlainMean();
   };
   constexpr double kDead = 0.01;
   constexpr double kWeak = 0.5;
