@@ -49,6 +49,8 @@ class MetadataReader {
     return SectionOrNull(has_sections_ ? kDataFormat : kFlatDataFormat) != nullptr;
   }
   [[nodiscard]] ErrorList& errors() { return errors_; }
+  /// Faults that concern packets alone.
+  [[nodiscard]] ErrorList& packet_errors() { return packet_errors_; }
 
   [[nodiscard]] MetadataEntry Find(std::string_view section, std::string_view key) const {
     const bool is_flat = !has_sections_ && section != kDataFormat;
@@ -61,9 +63,9 @@ class MetadataReader {
     return entry;
   }
 
-  void Add(const MetadataEntry& entry, const std::string& rule) {
-    errors_.Add(
-        {entry.pointer, rule, entry.json == nullptr ? std::string() : ValueText(*entry.json)});
+  void Add(const MetadataEntry& entry, const std::string& rule) { AddTo(errors_, entry, rule); }
+  void AddOfPackets(const MetadataEntry& entry, const std::string& rule) {
+    AddTo(packet_errors_, entry, rule);
   }
 
   /// A text; nothing if it is absent or not a string.
@@ -145,6 +147,11 @@ class MetadataReader {
   }
 
  private:
+  static void AddTo(ErrorList& errors, const MetadataEntry& entry, const std::string& rule) {
+    errors.Add(
+        {entry.pointer, rule, entry.json == nullptr ? std::string() : ValueText(*entry.json)});
+  }
+
   /// A section, unless it is something else: of commands that old firmware does not know, Ouster's
   /// programs note the error message.
   [[nodiscard]] const Json* SectionOrNull(std::string_view name) const {
@@ -155,6 +162,7 @@ class MetadataReader {
   const Json& root_;
   bool has_sections_;
   ErrorList errors_;
+  ErrorList packet_errors_;
 };
 
 void ReadIdentity(MetadataReader& reader, OusterMetadata& metadata) {
@@ -174,13 +182,13 @@ void ReadMode(MetadataReader& reader, OusterMetadata& metadata) {
   const std::size_t cross = std::min(mode.find('x'), mode.size());
   const auto columns = ParseNumber<std::uint32_t>(std::string_view(mode).substr(0, cross));
   const auto rate_hz =
-      ParseNumber<std::uint32_t>(std::string_view(mode).substr(std::min(cross + 1, mode.size())));
-  constexpr std::array<std::uint32_t, 4> kColumns = {512, 1024, 2048, 4096};
-  constexpr std::array<std::uint32_t, 3> kRates_hz = {5, 10, 20};
-  if (!columns || !rate_hz || std::ranges::count(kColumns, *columns) == 0 ||
-      std::ranges::count(kRates_hz, *rate_hz) == 0) {
-    return reader.Add(entry,
-                      "must be 512, 1024, 2048 or 4096, x, and 5, 10 or 20, such as 1024x10");
+      ParseNumber<double>(std::string_view(mode).substr(std::min(cross + 1, mode.size())));
+  constexpr std::uint32_t kMostColumns = 1U << 16U;  // Packets number them with 16 bits.
+  constexpr double kMostRate_hz = 1000.0;
+  // Each generation of sensors has modes of its own.
+  if (!columns || !rate_hz || *columns == 0 || *columns > kMostColumns ||
+      !(*rate_hz > 0.0 && *rate_hz <= kMostRate_hz)) {
+    return reader.Add(entry, "must be COLUMNSxRATE, up to 65536 and 1000, such as 1024x10");
   }
   metadata.columns_per_frame = *columns;
   metadata.rate_hz = *rate_hz;
@@ -204,17 +212,20 @@ void ReadProfile(MetadataReader& reader, OusterMetadata& metadata) {
   if (const auto name = reader.Text(kDataFormat, "udp_profile_lidar")) {
     const auto profile = ValueNamed<OusterProfile>(*name);
     if (!profile) {
-      reader.Add(reader.Find(kDataFormat, "udp_profile_lidar"),
-                 "must be " + Alternatives(NamesOf<OusterProfile>()));
+      reader.AddOfPackets(
+          reader.Find(kDataFormat, "udp_profile_lidar"),
+          "must be " + Alternatives(NamesOf<OusterProfile>()) + " for packets to be read");
     }
-    metadata.profile = profile.value_or(OusterProfile::kLegacy);
+    const bool is_dual = name->ends_with("_DUAL");
+    metadata.profile = profile.value_or(is_dual ? OusterProfile::kDual : OusterProfile::kSingle);
   }
   metadata.has_fusa_header = metadata.profile == OusterProfile::kFusaDual;
   const auto header = reader.Text(kDataFormat, "header_type");
   if (!header || metadata.profile == OusterProfile::kLegacy) return;
   metadata.has_fusa_header = *header == "FUSA";
   if (*header == "FUSA" || *header == "STANDARD") return;
-  reader.Add(reader.Find(kDataFormat, "header_type"), "must be STANDARD or FUSA");
+  reader.AddOfPackets(reader.Find(kDataFormat, "header_type"),
+                      "must be STANDARD or FUSA for packets to be read");
 }
 
 void ReadDataFormat(MetadataReader& reader, OusterMetadata& metadata) {
@@ -235,8 +246,9 @@ void ReadDataFormat(MetadataReader& reader, OusterMetadata& metadata) {
       reader.RequiredWhole(kDataFormat, "columns_per_packet", 1, kMostColumnsPerPacket)
           .value_or(kUsualColumnsPerPacket);
   if (metadata.columns_per_frame % metadata.columns_per_packet != 0) {
-    reader.Add(reader.Find(kDataFormat, "columns_per_packet"),
-               "must divide " + NumberText(metadata.columns_per_frame) + ", the columns of a turn");
+    reader.AddOfPackets(
+        reader.Find(kDataFormat, "columns_per_packet"),
+        "must divide " + NumberText(metadata.columns_per_frame) + ", the columns of a turn");
   }
   if (metadata.columns_per_frame > 0) ReadWindow(reader, metadata);
   ReadProfile(reader, metadata);
@@ -333,8 +345,9 @@ void ReadTransforms(MetadataReader& reader, OusterMetadata& metadata) {
 void CheckPacketSize(MetadataReader& reader, const OusterMetadata& metadata) {
   const std::size_t size = OusterPacketSize(metadata);
   if (size <= kMaxDatagramSize) return;
-  reader.errors().Add({reader.Find(kDataFormat, "columns_per_packet").pointer,
-                       "must give packets of at most 65507 bytes", NumberText(size) + " bytes"});
+  reader.packet_errors().Add({reader.Find(kDataFormat, "columns_per_packet").pointer,
+                              "must give packets of at most 65507 bytes",
+                              NumberText(size) + " bytes"});
 }
 
 std::size_t PixelSize(OusterProfile profile) {
@@ -386,6 +399,12 @@ std::size_t OusterPacketSize(const OusterMetadata& metadata) {
              (around_column + metadata.pixels_per_column * PixelSize(metadata.profile));
 }
 
+OusterMetadata ParseOusterOfPackets(const std::string& text) {
+  OusterMetadata metadata = ParseOusterMetadata(text);
+  if (!metadata.packet_faults.empty()) throw InputError(metadata.packet_faults);
+  return metadata;
+}
+
 OusterMetadata ParseOusterMetadata(const std::string& text) {
   const JsonText parsed = ParseJson(text);
   if (!parsed.json) throw InputError(parsed.syntax_error);
@@ -405,6 +424,7 @@ OusterMetadata ParseOusterMetadata(const std::string& text) {
   ReadTransforms(reader, metadata);
   CheckPacketSize(reader, metadata);
   reader.errors().ThrowIfAny();
+  metadata.packet_faults = reader.packet_errors().faults();
   return metadata;
 }
 

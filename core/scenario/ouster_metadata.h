@@ -9,6 +9,7 @@
 
 #include "core/scenario/json_text.h"
 #include "railcast/enum_names.h"
+#include "railcast/error.h"
 #include "railcast/scenario.h"
 #include "railcast/transform.h"
 
@@ -55,7 +56,9 @@ struct OusterMetadata {
   /// the first is the greater one.
   std::array<std::uint32_t, 2> column_window{};
   OusterProfile profile = OusterProfile::kLegacy;
-  bool has_fusa_header{};         ///< The packets' header is that of functional safety.
+  bool has_fusa_header{};  ///< The packets' header is that of functional safety.
+  /// Why packets cannot be read or made, although beams, columns and rate are known.
+  std::vector<Fault> packet_faults{};
   std::vector<OusterBeam> beams;  ///< By rising pixel; pixels without a beam have none.
   /// Where the beams leave, seen from the lidar: outwards at the rotor's azimuth, and up. Measured
   /// ranges count from that far before it.
@@ -70,14 +73,19 @@ struct OusterMetadata {
 };
 
 /// The bytes of a lidar packet.
+/// @pre The metadata have no `packet_faults`, for which ParseOusterOfPackets() looks.
 [[nodiscard]] std::size_t OusterPacketSize(const OusterMetadata& metadata);
 
 /// Reads the metadata of an Ouster sensor, as the sensor or Ouster's programs write it: the flat
 /// layout of firmware before 2.1, or the sections of later ones. What firmware before 1.14 does not
 /// say is that of the sensors of its time.
+/// Packets need not be of a kind that is known.
 /// @throws InputError with a line for every fault: "/beam_intrinsics/beam_altitude_angles: rule
 ///   (got value)".
 [[nodiscard]] OusterMetadata ParseOusterMetadata(const std::string& text);
+
+/// As above, of a sensor whose packets are read or made: `packet_faults` are errors, too.
+[[nodiscard]] OusterMetadata ParseOusterOfPackets(const std::string& text);
 
 /// Metadata as later firmware lays it out, whichever layout `text` has; what neither has is left
 /// out.

@@ -68,7 +68,7 @@ void CompleteConfig(const OusterMetadata& metadata,
 Json MetadataOfStream(const std::string& text,
                       const Endpoint& receiver,
                       const std::optional<std::string>& timestamp_mode) {
-  const OusterMetadata metadata = ParseOusterMetadata(text);
+  const OusterMetadata metadata = ParseOusterOfPackets(text);
   Json sections = SectionsOfOusterMetadata(text);
   for (const char* const name :
        {"sensor_info", "beam_intrinsics", "imu_intrinsics", "lidar_intrinsics", "config_params",

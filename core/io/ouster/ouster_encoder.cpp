@@ -243,7 +243,7 @@ std::unique_ptr<FrameEncoder> MakeOusterEncoder(const LidarSpec& lidar) {
   }
   const std::string text = ReadFileWhole(*lidar.ouster_metadata);
   const OusterMetadata metadata =
-      AtPlace(ShownPath(*lidar.ouster_metadata) + ": ", [&] { return ParseOusterMetadata(text); });
+      AtPlace(ShownPath(*lidar.ouster_metadata) + ": ", [&] { return ParseOusterOfPackets(text); });
   CheckReturns(metadata, lidar.receiver.return_mode);
   return std::make_unique<OusterEncoder>(metadata, std::get<SpinningSpec>(lidar.scan.pattern));
 }

@@ -46,14 +46,14 @@ class PoseMotion {
 /// @throws InputError "--protocol ouster: /lidar/...: rule (got value)" if the sensor is not made
 /// of
 ///   metadata, or if it has another number of returns than their profile; or as
-///   ParseOusterMetadata() does, with the name of the file.
+///   ParseOusterOfPackets() does, with the name of the file.
 [[nodiscard]] std::unique_ptr<FrameEncoder> MakeOusterEncoder(const LidarSpec& lidar);
 
 /// The metadata of the stream, with all sections that drivers expect.
 /// @param text The sensor's own metadata; what they leave to later firmware is filled in.
 /// @param receiver Where the lidar packets go; packets of motion go to the same host.
 /// @param timestamp_mode Where the sensor has its time from; absent: as the text says.
-/// @pre ParseOusterMetadata(text) succeeds.
+/// @pre ParseOusterOfPackets(text) succeeds.
 [[nodiscard]] Json MetadataOfStream(const std::string& text,
                                     const Endpoint& receiver,
                                     const std::optional<std::string>& timestamp_mode = {});

@@ -41,7 +41,7 @@ CaptureMetadata OusterMetadataBeside(const std::string& packets, bag::BagReader&
   if (!message) return {};
   return AtPlace(wanted + ": ", [&]() -> CaptureMetadata {
     const auto text = ros::FromCdr<ros::StringMessage>(message->data).data;
-    return {.file = wanted, .metadata = ParseOusterMetadata(text)};
+    return {.file = wanted, .metadata = ParseOusterOfPackets(text)};
   });
 }
 

@@ -33,7 +33,7 @@ OusterMetadata ReadOusterMetadata(const std::filesystem::path& file) {
                      NumberText(num_bytes) + ")");
   }
   const std::string text = ReadFileWhole(file);
-  return AtPlace(ShownPath(file) + ": ", [&] { return ParseOusterMetadata(text); });
+  return AtPlace(ShownPath(file) + ": ", [&] { return ParseOusterOfPackets(text); });
 }
 
 CaptureMetadata FindOusterMetadata(const std::filesystem::path& capture) {

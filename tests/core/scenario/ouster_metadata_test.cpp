@@ -102,14 +102,31 @@ TEST(OusterMetadata, ThatAreIncompleteAreRefused) {
 std::string FaultWith(const std::string& pointer, const nlohmann::ordered_json& value) {
   nlohmann::ordered_json metadata = MadeOusterMetadata();
   metadata[nlohmann::ordered_json::json_pointer(pointer)] = value;
-  return MessageOf([&] { static_cast<void>(ParseOusterMetadata(metadata.dump())); });
+  return MessageOf([&] { static_cast<void>(ParseOusterOfPackets(metadata.dump())); });
+}
+
+TEST(OusterMetadata, OfPacketsThatAreNotKnownHaveBeamsColumnsAndRate) {
+  nlohmann::ordered_json made = MadeOusterMetadata();
+  made["config_params"]["lidar_mode"] = "720x15";
+  made["lidar_data_format"]["columns_per_frame"] = 720;
+  made["lidar_data_format"]["column_window"] = {0, 719};
+  made["lidar_data_format"]["udp_profile_lidar"] = "RNG19_RFL8_SIG16_NIR16_ZONE16";
+  made["lidar_data_format"]["header_type"] = "LATER";
+  const OusterMetadata metadata = ParseOusterMetadata(made.dump());
+  EXPECT_EQ(metadata.columns_per_frame, 720U);
+  EXPECT_EQ(metadata.rate_hz, 15.0);
+  EXPECT_EQ(metadata.beams.size(), ParseOusterMetadata(MadeOusterMetadataText()).beams.size());
+  EXPECT_EQ(metadata.packet_faults.size(), 2U);
+  LidarSpec lidar;
+  UseOusterMetadata(made.dump(), lidar);
+  EXPECT_EQ(lidar.scan.rate_hz, 15.0);
 }
 
 TEST(OusterMetadata, WithAWrongValueSayWhichRuleItBreaks) {
   EXPECT_EQ(FaultWith("/sensor_info/status", 1), "no error") << "nothing depends on it";
-  EXPECT_EQ(FaultWith("/config_params/lidar_mode", "1000x10"),
-            "/config_params/lidar_mode: must be 512, 1024, 2048 or 4096, x, and 5, 10 or 20, such "
-            "as 1024x10 (got \"1000x10\")");
+  EXPECT_EQ(FaultWith("/config_params/lidar_mode", "1000x0"),
+            "/config_params/lidar_mode: must be COLUMNSxRATE, up to 65536 and 1000, such as "
+            "1024x10 (got \"1000x0\")");
   EXPECT_EQ(FaultWith("/lidar_data_format/columns_per_frame", 1024),
             "/lidar_data_format/columns_per_frame: must be 512 as of lidar_mode (got 1024)");
   EXPECT_EQ(FaultWith("/lidar_data_format/columns_per_packet", 15),
@@ -120,7 +137,7 @@ TEST(OusterMetadata, WithAWrongValueSayWhichRuleItBreaks) {
   EXPECT_EQ(FaultWith("/lidar_data_format/udp_profile_lidar", "RNG20"),
             "/lidar_data_format/udp_profile_lidar: must be LEGACY, RNG19_RFL8_SIG16_NIR16, "
             "RNG19_RFL8_SIG16_NIR16_DUAL, RNG15_RFL8_NIR8, RNG15_RFL8_NIR8_DUAL or "
-            "FUSA_RNG15_RFL8_NIR8_DUAL (got \"RNG20\")");
+            "FUSA_RNG15_RFL8_NIR8_DUAL for packets to be read (got \"RNG20\")");
   EXPECT_EQ(FaultWith("/beam_intrinsics/beam_altitude_angles/2", "low"),
             "/beam_intrinsics/beam_altitude_angles/2: must be a number from -90 to 90 (got "
             "\"low\")");
