@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -18,15 +19,9 @@
 namespace railcast {
 namespace {
 
-constexpr std::size_t kMostUnfinished = 64;
-constexpr std::size_t kMostBytes = 65535;
-
-std::string SpanOf(std::size_t begin, std::size_t end) {
-  return NumberText(begin) + " to " + NumberText(end);
-}
-
 constexpr std::size_t kVlanTagSize = 4;
-constexpr std::size_t kMaxVlanTags = 2;
+constexpr std::uint16_t kIpv4Type = 0x0800;  // Of Ethernet.
+constexpr std::uint16_t kIpv6Type = 0x86DD;
 
 std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
   return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[place]) << 8U |
@@ -39,24 +34,84 @@ std::uint8_t OctetAt(std::span<const char> bytes, std::size_t place) {
   return static_cast<std::uint8_t>(bytes[place]);
 }
 
-/// What a frame carries.
-struct IpPacket {
-  bool is_ipv6{};
-  std::span<const char> bytes;
+/// What a frame carries: a packet of IP if the type is that.
+struct FrameContent {
+  std::uint16_t type{};  ///< As of Ethernet; of loopback devices the family, if it is not IP.
+  std::span<const char> bytes{};
+  /// The frame ends before its protocol can be told.
+  bool is_cut{};
+
+  [[nodiscard]] bool is_ipv6() const { return type == kIpv6Type; }
+  [[nodiscard]] bool is_ip() const { return type == kIpv4Type || is_ipv6(); }
 };
 
-// Returns what follows the Ethernet header and its VLAN tags if that is IPv4 or IPv6. The result is
-// empty, too, if the frame ends before its protocol can be told.
-std::optional<IpPacket> PacketIn(std::span<const char> frame) {
-  std::size_t type_place = kEthernetSize - 2;
-  for (std::size_t tags = 0; tags <= kMaxVlanTags; ++tags, type_place += kVlanTagSize) {
-    if (frame.size() < type_place + 2) return IpPacket{};
-    const std::uint16_t type = BigAt(frame, type_place);
-    if (type == 0x0800 || type == 0x86DD)
-      return IpPacket{type == 0x86DD, frame.subspan(type_place + 2)};
-    if (type != 0x8100 && type != 0x88A8) return std::nullopt;
+/// What begins with the version of IP.
+FrameContent IpContent(std::span<const char> bytes) {
+  if (bytes.empty()) return {.is_cut = true};
+  const unsigned version = OctetAt(bytes, 0) >> 4U;
+  if (version == 4) return {kIpv4Type, bytes};
+  return {version == 6 ? kIpv6Type : std::uint16_t{}, bytes};
+}
+
+/// What follows the family's number, in whichever byte order.
+FrameContent LoopbackContent(std::span<const char> frame) {
+  constexpr std::size_t kFamilySize = 4;
+  if (frame.size() <= kFamilySize) return {.is_cut = true};
+  // That of IPv4 is 2 everywhere, that of IPv6 one of those of Linux, BSD, FreeBSD and macOS.
+  constexpr auto kFamilies = std::to_array<unsigned>({2, 10, 24, 28, 30});
+  const unsigned family = OctetAt(frame, 0) | OctetAt(frame, 3);
+  if (std::ranges::count(kFamilies, family) > 0) return IpContent(frame.subspan(kFamilySize));
+  return {static_cast<std::uint16_t>(family), frame.subspan(kFamilySize)};
+}
+
+/// Where the type of what a frame carries stands, and where that begins.
+struct LinkHead {
+  std::size_t type_place{};
+  std::size_t size{};
+};
+
+/// What follows the header of Ethernet, or the one that Linux has in its place, and VLAN tags.
+FrameContent TaggedContent(std::span<const char> frame, LinkHead head) {
+  constexpr auto kTagTypes = std::to_array<std::uint16_t>({0x8100, 0x88A8, 0x9100});
+  while (frame.size() >= std::max(head.size, head.type_place + 2)) {
+    const std::uint16_t type = BigAt(frame, head.type_place);
+    if (std::ranges::count(kTagTypes, type) == 0) return {type, frame.subspan(head.size)};
+    head = {head.size + 2, head.size + kVlanTagSize};
   }
-  return std::nullopt;
+  return {.is_cut = true};
+}
+
+/// @param link One of those of IsKnownLink().
+FrameContent ContentOf(std::span<const char> frame, int link) {
+  switch (link) {
+    case DLT_NULL:
+    case DLT_LOOP:
+      return LoopbackContent(frame);
+    case DLT_LINUX_SLL:
+      return TaggedContent(frame, {14, 16});
+    case DLT_LINUX_SLL2:
+      return TaggedContent(frame, {0, 20});
+    case DLT_EN10MB:
+      return TaggedContent(frame, {kEthernetSize - 2, kEthernetSize});
+    default:
+      return IpContent(frame);
+  }
+}
+
+bool IsKnownLink(int link) {
+  // libpcap's number for 101, IP of either version, is 12, or 14 on some systems.
+  constexpr auto kLinks = std::to_array<int>({DLT_NULL, DLT_EN10MB, DLT_RAW, 12, 14, 101, DLT_LOOP,
+                                              DLT_LINUX_SLL, DLT_IPV4, DLT_IPV6, DLT_LINUX_SLL2});
+  return std::ranges::count(kLinks, link) > 0;
+}
+
+/// Whether frames of a type are known to carry no UDP: those with a length in its place, ARP, time
+/// and what switches and network cards say to each other.
+bool CarriesNoUdp(std::uint16_t type) {
+  constexpr std::uint16_t kLeastType = 0x0600;
+  constexpr auto kTypes = std::to_array<std::uint16_t>(
+      {0x0806, 0x0842, 0x8035, 0x8809, 0x888E, 0x8899, 0x88CC, 0x88E1, 0x88F7, 0x8902, 0x9000});
+  return type < kLeastType || std::ranges::count(kTypes, type) > 0;
 }
 
 /// What follows the headers of an IPv6 packet, as far as these are there.
@@ -68,7 +123,7 @@ struct Ipv6Content {
 };
 
 // Walks over the extension headers that may stand before UDP (RFC 8200, 4).
-Ipv6Content ContentOf(std::span<const char> ip) {
+Ipv6Content ContentOfIpv6(std::span<const char> ip) {
   constexpr std::uint8_t kFragment = 44;
   constexpr auto kOptions =
       std::to_array<std::uint8_t>({0, 43, 60});  // Hop by hop, routing, destination.
@@ -93,15 +148,15 @@ Ipv6Content ContentOf(std::span<const char> ip) {
 
 // Whether the captured part of a frame may be the beginning of a UDP datagram. Frames of other
 // protocols are not wanted and may be truncated anywhere.
-bool MayBeginDatagram(std::span<const char> frame) {
-  const auto ip = PacketIn(frame);
-  if (!ip) return false;
-  if (ip->is_ipv6) {
-    const Ipv6Content content = ContentOf(ip->bytes);
+bool MayBeginDatagram(const FrameContent& ip) {
+  if (ip.is_cut) return true;
+  if (!ip.is_ip()) return false;
+  if (ip.is_ipv6()) {
+    const Ipv6Content content = ContentOfIpv6(ip.bytes);
     return content.is_cut || content.protocol == kUdpProtocol;
   }
-  if (ip->bytes.size() <= kUdpProtocolPlace) return true;
-  return OctetAt(ip->bytes, 0) >> 4U == 4 && OctetAt(ip->bytes, kUdpProtocolPlace) == kUdpProtocol;
+  if (ip.bytes.size() <= kUdpProtocolPlace) return true;
+  return OctetAt(ip.bytes, 0) >> 4U == 4 && OctetAt(ip.bytes, kUdpProtocolPlace) == kUdpProtocol;
 }
 
 // Returns what an IPv4 packet carries for UDP: a datagram or a fragment of one.
@@ -118,6 +173,7 @@ std::optional<IpFragment> UdpFragment(std::span<const char> ip) {
   constexpr std::uint16_t kMoreFragments = 0x2000U;
   const std::uint16_t flags_and_offset = BigAt(ip, 6);
   IpFragment fragment{.source = IpAddress(std::uint32_t{BigAt(ip, 12)} << 16U | BigAt(ip, 14)),
+                      .destination = IpAddress(std::uint32_t{BigAt(ip, 16)} << 16U | BigAt(ip, 18)),
                       .offset = (flags_and_offset & 0x1FFFU) * std::size_t{8},
                       .is_last = (flags_and_offset & kMoreFragments) == 0,
                       .bytes = ip.subspan(header_size, size - header_size)};
@@ -133,13 +189,14 @@ std::optional<IpFragment> UdpFragmentOfIpv6(std::span<const char> ip) {
   const std::size_t size = kIpv6HeaderSize + BigAt(ip, 4);
   if (size > ip.size()) return std::nullopt;
   ip = ip.first(size);
-  const Ipv6Content content = ContentOf(ip);
+  const Ipv6Content content = ContentOfIpv6(ip);
   if (content.is_cut || content.protocol != kUdpProtocol || content.place > size) {
     return std::nullopt;
   }
   IpFragment fragment{.offset = 0, .is_last = true, .bytes = ip.subspan(content.place)};
-  std::ranges::transform(ip.subspan(8, 16), fragment.source.bytes.begin(),
-                         [](char octet) { return static_cast<std::uint8_t>(octet); });
+  const auto to_octet = [](char octet) { return static_cast<std::uint8_t>(octet); };
+  std::ranges::transform(ip.subspan(8, 16), fragment.source.bytes.begin(), to_octet);
+  std::ranges::transform(ip.subspan(24, 16), fragment.destination.bytes.begin(), to_octet);
   if (content.fragment == 0) return fragment;
   const std::uint16_t offset_and_flag = BigAt(ip, content.fragment + 2);
   fragment.offset = offset_and_flag & 0xFFF8U;
@@ -163,10 +220,16 @@ std::optional<CapturedDatagram> DatagramIn(std::span<const char> udp) {
                           .destination_port = BigAt(udp, 2)};
 }
 
-std::optional<IpFragment> FindFragment(std::span<const char> frame) {
-  const auto ip = PacketIn(frame);
-  if (!ip) return std::nullopt;
-  return ip->is_ipv6 ? UdpFragmentOfIpv6(ip->bytes) : UdpFragment(ip->bytes);
+/// "0x88A8"
+std::string TypeText(std::uint16_t type) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "0x%04X", type);
+  return text.data();
+}
+
+std::optional<IpFragment> FindFragment(const FrameContent& ip) {
+  if (!ip.is_ip()) return std::nullopt;
+  return ip.is_ipv6() ? UdpFragmentOfIpv6(ip.bytes) : UdpFragment(ip.bytes);
 }
 
 // The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
@@ -195,66 +258,8 @@ std::FILE* Open(const std::filesystem::path& file) {
 
 }  // namespace
 
-IpFragments::Packet& IpFragments::PacketOf(const IpFragment& fragment) {
-  // Identifications are used again, on busy networks after some seconds.
-  num_given_up_ += std::erase_if(unfinished_, [&](const Packet& packet) {
-    return fragment.time_ns - packet.time_ns > kNsPerS;
-  });
-  const auto found = std::ranges::find(unfinished_, fragment.packet, &Packet::name);
-  if (found != unfinished_.end()) return *found;
-  if (unfinished_.size() == kMostUnfinished) {
-    unfinished_.pop_front();
-    ++num_given_up_;
-  }
-  return unfinished_.emplace_back(Packet{
-      .name = fragment.packet, .time_ns = fragment.time_ns, .bytes = {}, .parts = {}, .end = {}});
-}
-
-std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment) {
-  const std::size_t begin = fragment.offset;
-  const std::size_t end = begin + fragment.bytes.size();
-  if (end > kMostBytes) {
-    throw InputError("an IP fragment must end within 65535 bytes" + Got(end));
-  }
-  Packet& packet = PacketOf(fragment);
-  const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second.end;
-  if ((packet.end && end > *packet.end) || (fragment.is_last && end < last)) {
-    throw InputError("an IP fragment must lie before the end of its packet (got bytes " +
-                     SpanOf(begin, end) + ", the end at " +
-                     NumberText(packet.end ? *packet.end : end) + ")");
-  }
-  // The first part that ends behind this one's begin is the only one that may be the same.
-  const auto after =
-      std::ranges::find_if(packet.parts, [&](const auto& part) { return part.second.end > begin; });
-  if (after != packet.parts.end() && after->first < end) {
-    const bool is_same =
-        after->first == begin && after->second.end == end &&
-        std::ranges::equal(fragment.bytes,
-                           std::span(packet.bytes).subspan(begin, fragment.bytes.size()));
-    if (is_same) return std::nullopt;
-    throw InputError("an IP fragment must not overlap another (got bytes " + SpanOf(begin, end) +
-                     " beside " + SpanOf(after->first, after->second.end) + ")");
-  }
-  if (packet.bytes.size() < end) packet.bytes.resize(end);
-  std::ranges::copy(fragment.bytes, packet.bytes.begin() + static_cast<std::ptrdiff_t>(begin));
-  if (begin < end) packet.parts.emplace(begin, Part{end, fragment.place});
-  if (fragment.is_last) packet.end = end;
-  std::size_t reached = 0;
-  for (const auto& [part_begin, part] : packet.parts) {
-    if (part_begin == reached) reached = part.end;
-  }
-  if (packet.end != reached) return std::nullopt;
-  pieces_.clear();
-  for (const auto& [part_begin, part] : packet.parts) {
-    pieces_.push_back({part.place, part.end - part_begin});
-  }
-  whole_ = std::move(packet.bytes);
-  unfinished_.remove_if([&](const Packet& other) { return &other == &packet; });
-  return whole_;
-}
-
 std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
-  const auto fragment = FindFragment(frame);
+  const auto fragment = FindFragment(ContentOf(frame, DLT_EN10MB));
   if (!fragment || !IsWhole(*fragment)) return std::nullopt;
   auto datagram = DatagramIn(fragment->bytes);
   if (datagram) datagram->source_address = fragment->source;
@@ -285,9 +290,11 @@ PcapReader::PcapReader(std::FILE* stream, std::string name)
     throw InputError(name_ + ": " + reason.data());
   }
   const int link = pcap_datalink(capture_->pcap);
-  if (link == DLT_EN10MB) return;
+  if (IsKnownLink(link)) return;
   const char* const link_name = pcap_datalink_val_to_name(link);
-  throw InputError(name_ + ": must be a capture of Ethernet frames (got " +
+  throw InputError(name_ +
+                   ": must be a capture of Ethernet, of Linux's \"any\" (SLL, SLL2), of a " +
+                   "loopback device or of IP (got " +
                    (link_name != nullptr ? std::string(link_name) : NumberText(link)) + ")");
 }
 
@@ -328,15 +335,33 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     if (status == PCAP_ERROR_BREAK) return std::nullopt;
     const std::size_t packet = num_frames_++;
     const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
-    if (status != 1) throw InputError(place + pcap_geterr(capture_->pcap));
+    if (status != 1) {
+      const std::string reason = pcap_geterr(capture_->pcap);
+      // libpcap says so, too, where the file begins no packet that could be one.
+      if (!reason.starts_with("truncated") || std::feof(pcap_file(capture_->pcap)) == 0) {
+        throw InputError(place + reason);
+      }
+      cut_ = {.number = 1, .first = packet};
+      return std::nullopt;
+    }
     const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
-    auto fragment = FindFragment(kept);
+    const FrameContent content = ContentOf(kept, pcap_datalink(capture_->pcap));
+    auto fragment = FindFragment(content);
     const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
-    if (!is_datagram && header->caplen < header->len && MayBeginDatagram(kept)) {
+    if (!is_datagram && header->caplen < header->len && MayBeginDatagram(content)) {
       throw InputError(place + "must be captured whole (got " + NumberText(header->caplen) +
                        " of " + NumberText(header->len) + " bytes)");
     }
-    if (!is_datagram) continue;
+    if (!is_datagram) {
+      if (!content.is_ip() && !content.is_cut && !CarriesNoUdp(content.type)) {
+        if (unknown_.number++ == 0) {
+          unknown_.first = packet;
+          unknown_.detail = "type " + TypeText(content.type);
+        }
+      }
+      continue;
+    }
+    fragment->number = packet;
     const std::int64_t time_ns = TimeOf(capture_->pcap, *header, place);
     if (finds_places_) {
       const auto in_packet = static_cast<std::uint64_t>(fragment->bytes.data() - kept.data());
@@ -347,11 +372,27 @@ std::optional<CapturedDatagram> PcapReader::Next() {
         IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
     if (!datagram) continue;
     datagram->source_address = fragment->source;
+    datagram->destination_address = fragment->destination;
     datagram->packet = packet;
     datagram->time_ns = time_ns;
     if (finds_places_) datagram->pieces = IsWhole(*fragment) ? pieces_ : fragments_.pieces();
     return datagram;
   }
+}
+
+std::vector<Remark> PcapReader::remarks() const {
+  std::vector<Remark> remarks;
+  const auto add = [&](RemarkKind kind, const LeftOut& left_out) {
+    AddRemark({.kind = kind,
+               .place = name_ + ": packet " + NumberText(left_out.first),
+               .number = left_out.number,
+               .detail = left_out.detail},
+              remarks);
+  };
+  if (num_torn() > 0) add(RemarkKind::kFragmentsMissing, {num_torn(), fragments_.first_torn(), ""});
+  add(RemarkKind::kFramesUnknown, unknown_);
+  add(RemarkKind::kRecordingCut, cut_);
+  return remarks;
 }
 
 std::optional<CapturedDatagram> PcapReader::PutTogether(IpFragment fragment,

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "railcast/io/endpoint.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 
@@ -38,6 +39,8 @@ struct IpFragment {
   /// Source, destination and identification, as they were sent; those of IPv4 fill the first 10.
   std::array<char, 36> packet{};
   IpAddress source{};
+  IpAddress destination{};
+  std::size_t number{};  ///< Index among all packets of the file.
   std::size_t offset{};  ///< Place of its bytes in the packet's data.
   bool is_last{};        ///< Whether the data end with it.
   std::span<const char> bytes;
@@ -63,6 +66,9 @@ class IpFragments {
 
   /// Number of packets that are unfinished or were given up.
   [[nodiscard]] std::size_t num_torn() const { return num_given_up_ + unfinished_.size(); }
+  /// IpFragment::number of the first fragment of the first of these.
+  /// @pre num_torn() > 0
+  [[nodiscard]] std::size_t first_torn() const;
 
  private:
   struct Part {
@@ -72,17 +78,20 @@ class IpFragments {
   struct Packet {
     std::array<char, 36> name{};
     std::int64_t time_ns{};
+    std::size_t number{};
     std::vector<char> bytes;
     std::map<std::size_t, Part> parts;  ///< By begin.
     std::optional<std::size_t> end;     ///< Known once the last fragment is there.
   };
 
   Packet& PacketOf(const IpFragment& fragment);
+  void GiveUp(const Packet& packet);
 
   std::list<Packet> unfinished_;  ///< From the oldest on.
   std::vector<char> whole_;
   std::vector<CapturedPiece> pieces_;
   std::size_t num_given_up_{};
+  std::size_t first_given_up_{};
 };
 
 /// A captured UDP datagram, or several merged into one, all of the same size except that the last
@@ -92,6 +101,7 @@ class IpFragments {
 struct CapturedDatagram {
   std::span<const char> payload;  ///< Valid until the next datagram is read.
   IpAddress source_address{};
+  IpAddress destination_address{};
   std::uint16_t source_port{};
   std::uint16_t destination_port{};
   /// Time of capture since 1970-01-01 00:00:00 UTC; of a datagram in fragments, the last one's.
@@ -103,15 +113,19 @@ struct CapturedDatagram {
 };
 
 /// Returns the UDP datagram in an Ethernet frame: IPv4 with any options or IPv6 with its extension
-/// headers, behind up to two VLAN tags. Returns nothing if the frame holds none, or only a fragment
+/// headers, behind any VLAN tags. Returns nothing if the frame holds none, or only a fragment
 /// of one.
 [[nodiscard]] std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame);
 
 /// Reads the UDP datagrams of a capture file, classic pcap or pcapng. Those sent in IP fragments
 /// are put together (IpFragments); those of which fragments are missing are left out.
+///
+/// Packets are frames of Ethernet, what Linux captures on several interfaces at once (`-i any`, SLL
+/// and SLL2), those of loopback devices, or IP alone. A capture that ends within a packet, as one
+/// whose program was killed, is read up to that.
 class PcapReader {
  public:
-  /// @throws InputError "file: reason" if the file is not a capture of Ethernet frames.
+  /// @throws InputError "file: reason" if the file is not a capture of such packets.
   explicit PcapReader(const std::filesystem::path& file);
   /// @param stream Owned by the reader from here on, and closed even if this throws.
   /// @param name Names the stream in error messages.
@@ -129,9 +143,17 @@ class PcapReader {
 
   /// Number of datagrams so far of which not all IP fragments were found.
   [[nodiscard]] std::size_t num_torn() const { return fragments_.num_torn(); }
+  /// What was left out so far, but for packets of IP that carry no UDP.
+  [[nodiscard]] std::vector<Remark> remarks() const;
 
  private:
   struct Capture;
+  /// The packets of a kind that were left out.
+  struct LeftOut {
+    std::size_t number{};
+    std::size_t first{};
+    std::string detail{};
+  };
 
   [[nodiscard]] std::optional<CapturedDatagram> PutTogether(IpFragment fragment,
                                                             std::int64_t time_ns,
@@ -146,6 +168,8 @@ class PcapReader {
   bool finds_places_ = false;
   std::string name_;
   std::size_t num_frames_{};
+  LeftOut unknown_;
+  LeftOut cut_;
   std::unique_ptr<Capture> capture_;
 };
 

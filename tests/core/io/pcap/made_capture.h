@@ -51,14 +51,31 @@ inline std::string FragmentOfIpv6(const std::string& udp,
   return std::string(12, '\xAA') + std::string("\x86\xDD", 2) + ip + headers + bytes;
 }
 
+/// A packet of IPv4 with a datagram from 192.168.1.X.
+inline std::string IpOf(const std::string& payload,
+                        char host = '\xC9',
+                        std::size_t from = 2368,
+                        std::size_t to = 2368) {
+  const std::string udp = Big16(from) + Big16(to) + Big16(payload.size() + 8) + Big16(0) + payload;
+  return std::string("\x45\0", 2) + Big16(20 + udp.size()) + std::string(4, '\0') +
+         std::string("\x40\x11\0\0\xC0\xA8\1", 7) + host + std::string(4, '\xFF') + udp;
+}
+
+inline std::string EthernetOf(const std::string& ip, const std::string& tags = {}) {
+  return std::string(12, '\xAA') + tags + std::string("\x08\0", 2) + ip;
+}
+
 struct CapturedFrame {
   std::string bytes;
   std::size_t time_us{};
 };
 
+/// @param link Type of the frames; 1 = Ethernet.
 inline std::filesystem::path WriteCapture(const std::filesystem::path& file,
-                                          const std::vector<CapturedFrame>& frames) {
-  std::string bytes("\xD4\xC3\xB2\xA1\2\0\4\0\0\0\0\0\0\0\0\0\0\0\4\0\1\0\0\0", 24);
+                                          const std::vector<CapturedFrame>& frames,
+                                          std::size_t link = 1) {
+  std::string bytes("\xD4\xC3\xB2\xA1\2\0\4\0\0\0\0\0\0\0\0\0\0\0\4\0", 20);
+  bytes += Little32(link);
   for (const auto& [frame, time_us] : frames) {
     bytes += Little32(time_us / 1'000'000) + Little32(time_us % 1'000'000) +
              Little32(frame.size()) + Little32(frame.size()) + frame;

@@ -270,7 +270,7 @@ TEST(FindDatagram, SkipsTagsOptionsAndPadding) {
   EXPECT_EQ(PayloadOf(MadeEthernetFrame()), "abc");
   EXPECT_EQ(PayloadOf(MadeEthernetFrame(tag)), "abc");
   EXPECT_EQ(PayloadOf(MadeEthernetFrame(service_tag + tag)), "abc");
-  EXPECT_EQ(PayloadOf(MadeEthernetFrame(tag + tag + tag)), "nothing");
+  EXPECT_EQ(PayloadOf(MadeEthernetFrame(tag + tag + tag)), "abc");
   EXPECT_EQ(PayloadOf(MadeEthernetFrame("", "optionsoptionsoptionsoptions")), "abc");
 }
 
@@ -385,13 +385,12 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   EXPECT_EQ(said("this is no capture, far from it"), "unknown file format");
   EXPECT_EQ(said(sound.substr(0, 20)),
             "truncated dump file; tried to read 24 file header bytes, only got 16");
-  EXPECT_EQ(said(sound.substr(0, 24 + 5)),
-            "packet 0: truncated dump file; tried to read 16 header bytes, only got 5");
-  EXPECT_EQ(said(sound.substr(0, 24 + 16 + 1248 + 16 + 100)),
-            "packet 1: truncated dump file; tried to read 554 captured bytes, only got 100");
   std::string other_link = sound;
-  other_link[20] = 113;
-  EXPECT_EQ(said(other_link), "must be a capture of Ethernet frames (got LINUX_SLL)");
+  other_link[20] = 105;
+  EXPECT_EQ(
+      said(other_link),
+      "must be a capture of Ethernet, of Linux's \"any\" (SLL, SLL2), of a loopback device or "
+      "of IP (got IEEE802_11)");
   std::string cut = sound;
   cut[24 + 12 + 1] = 9;  // 2528 bytes on the wire.
   EXPECT_EQ(said(cut), "no error") << "the datagram is there in full";
