@@ -55,7 +55,9 @@ std::vector<double> ParseDistances(std::string_view text) {
 
 int RunPairs(const CompareOptions& options, const std::string& command_line) {
   Comparison comparison(ParseDistances(options.distances), options.registers);
-  const auto sources = WithChoice(options.sources, options.choice);
+  SourceChoice choice = options.choice;
+  choice.sensor = options.sensor.value_or("");
+  const auto sources = WithChoice(options.sources, choice);
   const auto a = OpenRecording(sources[0]);
   const auto b = OpenRecording(sources[1]);
   FramePairs pairs(*a, *b, options.pairing);
@@ -149,11 +151,11 @@ void AddAblationOptions(ProgramOptions& compare, CompareOptions& options) {
   compare.AddOption("--seed", options.seed, "Seed to use instead of the scenario's")
       .Check(Whole({}))
       .Needs(ablate);
-  compare
-      .AddOption("--sensor", options.sensor,
-                 "Name of the sensor; where the scenario has several, default: all, with a report "
-                 "for each in OUT/NAME")
-      .Needs(ablate);
+  compare.AddOption(
+      "--sensor", options.sensor,
+      "Of a scenario with several sensors, the name of one; default: all, with a report "
+      "for each in OUT/NAME. Of captures that hold several, ADDRESS or ADDRESS:PORT of "
+      "one, which is needed");
   compare
       .AddFlag("--all-effects", options.takes_all_effects,
                "Study those, too, that do not go together with the scenario's effects, each on the "

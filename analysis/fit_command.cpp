@@ -182,6 +182,7 @@ void AddFit(ProgramOptions& app, ProgramCommand& command) {
                 "or bag of ROS 2; several are taken together")
       .Required();
   AddSourceChoice(fit, options->choice);
+  AddCaptureSensor(fit, options->choice.sensor);
   AddKnowledgeOptions(fit, *options);
   AddThreads(fit, options->num_threads);
   AddReportOptions(fit, options->output);

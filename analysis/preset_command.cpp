@@ -27,6 +27,10 @@ Sectors SectorsOf(const std::string& name) {
   return name == "odd" ? Sectors::kOdd : Sectors::kAll;
 }
 
+std::filesystem::path SourceOf(const PresetOptions& options) {
+  return WithSensor(WithTopic({options.source}, options.topic), options.sensor).front();
+}
+
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);
@@ -52,6 +56,7 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
                  "Capture or other recording of a sensor that stands, as grids")
       .Required();
   AddSourceChoice(preset, options->choice);
+  AddCaptureSensor(preset, options->choice.sensor);
   preset
       .AddOption("--scenario", options->scenario,
                  "Scenario whose sensor, rung, weather and materials are compared")

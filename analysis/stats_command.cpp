@@ -15,6 +15,7 @@
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/recording/turn_reader.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -227,6 +228,36 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
   return all;
 }
 
+/// Adds what became of the packets of captures, of those sensors, too, that are not measured.
+void AddCaptureSection(const std::vector<MeasuredSource>& sources, Report& report) {
+  Table table{
+      .key = "capture_sensors",
+      .title = "Sensors of the capture",
+      .note =
+          "Packets are those that can be read; doubled and late ones are left out, and "
+          "those out of order were put in order.",
+      .columns = ColumnsOf("capture [-]: Capture; sensor [-]: Sensor; address [-]: Address; "
+                           "ports [-]: To ports; packets: Packets; lost: Lost; "
+                           "doubled: Doubled; out_of_order: Out of order; late: Late; "
+                           "damaged: Damaged; refused: Refused")};
+  for (const MeasuredSource& source : sources) {
+    const auto capture = FindCapture(source.source);
+    if (!capture) continue;
+    for (const TurnReader& reader : CountPackets(*capture)) {
+      const PacketOrder& order = reader.order();
+      table.rows.push_back(
+          {ShownPath(capture->file), reader.sensor().name, reader.sensor().address,
+           PortsText(reader.sensor()), std::uint64_t{reader.num_taken()},
+           std::uint64_t{reader.lost().number}, std::uint64_t{order.doubled().number},
+           std::uint64_t{order.reordered().number}, std::uint64_t{order.late().number},
+           std::uint64_t{reader.damaged().number}, std::uint64_t{reader.refused().number}});
+    }
+  }
+  if (table.rows.empty()) return;
+  report.sections.push_back(
+      {.key = "capture", .title = "Packets of the capture", .tables = {std::move(table)}});
+}
+
 Section SheetSection(const std::vector<MeasuredSource>& sources) {
   std::vector<std::filesystem::path> recordings;
   for (const MeasuredSource& source : sources) {
@@ -237,8 +268,12 @@ Section SheetSection(const std::vector<MeasuredSource>& sources) {
 
 int RunStats(const StatsOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  std::vector<MeasuredSource> sources = LookAtSources(WithChoice(options.sources, options.choice));
-  SourcesAtFirstSight seen = LookAtRecordings(options.sensor, sources);
+  // Of captures, a sensor is chosen by its address, of sequences by its name.
+  SourceChoice choice = options.choice;
+  if (ParseSender(options.sensor)) choice.sensor = options.sensor;
+  std::vector<MeasuredSource> sources = LookAtSources(WithChoice(options.sources, choice));
+  SourcesAtFirstSight seen =
+      LookAtRecordings(choice.sensor.empty() ? options.sensor : "", sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {
@@ -252,6 +287,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
         "Sensors", NamesText(seen.sensors) + ", taken together; --sensor takes one of them");
   }
   AddDatasetSections(sources, report);
+  AddCaptureSection(sources, report);
   if (!options.output.out.empty()) {
     report.sections.insert(report.sections.begin(), SheetSection(sources));
   }
@@ -276,9 +312,11 @@ void AddStats(ProgramOptions& app, ProgramCommand& command) {
       .Required();
   AddSourceChoice(stats, options->choice);
   stats
-      .AddOption("--sensor", options->sensor,
-                 "Name of the only sensor to measure, where there are several; default: all, taken "
-                 "together")
+      .AddOption(
+          "--sensor", options->sensor,
+          "Name of the only sensor to measure, where there are several; default: all, taken "
+          "together. Of a capture, the ADDRESS or ADDRESS:PORT of the sensor, which is needed "
+          "where it holds several")
       .Check(NonEmpty());
   stats.AddOption("--track", options->track,
                   "Scenario whose vehicle is on the recording's track, in the world of the "

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"
@@ -122,7 +123,9 @@ class Viewer {
   /// Opens the sources, of which recordings have shown their first frame.
   std::unique_ptr<Session> OpenSession() {
     if (options_.is_live()) OpenLive();
-    for (const auto& source : WithChoice({options_.source, options_.compare}, options_.choice)) {
+    SourceChoice choice = options_.choice;
+    if (IsOfCapture()) choice.sensor = *options_.sensor;
+    for (const auto& source : WithChoice({options_.source, options_.compare}, choice)) {
       if (source.empty() || options_.is_live()) continue;
       recorded_.push_back(std::make_unique<RecordedFrames>(source));
       UseScenario(*recorded_.back());
@@ -166,7 +169,12 @@ class Viewer {
   template <typename Source>
   void UseScenario(Source& source) {
     if (options_.scenario.empty()) return;
-    source.UseScenario(PickSensor(Scenario(), options_.sensor));
+    source.UseScenario(PickSensor(Scenario(), IsOfCapture() ? std::nullopt : options_.sensor));
+  }
+
+  /// Whether --sensor names one of a capture.
+  [[nodiscard]] bool IsOfCapture() const {
+    return options_.sensor && ParseSender(*options_.sensor);
   }
 
   /// Returns the scenario of --scenario, which is read at the first call.

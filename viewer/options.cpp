@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/io/recording/capture_sensor.h"
 #include "core/program/command_line.h"
 #include "viewer/frames/field_values.h"
 
@@ -128,7 +129,10 @@ void AddSourceOptions(ProgramOptions& app, ViewOptions& options, RawOptions& raw
   app.AddOption("--scenario", options.scenario,
                 "Scenario that a stream or a file was made of: it gives the labels' names, the "
                 "track and the surfaces");
-  app.AddOption("--sensor", options.sensor, "Name of the sensor, where the scenario has several");
+  app.AddOption(
+      "--sensor", options.sensor,
+      "Name of the sensor, where the scenario has several; of captures that hold several, "
+      "ADDRESS or ADDRESS:PORT of one");
   app.AddOption("--from", options.from,
                 "HOST or HOST:PORT whose live frames are shown; default: the first sender heard");
   app.AddOption("--image-port", options.image_port,
@@ -316,7 +320,9 @@ void CheckTogether(const ViewOptions& options) {
   if (options.from && !options.is_live()) Fail("--from", "is for a live source");
   if (options.image_port && !options.is_live()) Fail("--image-port", "is for a live source");
   CheckLiveImage(options);
-  if (options.sensor && options.scenario.empty()) Fail("--sensor", "needs --scenario");
+  if (options.sensor && !ParseSender(*options.sensor) && options.scenario.empty()) {
+    Fail("--sensor", "needs --scenario, unless it is the address of a capture's sensor");
+  }
 }
 
 /// A plan shows no frames, so that few options apply.

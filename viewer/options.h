@@ -20,7 +20,8 @@ struct ViewOptions {
   std::filesystem::path compare;  ///< Empty: nothing is compared.
   SourceChoice choice;            ///< Of sources that do not say it themselves.
   std::filesystem::path scenario;
-  std::optional<std::string> sensor;        ///< Name of a sensor of the scenario.
+  /// Name of a sensor of the scenario, or address of one of a capture.
+  std::optional<std::string> sensor;
   std::optional<std::string> from;          ///< HOST or HOST:PORT of a live source's sender.
   std::optional<std::uint16_t> image_port;  ///< Where a live camera's images come.
   std::optional<std::uint32_t> frame;

@@ -31,6 +31,22 @@ inline constexpr std::size_t kMaxTurnColumns = std::size_t{1} << 14U;
 /// Why decoders refuse a packet one of whose checksums is wrong: it was damaged on its way.
 inline constexpr std::string_view kWrongChecksum = "the checksum must be that of its bytes";
 
+/// What a packet says of its place among those of its sensor.
+struct PacketMark {
+  /// Counted by the sensor, else a time in ns.
+  std::int64_t number{};
+  bool is_counted{};
+  std::int64_t period{};   ///< After which numbers begin anew; 0 = never.
+  std::int64_t time_ns{};  ///< That it states, since whenever; two of one number and time are one.
+  // Where packets are known by their times alone:
+  std::int64_t packet_ns{};  ///< From it to the next one.
+  // Azimuths are in 0.01 deg, of its first and last block.
+  std::int64_t first_azimuth{};
+  std::int64_t last_azimuth{};
+  std::int64_t azimuth_step{};  ///< From block to block.
+  bool has_window{};            ///< Whether the sensor is silent between two of its azimuths.
+};
+
 /// What a sensor measures of each point besides its place and intensity.
 struct TurnField {
   std::string name;           ///< As in RecordedFrame::foreign.
@@ -64,6 +80,8 @@ struct SensorTurn {
   bool is_dual{};  ///< Whether any of its packets was in dual mode.
   /// Of each laser in each firing cycle: column * rows + ring.
   std::vector<FiringPlace> places;
+  /// Of those that a TurnReader was given, the datagram that begins the next turn.
+  std::uint64_t end_datagram{};
 
   [[nodiscard]] std::size_t num_columns() const { return column_time_ns.size(); }
 };

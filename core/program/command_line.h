@@ -120,6 +120,16 @@ inline void AddSourceChoice(ProgramOptions& command, SourceChoice& choice) {
       .Check(NonEmpty());
 }
 
+/// Adds the option --sensor of SourceChoice, for commands without one of their own.
+inline void AddCaptureSensor(ProgramOptions& command, std::string& sensor) {
+  command
+      .AddOption(
+          "--sensor", sensor,
+          "ADDRESS or ADDRESS:PORT of the sensor to read of sources that are captures; needed "
+          "only where a capture holds several")
+      .Check(NonEmpty());
+}
+
 /// For CLI::App::failure_message: what is wrong, in the form of all messages, with the nearest name
 /// where a command or an option is unknown. Arguments are shown as ShownLines() shows them.
 [[nodiscard]] std::string SayWhatIsWrong(const CLI::App* app, const CLI::Error& error);

@@ -37,21 +37,23 @@ std::vector<Endpoint> ReplayReceivers(const ReplayOptions& options, std::uint16_
   return receivers;
 }
 
-IpAddress SensorAddress(const std::string& sensor) {
-  const Endpoint sender = AtPlace("--sensor: ", [&] { return ParseEndpoint(sensor, 0); });
-  if (sender.port == 0) return sender.address;
-  throw InputError("--sensor: must be an address without a port (got " + ShownText(sensor) + ")");
+/// The recording as OpenRecording() takes it.
+std::filesystem::path SourceOf(const ReplayOptions& options) {
+  SourceChoice choice = options.choice;
+  choice.sensor = options.sensor.value_or("");
+  if (!choice.sensor.empty() && IsBagOfTopics(options.recording)) {
+    throw InputError("--sensor: is for captures, since bags do not say who sent packets");
+  }
+  return WithChoice({options.recording}, choice).front();
 }
 
 /// Where the recorded packets are.
 DatagramPlace FindPackets(const ReplayOptions& options) {
-  if (auto capture = FindCapture(options.recording)) return std::move(*capture);
+  if (auto capture = FindCapture(SourceOf(options))) return std::move(*capture);
   if (IsBagOfTopics(options.recording)) {
-    if (options.sensor) {
-      throw InputError("--sensor: is for captures, since bags do not say who sent packets");
-    }
-    if (auto packets = FindBagPackets(options.recording, options.choice.topic))
+    if (auto packets = FindBagPackets(options.recording, options.choice.topic)) {
       return std::move(*packets);
+    }
   }
   throw InputError(
       ShownPath(options.recording) +
@@ -59,20 +61,13 @@ DatagramPlace FindPackets(const ReplayOptions& options) {
       "neither); railcast and ros2 send frames");
 }
 
-/// The recording as OpenRecording() takes it.
-std::filesystem::path SourceOf(const ReplayOptions& options) {
-  return WithChoice({options.recording}, options.choice).front();
-}
-
 std::unique_ptr<ReplayFeed> OpenPackets(const ReplayOptions& options) {
-  std::optional<IpAddress> sender;
-  if (options.sensor) sender = SensorAddress(*options.sensor);
   constexpr std::uint16_t kAsRecorded = 0;
   DatagramPlace packets = FindPackets(options);
   if (options.insert) {
     packets = PlaceOfInserted(packets, MakeInsertion(*options.insert, SourceOf(options)));
   }
-  return std::make_unique<PacketFeed>(PacketRecording(std::move(packets), sender),
+  return std::make_unique<PacketFeed>(PacketRecording(std::move(packets)),
                                       ReplayReceivers(options, kAsRecorded), options.pace,
                                       options.frames);
 }

@@ -64,10 +64,6 @@ void CheckFitsKind(const ReplayOptions& options, ReplayKind kind) {
                {"--receive-buffers", options.receive_buffers.has_value()}},
               "is for protocol ros2");
   }
-  if (kind != ReplayKind::kPackets) {
-    CheckNone({{"--sensor", options.sensor.has_value()}},
-              "is for the packets of a capture, as they were recorded");
-  }
   if (kind == ReplayKind::kMessages) {
     CheckNone({{"--insert", options.insert.has_value()}},
               "is for packets and frames; a bag's are sent with --protocol packets, or as frames "
@@ -90,8 +86,8 @@ void AddReplayOptions(ProgramOptions& replay, ReplayOptions& options) {
       .Check(NonEmpty());
   AddSourceChoice(replay, options.choice);
   replay.AddOption("--sensor", options.sensor,
-                   "Address of the sensor whose packets to send, where a capture has several; "
-                   "default: all of them");
+                   "ADDRESS or ADDRESS:PORT of the sensor to replay, where a capture has several; "
+                   "default: all of them, as packets");
   replay
       .AddOption("--to", options.to,
                  "HOST or HOST:PORT of a receiver; repeat the option for several, or use "

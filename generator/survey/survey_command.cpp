@@ -10,6 +10,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/recording/with_topic.h"
 #include "core/io/run/survey_record.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"
@@ -200,6 +201,7 @@ void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
   ProgramOptions survey = app.AddCommand("survey", kSurveyDescription);
   AddSourceOptions(survey, options->source);
+  AddCaptureSensor(survey, options->choice.sensor);
   survey.AddOption("--out", options->out, "New or empty folder to write to")
       .Required()
       .Check(NonEmpty());

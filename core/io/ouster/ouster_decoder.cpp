@@ -41,6 +41,40 @@ OusterDecoder::OusterDecoder(const OusterMetadata& metadata)
     beams_.push_back({beam.pixel, rows[i], std::sin(altitude_rad), std::cos(altitude_rad),
                       RadFromDeg(beam.azimuth_deg)});
   }
+  const auto [first, last] = metadata.column_window;
+  const auto is_measured = [first = first, last = last](std::uint32_t column) {
+    return first <= last ? column >= first && column <= last : column >= first || column <= last;
+  };
+  std::int64_t num_packets = 0;
+  for (std::uint32_t column = 0; column < metadata.columns_per_frame; ++column) {
+    packets_before_.push_back(num_packets);
+    if ((column + 1) % metadata.columns_per_packet != 0) continue;
+    bool has_measured = false;
+    for (std::uint32_t i = 0; i < metadata.columns_per_packet; ++i) {
+      has_measured = has_measured || is_measured(column - i);
+    }
+    num_packets += has_measured ? 1 : 0;
+  }
+  packets_before_.push_back(num_packets);
+}
+
+PacketMark OusterDecoder::MarkOf(std::span<const char> payload) const {
+  // Columns that were not measured need not state their place.
+  std::uint32_t column = 0;
+  std::uint64_t time_ns = 0;
+  for (std::uint32_t i = 0; i < layout_.num_columns(); ++i) {
+    const OusterColumn stated = layout_.ColumnOf(payload, i);
+    if (!stated.is_valid) continue;
+    column = stated.measurement_id - std::min<std::uint32_t>(i, stated.measurement_id);
+    time_ns = stated.time_ns;
+    break;
+  }
+  const std::int64_t in_turn = packets_before_.back();
+  const std::int64_t turn = layout_.HeaderOf(payload).frame_id;
+  return {.number = turn * in_turn + packets_before_[column],
+          .is_counted = true,
+          .period = (std::int64_t{layout_.last_frame_id()} + 1) * in_turn,
+          .time_ns = static_cast<std::int64_t>(time_ns)};
 }
 
 std::optional<std::string> OusterDecoder::Refuse(std::span<const char> payload) const {
@@ -84,17 +118,24 @@ std::optional<std::string> OusterDecoder::RefuseColumns(std::span<const char> pa
 
 std::optional<std::string> OusterDecoder::Decode(std::span<const char> payload,
                                                  std::vector<SensorTurn>& turns) {
+  if (auto refusal = Refuse(payload)) {
+    ++num_packets_;
+    return refusal;
+  }
+  TakePacket(payload, turns);
+  return std::nullopt;
+}
+
+void OusterDecoder::TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns) {
   ++num_packets_;
-  if (auto refusal = Refuse(payload)) return refusal;
   const std::uint32_t frame_id = layout_.HeaderOf(payload).frame_id;
   if (frame_id_ && frame_id != *frame_id_) {
     const bool is_late = frame_id == ((*frame_id_ - 1) & layout_.last_frame_id());
-    if (is_late) return std::nullopt;
+    if (is_late) return;
     turns.push_back(TakeUnfinished());
   }
   frame_id_ = frame_id;
   for (std::size_t i = 0; i < layout_.num_columns(); ++i) AddColumn(payload, i);
-  return std::nullopt;
 }
 
 void OusterDecoder::AddColumn(std::span<const char> payload, std::size_t place) {

@@ -36,6 +36,14 @@ class OusterDecoder {
   [[nodiscard]] std::optional<std::string> Decode(std::span<const char> payload,
                                                   std::vector<SensorTurn>& turns);
 
+  /// Why Decode() would refuse a payload.
+  [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
+  /// As Decode().
+  /// @pre Refuse() does not.
+  void TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns);
+  /// @pre As above.
+  [[nodiscard]] PacketMark MarkOf(std::span<const char> payload) const;
+
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 
@@ -67,7 +75,6 @@ class OusterDecoder {
     std::size_t first_place{};  ///< Likewise, among the places.
   };
 
-  [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
   [[nodiscard]] std::optional<std::string> RefuseColumns(std::span<const char> payload) const;
   [[nodiscard]] std::optional<std::string> StoreReturn(const EditedReturn& edited,
                                                        const OusterPixel& recorded,
@@ -85,6 +92,9 @@ class OusterDecoder {
   std::vector<float> signals_, near_irs_;  ///< By point.
   std::vector<FiringPlace> places_;        ///< By column, as they came, then by ring.
   std::uint32_t num_packets_{};
+  /// Packets of a turn that begin before each column, of those with columns of the window; last,
+  /// their number in a turn.
+  std::vector<std::int64_t> packets_before_;
 };
 
 }  // namespace railcast

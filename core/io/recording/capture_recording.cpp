@@ -22,7 +22,7 @@ class PcapSource : public DatagramSource {
   PcapSource(std::FILE* stream, const std::string& name) : reader_(stream, name) {}
 
   [[nodiscard]] std::optional<CapturedDatagram> Next() override { return reader_.Next(); }
-  [[nodiscard]] std::size_t num_torn() const override { return reader_.num_torn(); }
+  [[nodiscard]] std::vector<Remark> remarks() const override { return reader_.remarks(); }
 
  private:
   PcapReader reader_;
@@ -58,22 +58,15 @@ class CaptureRecording : public Recording {
 
  private:
   void TakeDatagram() {
-    const auto datagram = datagrams_->Next();
-    if (datagram) {
+    if (const auto datagram = datagrams_->Next()) {
       reader_.Take(*datagram, turns_);
-      return;
+    } else {
+      reader_.End(turns_);
+      is_at_end_ = true;
     }
-    reader_.End(turns_);
-    is_at_end_ = true;
-    AddRemarks();
-  }
-
-  void AddRemarks() {
-    const auto add = [&](RemarkKind kind, std::size_t num) {
-      info_.remarks->Add({.kind = kind, .place = ShownPath(info_.source), .number = num});
-    };
-    add(RemarkKind::kPacketsDamaged, reader_.num_damaged());
-    add(RemarkKind::kFragmentsMissing, datagrams_->num_torn());
+    if (turns_.empty() && !is_at_end_) return;
+    for (const Remark& remark : reader_.remarks()) info_.remarks->Add(remark);
+    for (const Remark& remark : datagrams_->remarks()) info_.remarks->Add(remark);
   }
 
   RecordingInfo info_;
@@ -109,10 +102,10 @@ DatagramPlace PlaceOfFile(const std::filesystem::path& file,
   return place;
 }
 
-DatagramPlace PlaceOfFile(const std::filesystem::path& file) {
+CaptureMetadata MetadataBeside(const std::filesystem::path& file) {
   CaptureMetadata beside = FindOusterMetadata(file);
   beside.load_correction = [file] { return CorrectionBeside(file); };
-  return PlaceOfFile(file, file, beside);
+  return beside;
 }
 
 bool IsCaptureName(const std::filesystem::path& file) {
@@ -120,36 +113,36 @@ bool IsCaptureName(const std::filesystem::path& file) {
   return extension == ".pcap" || extension == ".pcapng";
 }
 
-std::optional<DatagramPlace> FindCaptureWithMetadata(const std::filesystem::path& source) {
+/// Finds a capture with metadata, a sensor or both behind it: "drive.pcap:os.json:192.168.1.201".
+std::optional<DatagramPlace> FindCaptureWithMore(const std::filesystem::path& source) {
   const std::string& text = source.native();
   for (std::size_t mark = text.find(':'); mark != std::string::npos;
        mark = text.find(':', mark + 1)) {
     const std::filesystem::path file = text.substr(0, mark);
     std::error_code error;
     if (!IsCaptureName(file) || !std::filesystem::exists(file, error)) continue;
-    const std::filesystem::path metadata = text.substr(mark + 1);
-    return PlaceOfFile(file, source, {.file = metadata, .metadata = ReadOusterMetadata(metadata)});
+    const auto [metadata, sensor] = SplitCaptureSuffix(std::string_view(text).substr(mark + 1));
+    CaptureMetadata beside = MetadataBeside(file);
+    if (!metadata.empty()) {
+      beside = {.file = metadata, .metadata = ReadOusterMetadata(metadata)};
+    }
+    DatagramPlace place = PlaceOfFile(file, source, beside);
+    place.sensor = ParseSender(sensor);
+    return place;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-CaptureSensor FindSensor(const DatagramPlace& place) {
-  const auto datagrams = place.open();
-  const std::string name = ShownPath(place.source);
-  const CaptureMetadata& beside = place.beside;
-  SensorFinder finder(beside);
-  while (const auto datagram = datagrams->Next()) {
-    if (auto sensor = finder.Look(datagram->payload)) return std::move(*sensor);
+CaptureSuffix SplitCaptureSuffix(std::string_view suffix) {
+  if (ParseSender(suffix)) return {.sensor = std::string(suffix)};
+  for (std::size_t mark = suffix.find(':'); mark != std::string_view::npos;
+       mark = suffix.find(':', mark + 1)) {
+    const std::string_view rest = suffix.substr(mark + 1);
+    if (ParseSender(rest)) return {std::string(suffix.substr(0, mark)), std::string(rest)};
   }
-  if (finder.has_seen_ouster() && !beside.fault.empty()) throw InputError(beside.fault);
-  if (!finder.ouster_refusal().empty()) {
-    throw InputError(name + ": packets are not of the sensor of " + ShownPath(beside.file) + ": " +
-                     finder.ouster_refusal());
-  }
-  throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
-                   finder.Findings(datagrams->num_torn()) + ")");
+  return {.metadata = std::string(suffix)};
 }
 
 std::unique_ptr<Recording> OpenDatagrams(const DatagramPlace& place) {
@@ -172,18 +165,18 @@ DatagramPlace PlaceOfCapture(const std::function<std::FILE*()>& open,
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
-  return OpenDatagrams(PlaceOfFile(file));
+  return OpenDatagrams(PlaceOfFile(file, file, MetadataBeside(file)));
 }
 
 std::unique_ptr<Recording> OpenCaptureWithMetadata(const std::filesystem::path& source) {
-  const auto place = FindCaptureWithMetadata(source);
+  const auto place = FindCaptureWithMore(source);
   return place ? OpenDatagrams(*place) : nullptr;
 }
 
 std::optional<DatagramPlace> FindCapture(const std::filesystem::path& source) {
-  if (auto place = FindCaptureWithMetadata(source)) return place;
+  if (auto place = FindCaptureWithMore(source)) return place;
   if (!IsCaptureName(source)) return std::nullopt;
-  return PlaceOfFile(source);
+  return PlaceOfFile(source, source, MetadataBeside(source));
 }
 
 }  // namespace railcast

@@ -278,7 +278,9 @@ std::optional<CaptureSensor> SensorFinder::Look(std::span<const char> payload) {
   return std::nullopt;
 }
 
-std::string SensorFinder::Findings(std::size_t num_torn) const {
+std::string SensorFinder::Findings(const std::vector<Remark>& left_out) const {
+  const auto torn = std::ranges::find(left_out, RemarkKind::kFragmentsMissing, &Remark::kind);
+  const std::size_t num_torn = torn == left_out.end() ? 0 : torn->number;
   std::string found = "got " + stranger_;
   if (stranger_.empty()) {
     found = num_torn > 0 ? "got no whole UDP datagram" : "got no UDP datagram";
@@ -287,8 +289,11 @@ std::string SensorFinder::Findings(std::size_t num_torn) const {
     found = "got " + NumberText(num_datagrams_) + " UDP datagrams, the first of " +
             NumberText(first_size_) + " bytes";
   }
-  if (num_torn == 0) return found;
-  return found + ", and " + NumberText(num_torn) + " that lack IP fragments";
+  if (num_torn > 0) found += ", and " + NumberText(num_torn) + " that lack IP fragments";
+  for (const Remark& remark : left_out) {
+    if (remark.kind == RemarkKind::kFramesUnknown) found += ", and " + remark.Text();
+  }
+  return found;
 }
 
 }  // namespace railcast

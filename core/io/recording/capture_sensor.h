@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "core/io/ouster/ouster_decoder.h"
+#include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_metadata.h"
 #include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
@@ -44,12 +46,27 @@ struct TurnShape {
 
 using TurnDecoder = std::variant<SpinningDecoder, OusterDecoder>;
 
+/// Datagrams from one port to another.
+struct SenderStream {
+  Endpoint from;
+  Endpoint to;
+
+  bool operator==(const SenderStream&) const = default;
+};
+
+[[nodiscard]] SenderStream StreamOf(const CapturedDatagram& datagram);
+
 /// A sensor whose packets can be decoded.
 struct CaptureSensor {
   std::string name;
   std::size_t packet_size{};  ///< Payload size of its data packets.
   TurnShape shape;
   TurnDecoder decoder;
+  /// That its packets come in; empty: any.
+  std::vector<SenderStream> streams{};
+  /// Where it sends from, as `--sensor` takes it: "192.168.1.201", with a port where other sensors
+  /// have that address, too.
+  std::string address{};
 };
 
 /// Finds out from datagrams which sensor sent them.
@@ -64,8 +81,8 @@ class SensorFinder {
   [[nodiscard]] std::optional<CaptureSensor> Look(std::span<const char> payload);
 
   /// Describes what was found if no sensor was: "got VLS-128", "got no UDP datagram", ...
-  /// @param num_torn Number of datagrams of which IP fragments are missing.
-  [[nodiscard]] std::string Findings(std::size_t num_torn) const;
+  /// @param left_out As DatagramSource::remarks().
+  [[nodiscard]] std::string Findings(const std::vector<Remark>& left_out) const;
   /// Why the first datagram that looks like an Ouster sensor's is none of the metadata's: "must be
   /// 8448 bytes (got 24832)". Empty if there was no such datagram or if there are no metadata.
   [[nodiscard]] const std::string& ouster_refusal() const { return ouster_refusal_; }
@@ -86,8 +103,20 @@ class SensorFinder {
 
 struct DatagramPlace;
 
-/// Returns the sensor of the first packet of one that can be decoded.
-/// @throws InputError with one line that says what was found instead.
+/// Returns the sensors whose packets can be decoded, in the order of their first packets.
+///
+/// A sensor is known by where its packets come from. Those that one address sends from several
+/// ports, or to several, are one sensor's if they are the same packets or follow each other in
+/// time.
+/// @throws InputError with one line that says what was found if there is none.
+[[nodiscard]] std::vector<CaptureSensor> FindSensors(const DatagramPlace& place);
+
+/// Returns the only one of these sensors, or the one that DatagramPlace::sensor chooses.
+/// @throws InputError as above, or with one line that names them.
 [[nodiscard]] CaptureSensor FindSensor(const DatagramPlace& place);
+
+/// Reads "192.168.1.201", "192.168.1.201:2368" or, of IPv6, "fe80::1" and "[fe80::1]:2368"; port 0
+/// is any. Nothing of what is no address in numbers.
+[[nodiscard]] std::optional<Endpoint> ParseSender(std::string_view text);
 
 }  // namespace railcast

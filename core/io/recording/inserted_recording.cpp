@@ -78,7 +78,8 @@ RecordedFrame ReadInsertedFrame(const InsertedContext& context,
   return recorded;
 }
 
-/// The capture or the bag of an insertion, with the topic or the metadata that it was opened with.
+/// The capture or the bag of an insertion, with the topic, metadata or sensor that it was opened
+/// with.
 fs::path CopyIn(const fs::path& folder, const std::string& opened) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& copy = entry.path();
@@ -88,7 +89,11 @@ fs::path CopyIn(const fs::path& folder, const std::string& opened) {
     const std::size_t mark = opened.rfind(begin);
     if (mark == std::string::npos) return copy;
     const std::string rest = opened.substr(mark + begin.size());
-    return copy.string() + ":" + (is_bag ? rest : (folder / fs::path(rest).filename()).string());
+    if (is_bag) return copy.string() + ":" + rest;
+    const auto [metadata, sensor] = SplitCaptureSuffix(rest);
+    std::string source = copy.string();
+    if (!metadata.empty()) source += ":" + (folder / fs::path(metadata).filename()).string();
+    return sensor.empty() ? source : source + ":" + sensor;
   }
   throw InputError(ShownPath(folder) + ": must hold the recording that something was put into");
 }

@@ -12,6 +12,7 @@
 #include "core/base/text.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
+#include "core/io/recording/turn_reader.h"
 #include "railcast/io/endpoint.h"
 
 namespace railcast {
@@ -28,24 +29,23 @@ struct RecordedDatagram {
 /// The datagrams of the sensors of a capture, or of a bag's topic of packets, byte for byte and in
 /// their order.
 ///
-/// A sensor is known by the address that its packets of points come from. All that comes from there
-/// counts, such as reports of time and position; of sensors other than the first one, from their
-/// first packet of points on. What others sent is left out. Packets that segmentation offload
-/// merged are cut apart.
+/// All that comes from a sensor's address counts, such as reports of time and position; of sensors
+/// other than the first one, from their first packet of points on. What others sent is left out.
+/// Packets that were captured several times or in another order remain so. Packets that
+/// segmentation offload merged are cut apart.
 class PacketRecording {
  public:
   /// A turn with more datagrams is returned in parts, so that memory is bounded.
   static constexpr std::size_t kMostDatagrams = 65'536;
 
-  /// @param sender Address of the only sensor that is wanted; absent = all sensors.
+  /// @param place Its `sensor` is the only one that is wanted; absent = all sensors.
   /// @throws InputError as OpenDatagrams().
-  explicit PacketRecording(DatagramPlace place,
-                           const std::optional<IpAddress>& sender = std::nullopt);
+  explicit PacketRecording(DatagramPlace place);
 
   /// As messages name it.
   [[nodiscard]] std::string source() const { return ShownPath(place_.source); }
   /// Of the first sensor: "VLP-16".
-  [[nodiscard]] const std::string& name() const { return first_.name; }
+  [[nodiscard]] const std::string& name() const { return turn_reader_.sensor().name; }
   /// The port that the first sensor's packets went to.
   [[nodiscard]] std::uint16_t port() const { return port_; }
 
@@ -59,15 +59,16 @@ class PacketRecording {
 
  private:
   void FindFirstSender();
+  [[nodiscard]] bool IsWanted(const CapturedDatagram& datagram) const;
   /// Returns nothing at the end, and where the recording is damaged behind what was kept.
   [[nodiscard]] std::optional<CapturedDatagram> NextDatagram();
   /// Returns the size of the packets of the sensor that sent it; 0 if none did.
   [[nodiscard]] std::size_t PacketSizeOf(const CapturedDatagram& datagram);
-  /// Returns whether a turn is complete.
-  [[nodiscard]] bool Take(const CapturedDatagram& datagram, std::size_t packet_size);
+  void Take(const CapturedDatagram& datagram, std::size_t packet_size);
 
   DatagramPlace place_;
-  CaptureSensor first_;
+  std::vector<CaptureSensor> sensors_;
+  TurnReader turn_reader_;  ///< Of the first sensor, or the only one that is wanted.
   std::unique_ptr<DatagramSource> source_;
   SensorFinder finder_;
   struct Sender {
@@ -77,7 +78,10 @@ class PacketRecording {
   std::vector<Sender> senders_;  ///< The sensors so far.
   std::uint16_t port_{};
   std::deque<RecordedDatagram> datagrams_;
+  std::uint64_t first_datagram_{};  ///< Number of their first.
+  std::deque<SensorTurn> turns_;    ///< Of which not all datagrams were returned.
   std::size_t num_left_out_{};
+  bool is_at_end_ = false;
   std::exception_ptr fault_;  ///< Why there is no further datagram.
 };
 

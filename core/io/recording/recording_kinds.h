@@ -24,18 +24,26 @@ struct BagTopic;
 
 /// Opens a .pcap or .pcapng capture of one of these sensors. Each turn is a frame; the first and
 /// the last turn are usually cut short. That of an AT128 needs the sensor's correction file beside
-/// it, with the capture's name and the extension .dat. The first packet of one of these sensors
-/// decides which sensor it is; other and damaged datagrams are skipped. Packets that segmentation
-/// offload merged into one datagram are cut apart.
-/// @throws InputError with one line that says what was found instead; reading throws it, too, where
-///   a merged datagram ends within a packet.
+/// it, with the capture's name and the extension .dat. Other and damaged datagrams are skipped and
+/// counted. Packets that segmentation offload merged into one datagram are cut apart.
+/// @throws InputError with one line that says what was found if that is no sensor, or names them if
+///   there are several; reading throws it, too, where a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
 
 /// Opens a capture with the metadata that `source` names behind it, "drive.pcap:os.json", instead
-/// of those beside it. Returns null if `source` does not name a capture so.
+/// of those beside it, or with the sensor that it names there: "drive.pcap:192.168.1.201",
+/// "drive.pcap:os.json:192.168.1.201:7502". Returns null if `source` does not name a capture so.
 /// @throws InputError as above, and if the metadata cannot be read.
 [[nodiscard]] std::unique_ptr<Recording> OpenCaptureWithMetadata(
     const std::filesystem::path& source);
+
+/// What stands behind a capture's name and a colon.
+struct CaptureSuffix {
+  std::string metadata{};  ///< A file; empty if there is none.
+  std::string sensor{};    ///< As ParseSender() takes it; empty if there is none.
+};
+
+[[nodiscard]] CaptureSuffix SplitCaptureSuffix(std::string_view suffix);
 
 /// As above, for a capture that `open` opens. `open` is called twice: once to find the sensor, and
 /// once to read.
@@ -54,16 +62,17 @@ class DatagramSource {
   /// Returns the next datagram, or nothing at the end.
   /// @throws InputError with one line where the source is damaged.
   [[nodiscard]] virtual std::optional<CapturedDatagram> Next() = 0;
-  /// Number of datagrams so far of which a part is missing.
-  [[nodiscard]] virtual std::size_t num_torn() const { return 0; }
+  /// What was left out so far that is no whole datagram.
+  [[nodiscard]] virtual std::vector<Remark> remarks() const { return {}; }
 };
 
 /// Datagrams that can be read from their beginning any number of times.
 struct DatagramPlace {
   std::function<std::unique_ptr<DatagramSource>()> open;
-  std::filesystem::path source;  ///< As messages and RecordingInfo name it.
-  CaptureMetadata beside;        ///< What is known of the sensor.
-  std::filesystem::path file{};  ///< The capture; empty for other places.
+  std::filesystem::path source;      ///< As messages and RecordingInfo name it.
+  CaptureMetadata beside;            ///< What is known of the sensor.
+  std::filesystem::path file{};      ///< The capture; empty for other places.
+  std::optional<Endpoint> sensor{};  ///< Which of its sensors is read; port 0: any port.
 };
 
 /// The place of a capture that `open` opens, as OpenCapture() takes it.

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/recording.h"
 
@@ -44,12 +45,29 @@ void UseColumns(const std::string& columns, std::vector<std::filesystem::path>& 
                    ShownPath(sources.front()) + ")");
 }
 
+void UseSensor(const std::string& sensor, std::vector<std::filesystem::path>& sources) {
+  std::size_t num_captures = 0;
+  for (std::filesystem::path& source : sources) {
+    if (!FindCapture(source)) continue;
+    source += ":" + sensor;
+    ++num_captures;
+  }
+  if (num_captures == 0) {
+    throw InputError("--sensor: must come with a capture, .pcap or .pcapng (got " +
+                     ShownPath(sources.front()) + ")");
+  }
+  if (ParseSender(sensor)) return;
+  throw InputError("--sensor: must be the ADDRESS or ADDRESS:PORT of a sensor, such as " +
+                   std::string("192.168.1.201:2368 (got ") + ShownText(sensor) + ")");
+}
+
 }  // namespace
 
 std::vector<std::filesystem::path> WithChoice(std::vector<std::filesystem::path> sources,
                                               const SourceChoice& choice) {
   if (!choice.topic.empty()) UseTopic(choice.topic, sources);
   if (!choice.kitti_columns.empty()) UseColumns(choice.kitti_columns, sources);
+  if (!choice.sensor.empty()) UseSensor(choice.sensor, sources);
   return sources;
 }
 

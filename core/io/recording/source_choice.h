@@ -10,6 +10,7 @@ namespace railcast {
 struct SourceChoice {
   std::string topic{};          ///< Of bags.
   std::string kitti_columns{};  ///< Of .bin files, as IsKittiColumns().
+  std::string sensor{};         ///< Of captures, as ParseSender().
 };
 
 /// Returns the sources with what was chosen behind those that it is for: "run.mcap:/points",

@@ -17,27 +17,6 @@ namespace {
 constexpr std::size_t kMeasuredSize = 3;
 constexpr double kDegPerUsPerRpm = 360.0 / 60e6;
 
-// From one azimuth to the next, in units; past 0, too.
-std::int64_t StepTo(std::uint16_t azimuth, std::uint16_t before) {
-  const std::int64_t step = std::int64_t{azimuth} - before;
-  return step < 0 ? step + kAzimuthUnitsPerTurn : step;
-}
-
-// Returns the median step between groups of blocks, so that a gap between two turns or the end of
-// an azimuth window does not affect it: of two steps, one of which is such a gap, the other.
-std::int64_t UsualStep(const SpinningModel& model,
-                       std::span<const char> payload,
-                       std::size_t in_group) {
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = in_group; i < model.blocks; i += in_group) {
-    steps.push_back(StepTo(AzimuthOf(model, payload, i), AzimuthOf(model, payload, i - in_group)));
-  }
-  std::ranges::sort(steps);
-  const std::int64_t lower = steps[(steps.size() - 1) / 2];
-  const std::int64_t upper = steps[steps.size() / 2];
-  return lower > 0 && upper > 2 * lower ? lower : upper;
-}
-
 }  // namespace
 
 SpinningDecoder::SpinningDecoder(SpinningModel model)
@@ -79,14 +58,33 @@ std::int64_t SpinningDecoder::PacketNs(std::uint32_t us_past_hour) {
 
 std::optional<std::string> SpinningDecoder::Decode(std::span<const char> payload,
                                                    std::vector<SensorTurn>& turns) {
+  if (auto refusal = Refuse(payload)) {
+    ++num_packets_;
+    return refusal;
+  }
+  TakePacket(payload, turns);
+  return std::nullopt;
+}
+
+std::optional<std::string> SpinningDecoder::Refuse(std::span<const char> payload) const {
+  return RefusePacket(model_, payload);
+}
+
+PacketMark SpinningDecoder::MarkOf(std::span<const char> payload) const {
+  return railcast::MarkOf(model_, payload);
+}
+
+std::size_t SpinningDecoder::NumEmptyBlocks(std::span<const char> payload) const {
+  return model_.blocks - LoopsIn(model_, payload).size() * BlocksInGroup(model_, payload);
+}
+
+void SpinningDecoder::TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns) {
   ++num_packets_;
-  if (auto refusal = RefusePacket(model_, payload)) return refusal;
   if (model_.date_place > 0) {
     TakeDated(payload, turns);
   } else {
     TakeUndated(payload, turns);
   }
-  return std::nullopt;
 }
 
 void SpinningDecoder::TakeDated(std::span<const char> payload, std::vector<SensorTurn>& turns) {
@@ -94,7 +92,7 @@ void SpinningDecoder::TakeDated(std::span<const char> payload, std::vector<Senso
   const auto speed_rpm = LoadAt<std::uint16_t>(payload.data() + model_.speed_place);
   const double speed_deg_per_us = model_.correction ? 0.0 : kDegPerUsPerRpm * speed_rpm;
   const std::int64_t stated_ns = StatedNs(model_, payload) + model_.stated_loop_ns;
-  for (std::size_t i = 0; i < model_.blocks; i += in_group) {
+  for (const std::size_t i : LoopsIn(model_, payload)) {
     const auto loops_before = static_cast<std::int64_t>(i / in_group);
     const auto loops_left = static_cast<std::int64_t>((model_.blocks - i) / in_group) - 1;
     const std::int64_t loops = model_.states_first ? loops_before : -loops_left;
@@ -104,20 +102,21 @@ void SpinningDecoder::TakeDated(std::span<const char> payload, std::vector<Senso
 
 void SpinningDecoder::TakeUndated(std::span<const char> payload, std::vector<SensorTurn>& turns) {
   const std::size_t in_group = BlocksInGroup(model_, payload);
+  const std::vector<std::size_t> loops = LoopsIn(model_, payload);
   const double group_us = static_cast<double>(model_.cycles_per_block()) * model_.cycle_us;
-  const std::int64_t usual_step = UsualStep(model_, payload, in_group);
+  const std::int64_t usual_step = UsualStep(model_, payload, loops);
   const double speed_deg_per_us = static_cast<double>(usual_step) * kAzimuthUnit_deg / group_us;
   const std::int64_t packet_ns =
       PacketNs(LoadAt<std::uint32_t>(payload.data() + model_.time_place));
-  std::int64_t group_index = 0;
-  for (std::size_t i = 0; i < model_.blocks; i += in_group) {
+  auto group_index = static_cast<std::int64_t>(loops.front() / in_group);
+  for (const std::size_t i : loops) {
     const std::uint16_t azimuth = AzimuthOf(model_, payload, i);
-    if (i > 0) group_index += GroupsTo(azimuth, usual_step, 1e3 * group_us);
+    if (i > loops.front()) group_index += GroupsTo(azimuth, usual_step, 1e3 * group_us);
     const double since_packet_us = static_cast<double>(group_index) * group_us;
     last_group_ns_ = packet_ns + std::llround(since_packet_us * 1e3);
     Take(payload, i, last_group_ns_, speed_deg_per_us, turns);
     // Only a packet's first group has a time of its own.
-    if (i == 0 && !stated_) stated_ = {azimuth, last_group_ns_};
+    if (i == loops.front() && !stated_) stated_ = {azimuth, last_group_ns_};
   }
 }
 

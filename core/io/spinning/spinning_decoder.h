@@ -35,6 +35,17 @@ class SpinningDecoder {
   [[nodiscard]] std::optional<std::string> Decode(std::span<const char> payload,
                                                   std::vector<SensorTurn>& turns);
 
+  /// Why Decode() would refuse a payload.
+  [[nodiscard]] std::optional<std::string> Refuse(std::span<const char> payload) const;
+  /// As Decode().
+  /// @pre Refuse() does not.
+  void TakePacket(std::span<const char> payload, std::vector<SensorTurn>& turns);
+  /// @pre As above.
+  [[nodiscard]] PacketMark MarkOf(std::span<const char> payload) const;
+  /// Blocks of zeros, which are left out.
+  /// @pre As above.
+  [[nodiscard]] std::size_t NumEmptyBlocks(std::span<const char> payload) const;
+
   /// Returns the turn that no packet has completed yet, and starts a new one.
   [[nodiscard]] SensorTurn TakeUnfinished();
 

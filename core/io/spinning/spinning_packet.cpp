@@ -89,6 +89,11 @@ std::optional<std::string> RefuseTail(const SpinningModel& model, std::span<cons
   return RefuseMode(model, ModeOf(model, payload));
 }
 
+bool IsZeros(const SpinningModel& model, std::span<const char> packet, std::size_t block) {
+  const auto bytes = packet.subspan(model.BlockPlace(block), model.block_size());
+  return std::ranges::all_of(bytes, [](char byte) { return byte == 0; });
+}
+
 std::optional<std::string> RefuseBlock(const SpinningModel& model,
                                        std::span<const char> payload,
                                        std::size_t block) {
@@ -149,9 +154,13 @@ std::optional<std::string> RefusePacket(const SpinningModel& model, std::span<co
   if (UnitOf_m(model, payload) == 0.0) return "distance unit must be > 0" + Got(0);
   if (!HasRightChecksums(model, payload)) return std::string(kWrongChecksum);
   if (auto refusal = RefuseTail(model, payload)) return refusal;
-  for (std::size_t i = 0; i < model.blocks; ++i) {
-    const auto refusal = RefuseBlock(model, payload, i);
-    if (refusal) return "block " + NumberText(i) + ": " + *refusal;
+  const std::vector<std::size_t> loops = LoopsIn(model, payload);
+  if (loops.empty()) return "must have a block that is not all zeros";
+  for (const std::size_t first : loops) {
+    for (std::size_t i = first; i < first + BlocksInGroup(model, payload); ++i) {
+      const auto refusal = RefuseBlock(model, payload, i);
+      if (refusal) return "block " + NumberText(i) + ": " + *refusal;
+    }
   }
   return std::nullopt;
 }
@@ -184,6 +193,79 @@ std::size_t LoopOf(const SpinningModel& model, std::span<const char> packet, std
   // An odd flag says that the packet begins with the first loop; from there on they alternate.
   const std::size_t begins = ByteAt(packet, model.loop_place);
   return (begins + block / BlocksInGroup(model, packet) + 1) % model.loops.size();
+}
+
+std::int64_t StepTo(std::int64_t azimuth, std::int64_t before) {
+  const std::int64_t step = azimuth - before;
+  return step < 0 ? step + kAzimuthUnitsPerTurn : step;
+}
+
+std::vector<std::size_t> LoopsIn(const SpinningModel& model, std::span<const char> packet) {
+  const std::size_t in_group = BlocksInGroup(model, packet);
+  std::vector<std::size_t> loops;
+  std::vector<std::size_t> zeros;
+  for (std::size_t first = 0; first + in_group <= model.blocks; first += in_group) {
+    bool has_zeros = false;
+    for (std::size_t i = first; i < first + in_group; ++i) {
+      has_zeros = has_zeros || IsZeros(model, packet, i);
+    }
+    (has_zeros ? zeros : loops).push_back(first);
+  }
+  if (zeros.empty() || !model.block_flags.empty()) return loops;
+  constexpr std::int64_t kNear = 500;
+  const bool is_near_zero = std::ranges::any_of(loops, [&](std::size_t first) {
+    const std::int64_t azimuth = AzimuthOf(model, packet, first);
+    return azimuth < kNear || azimuth > kAzimuthUnitsPerTurn - kNear;
+  });
+  if (!loops.empty() && !is_near_zero) return loops;
+  loops.insert(loops.end(), zeros.begin(), zeros.end());
+  std::ranges::sort(loops);
+  return loops;
+}
+
+std::int64_t UsualStep(const SpinningModel& model,
+                       std::span<const char> packet,
+                       const std::vector<std::size_t>& loops) {
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    steps.push_back(
+        StepTo(AzimuthOf(model, packet, loops[i]), AzimuthOf(model, packet, loops[i - 1])));
+  }
+  if (steps.empty()) return 0;
+  std::ranges::sort(steps);
+  const std::int64_t lower = steps[(steps.size() - 1) / 2];
+  const std::int64_t upper = steps[steps.size() / 2];
+  return lower > 0 && upper > 2 * lower ? lower : upper;
+}
+
+PacketMark MarkOf(const SpinningModel& model, std::span<const char> packet) {
+  constexpr std::int64_t kUint32s = std::int64_t{1} << 32U;
+  const bool has_date = model.date_place > 0;
+  PacketMark mark;
+  mark.time_ns = has_date ? StatedNs(model, packet)
+                          : kNsPerUs * LoadAt<std::uint32_t>(packet.data() + model.time_place);
+  if (model.sequence_place > 0) {
+    mark.number = LoadAt<std::uint32_t>(packet.data() + model.sequence_place);
+    mark.is_counted = true;
+    mark.period = kUint32s;
+    return mark;
+  }
+  mark.number = mark.time_ns;
+  mark.period = has_date ? 0 : kUsPerHour * kNsPerUs;
+  const double loop_ns = has_date
+                             ? static_cast<double>(model.loop_ns)
+                             : 1e3 * model.cycle_us * static_cast<double>(model.cycles_per_block());
+  const std::size_t num_loops = model.blocks / BlocksInGroup(model, packet);
+  mark.packet_ns = std::llround(loop_ns * static_cast<double>(num_loops));
+  const std::vector<std::size_t> loops = LoopsIn(model, packet);
+  mark.azimuth_step = UsualStep(model, packet, loops);
+  mark.first_azimuth = AzimuthOf(model, packet, loops.front());
+  mark.last_azimuth = AzimuthOf(model, packet, loops.back());
+  // More than the blocks that may be missing within the packet take.
+  const std::int64_t most = mark.azimuth_step * static_cast<std::int64_t>(2 * num_loops) + 100;
+  const std::int64_t turned = StepTo(mark.last_azimuth, mark.first_azimuth);
+  mark.has_window = turned > most && turned < kAzimuthUnitsPerTurn / 2;
+  return mark;
 }
 
 std::int64_t StatedNs(const SpinningModel& model, std::span<const char> packet) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/io/coded_return.h"
+#include "core/io/sensor_turn.h"
 #include "core/io/spinning/spinning_model.h"
 
 namespace railcast {
@@ -44,6 +45,18 @@ void StoreChecksums(const SpinningModel& model, std::span<char> packet);
 [[nodiscard]] std::size_t LoopOf(const SpinningModel& model,
                                  std::span<const char> packet,
                                  std::size_t block);
+/// From one azimuth to the next, past 0, too.
+[[nodiscard]] std::int64_t StepTo(std::int64_t azimuth, std::int64_t before);
+/// The first blocks of the loops of a packet, but for those that are zeros. Without flags, zeros
+/// may be a loop that saw nothing at azimuth 0, if the packet has others near that.
+[[nodiscard]] std::vector<std::size_t> LoopsIn(const SpinningModel& model,
+                                               std::span<const char> packet);
+/// Returns the median step from loop to loop, so that a gap between two turns or the end of
+/// an azimuth window does not affect it: of two steps, one of which is such a gap, the other.
+[[nodiscard]] std::int64_t UsualStep(const SpinningModel& model,
+                                     std::span<const char> packet,
+                                     const std::vector<std::size_t>& loops);
+[[nodiscard]] PacketMark MarkOf(const SpinningModel& model, std::span<const char> packet);
 /// Returns the time that a packet states, since 1970-01-01, or since the start of the day if its
 /// clock has no date.
 /// @pre The packets have a date.

@@ -27,7 +27,7 @@ class InsertedDatagrams final : public DatagramSource {
   InsertedDatagrams(const DatagramPlace& place, InsertIntoFrame insert);
 
   [[nodiscard]] std::optional<CapturedDatagram> Next() override;
-  [[nodiscard]] std::size_t num_torn() const override { return datagrams_->num_torn(); }
+  [[nodiscard]] std::vector<Remark> remarks() const override { return datagrams_->remarks(); }
 
  private:
   struct HeldDatagram {

@@ -46,17 +46,19 @@ TurnEditor::TurnEditor(const CaptureSensor& sensor, const std::string& source)
     : reader_(sensor, source), source_(source) {}
 
 void TurnEditor::Take(const CapturedDatagram& datagram) {
-  const std::uint64_t number = num_datagrams_++;
-  const std::size_t num_packets = reader_.Take(datagram, turns_);
-  const std::size_t size = reader_.sensor().packet_size;
-  for (std::size_t i = 0; i < num_packets; ++i) {
-    const auto rest = datagram.payload.subspan(i * size);
-    const auto packet = rest.first(std::min(size, rest.size()));
-    packets_.push_back({.datagram = number,
-                        .offset = i * size,
-                        .bytes = {packet.begin(), packet.end()},
-                        .before = {}});
-  }
+  std::deque<OrderedPacket> decoded;
+  reader_.Take(datagram, turns_, &decoded);
+  Hold(std::move(decoded));
+}
+
+void TurnEditor::End() {
+  std::deque<OrderedPacket> decoded;
+  reader_.End(turns_, &decoded);
+  Hold(std::move(decoded));
+}
+
+void TurnEditor::Hold(std::deque<OrderedPacket> decoded) {
+  for (OrderedPacket& packet : decoded) packets_.push_back({std::move(packet)});
 }
 
 void TurnEditor::Skip(std::uint32_t turn) {
@@ -67,10 +69,11 @@ void TurnEditor::Skip(std::uint32_t turn) {
 }
 
 void TurnEditor::EditFiring(const FiringPlace& place, const EditedReturns& returns) {
-  HeldPacket& packet = packets_.at(place.packet - first_packet_);
-  if (!packet.before) packet.before = packet.bytes;
+  HeldPacket& held = packets_.at(place.packet - first_packet_);
+  std::vector<char>& bytes = held.packet.bytes;
+  if (!held.before) held.before = bytes;
   const auto refusal =
-      std::visit([&](const auto& decoder) { return decoder.Store(returns, place, packet.bytes); },
+      std::visit([&](const auto& decoder) { return decoder.Store(returns, place, bytes); },
                  reader_.sensor().decoder);
   if (refusal) {
     throw InputError(source_ + ": turn " + NumberText(first_turn_) + ": " + *refusal);
@@ -82,12 +85,14 @@ std::vector<EditedPacket> TurnEditor::TakeEdited(const SensorTurn& turn) {
   for (const FiringPlace& place : turn.places) last = std::max(last, place.packet);
   std::vector<EditedPacket> edited;
   for (; !packets_.empty() && first_packet_ <= last; ++first_packet_) {
-    HeldPacket& packet = packets_.front();
-    if (packet.before) {
+    auto& [packet, before] = packets_.front();
+    if (before) {
       std::visit([&](const auto& decoder) { decoder.Seal(packet.bytes); },
                  reader_.sensor().decoder);
-      edited.push_back({packet.datagram, packet.offset, *packet.before, packet.bytes});
-      packet.before.reset();
+      for (const PacketPlace& place : packet.places) {
+        edited.push_back({place.datagram, place.offset, *before, packet.bytes});
+      }
+      before.reset();
     }
     // The last one may hold the begin of the next turn.
     if (first_packet_ == last) break;
@@ -125,7 +130,11 @@ std::vector<EditedPacket> TurnEditor::Edit(const InsertedFrame& inserted) {
 }
 
 std::uint64_t TurnEditor::first_open_datagram() const {
-  return packets_.empty() ? num_datagrams_ : packets_.front().datagram;
+  std::uint64_t first = reader_.first_held_datagram().value_or(reader_.num_datagrams());
+  for (const auto& [packet, before] : packets_) {
+    for (const PacketPlace& place : packet.places) first = std::min(first, place.datagram);
+  }
+  return first;
 }
 
 }  // namespace railcast

@@ -30,7 +30,7 @@ class TurnEditor {
   /// @throws InputError as TurnReader does.
   void Take(const CapturedDatagram& datagram);
   /// Says that there are no further datagrams.
-  void End() { reader_.End(turns_); }
+  void End();
 
   /// Whether all packets of this turn were taken.
   /// @param turn Counted as the frames of the recording.
@@ -48,11 +48,11 @@ class TurnEditor {
 
  private:
   struct HeldPacket {
-    std::uint64_t datagram{};
-    std::size_t offset{};
-    std::vector<char> bytes;
-    std::optional<std::vector<char>> before;  ///< If it was edited.
+    OrderedPacket packet;
+    std::optional<std::vector<char>> before{};  ///< If it was edited.
   };
+
+  void Hold(std::deque<OrderedPacket> decoded);
 
   void EditFiring(const FiringPlace& place, const EditedReturns& returns);
   [[nodiscard]] std::vector<EditedPacket> TakeEdited(const SensorTurn& turn);
@@ -63,7 +63,6 @@ class TurnEditor {
   std::uint32_t first_turn_{};    ///< Number of their first.
   std::deque<HeldPacket> packets_;
   std::uint32_t first_packet_{};  ///< Number of their first, as FiringPlace counts them.
-  std::uint64_t num_datagrams_{};
 };
 
 }  // namespace railcast

@@ -19,6 +19,7 @@ class FileTraits {
   void Add(const std::string& name, const fs::path& file) {
     if (fs::is_regular_file(file)) traits_[name] = HashFile(file).hash;
   }
+  void AddText(const std::string& name, const std::string& text) { traits_[name] = text; }
   void AddAllIn(const std::string& begin, const fs::path& folder) {
     if (!fs::is_directory(folder)) return;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -49,6 +50,7 @@ std::string RecordingTraits(const fs::path& source) {
   FileTraits traits;
   if (const auto capture = FindCapture(source)) {
     traits.Add("capture", capture->file);
+    if (capture->sensor) traits.AddText("sensor", EndpointText(*capture->sensor));
     traits.Add("metadata", capture->beside.file);
     traits.Add("correction", fs::path(capture->file).replace_extension(".dat"));
     return traits.Text();

@@ -106,6 +106,7 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
                      "Print what the objects meet in the recording, and write nothing");
   for (const Option other : {format, points_alone, threads}) check.Excludes(other);
   AddSourceChoice(insert, options->choice);
+  AddCaptureSensor(insert, options->choice.sensor);
   insert.Footer(
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");

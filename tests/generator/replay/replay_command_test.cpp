@@ -269,7 +269,7 @@ TEST(ReplayCommand, SaysWhatDoesNotGoTogether) {
             "--topic: must come with a bag of ROS 2, .mcap, .db3 or a directory of them (got " +
                 run.string() + ")\n");
   EXPECT_EQ(fault(run.string() + " --sensor 10.0.0.1"),
-            "--sensor: is for the packets of a capture, as they were recorded\n");
+            "--sensor: must come with a capture, .pcap or .pcapng (got " + run.string() + ")\n");
   EXPECT_EQ(fault(run.string() + " --domain 3"), "--domain: is for protocol ros2\n");
   EXPECT_EQ(
       fault(run.string() + " --protocol ros2 --to :9"),

@@ -40,12 +40,13 @@ std::vector<std::vector<std::int64_t>> DueMsOf(ReplayFeed& feed) {
 /// A capture of packets of a Pandar64, each a turn of its own, at these times.
 PacketRecording PacketsAt(const std::vector<std::int64_t>& times_ms,
                           const TemporaryDirectory& folder) {
-  const std::vector<char> packet = MadePacket();
   Datagrams datagrams;
-  datagrams.bytes = packet;
   for (const std::int64_t ms : times_ms) {
-    datagrams.items.push_back(
-        {.size = static_cast<std::uint32_t>(packet.size()), .due_ns = ms * kMs_ns});
+    const auto packet = NumberedPacket(static_cast<std::uint32_t>(datagrams.items.size()));
+    datagrams.items.push_back({.offset = datagrams.bytes.size(),
+                               .size = static_cast<std::uint32_t>(packet.size()),
+                               .due_ns = ms * kMs_ns});
+    datagrams.bytes.insert(datagrams.bytes.end(), packet.begin(), packet.end());
   }
   const std::filesystem::path file = folder.path() / "a.pcap";
   PcapWriter writer(file, 2368, 8308);

@@ -79,4 +79,11 @@ inline std::vector<char> MadePacket(const SpinningModel& model = Pandar64Model()
   return packet;
 }
 
+/// The same packet of a Pandar64 with this number of its own, so that it is another one.
+inline std::vector<char> NumberedPacket(std::uint32_t number) {
+  std::vector<char> packet = MadePacket();
+  StoreAt<std::uint32_t>(packet.data() + Pandar64Model().sequence_place, number);
+  return packet;
+}
+
 }  // namespace railcast

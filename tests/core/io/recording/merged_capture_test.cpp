@@ -83,8 +83,8 @@ INSTANTIATE_TEST_SUITE_P(CaptureRecording,
 /// Returns `count` packets of a Pandar64, one after the other.
 Datagrams PandarPackets(std::size_t count) {
   Datagrams datagrams;
-  const std::vector<char> packet = MadePacket();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::vector<char> packet = NumberedPacket(i);
     datagrams.items.push_back({.offset = datagrams.bytes.size(),
                                .size = static_cast<std::uint16_t>(packet.size()),
                                .port = DatagramPort::kData});

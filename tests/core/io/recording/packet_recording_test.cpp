@@ -88,11 +88,12 @@ struct MadeDatagram {
   std::size_t num_packets{};  ///< Of a Pandar64, each a turn of its own; 0 = a report.
 };
 
-std::vector<char> PayloadOf(const MadeDatagram& made) {
+/// @param number Of the first packet.
+std::vector<char> PayloadOf(const MadeDatagram& made, std::uint32_t number) {
   if (made.num_packets == 0) return std::vector<char>(512, made.host);
   std::vector<char> payload;
-  for (std::size_t i = 0; i < made.num_packets; ++i) {
-    const std::vector<char> packet = MadePacket();
+  for (std::uint32_t i = 0; i < made.num_packets; ++i) {
+    const std::vector<char> packet = NumberedPacket(number + i);
     payload.insert(payload.end(), packet.begin(), packet.end());
   }
   return payload;
@@ -103,7 +104,7 @@ std::filesystem::path WriteHosts(const std::filesystem::path& file,
                                  const std::vector<MadeDatagram>& made) {
   Datagrams datagrams;
   for (std::size_t i = 0; i < made.size(); ++i) {
-    const std::vector<char> payload = PayloadOf(made[i]);
+    const auto payload = PayloadOf(made[i], static_cast<std::uint32_t>(10 * i));
     datagrams.items.push_back(
         {.offset = datagrams.bytes.size(),
          .size = static_cast<std::uint32_t>(payload.size()),
@@ -157,29 +158,39 @@ TEST(PacketRecording, HoldsAllThatSensorsSentAndNothingOfOthers) {
 TEST(PacketRecording, HoldsThoseOfOneSensorIfToldSo) {
   const TemporaryDirectory folder;
   const auto place = *FindCapture(WriteHosts(folder.path() / "a.pcap", kTwoSensors));
-  PacketRecording recording(place, ParseEndpoint("192.168.1.9", 0).address);
+  auto front = place;
+  front.sensor = ParseSender("192.168.1.9");
+  PacketRecording recording(front);
   EXPECT_EQ(HostsOf(recording.NextTurn()), "9p9");
-  EXPECT_THAT(
-      MessageOf([&] { PacketRecording nobody(place, ParseEndpoint("192.168.1.5", 0).address); }),
-      testing::HasSubstr("(got 2 UDP datagrams, the first of 512 bytes)"));
+  auto other = place;
+  other.sensor = ParseSender("192.168.1.5");
+  EXPECT_EQ(MessageOf([&] { PacketRecording nobody(other); }),
+            place.source.string() + ": holds 2 sensors: Pandar64 at 192.168.1.7, Pandar64 at " +
+                "192.168.1.9; must be one of them (got 192.168.1.5)");
 }
 
 TEST(PacketRecording, CutsWhatOffloadMerged) {
   const TemporaryDirectory folder;
   PacketRecording recording(
       *FindCapture(WriteHosts(folder.path() / "a.pcap", {{kRoof, 3}, {kRoof, 1}})));
-  const auto turn = recording.NextTurn();
-  ASSERT_EQ(turn.size(), 3U);
-  for (const RecordedDatagram& datagram : turn) {
-    EXPECT_EQ(datagram.bytes, MadePacket());
-    EXPECT_EQ(datagram.time_ns, turn.front().time_ns);
-  }
+  const auto turns = AllTurnsOf(recording);
+  // A turn has the packet that completes it.
+  ASSERT_EQ(turns.size(), 3U);
+  ASSERT_EQ(turns[0].size(), 2U);
+  EXPECT_EQ(turns[0][0].bytes, NumberedPacket(0));
+  EXPECT_EQ(turns[0][1].bytes, NumberedPacket(1));
+  EXPECT_EQ(turns[1][0].bytes, NumberedPacket(2));
+  EXPECT_EQ(turns[1][0].time_ns, turns[0][0].time_ns);
+  EXPECT_EQ(turns[2][0].bytes, NumberedPacket(10));
 }
 
 TEST(PacketRecording, HoldsWhatIsWholeOfADamagedCapture) {
   const TemporaryDirectory folder;
   const auto file = WriteHosts(folder.path() / "a.pcap", {{kRoof, 1}, {kRoof, 0}, {kRoof, 1}});
-  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  std::string bytes = ReadFileWhole(file);
+  const std::size_t third = 24 + 16 + 42 + 1198 + 16 + 42 + 512;
+  bytes[third + 11] = '\x7F';  // The size that is said to be kept.
+  WriteFileWhole(file, bytes);
   PacketRecording recording(*FindCapture(file));
   EXPECT_EQ(HostsOf(recording.NextTurn()), "p7");
   EXPECT_THAT(MessageOf([&] { static_cast<void>(recording.NextTurn()); }),

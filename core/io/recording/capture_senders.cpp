@@ -1,0 +1,201 @@
+#include <arpa/inet.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/recording/capture_sensor.h"
+#include "core/io/recording/recording_kinds.h"
+
+namespace railcast {
+namespace {
+
+/// Datagrams from one port to another, some of which hold packets of a sensor.
+struct FoundStream {
+  SenderStream stream;
+  std::optional<CaptureSensor> sensor{};
+  std::size_t num_packets{};
+  std::size_t num_shared{};  ///< Which its address had sent elsewhere shortly before.
+  std::size_t first{};       ///< Index among the captured of the first packet.
+  std::size_t last{};
+
+  [[nodiscard]] bool IsOfSensorOf(const FoundStream& other) const {
+    const bool is_like =
+        stream.from.address == other.stream.from.address && sensor->name == other.sensor->name;
+    const bool is_apart = first > other.last || last < other.first;
+    return is_like && (is_apart || 2 * num_shared >= std::min(num_packets, other.num_packets));
+  }
+};
+
+/// Tells which streams of a capture are whose.
+class StreamTable {
+ public:
+  explicit StreamTable(SensorFinder& finder) : finder_(finder) {}
+
+  void Add(const CapturedDatagram& datagram) {
+    FoundStream& found = Find(StreamOf(datagram));
+    if (!found.sensor) found.sensor = finder_.Look(datagram.payload);
+    if (!found.sensor || datagram.payload.size() < found.sensor->packet_size) return;
+    if (found.num_packets++ == 0) found.first = datagram.packet;
+    found.last = datagram.packet;
+    const Sent sent{
+        &found, std::hash<std::string_view>{}({datagram.payload.data(), datagram.payload.size()})};
+    found.num_shared += std::ranges::any_of(recent_, [&](const Sent& other) {
+      return other.hash == sent.hash && other.stream != &found &&
+             other.stream->stream.from.address == found.stream.from.address;
+    });
+    recent_.push_back(sent);
+    constexpr std::size_t kMostRecent = 64;
+    if (recent_.size() > kMostRecent) recent_.pop_front();
+  }
+
+  [[nodiscard]] std::vector<CaptureSensor> Sensors() const {
+    std::vector<const FoundStream*> whole;  // The first stream of each sensor.
+    std::vector<CaptureSensor> sensors;
+    for (const FoundStream& found : streams_) {
+      if (!found.sensor) continue;
+      const auto same = std::ranges::find_if(
+          whole, [&](const FoundStream* other) { return found.IsOfSensorOf(*other); });
+      const auto place = static_cast<std::size_t>(same - whole.begin());
+      if (same == whole.end()) {
+        whole.push_back(&found);
+        sensors.push_back(*found.sensor);
+      }
+      sensors[place].streams.push_back(found.stream);
+    }
+    return sensors;
+  }
+
+ private:
+  struct Sent {
+    const FoundStream* stream{};
+    std::size_t hash{};
+  };
+
+  FoundStream& Find(const SenderStream& stream) {
+    const auto& [from, to] = stream;
+    const auto [known, is_new] = places_.try_emplace(
+        {from.address.bytes, from.port, to.address.bytes, to.port}, streams_.size());
+    return is_new ? streams_.emplace_back(FoundStream{stream}) : streams_[known->second];
+  }
+
+  SensorFinder& finder_;
+  using Octets = std::array<std::uint8_t, 16>;
+  std::deque<FoundStream> streams_;
+  std::map<std::tuple<Octets, std::uint16_t, Octets, std::uint16_t>, std::size_t> places_;
+  std::deque<Sent> recent_;
+};
+
+/// Says as much of where a sensor sends from and to as tells it from the others.
+std::string AddressIn(const std::vector<CaptureSensor>& sensors, const CaptureSensor& sensor) {
+  const SenderStream& own = sensor.streams.front();
+  const auto is_only = [&](auto key) {
+    return std::ranges::count_if(sensors, [&](const CaptureSensor& other) {
+             return key(other.streams.front()) == key(own);
+           }) == 1;
+  };
+  if (is_only([](const SenderStream& stream) { return stream.from.address.bytes; })) {
+    return AddressText(own.from.address);
+  }
+  const bool has_own_port = is_only([](const SenderStream& stream) {
+    return std::pair(stream.from.address.bytes, stream.from.port);
+  });
+  return EndpointText(has_own_port ? own.from : Endpoint{own.from.address, own.to.port});
+}
+
+bool IsChosen(const CaptureSensor& sensor, const Endpoint& chosen) {
+  return std::ranges::any_of(sensor.streams, [&](const SenderStream& stream) {
+    return chosen.Covers(stream.from) || chosen.Covers({stream.from.address, stream.to.port});
+  });
+}
+
+std::string NamesOf(const std::vector<CaptureSensor>& sensors) {
+  std::string names;
+  for (const CaptureSensor& sensor : sensors) {
+    names += (names.empty() ? "" : ", ") + sensor.name + " at " + sensor.address;
+  }
+  return NumberText(sensors.size()) + (sensors.size() == 1 ? " sensor: " : " sensors: ") + names;
+}
+
+}  // namespace
+
+SenderStream StreamOf(const CapturedDatagram& datagram) {
+  return {{datagram.source_address, datagram.source_port},
+          {datagram.destination_address, datagram.destination_port}};
+}
+
+std::vector<CaptureSensor> FindSensors(const DatagramPlace& place) {
+  const auto datagrams = place.open();
+  const CaptureMetadata& beside = place.beside;
+  SensorFinder finder(beside);
+  StreamTable table(finder);
+  try {
+    while (const auto datagram = datagrams->Next()) table.Add(*datagram);
+  } catch (const InputError&) {
+    // What comes before is read, and whoever reads on hears of it.
+    if (table.Sensors().empty()) throw;
+  }
+  std::vector<CaptureSensor> sensors = table.Sensors();
+  for (CaptureSensor& sensor : sensors) sensor.address = AddressIn(sensors, sensor);
+  if (!sensors.empty()) return sensors;
+  const std::string name = ShownPath(place.source);
+  if (finder.has_seen_ouster() && !beside.fault.empty()) throw InputError(beside.fault);
+  if (!finder.ouster_refusal().empty()) {
+    throw InputError(name + ": packets are not of the sensor of " + ShownPath(beside.file) + ": " +
+                     finder.ouster_refusal());
+  }
+  throw InputError(name + ": must be a capture of " + ReadableSensorsText() + " (" +
+                   finder.Findings(datagrams->remarks()) + ")");
+}
+
+CaptureSensor FindSensor(const DatagramPlace& place) {
+  std::vector<CaptureSensor> sensors = FindSensors(place);
+  std::vector<CaptureSensor> chosen = sensors;
+  if (place.sensor) {
+    std::erase_if(chosen, [&](const auto& sensor) { return !IsChosen(sensor, *place.sensor); });
+  }
+  if (chosen.size() == 1) return std::move(chosen.front());
+  const std::string holds = ShownPath(place.source) + ": holds " + NamesOf(sensors);
+  if (!place.sensor || chosen.size() > 1) throw InputError(holds + "; --sensor picks one");
+  throw InputError(
+      holds + "; must be one of them (got " +
+      (place.sensor->port == 0 ? AddressText(place.sensor->address) : EndpointText(*place.sensor)) +
+      ")");
+}
+
+std::optional<Endpoint> ParseSender(std::string_view text) {
+  std::string host(text);
+  std::string_view port;
+  const std::size_t bracket = text.find(']');
+  const bool is_in_brackets = text.starts_with('[') && bracket != std::string_view::npos;
+  const std::size_t colon = is_in_brackets ? text.find(':', bracket) : text.rfind(':');
+  const bool has_port = is_in_brackets || text.find(':') == colon;
+  if (has_port && colon != std::string_view::npos) {
+    if (is_in_brackets && colon != bracket + 1) return std::nullopt;
+    port = text.substr(colon + 1);
+    host.resize(colon);
+  }
+  if (is_in_brackets) host = host.substr(1, bracket - 1);
+  Endpoint sender;
+  if (!port.empty() || host.size() < text.size() - (is_in_brackets ? 2U : 0U)) {
+    const auto number = ParseNumber<std::uint16_t>(port);
+    if (!number || *number == 0) return std::nullopt;
+    sender.port = *number;
+  }
+  in_addr ipv4{};
+  if (::inet_pton(AF_INET, host.c_str(), &ipv4) == 1) {
+    sender.address = IpAddress(ntohl(ipv4.s_addr));
+    return sender;
+  }
+  if (::inet_pton(AF_INET6, host.c_str(), sender.address.bytes.data()) == 1) return sender;
+  return std::nullopt;
+}
+
+}  // namespace railcast

@@ -1,0 +1,186 @@
+#include "core/io/recording/packet_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/io/recording/capture_sensor.h"
+#include "core/io/recording/recording_kinds.h"
+#include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/io/message_of.h"
+#include "tests/core/io/pcap/made_capture.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/frame_bytes.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+namespace {
+
+/// The packets of two turns of a sensor.
+std::vector<std::string> TwoTurns(const char* format = "vlp16") {
+  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+  std::vector<std::string> payloads;
+  const Datagrams datagrams = EncodeAll(format, scan, {scan.MakeFrame(0), scan.MakeFrame(1)});
+  for (const auto& packet : DataPackets(datagrams)) {
+    payloads.emplace_back(packet.begin(), packet.end());
+  }
+  return payloads;
+}
+
+/// The frames of a capture of these packets, each millisecond one, and what is said of it.
+struct ReadTurns {
+  std::vector<RecordedFrame> frames;
+  std::vector<Remark> remarks;
+
+  [[nodiscard]] std::size_t Number(RemarkKind kind) const {
+    const auto found = std::ranges::find(remarks, kind, &Remark::kind);
+    return found == remarks.end() ? 0 : found->number;
+  }
+};
+
+ReadTurns ReadPackets(const std::vector<std::string>& payloads) {
+  std::vector<CapturedFrame> frames;
+  for (const std::string& payload : payloads) {
+    frames.push_back({EthernetOf(IpOf(payload)), 1000 * frames.size()});
+  }
+  const TemporaryDirectory directory;
+  const auto recording = OpenRecording(WriteCapture(directory.path() / "a.pcap", frames));
+  ReadTurns read{ReadAll(*recording), {}};
+  read.remarks = recording->info().remarks->List();
+  return read;
+}
+
+void ExpectSameFrames(const ReadTurns& got, const ReadTurns& expected) {
+  ASSERT_EQ(got.frames.size(), expected.frames.size());
+  for (std::size_t i = 0; i < got.frames.size(); ++i) {
+    EXPECT_TRUE(FrameBytes(got.frames[i].frame) == FrameBytes(expected.frames[i].frame)) << i;
+  }
+}
+
+class OrderedPackets : public testing::TestWithParam<const char*> {};
+
+TEST_P(OrderedPackets, ThatComeSeveralTimesAreTakenOnce) {
+  const auto packets = TwoTurns(GetParam());
+  const ReadTurns plain = ReadPackets(packets);
+  EXPECT_TRUE(plain.remarks.empty());
+  std::vector<std::string> doubled;
+  for (const std::string& packet : packets) doubled.insert(doubled.end(), 2, packet);
+  const ReadTurns twice = ReadPackets(doubled);
+  ExpectSameFrames(twice, plain);
+  ASSERT_EQ(twice.remarks.size(), 1U);
+  EXPECT_EQ(twice.Number(RemarkKind::kPacketsDoubled), packets.size());
+  EXPECT_TRUE(twice.remarks[0].place.ends_with(": packet 1"));
+  // As on a line that brings the copies later.
+  doubled = packets;
+  for (std::size_t i = 0; i + 20 < packets.size(); i += 3) {
+    doubled.insert(doubled.begin() + static_cast<std::ptrdiff_t>(i + i / 3 + 15), packets[i]);
+  }
+  ExpectSameFrames(ReadPackets(doubled), plain);
+}
+
+TEST_P(OrderedPackets, ThatAreExchangedComeIntoTheirOrder) {
+  auto packets = TwoTurns(GetParam());
+  const ReadTurns plain = ReadPackets(packets);
+  for (std::size_t i = 5; i + 9 < packets.size(); i += 11)
+    std::swap(packets[i], packets[i + i % 9]);
+  const ReadTurns read = ReadPackets(packets);
+  ExpectSameFrames(read, plain);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_GT(read.Number(RemarkKind::kPacketsReordered), 0U);
+}
+
+TEST_P(OrderedPackets, ThatComeTooLateAreLeftOutAndCounted) {
+  auto packets = TwoTurns(GetParam());
+  ASSERT_GT(packets.size(), 110U);
+  const std::string late = packets[20];
+  packets.erase(packets.begin() + 20);
+  const ReadTurns without = ReadPackets(packets);
+  EXPECT_EQ(without.Number(RemarkKind::kPacketsLost), 1U);
+  packets.insert(packets.begin() + 100, late);
+  const ReadTurns read = ReadPackets(packets);
+  ExpectSameFrames(read, without);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsLate), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsLost), 0U);
+}
+
+TEST_P(OrderedPackets, ThatAreMissingAreCounted) {
+  auto packets = TwoTurns(GetParam());
+  packets.erase(packets.begin() + 70, packets.begin() + 78);
+  packets.erase(packets.begin() + 30);
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsLost), 9U);
+  EXPECT_TRUE(read.remarks[0].place.ends_with(": packet 30"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Packets,
+                         OrderedPackets,
+                         testing::Values("vlp16", "hdl32e", "pandar64", "xt32"));
+
+TEST(PacketOrder, BeginsAnewWhereTheClockIsSetBack) {
+  auto packets = TwoTurns();
+  const ReadTurns plain = ReadPackets(packets);
+  // From the middle of the first turn on, by as long as three packets take.
+  for (std::size_t i = 40; i < packets.size(); ++i) {
+    const auto time_us = LoadAt<std::uint32_t>(packets[i].data() + kTimePlace);
+    StoreAt<std::uint32_t>(packets[i].data() + kTimePlace, time_us - 3 * 1327);
+  }
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.frames.size(), plain.frames.size());
+  EXPECT_TRUE(read.remarks.empty());
+  for (std::size_t i = 0; i < read.frames.size(); ++i) {
+    EXPECT_EQ(read.frames[i].frame.columns, plain.frames[i].frame.columns);
+  }
+}
+
+TEST(PacketOrder, BeginsAnewWithASensorThatWasStartedAgain) {
+  const auto packets = TwoTurns("pandar64");
+  const std::size_t num = ReadPackets(packets).frames.size();
+  std::vector<std::string> twice(packets.begin() + 100, packets.end());
+  twice.insert(twice.end(), packets.begin(), packets.end());
+  const ReadTurns read = ReadPackets(twice);
+  EXPECT_EQ(read.frames.size(), num + 2);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsLate), 0U);
+}
+
+TEST(SpinningDecoder, LeavesOutBlocksOfZerosAndCountsThem) {
+  auto packets = TwoTurns();
+  const ReadTurns plain = ReadPackets(packets);
+  for (const std::size_t packet : {3U, 10U, 11U}) {
+    std::fill_n(packets[packet].begin() + 4 * kBlockSize, 2 * kBlockSize, '\0');
+  }
+  std::fill_n(packets[20].begin(), kBlockSize, '\0');
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.frames.size(), plain.frames.size());
+  // Each block of a VLP-16 holds two firing cycles.
+  EXPECT_EQ(read.frames[0].frame.columns + 2 * 7, plain.frames[0].frame.columns);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kBlocksEmpty), 7U);
+  // What follows them keeps its times.
+  const Frame& frame = read.frames[0].frame;
+  const Frame& whole = plain.frames[0].frame;
+  EXPECT_EQ(frame.time_ns[frame.columns - 1], whole.time_ns[whole.columns - 1]);
+}
+
+TEST(CaptureRecording, SaysWhyItRefusesAPacketOfItsSensor) {
+  auto packets = TwoTurns();
+  packets[7][kModelPlace] = '\x77';
+  packets[8][kModelPlace] = '\x77';
+  packets.emplace_back(512, 'r');  // A report of its position.
+  packets.emplace_back(300, 'u');
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.remarks.size(), 2U);
+  EXPECT_EQ(read.remarks[0].kind, RemarkKind::kPacketsRefused);
+  EXPECT_EQ(read.remarks[0].number, 2U);
+  EXPECT_EQ(read.remarks[0].detail, "model must be 34, VLP-16 (got 119)");
+  EXPECT_TRUE(read.remarks[0].place.ends_with(": packet 7"));
+  EXPECT_EQ(read.Number(RemarkKind::kDatagramsUnknown), 1U);
+}
+
+}  // namespace
+}  // namespace railcast
