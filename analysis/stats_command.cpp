@@ -236,8 +236,8 @@ void AddCaptureSection(const std::vector<MeasuredSource>& sources, Report& repor
       .note =
           "Packets are those that can be read; doubled and late ones are left out, and "
           "those out of order were put in order.",
-      .columns = ColumnsOf("capture [-]: Capture; sensor [-]: Sensor; address [-]: Address; "
-                           "ports [-]: To ports; packets: Packets; lost: Lost; "
+      .columns = ColumnsOf("capture: Capture; sensor: Sensor; address: Address; "
+                           "ports: To ports; packets: Packets; lost: Lost; "
                            "doubled: Doubled; out_of_order: Out of order; late: Late; "
                            "damaged: Damaged; refused: Refused")};
   for (const MeasuredSource& source : sources) {

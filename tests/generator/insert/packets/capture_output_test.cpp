@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -225,6 +226,41 @@ TEST(CaptureOutput, FindsWhatWasSentInIpFragments) {
     }
   }
   ExpectEditsOf(WriteCapture(folder.path() / "pieces.pcap", frames));
+}
+
+TEST(CaptureOutput, EditsEachCopyOfAPacketAndLeavesOtherSensorsAsTheyAre) {
+  const TemporaryDirectory folder;
+  const auto mine = PayloadsIn(Captured(VelodynePackets("vlp16"), folder.path() / "a.pcap"));
+  const auto others = PayloadsIn(Captured(VelodynePackets("hdl32e"), folder.path() / "b.pcap"));
+  // As `tcpdump -i any` writes them, in pairs that were exchanged and with most of them twice.
+  const std::string sll("\0\0\0\1\0\6\1\2\3\4\5\6\0\0\x08\0", 16);
+  std::vector<CapturedFrame> frames;
+  for (std::size_t i = 0; i + 1 < mine.size(); ++i) {
+    frames.push_back({sll + IpOf(mine[i ^ 1U]), 1000 * i});
+    frames.push_back({sll + IpOf(others[i], '\xCA'), 1000 * i});
+    if (i >= 5) frames.push_back({sll + IpOf(mine[i - 5]), 1000 * i});
+  }
+  const fs::path source = WriteCapture(folder.path() / "c.pcap", frames, 113);
+  const std::string sensor = ":192.168.1.201";
+  const auto inserted =
+      CopyWithEdits(source.string() + sensor, folder.path() / "edited", EditedByHand);
+  const fs::path edited = folder.path() / "edited/c.pcap";
+  ExpectSameCapture(source, edited);
+  const auto read = ReadAll(edited.string() + sensor);
+  ASSERT_EQ(read.size(), inserted.size());
+  for (std::size_t i = 0; i < read.size(); ++i) ExpectEdits(inserted[i], read[i]);
+  const auto before = PayloadsIn(source);
+  const auto after = PayloadsIn(edited);
+  std::map<std::string, std::string> edits;
+  std::size_t num_edited = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(edits.try_emplace(before[i], after[i]).first->second, after[i]) << i;
+    if (std::ranges::count(others, before[i]) > 0) {
+      EXPECT_TRUE(after[i] == before[i]);
+    }
+    num_edited += after[i] == before[i] ? 0 : 1;
+  }
+  EXPECT_GT(num_edited, 2 * mine.size() - 20);
 }
 
 /// A capture as pcapng: a section in either byte order, with enhanced packet blocks that have
