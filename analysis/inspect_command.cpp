@@ -52,6 +52,7 @@ void AddInspect(ProgramOptions& app, ProgramCommand& command) {
       "inspect", "Say what a recording is, what is wrong with it, and what it is fit for");
   inspect.AddOption("SOURCE", options->source, "Recording of any kind").Required();
   AddSourceChoice(inspect, options->choice);
+  AddCaptureSensor(inspect, options->choice.sensor);
   inspect
       .AddOption("--for", options->job,
                  "Exit with status 1 if the recording is not fit for this job: " +

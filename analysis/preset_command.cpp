@@ -27,10 +27,6 @@ Sectors SectorsOf(const std::string& name) {
   return name == "odd" ? Sectors::kOdd : Sectors::kAll;
 }
 
-std::filesystem::path SourceOf(const PresetOptions& options) {
-  return WithSensor(WithTopic({options.source}, options.topic), options.sensor).front();
-}
-
 int RunPreset(const PresetOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
   const ScenarioSpec scenario = PickSensor(ReadScenario(options.scenario), std::nullopt);

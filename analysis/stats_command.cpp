@@ -230,16 +230,15 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
 
 /// Adds what became of the packets of captures, of those sensors, too, that are not measured.
 void AddCaptureSection(const std::vector<MeasuredSource>& sources, Report& report) {
-  Table table{
-      .key = "capture_sensors",
-      .title = "Sensors of the capture",
-      .note =
-          "Packets are those that can be read; doubled and late ones are left out, and "
-          "those out of order were put in order.",
-      .columns = ColumnsOf("capture: Capture; sensor: Sensor; address: Address; "
-                           "ports: To ports; packets: Packets; lost: Lost; "
-                           "doubled: Doubled; out_of_order: Out of order; late: Late; "
-                           "damaged: Damaged; refused: Refused")};
+  Table table{.key = "capture_sensors",
+              .title = "Sensors of the capture",
+              .note =
+                  "Packets are those that can be read; doubled and late ones are left out, and "
+                  "those out of order were put in order.",
+              .columns = ColumnsOf("capture: Capture; sensor: Sensor; address: Address; "
+                                   "ports: To ports; packets: Packets; lost: Lost; "
+                                   "doubled: Doubled; out_of_order: Out of order; late: Late; "
+                                   "damaged: Damaged; refused: Refused")};
   for (const MeasuredSource& source : sources) {
     const auto capture = FindCapture(source.source);
     if (!capture) continue;
@@ -272,8 +271,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   SourceChoice choice = options.choice;
   if (ParseSender(options.sensor)) choice.sensor = options.sensor;
   std::vector<MeasuredSource> sources = LookAtSources(WithChoice(options.sources, choice));
-  SourcesAtFirstSight seen =
-      LookAtRecordings(choice.sensor.empty() ? options.sensor : "", sources);
+  SourcesAtFirstSight seen = LookAtRecordings(choice.sensor.empty() ? options.sensor : "", sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
   if (all.coverage.num_frames() == 0) {

@@ -10,7 +10,7 @@
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/with_topic.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/run/survey_record.h"
 #include "core/io/verify/findings.h"
 #include "core/io/write_file.h"

@@ -6,8 +6,8 @@
 
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/turn_reader.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/recording/turn_reader.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/pcap/made_capture.h"
 #include "tests/core/io/recording/read_all.h"
