@@ -26,6 +26,7 @@
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_tags.h"
+#include "generator/import/lines/speed_limits.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
@@ -34,6 +35,7 @@
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_coverage.h"
 #include "generator/import/structures/standing_world.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 namespace {
@@ -155,6 +157,14 @@ struct BuiltWorld {
   SideTrackQuality beside;
 };
 
+/// Lines as far as they have come: lists of one order.
+struct LinesInWork {
+  std::vector<TrackLine> tracks{};
+  std::vector<ImportedLine> lines{};
+  std::vector<BuiltWorld> worlds{};
+  std::vector<MapCoverage> coverages{};
+};
+
 std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
                                     const std::vector<TrackLine>& tracks,
                                     const std::vector<ImportedLine>& lines,
@@ -259,79 +269,140 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
 }
 
 void WriteTables(const std::filesystem::path& out,
-                 const std::vector<ImportedLine>& lines,
-                 const std::vector<BuiltWorld>& worlds,
-                 const std::vector<MapCoverage>& coverages,
-                 const std::vector<LeftOutLine>& left_out) {
-  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, lines, WorldsOf(worlds)));
-  WriteFileWhole(out / "moved.csv", MovedCsv(lines, WorldsOf(worlds)));
-  WriteFileWhole(out / "tracks.csv", TracksCsv(lines, worlds));
-  WriteFileWhole(out / "coverage.csv", CoverageCsv(lines, coverages));
-  WriteFileWhole(out / "heights.csv", HeightsCsv(lines));
-  WriteFileWhole(out / "lines.csv", QualityCsv(lines));
-  WriteFileWhole(out / "contradictions.csv", ContradictionsCsv(lines));
+                 const LinesInWork& work,
+                 const LeftOutOfMap& left_out) {
+  const std::vector<LineWorld> worlds = WorldsOf(work.worlds);
+  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, work.lines, worlds));
+  WriteFileWhole(out / "moved.csv", MovedCsv(work.lines, worlds));
+  WriteFileWhole(out / "tracks.csv", TracksCsv(work.lines, work.worlds));
+  WriteFileWhole(out / "coverage.csv", CoverageCsv(work.lines, work.coverages));
+  WriteFileWhole(out / "heights.csv", HeightsCsv(work.lines));
+  WriteFileWhole(out / "lines.csv", QualityCsv(work.lines));
+  WriteFileWhole(out / "contradictions.csv", ContradictionsCsv(work.lines));
 }
 
-int RunImport(const ImportCommandOptions& options) {
-  RailMap map = ReadMapWithin(options);
-  // Without --crs, it is the map that cannot be projected.
-  const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
-                                           [&] { return ProjectMap(options.crs, map); });
-  FillElectrified(map);
-  std::vector<TrackLine> tracks = FindLines(map, options.min_length_m);
-  if (tracks.empty()) {
-    throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
-                     NumberText(options.min_length_m) + " m");
+/// Gives a line its heights, and says why they cannot be its own.
+std::optional<std::string> GiveHeights(const ImportCommandOptions& options,
+                                       const RailMap& map,
+                                       const TrackLine& track,
+                                       const ElevationMap* elevation,
+                                       ImportedLine& line) {
+  if (elevation != nullptr) {
+    SetHeights(map, track, *elevation, ShownPath(options.heights), line);
+  } else if (!options.is_level) {
+    SetHeights(map, track, line);
   }
-  const std::unique_ptr<const ElevationMap> elevation =
-      ReadElevation(options, projection, map, tracks);
-  MakeEmptyFolder(options.out);
-  // Before minutes of fitting.
-  CheckCanWrite(options.out / "lines.csv");
-  std::vector<LeftOutLine> left_out;
-  std::vector<ImportedLine> lines = ImportLines(map, options, tracks, left_out);
-  std::vector<BuiltWorld> worlds = BuildWorlds(map, tracks, lines, options);
+  if (!line.height_quality || line.height_quality->p99_m <= kFarthestHeight_m) return std::nullopt;
+  return "its heights must lie within " + NumberText(kFarthestHeight_m) +
+         " m of gradients that a railway can have (got " + ShortText(line.height_quality->p99_m) +
+         " m for one in a hundred)";
+}
+
+/// Gives heights to all lines, and writes those that stand.
+/// @returns Why others do not.
+std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& options,
+                                                    const RailMap& map,
+                                                    const MapProjection& projection,
+                                                    const ElevationMap* elevation,
+                                                    LinesInWork& work) {
   const ProgressLine progress;
-  std::vector<MapCoverage> coverages;
-  std::vector<std::optional<std::string>> reasons(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    progress.Show("clearing line " + std::to_string(i + 1) + " of " + std::to_string(lines.size()),
-                  static_cast<double>(i) / static_cast<double>(lines.size()));
+  const std::size_t num = work.lines.size();
+  std::vector<std::optional<std::string>> reasons(num);
+  for (std::size_t i = 0; i < num; ++i) {
+    progress.Show("clearing line " + std::to_string(i + 1) + " of " + std::to_string(num),
+                  static_cast<double>(i) / static_cast<double>(num));
+    const TrackLine& track = work.tracks[i];
+    ImportedLine& line = work.lines[i];
+    BuiltWorld& built = work.worlds[i];
+    reasons[i] = GiveHeights(options, map, track, elevation, line);
     std::optional<std::filesystem::path> elevation_file;
-    if (elevation) {
-      SetHeights(map, tracks[i], *elevation, ShownPath(options.heights), lines[i]);
-      elevation_file = options.out / (lines[i].name + ".elevation.asc");
-      WriteFileWhole(*elevation_file, ElevationGridText(*elevation, BoundsAbout(map, tracks[i])));
-    } else if (!options.is_level) {
-      SetHeights(map, tracks[i], lines[i]);
+    if (elevation != nullptr && !reasons[i]) {
+      elevation_file = options.out / (line.name + ".elevation.asc");
+      WriteFileWhole(*elevation_file, ElevationGridText(*elevation, BoundsAbout(map, track)));
     }
-    SetCants(map, tracks[i], lines[i]);
-    ClearStructures(lines[i].alignment, worlds[i].world);
-    reasons[i] = MakeStand(lines[i].alignment, elevation_file, worlds[i].world);
-    KeepStanding(worlds[i].world, worlds[i].beside);
-    coverages.push_back(CoverageOf(map, worlds[i].world, worlds[i].beside));
     if (!reasons[i]) {
-      WriteLine(options.out, lines[i], projection, worlds[i].world, elevation != nullptr);
+      SetCants(map, track, line);
+      ClearStructures(line.alignment, built.world);
+      reasons[i] = MakeStand(line.alignment, elevation_file, built.world);
+    }
+    KeepStanding(built.world, built.beside);
+    work.coverages.push_back(CoverageOf(map, built.world, built.beside));
+    if (!reasons[i]) {
+      WriteLine(options.out, line, projection, built.world, elevation != nullptr);
     } else if (elevation_file) {
       std::filesystem::remove(*elevation_file);
     }
   }
   progress.End();
-  LeaveOutLines(map, tracks, reasons, left_out);
-  EraseWhere(reasons, lines);
-  EraseWhere(reasons, worlds);
-  EraseWhere(reasons, coverages);
-  WriteTables(options.out, lines, worlds, coverages, left_out);
+  return reasons;
+}
+
+/// What the heights of the lines have that is not as it should be.
+void TellHeights(const std::vector<ImportedLine>& lines, std::vector<Remark>& remarks) {
+  for (const ImportedLine& line : lines) {
+    if (!line.height_quality || line.height_quality->num_far == 0) continue;
+    remarks.push_back(
+        {RemarkKind::kHeightsFar,
+         "line " + line.name + " at " + NumberText(std::round(line.height_quality->far_s_m)) + " m",
+         line.height_quality->num_far});
+  }
+}
+
+int RunImport(const ImportCommandOptions& options) {
+  RailMap map = ReadMapWithin(options);
+  TellSpeeds(map);
+  LeftOutOfMap left_out{std::move(map.remarks), {}};
+  RemarkLog log;
+  const auto tell = [&](const std::filesystem::path& file, std::size_t from) {
+    for (std::size_t i = from; i < left_out.remarks.size(); ++i) {
+      Remark remark = left_out.remarks[i];
+      remark.place = ShownPath(file) + (remark.place.empty() ? "" : ": ") + remark.place;
+      log.Add(remark, i);
+    }
+  };
+  tell(options.map, 0);
+  // Without --crs, it is the map that cannot be projected.
+  const MapProjection projection = AtPlace(options.crs.empty() ? ShownPath(options.map) + ": " : "",
+                                           [&] { return ProjectMap(options.crs, map); });
+  FillElectrified(map);
+  LinesInWork work{.tracks = FindLines(map, options.min_length_m)};
+  if (work.tracks.empty()) {
+    throw InputError(ShownPath(options.map) + ": must have a line of at least --min-length " +
+                     NumberText(options.min_length_m) + " m");
+  }
+  const std::unique_ptr<const ElevationMap> elevation =
+      ReadElevation(options, projection, map, work.tracks);
+  const std::size_t num_of_map = left_out.remarks.size();
+  if (elevation && elevation->num_void() > 0) {
+    left_out.remarks.push_back({RemarkKind::kHeightsVoid, "", elevation->num_void(),
+                                NumberText(elevation->first_void_m()) + " m"});
+  }
+  MakeEmptyFolder(options.out);
+  // Before minutes of fitting.
+  CheckCanWrite(options.out / "lines.csv");
+  work.lines = ImportLines(map, options, work.tracks, left_out.lines);
+  work.worlds = BuildWorlds(map, work.tracks, work.lines, options);
+  const auto reasons = FinishLines(options, map, projection, elevation.get(), work);
+  TellHeights(work.lines, left_out.remarks);
+  tell(options.heights.empty() ? options.map : options.heights, num_of_map);
+  LeaveOutLines(map, work.tracks, reasons, left_out.lines);
+  EraseWhere(reasons, work.lines);
+  EraseWhere(reasons, work.worlds);
+  EraseWhere(reasons, work.coverages);
+  WriteTables(options.out, work, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m; longitudes and latitudes in scenarios are right to "
             << ShortText(projection.geographic_error_m) << " m\n\n"
-            << QualityTable(lines) << '\n'
-            << CoverageTable(lines, coverages) << '\n'
-            << SwitchReasonsText(WorldsOf(worlds)) << MovedText(WorldsOf(worlds))
-            << LeftOutLinesText(left_out) << "Wrote " << lines.size() << " lines to "
+            << QualityTable(work.lines) << '\n'
+            << CoverageTable(work.lines, work.coverages) << '\n'
+            << SwitchReasonsText(WorldsOf(work.worlds)) << MovedText(WorldsOf(work.worlds))
+            << LeftOutLinesText(left_out.lines) << "Wrote " << work.lines.size() << " lines to "
             << ShownPath(options.out) << '\n';
-  return kExitSuccess;
+  if (!work.lines.empty()) return kExitSuccess;
+  throw InputError(ShownPath(options.map) + ": must have a line that can stand (got " +
+                   std::to_string(left_out.lines.size()) + " left out, with the reasons in " +
+                   ShownPath(options.out / "left_out.csv") + ")");
 }
 
 void AddHeightOptions(ProgramOptions& subcommand,

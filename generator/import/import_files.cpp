@@ -131,18 +131,26 @@ std::string WorldFileText(const ImportedLine& line, const LineWorld& world, bool
   return TextWithItems(file) + "\n";
 }
 
-std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+std::string LeftOutCsv(const LeftOutOfMap& left_out,
                        const std::vector<ImportedLine>& lines,
                        const std::vector<LineWorld>& worlds) {
   std::ostringstream csv;
   csv << "line,what,from_s_m,to_s_m,reason\n";
-  const auto add = [&](const std::string& line, const LeftOut& thing) {
-    std::string reason = thing.reason;
+  const auto quoted = [](std::string reason) {
     std::ranges::replace(reason, '"', '\'');
-    csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
-        << RoundedTo(thing.end_s_m, 100.0) << ",\"" << reason << "\"\n";
+    return '"' + reason + '"';
   };
-  for (const LeftOutLine& line : left_out)
+  const auto add = [&](const std::string& line, const LeftOut& thing) {
+    csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
+        << RoundedTo(thing.end_s_m, 100.0) << ',' << quoted(thing.reason) << '\n';
+  };
+  for (const Remark& remark : left_out.remarks) {
+    Remark placeless = remark;
+    placeless.place.clear();
+    csv << ',' << remark.type().name << ",,,"
+        << quoted(remark.place + (remark.place.empty() ? "" : ": ") + placeless.Text()) << '\n';
+  }
+  for (const LeftOutLine& line : left_out.lines)
     add(line.name, {"line", 0.0, line.length_m, line.reason});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);

@@ -7,6 +7,7 @@
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/network/line_world.h"
+#include "railcast/remark.h"
 #include "railcast/structures.h"
 #include "railcast/world_spec.h"
 
@@ -42,8 +43,14 @@ struct LeftOutLine {
   std::string reason;
 };
 
-/// What was left out as CSV: whole lines first, then what worlds lack.
-[[nodiscard]] std::string LeftOutCsv(const std::vector<LeftOutLine>& left_out,
+/// What was not taken as it is.
+struct LeftOutOfMap {
+  std::vector<Remark> remarks;  ///< About the map and its heights.
+  std::vector<LeftOutLine> lines;
+};
+
+/// What was left out as CSV: of the map, whole lines, then what worlds lack.
+[[nodiscard]] std::string LeftOutCsv(const LeftOutOfMap& left_out,
                                      const std::vector<ImportedLine>& lines,
                                      const std::vector<LineWorld>& worlds);
 

@@ -42,6 +42,21 @@ enum class RemarkKind : std::uint8_t {
   // Meshes.
   kMaterialFileMissing,
   kExtensionUnread,
+  kAxesMirrored,
+  // Maps and heights.
+  kNodesMissing,
+  kDeletedLeftOut,
+  kOutlinesLeftOut,
+  kLinesLeftOut,
+  kTagsUnread,
+  kSpeedsUnread,
+  kSpeedsChosen,
+  kPlacesJoined,
+  kFixesThinned,
+  kHeightsUnused,
+  kHeightsMissing,
+  kHeightsVoid,
+  kHeightsFar,
 };
 
 /// What is said of a kind of remark.

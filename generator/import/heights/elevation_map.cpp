@@ -15,6 +15,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "generator/import/map/gdal_errors.h"
+#include "generator/import/map/rail_map.h"
 
 namespace railcast {
 namespace {
@@ -123,6 +124,8 @@ struct ElevationMap::Raster {
   int num_columns{};
   int num_rows{};
   std::vector<float> heights_m;  ///< NaN where there is none.
+  std::size_t num_void = 0;
+  double first_void_m = 0.0;
 
   /// Column and row in the part of the middle of a cell: whole numbers.
   [[nodiscard]] std::vector<Eigen::Vector2d> CellsOf(
@@ -221,9 +224,12 @@ void ElevationMap::Raster::Read(GDALRasterBand& band) {
   for (float& height_m : heights_m) {
     if ((has_nothing != 0 && height_m == nothing) || !std::isfinite(height_m)) {
       height_m = std::numeric_limits<float>::quiet_NaN();
-    } else {
-      height_m = offset + scale * height_m;
+      continue;
     }
+    height_m = offset + scale * height_m;
+    if (IsHeight(double{height_m})) continue;
+    if (num_void++ == 0) first_void_m = double{height_m};
+    height_m = std::numeric_limits<float>::quiet_NaN();
   }
 }
 
@@ -279,6 +285,14 @@ std::vector<std::optional<double>> ElevationMap::HeightsAt(
     heights_m.push_back(raster_->HeightAt(cell));
   }
   return heights_m;
+}
+
+std::size_t ElevationMap::num_void() const {
+  return raster_->num_void;
+}
+
+double ElevationMap::first_void_m() const {
+  return raster_->first_void_m;
 }
 
 bool ElevationMap::Covers(const Eigen::Vector2d& place_m) const {

@@ -36,11 +36,18 @@ struct LineQuality {
   double sign_changes_per_km{};
 };
 
+/// Heights farther from the gradients are told; if one in a hundred is farther than the other, they
+/// are none of the line.
+inline constexpr double kFarHeight_m = 5.0;
+inline constexpr double kFarthestHeight_m = 20.0;
+
 /// How well a line's gradients fit its heights.
 struct HeightQuality {
   std::size_t num_points{};
   double median_m{};  ///< Of the heights' distances from the line.
   double p99_m{};
+  std::size_t num_far{};  ///< Heights farther off than kFarHeight_m.
+  double far_s_m{};       ///< Chainage of the first of them.
   std::size_t num_gradients{};
   double steepest_permil{};
   /// The smallest radius of a vertical curve as a share of the one that its speed needs; infinite

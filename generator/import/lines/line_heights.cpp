@@ -42,11 +42,15 @@ bool IsBetween(const ChainageValue& a, const ChainageValue& middle, const Chaina
 
 constexpr double kNearestSamples_m = 20.0;
 
-HeightQuality HeightQualityOf(const Profile& profile) {
+HeightQuality HeightQualityOf(const Profile& profile, const std::vector<HeightSample>& samples) {
   HeightQuality quality;
   quality.num_points = profile.offsets_m.size();
   std::vector<double> distances_m;
   for (const double offset_m : profile.offsets_m) distances_m.push_back(std::abs(offset_m));
+  for (std::size_t i = 0; i < distances_m.size(); ++i) {
+    if (distances_m[i] <= kFarHeight_m) continue;
+    if (quality.num_far++ == 0) quality.far_s_m = samples[i].s_m;
+  }
   std::ranges::sort(distances_m);
   quality.median_m = QuantileOf(distances_m, 0.5);
   quality.p99_m = QuantileOf(distances_m, 0.99);
@@ -69,7 +73,7 @@ void FitHeights(std::vector<HeightSample> samples, ImportedLine& line) {
   alignment.origin_m[2] = profile.start_z_m;
   alignment.gradients_permil = profile.gradients_permil;
   alignment.gradient_smoothing_m = profile.smoothing_m;
-  line.height_quality = HeightQualityOf(profile);
+  line.height_quality = HeightQualityOf(profile, samples);
 }
 
 /// Chainages at which the model's ground may be the line's.

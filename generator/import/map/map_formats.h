@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/write_file.h"
+#include "core/base/text_encoding.h"
 #include "core/scenario/json_text.h"
 #include "generator/import/map/rail_map.h"
 
@@ -16,7 +16,7 @@ namespace railcast {
 
 /// @throws InputError if the file cannot be read or is no JSON.
 [[nodiscard]] inline Json ReadMapJson(const std::filesystem::path& file) {
-  const std::string text = ReadFileWhole(file);
+  const std::string text = ReadTextWhole(file);
   try {
     return Json::parse(text);
   } catch (const Json::exception&) {
@@ -39,15 +39,32 @@ inline constexpr double kMostLatitude_deg = 90.0;
          NumberText(most_deg);
 }
 
-// The formats among which ReadMap() chooses.
+// The formats among which ReadMap() chooses. OpenStreetMap's are alike (OsmMapMaker), and so are
+// those of plain lines (MapOfLines).
 
 /// Reads the railway ways of an answer of OpenStreetMap's Overpass API in JSON, with their nodes
-/// (`out body; >; out skel;`) or with their geometry (`out geom;`). A way or a node that appears
-/// twice is taken once. Ways that are not tracks (`railway=platform`, ...) and relations are left
-/// out.
-/// @throws InputError for each fault, with JSON pointers: no elements, coordinates that are no
-///   degrees, a way whose node is missing, a node in two places, no track at all.
+/// (`out body; >; out skel;`) or with their geometry (`out geom;`).
+/// @throws InputError for each fault, with JSON pointers: a remark that the answer is not whole, no
+///   elements, coordinates that are no degrees, and as OsmMapMaker does.
 [[nodiscard]] RailMap ReadOverpassJson(const std::filesystem::path& file);
+
+/// Reads OpenStreetMap's .osm.pbf with blobs that are zlib or plain; ways may have the places of
+/// their nodes.
+/// @throws InputError if the file is damaged, ends early or needs what is not read, and as
+///   OsmMapMaker does.
+[[nodiscard]] RailMap ReadOsmPbf(const std::filesystem::path& file);
+[[nodiscard]] bool IsOsmPbf(std::string_view begin);
+
+/// Reads a map in XML: OpenStreetMap's (also of Overpass, `out geom;` too), GPX or KML.
+/// @throws InputError for each fault, with its line: XML that ends early, another root element,
+///   longitudes and latitudes that are no degrees, heights that are no numbers, and as OsmMapMaker
+///   and MapOfLines do.
+[[nodiscard]] RailMap ReadXmlMap(const std::filesystem::path& file);
+
+/// Reads the lines of GeoJSON.
+/// @throws InputError for each fault, with JSON pointers: text that is no JSON, another coordinate
+///   system than WGS 84, coordinates that are no numbers, and as MapOfLines does.
+[[nodiscard]] RailMap ReadGeoJson(const std::filesystem::path& file);
 
 /// Whether a file begins as railML 3 does.
 [[nodiscard]] bool IsRailMl(std::string_view begin);
@@ -60,27 +77,5 @@ inline constexpr double kMostLatitude_deg = 90.0;
 /// sections divide the ways where they begin and end.
 /// @throws InputError with a line for each fault.
 [[nodiscard]] RailMap ReadRailMl(const std::filesystem::path& file);
-
-/// Reads the tracks of a vector file with GDAL: OpenStreetMap's .osm and .pbf, GeoJSON, GPX, KML.
-///
-/// If any line has a key `railway`, and always in OpenStreetMap's formats, only those are taken
-/// that are tracks (IsTrack); otherwise all lines are. Lines meet where they share a point, to the
-/// last digit. Attributes become tags.
-/// @throws InputError if GDAL cannot read the file to its end, if it has no line, if a track is a
-///   polygon or has no two different points, or if its coordinates are no degrees.
-[[nodiscard]] RailMap ReadVectorMap(const std::filesystem::path& file);
-
-/// Checks the places of a GeoJSON file. GDAL, which reads it, drops a line of which a coordinate is
-/// no number.
-/// @throws InputError for each fault, with JSON pointers: text that is no JSON, coordinates that
-///   are no numbers, heights of some points of a line but not of all.
-void CheckGeoJsonPlaces(const std::filesystem::path& file);
-
-/// Checks the places in the text of a map in XML: OpenStreetMap's, GPX or KML. GDAL, which reads
-/// these maps, takes 0 for what is no number and for a height that is missing.
-/// @throws InputError for each fault, with its line: XML that ends early, longitudes and latitudes
-///   that are no degrees, heights that are no numbers, heights of some points of a line but not of
-///   all, two nodes or ways of one id.
-void CheckXmlPlaces(const std::filesystem::path& file);
 
 }  // namespace railcast

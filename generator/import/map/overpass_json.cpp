@@ -1,14 +1,11 @@
-#include "generator/import/map/map_formats.h"
-
 #include <cmath>
-#include <map>
 #include <optional>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "generator/import/map/map_formats.h"
+#include "generator/import/map/osm_map.h"
 
 namespace railcast {
 namespace {
@@ -16,14 +13,14 @@ namespace {
 /// Takes the elements of an answer one by one.
 class OverpassReader {
  public:
-  explicit OverpassReader(ErrorList& errors) : errors_(errors) {}
-
   void Read(const Json& elements);
-  [[nodiscard]] RailMap TakeMap() { return std::move(map_); }
+  [[nodiscard]] ErrorList& errors() { return errors_; }
+  [[nodiscard]] OsmMapMaker& maker() { return maker_; }
 
  private:
-  void ReadNode(const Json& element, const std::string& pointer);
-  void ReadWay(const Json& element, const std::string& pointer);
+  void ReadElement(const Json& element, const std::string& pointer);
+  void ReadNode(const Json& element, std::int64_t id, const std::string& pointer);
+  void ReadWay(const Json& element, std::int64_t id, const std::string& pointer);
   /// A number of 64 bits with sign; otherwise a fault with this rule.
   [[nodiscard]] std::optional<std::int64_t> OverpassId(const Json& value,
                                                        const std::string& place,
@@ -33,28 +30,18 @@ class OverpassReader {
                                                 const std::string& pointer,
                                                 const char* key,
                                                 double most_deg);
-
   [[nodiscard]] std::optional<Eigen::Vector2d> PlaceOf_deg(const Json& element,
                                                            const std::string& pointer);
-  /// The node of an id, which has one place wherever it is named.
-  [[nodiscard]] std::optional<std::size_t> NodeOf(std::int64_t id,
-                                                  const Eigen::Vector2d& place_deg,
-                                                  const std::string& pointer);
-  /// A node that stands in the file as an element of its own.
-  [[nodiscard]] std::optional<std::size_t> GivenNode(const Json& id, const std::string& place);
-  /// A node of a way with its geometry (`out geom;`).
-  [[nodiscard]] std::optional<std::size_t> DrawnNode(const Json& element,
-                                                     std::size_t i,
-                                                     const std::string& pointer);
-  [[nodiscard]] std::optional<std::vector<std::size_t>> NodesOf(const Json& element,
-                                                                const std::string& pointer);
+  /// Whether the nodes of a way could be read.
+  [[nodiscard]] bool ReadNodes(const Json& element, const std::string& pointer, OsmWay& way);
+  void AddFault(std::optional<Fault> fault, const std::string& pointer) {
+    if (!fault) return;
+    fault->place = pointer + (fault->place.empty() ? "" : "/") + fault->place;
+    errors_.Add(*std::move(fault));
+  }
 
-  ErrorList& errors_;
-  RailMap map_;
-  std::unordered_map<std::int64_t, std::size_t> nodes_;  ///< By id.
-  /// Of ways with their geometry but without ids, which meet where they share a place.
-  std::map<std::pair<double, double>, std::size_t> places_;
-  std::unordered_set<std::int64_t> ways_;  ///< Ids.
+  ErrorList errors_;
+  OsmMapMaker maker_{true};
 };
 
 MapTags OverpassTags(const Json& element) {
@@ -64,12 +51,6 @@ MapTags OverpassTags(const Json& element) {
     if (value.is_string()) tags.emplace(key, value.get<std::string>());
   }
   return tags;
-}
-
-/// The value of the key `ele`; absent if it is anything else than a height in metres.
-std::optional<double> HeightOf_m(std::string_view value) {
-  const std::optional<double> height_m = NumberIn(value);
-  return height_m && IsHeight(*height_m) ? height_m : std::nullopt;
 }
 
 std::optional<std::int64_t> OverpassReader::OverpassId(const Json& value,
@@ -119,71 +100,12 @@ std::optional<Eigen::Vector2d> OverpassReader::PlaceOf_deg(const Json& element,
   return Eigen::Vector2d(*longitude_deg, *latitude_deg);
 }
 
-std::optional<std::size_t> OverpassReader::NodeOf(std::int64_t id,
-                                                  const Eigen::Vector2d& place_deg,
-                                                  const std::string& pointer) {
-  const auto [entry, is_new] = nodes_.try_emplace(id, map_.nodes.size());
-  if (is_new) map_.nodes.push_back({.geographic_deg = place_deg, .tags = {}});
-  const Eigen::Vector2d& known_deg = map_.nodes[entry->second].geographic_deg;
-  if (known_deg == place_deg) return entry->second;
-  const auto shown = [](const Eigen::Vector2d& at_deg) {
-    return NumberText(at_deg.x()) + ", " + NumberText(at_deg.y());
-  };
-  errors_.Add({pointer,
-               "must be where node " + std::to_string(id) + " is before, at " + shown(known_deg),
-               shown(place_deg)});
-  return std::nullopt;
-}
-
-void OverpassReader::ReadNode(const Json& element, const std::string& pointer) {
-  const auto id = IdOf(element, pointer);
+void OverpassReader::ReadNode(const Json& element, std::int64_t id, const std::string& pointer) {
   const auto place_deg = PlaceOf_deg(element, pointer);
-  if (!id || !place_deg) return;
-  // An answer may repeat nodes, with their tags or without.
-  const auto index = NodeOf(*id, *place_deg, pointer);
-  MapTags tags = OverpassTags(element);
-  if (!index || tags.empty() || !map_.nodes[*index].tags.empty()) return;
-  MapNode& node = map_.nodes[*index];
-  node.tags = std::move(tags);
-  node.height_m = HeightOf_m(TagOf(node.tags, "ele"));
-  if (IsThing(node.tags)) map_.things.push_back({{node.geographic_deg}, {}, node.tags});
+  if (place_deg) AddFault(maker_.AddNode(id, *place_deg, OverpassTags(element)), pointer);
 }
 
-std::optional<std::size_t> OverpassReader::GivenNode(const Json& id, const std::string& place) {
-  const auto node_id = OverpassId(id, place, "must be a node id");
-  if (!node_id) return std::nullopt;
-  const auto found = nodes_.find(*node_id);
-  if (found != nodes_.end()) return found->second;
-  errors_.Add(
-      {place, "must be a node of this file (ask Overpass for the nodes, too: >; out;)", id.dump()});
-  return std::nullopt;
-}
-
-std::optional<std::size_t> OverpassReader::DrawnNode(const Json& element,
-                                                     std::size_t i,
-                                                     const std::string& pointer) {
-  const Json& point = element["geometry"][i];
-  const std::string place = pointer + "/geometry/" + std::to_string(i);
-  if (!point.is_object()) {
-    errors_.Add({place, "must be a place (ask Overpass for whole ways: out geom; without a box)",
-                 point.type_name()});
-    return std::nullopt;
-  }
-  const auto place_deg = PlaceOf_deg(point, place);
-  if (!place_deg) return std::nullopt;
-  if (!element.contains("nodes")) {
-    const auto [entry, is_new] =
-        places_.try_emplace({place_deg->x(), place_deg->y()}, map_.nodes.size());
-    if (is_new) map_.nodes.push_back({.geographic_deg = *place_deg, .tags = {}});
-    return entry->second;
-  }
-  const auto id =
-      OverpassId(element["nodes"][i], pointer + "/nodes/" + std::to_string(i), "must be a node id");
-  return id ? NodeOf(*id, *place_deg, place) : std::nullopt;
-}
-
-std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const Json& element,
-                                                                const std::string& pointer) {
+bool OverpassReader::ReadNodes(const Json& element, const std::string& pointer, OsmWay& way) {
   const auto is_list = [&](const char* key) {
     return element.contains(key) && element[key].is_array();
   };
@@ -191,66 +113,80 @@ std::optional<std::vector<std::size_t>> OverpassReader::NodesOf(const Json& elem
   if (!is_list("nodes") && (!is_drawn || element.contains("nodes"))) {
     errors_.Add({pointer + "/nodes", "must be a list of node ids",
                  element.contains("nodes") ? element["nodes"].type_name() : "none"});
-    return std::nullopt;
+    return false;
   }
   const std::size_t num = element[is_drawn ? "geometry" : "nodes"].size();
   if (is_drawn && is_list("nodes") && element["nodes"].size() != num) {
     errors_.Add({pointer + "/geometry", "must have a place for each of the nodes",
                  std::to_string(num) + " for " + std::to_string(element["nodes"].size())});
-    return std::nullopt;
+    return false;
   }
-  std::vector<std::size_t> nodes;
   for (std::size_t i = 0; i < num; ++i) {
-    const auto node = is_drawn
-                          ? DrawnNode(element, i, pointer)
-                          : GivenNode(element["nodes"][i], pointer + "/nodes/" + std::to_string(i));
-    if (!node) return std::nullopt;
-    nodes.push_back(*node);
+    if (is_list("nodes")) {
+      const auto id = OverpassId(element["nodes"][i], pointer + "/nodes/" + std::to_string(i),
+                                 "must be a node id");
+      if (!id) return false;
+      way.nodes.push_back(*id);
+    }
+    if (!is_drawn) continue;
+    // `out geom(BOX);` gives null for places outside of the box.
+    const Json& point = element["geometry"][i];
+    const std::string place = pointer + "/geometry/" + std::to_string(i);
+    if (!point.is_object() && !point.is_null()) {
+      errors_.Add({place, "must be a place", point.type_name()});
+      return false;
+    }
+    way.drawn_deg.push_back(point.is_null() ? std::nullopt : PlaceOf_deg(point, place));
+    if (!point.is_null() && !way.drawn_deg.back()) return false;
   }
-  return nodes;
+  return true;
 }
 
-void OverpassReader::ReadWay(const Json& element, const std::string& pointer) {
+void OverpassReader::ReadWay(const Json& element, std::int64_t id, const std::string& pointer) {
+  OsmWay way{id, {}, {}, OverpassTags(element)};
+  // Others may be there without their nodes.
+  const bool is_kept = IsTrack(TagOf(way.tags, "railway")) || IsThing(way.tags);
+  if (is_kept && !ReadNodes(element, pointer, way)) return;
+  AddFault(maker_.AddWay(std::move(way)), pointer);
+}
+
+void OverpassReader::ReadElement(const Json& element, const std::string& pointer) {
+  if (!element.is_object() || !element.contains("type") || !element["type"].is_string()) {
+    errors_.Add({pointer + "/type", "must be node, way or relation", element.type_name()});
+    return;
+  }
+  const auto type = element["type"].get<std::string>();
+  if (type != "node" && type != "way" && type != "relation") return;
   const auto id = IdOf(element, pointer);
   if (!id) return;
-  MapTags tags = OverpassTags(element);
-  const bool is_track = IsTrack(TagOf(tags, "railway"));
-  if (!is_track && !IsThing(tags)) return;
-  if (!ways_.insert(*id).second) return;  // An answer may repeat ways, too.
-  const auto nodes = NodesOf(element, pointer);
-  if (!nodes) return;
-  MapWay way{*id, {}, std::move(tags)};
-  for (const std::size_t node : *nodes) AppendNode(node, way);
-  if (way.nodes.size() < 2) {
-    errors_.Add({pointer + (element.contains("nodes") ? "/nodes" : "/geometry"),
-                 "must have two different nodes or more", std::to_string(way.nodes.size())});
-    return;
+  const auto word = [&](const char* key) {
+    const bool is_there = element.contains(key);
+    return !is_there                  ? std::string()
+           : element[key].is_string() ? element[key].get<std::string>()
+                                      : element[key].dump();
+  };
+  const std::string action = word("action");
+  const std::string visible = word("visible");
+  bool is_deleted = false;
+  AddFault(CheckLife(action.empty() ? nullptr : action.c_str(),
+                     visible.empty() ? nullptr : visible.c_str(), is_deleted),
+           pointer);
+  if (is_deleted && type == "node") {
+    maker_.AddDeletedNode(*id);
+  } else if (is_deleted) {
+    maker_.AddDeleted(type, *id, OverpassTags(element));
+  } else if (type == "node") {
+    ReadNode(element, *id, pointer);
+  } else if (type == "way") {
+    ReadWay(element, *id, pointer);
+  } else {
+    maker_.AddRelation(*id, OverpassTags(element));
   }
-  if (is_track) {
-    map_.ways.push_back(std::move(way));
-    return;
-  }
-  MapThing thing{{}, {}, std::move(way.tags)};
-  for (const std::size_t node : way.nodes) {
-    thing.geographic_deg.push_back(map_.nodes[node].geographic_deg);
-  }
-  map_.things.push_back(std::move(thing));
 }
 
 void OverpassReader::Read(const Json& elements) {
-  // Nodes may follow the ways that need them.
-  for (const bool reads_nodes : {true, false}) {
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      const Json& element = elements[i];
-      const std::string pointer = "/elements/" + std::to_string(i);
-      if (!element.is_object() || !element.contains("type") || !element["type"].is_string()) {
-        errors_.Add({pointer + "/type", "must be node, way or relation", element.type_name()});
-        continue;
-      }
-      const auto type = element["type"].get<std::string>();
-      if (reads_nodes && type == "node") ReadNode(element, pointer);
-      if (!reads_nodes && type == "way") ReadWay(element, pointer);
-    }
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    ReadElement(elements[i], "/elements/" + std::to_string(i));
   }
 }
 
@@ -258,25 +194,23 @@ void OverpassReader::Read(const Json& elements) {
 
 RailMap ReadOverpassJson(const std::filesystem::path& file) {
   const Json root = ReadMapJson(file);
-  ErrorList errors;
+  const std::string shown = ShownPath(file) + ": ";
+  if (root.is_object() && root.contains("remark")) {
+    const Json& remark = root["remark"];
+    RefuseRemark(shown + "/remark", remark.is_string() ? remark.get<std::string>() : remark.dump());
+  }
   if (!root.is_object() || !root.contains("elements") || !root["elements"].is_array()) {
     throw InputError(
-        ShownPath(file) + ": /elements: must be a list, as the Overpass API returns it (got " +
+        shown + "/elements: must be a list, as the Overpass API returns it (got " +
         (root.is_object() && root.contains("elements") ? root["elements"].type_name() : "none") +
         ")");
   }
-  OverpassReader reader(errors);
+  OverpassReader reader;
   reader.Read(root["elements"]);
-  AtPlace(ShownPath(file) + ": ", [&] { errors.ThrowIfAny(); });
-  RailMap map = reader.TakeMap();
-  if (map.ways.empty()) {
-    throw InputError(ShownPath(file) +
-                     ": /elements: must have a way with railway=rail or another kind of track "
-                     "(got " +
-                     std::to_string(root["elements"].size()) + " elements)");
-  }
-  map.attribution = kOpenStreetMapAttribution;
-  return map;
+  return AtPlace(shown, [&] {
+    reader.errors().ThrowIfAny();
+    return reader.maker().Make();
+  });
 }
 
 }  // namespace railcast

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "railcast/remark.h"
+
 namespace railcast {
 
 /// Keys and values of a mapped thing, as OpenStreetMap has them ("maxspeed": "120").
@@ -55,6 +57,7 @@ struct MapWay {
   std::int64_t id{};               ///< Of the source, for messages.
   std::vector<std::size_t> nodes;  ///< At least two; no two neighbours are equal.
   MapTags tags;
+  std::string place{};  ///< In its file, for messages: "way 7", "/features/3".
 };
 
 /// Appends a node, unless the way ends with it already, as sources sometimes repeat it.
@@ -94,6 +97,8 @@ struct RailMap {
   std::vector<MapWay> ways;
   std::vector<MapThing> things;
   std::string attribution;
+  /// What was not taken as it stands in the file; their places are those of the file: "way 7".
+  std::vector<Remark> remarks;
 };
 
 }  // namespace railcast

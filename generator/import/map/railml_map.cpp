@@ -17,7 +17,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/write_file.h"
+#include "core/base/text_encoding.h"
 #include "generator/import/map/gdal_errors.h"
 
 namespace railcast {
@@ -322,6 +322,7 @@ RailMap RailMlReader::Map() const {
     for (auto end = std::next(ends.begin()); end != ends.end(); ++end) {
       const double begin = *std::prev(end);
       MapWay way{static_cast<std::int64_t>(map.ways.size()), {}, {{"railway", "rail"}}};
+      way.place = "netElement " + ShownText(net.id);
       if (!net.name.empty()) way.tags["name"] = net.name;
       const auto after = net.speeds.upper_bound(begin);
       if (after != net.speeds.begin() && !std::prev(after)->second.empty()) {
@@ -349,7 +350,7 @@ bool IsRailMl(std::string_view begin) {
 }
 
 RailMap ReadRailMl(const std::filesystem::path& file) {
-  const std::string text = ReadFileWhole(file);
+  const std::string text = ReadTextWhole(file);
   GdalErrors gdal_errors;
   const XmlTree tree(CPLParseXMLString(text.c_str()), &CPLDestroyXMLNode);
   if (!tree) {

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "generator/import/map/map_formats.h"
 
 namespace railcast {
@@ -20,7 +21,7 @@ constexpr std::size_t kNotKept = std::numeric_limits<std::size_t>::max();
 
 /// Appends the runs of a way's points that are kept.
 void AppendRuns(const MapWay& way, const std::vector<std::size_t>& kept, RailMap& cropped) {
-  MapWay run{way.id, {}, way.tags};
+  MapWay run{way.id, {}, way.tags, way.place};
   const auto end_run = [&] {
     if (run.nodes.size() >= 2) cropped.ways.push_back(run);
     run.nodes.clear();
@@ -35,19 +36,16 @@ void AppendRuns(const MapWay& way, const std::vector<std::size_t>& kept, RailMap
   end_run();
 }
 
-std::string BeginningOf(const std::filesystem::path& file) {
+std::string BytesAtBegin(const std::filesystem::path& file) {
   std::array<char, 4096> bytes{};
   std::ifstream stream = OpenInput(file);
   stream.read(bytes.data(), bytes.size());
   return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
 }
 
-/// What may stand before a text: blanks, and the mark of UTF-8.
-constexpr std::string_view kBlanksAndMark = " \t\r\n\xEF\xBB\xBF";
-
-/// The first character of a text; 0 if there is none.
+/// The first character of a text but blanks; 0 if there is none.
 char FirstOf(std::string_view begin) {
-  const std::size_t first = begin.find_first_not_of(kBlanksAndMark);
+  const std::size_t first = begin.find_first_not_of(" \t\r\n");
   return first == std::string_view::npos ? '\0' : begin[first];
 }
 
@@ -66,19 +64,30 @@ bool NamesOpenStreetMap(std::string begin) {
   return begin.find("openstreetmap") != std::string::npos;
 }
 
-/// What GDAL would pass over or take for 0 is refused before it reads the file.
-RailMap ReadWithGdal(const std::filesystem::path& file, const std::string& begin) {
-  if (FirstOf(begin) == '<') CheckXmlPlaces(file);
-  if (FirstOf(begin) == '{') CheckGeoJsonPlaces(file);
-  RailMap map = ReadVectorMap(file);
-  if (NamesOpenStreetMap(begin)) map.attribution = kOpenStreetMapAttribution;
-  return map;
+/// How to come from a file that is packed to the map in it; empty if it is no such file.
+std::string HowToUnpack(std::string_view begin) {
+  if (begin.starts_with("PK"))
+    return "unpack it first: unzip; of KMZ it is doc.kml (got a zip file)";
+  if (begin.starts_with("\x1F\x8B")) return "unpack it first: gunzip (got a gzip file)";
+  if (begin.starts_with("BZh")) return "unpack it first: bunzip2 (got a bzip2 file)";
+  return "";
 }
 
 RailMap ReadAnyMap(const std::filesystem::path& file) {
-  const std::string begin = BeginningOf(file);
+  const std::string bytes = BytesAtBegin(file);
+  if (IsOsmPbf(bytes)) return ReadOsmPbf(file);
+  const std::string begin = AsUtf8(bytes);
   if (IsOverpass(begin)) return ReadOverpassJson(file);
-  return IsRailMl(begin) ? ReadRailMl(file) : ReadWithGdal(file, begin);
+  if (IsRailMl(begin)) return ReadRailMl(file);
+  if (FirstOf(begin) != '<' && FirstOf(begin) != '{') {
+    const std::string how = HowToUnpack(bytes);
+    throw InputError(
+        ShownPath(file) + ": must be a map: " +
+        (how.empty() ? "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" : how));
+  }
+  RailMap map = FirstOf(begin) == '<' ? ReadXmlMap(file) : ReadGeoJson(file);
+  if (NamesOpenStreetMap(begin)) map.attribution = kOpenStreetMapAttribution;
+  return map;
 }
 
 /// The longest straights of railways are mapped with points every few kilometres: what is farther
@@ -127,6 +136,7 @@ void CheckIsWhereRailwaysAre(const RailMap& map) {
 RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg) {
   RailMap cropped;
   cropped.attribution = map.attribution;
+  cropped.remarks = map.remarks;
   std::vector<std::size_t> kept(map.nodes.size(), kNotKept);
   for (std::size_t i = 0; i < map.nodes.size(); ++i) {
     if (!within_deg.contains(map.nodes[i].geographic_deg)) continue;

@@ -8,9 +8,9 @@
 namespace railcast {
 
 /// Reads a map in any of the formats that import takes, which is told by its content.
-/// @throws InputError as ReadOverpassJson and ReadVectorMap do, if neighbouring points are more
-/// than
-///   50 km apart, or if a track is where only exchanged longitudes and latitudes put it.
+/// @throws InputError as the readers of the formats do (map_formats.h), if neighbouring
+///   points are more than 50 km apart, or if a track is where only exchanged longitudes and
+///   latitudes put it.
 [[nodiscard]] RailMap ReadMap(const std::filesystem::path& file);
 
 /// Keeps of a map what lies within a rectangle of longitudes and latitudes.

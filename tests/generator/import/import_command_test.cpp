@@ -138,6 +138,78 @@ TEST(Import, TakesHeightsFromAnElevationModel) {
   EXPECT_THAT(ReadFileWhole(out / "hill-line.elevation.asc"), HasSubstr("cellsize 112\n"));
 }
 
+/// A run on kMap and a grid of SlopeGrid(1.0) of which a part of each row was replaced.
+class ImportWithHeights : public ::testing::Test {
+ protected:
+  Ended Run(const std::string& from, const std::string& by, const std::string& map = kMap) {
+    std::string grid = SlopeGrid(1.0);
+    for (std::size_t at = 0; (at = grid.find(from, at)) != std::string::npos; at += by.size()) {
+      grid.replace(at, from.size(), by);
+    }
+    WriteFileWhole(directory_.path() / "map.geojson", map);
+    WriteFileWhole(directory_.path() / "dem.asc", grid);
+    return Generate("import " + (directory_.path() / "map.geojson").string() + " --out " +
+                    out_.string() + " --heights " + (directory_.path() / "dem.asc").string() +
+                    " --heights-crs EPSG:4326");
+  }
+
+  TemporaryDirectory directory_;
+  fs::path out_ = directory_.path() / "out";
+};
+
+TEST_F(ImportWithHeights, TellsCellsThatCannotBeHeights) {
+  // 400 m west of the line, in the rows of up to 500 m beside it.
+  const Ended run = Run(" 314 315 ", " -32768 315 ");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, ::testing::ContainsRegex("remark heights-void: 1[0-9] cells of an "
+                                                 "elevation model with heights that cannot be"));
+  EXPECT_THAT(ReadFileWhole(out_ / "left_out.csv"),
+              HasSubstr("they count as without one: -32768 m\""));
+}
+
+TEST_F(ImportWithHeights, EndsWithAnErrorIfNoLineCanStand) {
+  // Over the middle of the line, in each row.
+  const Ended run = Run(" 335 336 337 ", " -32768 -32768 -32768 ");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("Wrote 0 lines to "));
+  EXPECT_THAT(run.said, HasSubstr("map.geojson: must have a line that can stand (got 1 left out, "
+                                  "with the reasons in " +
+                                  (out_ / "left_out.csv").string() + ")"));
+}
+
+TEST_F(ImportWithHeights, LeavesOutALineWhoseHeightsNoRailwayHas) {
+  // A step of 300 m.
+  const Ended run = Run(" 335 336 337 ", " 0 0 0 ");
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.said, HasSubstr("left out line hill-line of 2"));
+  EXPECT_THAT(run.said, HasSubstr("its heights must lie within 20 m of gradients that a railway "
+                                  "can have (got "));
+}
+
+TEST_F(ImportWithHeights, TellsHeightsThatAreFarFromTheGradients) {
+  const Ended run = Run(" 335 336 337 ", " 335 350 337 ");
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("remark heights-far: "));
+  EXPECT_THAT(ReadFileWhole(out_ / "left_out.csv"), HasSubstr("line hill-line at "));
+}
+
+TEST(Import, ListsWhatOfTheMapWasNotTakenAsItStands) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  const fs::path out = directory.path() / "out";
+  std::string text = kMap;
+  text.replace(text.find("\"60\""), 4, "\"DE:rural\"");
+  WriteFileWhole(map, text);
+  const Ended run = Generate("import " + map.string() + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said, HasSubstr("remark speeds-unread: 1 speed limit that is not understood"));
+  EXPECT_THAT(
+      ReadFileWhole(out / "left_out.csv"),
+      HasSubstr(
+          ",speeds-unread,,,\"/features/0/geometry: 1 speed limit that is not understood: its "
+          "track counts as without one: 'DE:rural'\""));
+}
+
 TEST(Import, NeedsAnElevationModelThatDoesNotEnd) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/write_file.h"
 #include "generator/import/map/read_map.h"
 #include "railcast/error.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/generator/import/written_maps.h"
 
 namespace railcast {
 namespace {
@@ -56,6 +58,24 @@ std::string Node(std::int64_t id, double longitude_deg, double latitude_deg) {
       1, Number(1, Signed(id)) + Number(8, units(latitude_deg)) + Number(9, units(longitude_deg)));
 }
 
+constexpr const char* kTexts[] = {"", "railway", "rail", "maxspeed", "90", "ele", "250"};
+
+std::string FileOfGroups(const std::string& groups, const std::string& header = "") {
+  std::string texts;
+  for (const char* text : kTexts) texts += Bytes(1, text);
+  return FileBlock("OSMHeader", Bytes(4, "OsmSchema-V0.6") + header) +
+         FileBlock("OSMData", Bytes(1, texts) + groups);
+}
+
+/// A way with railway=rail through the nodes with these ids.
+std::string Way(const std::vector<std::int64_t>& nodes, const std::string& more = "") {
+  std::string differences;
+  std::int64_t before = 0;
+  for (const std::int64_t node : nodes) differences += Signed(node - std::exchange(before, node));
+  return Bytes(2, Bytes(3, Number(1, Varint(7)) + Bytes(2, Varint(1)) + Bytes(3, Varint(2)) +
+                               Bytes(8, differences) + more));
+}
+
 /// Two nodes and a way with railway=rail, maxspeed=90.
 std::string SmallPbf(int compression = kRaw) {
   const std::string texts =
@@ -81,6 +101,64 @@ TEST(OsmPbf, IsReadAsAMap) {
   EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "90");
 }
 
+class OsmPbfWords : public ::testing::Test, public WrittenMaps {};
+
+TEST_F(OsmPbfWords, MayHaveThePlacesOfNodesInItsWays) {
+  const std::string places =
+      Bytes(9, Signed(482000000) + Signed(100000)) + Bytes(10, Signed(156000000) + Signed(0));
+  const RailMap map = Read("map.pbf", FileOfGroups(Way({1, 2}, places)));
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(map.nodes[1].geographic_deg, Eigen::Vector2d(15.6, 48.21));
+}
+
+/// Nodes 1 to `num` as dense ones, each 0.01 degrees east of the one before; the second has a
+/// height.
+std::string DenseNodes(int num, const std::string& more = "") {
+  std::string ids;
+  std::string latitudes;
+  std::string longitudes;
+  std::string words;
+  for (int i = 0; i < num; ++i) {
+    ids += Signed(1);
+    latitudes += Signed(i == 0 ? 482000000 : 0);
+    longitudes += Signed(i == 0 ? 156000000 : 100000);
+    words += i == 1 ? Varint(5) + Varint(6) + Varint(0) : Varint(0);
+  }
+  return Bytes(2, Bytes(2, Bytes(1, ids) + Bytes(8, latitudes) + Bytes(9, longitudes) +
+                               Bytes(10, words) + more));
+}
+
+TEST_F(OsmPbfWords, OfDenseNodesHaveTheirTags) {
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(3) + Way({1, 2, 3})));
+  ASSERT_THAT(map.nodes, SizeIs(3));
+  EXPECT_EQ(map.nodes[2].geographic_deg, Eigen::Vector2d(15.62, 48.2));
+  EXPECT_EQ(map.nodes[1].height_m, 250.0);
+  EXPECT_EQ(map.nodes[2].height_m, std::nullopt);
+}
+
+TEST_F(OsmPbfWords, CutWaysWhereNodesAreMissing) {
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(4) + Way({1, 2, 98, 99, 3, 4})));
+  ASSERT_THAT(map.ways, SizeIs(2));
+  EXPECT_THAT(map.nodes, SizeIs(4));
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kNodesMissing)->number, 2U);
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kNodesMissing)->place, "way 7");
+}
+
+TEST_F(OsmPbfWords, LeaveOutWhatIsDeletedInHistories) {
+  // The second of three nodes is not visible.
+  const std::string visible = Bytes(5, Bytes(6, Varint(1) + Varint(0) + Varint(1)));
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(3, visible) + Way({1, 2, 3})));
+  ASSERT_THAT(map.ways, SizeIs(1));
+  EXPECT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kDeletedLeftOut)->place, "node 2");
+}
+
+TEST_F(OsmPbfWords, AreRefusedIfTheyNeedWhatIsNotRead) {
+  EXPECT_EQ(Fault("map.pbf", FileOfGroups("", Bytes(4, "Curves"))),
+            "map.pbf: must need no features but OsmSchema-V0.6, DenseNodes, HistoricalInformation "
+            "and LocationsOnWays (got \"Curves\")");
+}
+
 TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
   const TemporaryDirectory directory;
   const std::filesystem::path file = directory.path() / "map.osm.pbf";
@@ -93,10 +171,11 @@ TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
     }
     return "no error";
   };
-  const std::string rule =
-      file.string() + ": must be readable to its end (blobs must be zlib or plain; field ";
-  EXPECT_EQ(fault(kLz4), rule + "6 (lz4) is passed over)");
-  EXPECT_EQ(fault(kZstd), rule + "7 (zstd) is passed over)");
+  const std::string rule = file.string() +
+                           ": must have blobs that are zlib or plain (osmium cat IN.pbf -o OUT.pbf "
+                           "makes them so) (got ";
+  EXPECT_EQ(fault(kLz4), rule + "lz4)");
+  EXPECT_EQ(fault(kZstd), rule + "zstd)");
 }
 
 TEST(OsmPbf, OfMonacoIsReadWithZlibAndRefusedWithLz4) {

@@ -8,45 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "core/io/write_file.h"
 #include "generator/import/map/map_projection.h"
 #include "railcast/error.h"
-#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/import/written_maps.h"
 
 namespace railcast {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
-class Maps : public ::testing::Test {
+class Maps : public ::testing::Test, public WrittenMaps {
  protected:
-  fs::path Write(const std::string& name, const std::string& text) {
-    WriteFileWhole(directory_.path() / name, text);
-    return directory_.path() / name;
-  }
-  /// The message of a map that cannot be read, without the folder.
-  std::string Fault(const std::string& name, const std::string& text) {
-    const fs::path file = Write(name, text);
-    try {
-      static_cast<void>(ReadMap(file));
-    } catch (const InputError& error) {
-      std::string message = error.what();
-      const std::string folder = directory_.path().string() + "/";
-      for (std::size_t at = 0; (at = message.find(folder)) != std::string::npos;) {
-        message.erase(at, folder.size());
-      }
-      return message;
-    }
-    return "no error";
-  }
   std::string OverpassFault(const std::string& elements) {
     return Fault("map.json", R"({"version": 0.6, "elements": [)" + elements + "]}");
   }
-
- private:
-  TemporaryDirectory directory_;
 };
 
 constexpr const char* kNodes = R"(
@@ -184,8 +160,8 @@ TEST_F(Maps, AreRefusedInOneLineEachWhereTheyAreWrong) {
   EXPECT_EQ(Fault("map.json", R"({"elements": 3})"),
             "map.json: /elements: must be a list, as the Overpass API returns it (got number)");
   EXPECT_EQ(OverpassFault(""),
-            "map.json: /elements: must have a way with railway=rail or another kind of track (got "
-            "0 elements)");
+            "map.json: must have a way with railway=rail or another kind of track (got 0 other "
+            "ways)");
   EXPECT_EQ(OverpassFault(R"({"type": "node", "id": 1, "lon": 15.6, "lat": 98.2})"),
             "map.json: /elements/0/lat: must be a number of degrees from -90 to 90 (got 98.2)");
   EXPECT_EQ(OverpassFault(R"({"type": "node", "id": 1, "lon": "15.6", "lat": 48.2})"),
@@ -194,13 +170,13 @@ TEST_F(Maps, AreRefusedInOneLineEachWhereTheyAreWrong) {
             "map.json: /elements/0/id: must be a whole number (got none)");
   EXPECT_EQ(
       OverpassFault(R"({"type": "way", "id": 7, "nodes": [1, 2], "tags": {"railway": "rail"}})"),
-      "map.json: /elements/0/nodes/0: must be a node of this file (ask Overpass for the nodes, "
-      "too: >; out;) (got 1)");
+      "map.json: must have the nodes of its tracks (ask Overpass for the nodes, too: >; out;) (got "
+      "no two neighbours of any track)");
   EXPECT_EQ(OverpassFault(R"({"type": "way", "id": 7, "tags": {"railway": "rail"}})"),
             "map.json: /elements/0/nodes: must be a list of node ids (got none)");
   EXPECT_EQ(OverpassFault(std::string(kNodes) +
                           R"({"type": "way", "id": 7, "nodes": [1], "tags": {"railway": "rail"}})"),
-            "map.json: /elements/3/nodes: must have two different nodes or more (got 1)");
+            "map.json: /elements/3: must have two different nodes or more (got 1)");
   EXPECT_THAT(Fault("map.json", R"({"elements": [)"), HasSubstr("map.json: must be JSON: "));
   EXPECT_THAT(
       Fault("map.txt", "hello"),
@@ -238,9 +214,10 @@ TEST_F(Maps, OfOpenStreetMapHaveNoLinesOfRelations) {
 }
 
 TEST_F(Maps, OfOpenStreetMapMustHaveRailways) {
-  EXPECT_EQ(Fault("map.osm", std::string(kOsmNodes) + R"(
+  EXPECT_EQ(
+      Fault("map.osm", std::string(kOsmNodes) + R"(
   <way id="7"><nd ref="1"/><nd ref="2"/><tag k="highway" v="primary"/></way></osm>)"),
-            "map.osm: must have a line that is a track (got 1 other lines)");
+      "map.osm: must have a way with railway=rail or another kind of track (got 1 other ways)");
 }
 
 TEST_F(Maps, AreRefusedInOtherFormatsThatGdalKnows) {

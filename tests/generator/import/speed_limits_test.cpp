@@ -37,11 +37,34 @@ RailMap TwoWays(const MapTags& tags, const MapTags& more_of_second = {}) {
 
 TEST(SpeedLimits, AreReadInKilometresAndMilesPerHour) {
   EXPECT_EQ(SpeedOf_kmph("120"), 120.0);
+  EXPECT_EQ(SpeedOf_kmph("80 km/h"), 80.0);
   EXPECT_NEAR(*SpeedOf_kmph("50 mph"), 80.47, 0.01);
+  EXPECT_NEAR(*SpeedOf_kmph("30 knots"), 55.56, 1e-9);
   for (const char* other :
-       {"", "none", "signals", "80;100", "-5", "inf", "nan", "5000", "1e200", "700 mph"}) {
+       {"", "none", "signals", "DE:rural", "80;", "80;none", "80-100", "-5", "0", "inf", "nan",
+        "1200", "1e200", "700 mph", "30 parsecs", "80 km/h x"}) {
     EXPECT_EQ(SpeedOf_kmph(other), std::nullopt) << other;
   }
+}
+
+TEST(SpeedLimits, AreTheLeastOfSeveral) {
+  EXPECT_EQ(SpeedOf_kmph("120;100"), 100.0);
+  EXPECT_EQ(SpeedOf_kmph("100 | 120 | 110"), 100.0);
+  EXPECT_NEAR(*SpeedOf_kmph("100; 50 mph"), 80.47, 0.01);
+}
+
+TEST(SpeedLimits, AreToldWhereTheyAreNotTakenAsTheyStand) {
+  RailMap map = TwoWays({{"railway", "rail"}}, {{"maxspeed", "DE:rural"}});
+  map.ways[0].tags["maxspeed"] = "120;100";
+  map.ways[0].tags["maxspeed:forward"] = "90";
+  map.ways[0].tags["maxspeed:source"] = "sign";
+  map.ways[0].place = "way 1";
+  TellSpeeds(map);
+  EXPECT_EQ(map.remarks, (std::vector<Remark>{
+                             {RemarkKind::kSpeedsChosen, "way 1", 1, "\"120;100\""},
+                             {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:forward=90"},
+                             {RemarkKind::kSpeedsUnread, "", 1, "\"DE:rural\""},
+                         }));
 }
 
 std::vector<double> SpeedsOf_kmph(const RailMap& map) {

@@ -1,0 +1,71 @@
+#include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+#include "generator/import/map/map_lines.h"
+#include "generator/import/map/xml_file.h"
+
+namespace railcast {
+namespace {
+
+/// Reads the tracks and routes of GPX. Waypoints are passed over.
+class GpxReader final : public XmlMapReader {
+ public:
+  explicit GpxReader(XmlFaults& faults) : faults_(faults) {}
+
+  void Begin(const XmlElement& element) override;
+  void End(std::string_view name, std::string_view text, std::uint64_t line) override;
+  RailMap Make() override { return MapOfLines(std::move(lines_), {}); }
+
+ private:
+  [[nodiscard]] std::string_view parent() const {
+    return open_.size() < 2 ? std::string_view() : open_[open_.size() - 2];
+  }
+
+  XmlFaults& faults_;
+  std::vector<std::string> open_;  ///< Elements, outermost first.
+  std::vector<MapLine> lines_;
+  std::size_t first_line_ = 0;  ///< Of the track or route that is open.
+  std::string name_;            ///< Of the same.
+};
+
+void GpxReader::Begin(const XmlElement& element) {
+  open_.emplace_back(element.name);
+  if (element.name == "trk" || element.name == "rte") {
+    first_line_ = lines_.size();
+    name_.clear();
+  }
+  if (element.name == "trkseg" || element.name == "rte") {
+    MapLine& line = lines_.emplace_back();
+    line.place = "line " + std::to_string(element.line) + ", " + std::string(element.name);
+    line.is_recorded = element.name == "trkseg";
+  }
+  if (element.name != "trkpt" && element.name != "rtept" && element.name != "wpt") return;
+  const auto place_deg = XmlPlace_deg(element, faults_);
+  if (element.name == "wpt" || lines_.empty() || !place_deg) return;
+  lines_.back().points_deg.push_back(*place_deg);
+  lines_.back().heights_m.emplace_back();
+}
+
+void GpxReader::End(std::string_view name, std::string_view text, std::uint64_t line) {
+  const std::string_view within = parent();
+  if (name == "ele" && (within == "trkpt" || within == "rtept" || within == "wpt")) {
+    const auto height_m = XmlNumber(text);
+    if (!height_m) faults_.Add(line, "ele", "must be a number of metres", Quoted(text));
+    const bool has_point = !lines_.empty() && !lines_.back().heights_m.empty();
+    if (within != "wpt" && has_point) lines_.back().heights_m.back() = height_m;
+  } else if (name == "name" && (within == "trk" || within == "rte")) {
+    name_ = XmlTrimmed(text);
+  } else if ((name == "trk" || name == "rte") && !name_.empty()) {
+    for (std::size_t i = first_line_; i < lines_.size(); ++i) lines_[i].tags["name"] = name_;
+  }
+  open_.pop_back();
+}
+
+}  // namespace
+
+std::unique_ptr<XmlMapReader> MakeGpxReader(XmlFaults& faults) {
+  return std::make_unique<GpxReader>(faults);
+}
+
+}  // namespace railcast
