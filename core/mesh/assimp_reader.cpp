@@ -1,6 +1,8 @@
 #include "core/mesh/assimp_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -130,6 +132,7 @@ std::string BytesOfScene(const SceneMesh& mesh) {
   ByteWriter writer;
   writer.Put(mesh.unit_m);
   writer.Put(mesh.y_up);
+  writer.Put(mesh.is_mirrored);
   writer.Put(soup.materials);
   writer.Put(NumbersOf(soup.luminances));
   writer.Put(soup.groups);
@@ -155,6 +158,7 @@ std::optional<SceneMesh> SceneOfBytes(std::string_view bytes) {
   ByteReader reader(bytes);
   reader.Get(mesh.unit_m);
   reader.Get(mesh.y_up);
+  reader.Get(mesh.is_mirrored);
   reader.Get(soup.materials);
   std::vector<double> luminances;
   reader.Get(luminances);
@@ -284,8 +288,8 @@ class FilesInMemory final : public Assimp::IOSystem {
   std::string name_;
 };
 
-/// FBX files say what their unit is, in centimetres, and which axis is up. assimp has turned and
-/// scaled glTF and DAE to metres with y up.
+/// FBX files say what their unit is, in centimetres. assimp has turned and scaled glTF and DAE to
+/// metres with y up.
 void TakeUnits(const aiScene& scene, MeshFormat format, SceneMesh& mesh) {
   if (format == MeshFormat::k3ds) mesh.y_up = false;
   if (format != MeshFormat::kFbx) return;
@@ -298,8 +302,34 @@ void TakeUnits(const aiScene& scene, MeshFormat format, SceneMesh& mesh) {
   else
     (void)scene.mMetaData->Get("UnitScaleFactor", unit_cm);
   if (unit_cm > 0.0F) mesh.unit_m = 0.01 * static_cast<double>(unit_cm);
-  int up = 1;
-  if (scene.mMetaData->Get("UpAxis", up)) mesh.y_up = up == 1;
+}
+
+/// From an FBX file's axes, which it names, to x to the right, -y to the front and z up.
+Eigen::Matrix3d AxesOfFbx(const aiScene& scene, const std::string& shown) {
+  struct NamedAxis {
+    const char* name;
+    int axis;
+    int sign = 1;
+  };
+  std::array<NamedAxis, 3> axes = {{{"CoordAxis", 0}, {"FrontAxis", 2}, {"UpAxis", 1}}};
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  std::string text;
+  for (std::size_t row = 0; row < axes.size(); ++row) {
+    NamedAxis& one = axes[row];
+    if (scene.mMetaData != nullptr) {
+      (void)scene.mMetaData->Get(one.name, one.axis);
+      (void)scene.mMetaData->Get(one.name + std::string("Sign"), one.sign);
+    }
+    text += (text.empty() ? "" : ", ") + std::string(one.name) + " " + std::to_string(one.sign) +
+            " * " + std::to_string(one.axis);
+    if (one.axis < 0 || one.axis > 2) continue;
+    matrix(static_cast<Eigen::Index>(row), one.axis) = row == 1 ? -one.sign : one.sign;
+  }
+  if (std::abs(matrix.determinant()) != 1.0) {
+    throw InputError(shown + ": its axes must be three of 0, 1 and 2 with signs 1 or -1 (got " +
+                     text + ")");
+  }
+  return matrix;
 }
 
 /// Checks the lengths in a binary glTF file's header, as much as which assimp would allocate.
@@ -341,7 +371,11 @@ SceneMesh ImportScene(const SceneSource& source,
     // assimp turns all of them from z up to y up, but their unit and upward axis are not known.
     gathering.file_from_scene.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
   }
+  const bool has_axes = source.format == MeshFormat::kFbx && !source.keeps_axes;
+  if (has_axes) gathering.file_from_scene.linear() = AxesOfFbx(*scene, gathering.shown);
   SceneMesh mesh{.soup = GatherScene(*scene, gathering)};
+  if (has_axes) mesh.y_up = false;
+  mesh.is_mirrored = gathering.file_from_scene.linear().determinant() < 0.0;
   TakeUnits(*scene, source.format, mesh);
   return mesh;
 }
@@ -368,6 +402,10 @@ bool HasAssimp() {
 SceneMesh ReadScene(SceneSource source, const std::string& shown) {
   const std::string extension = ExtensionOf(source.format);
   if (source.format == MeshFormat::kGlb) CheckGlb(source.bytes, shown);
+  std::vector<std::string> unread;
+  if (source.format == MeshFormat::kGltf || source.format == MeshFormat::kGlb) {
+    unread = CheckGltf(source.bytes, shown);
+  }
   if (source.format == MeshFormat::kDae) source.bytes = PlainDae(std::move(source.bytes));
   const SceneGathering gathering{.shown = shown};
   const ProcessLimits limits = LimitsOf(source);
@@ -390,6 +428,10 @@ SceneMesh ReadScene(SceneSource source, const std::string& shown) {
   if (!mesh) {
     throw InputError(shown + ": cannot be read as " + extension +
                      ": it is damaged or nested too deeply, and assimp broke off");
+  }
+  if (mesh->is_mirrored) AddRemark({RemarkKind::kAxesMirrored, {}}, mesh->soup.remarks);
+  for (const std::string& name : unread) {
+    AddRemark({RemarkKind::kExtensionUnread, {}, 1, Quoted(name)}, mesh->soup.remarks);
   }
   return *std::move(mesh);
 }

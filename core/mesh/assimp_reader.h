@@ -24,6 +24,7 @@ struct SceneMesh {
   PolygonSoup soup;
   double unit_m = 1.0;
   bool y_up = true;
+  bool is_mirrored = false;  ///< Whether its axes are left-handed.
 };
 
 /// A scene file, whole in memory.
@@ -31,12 +32,15 @@ struct SceneSource {
   MeshFormat format{};
   std::string bytes;
   std::vector<FileBeside> beside;
+  bool keeps_axes = false;  ///< Whether an FBX file's own axes are not to be used.
 };
 
 /// Reads a glTF, FBX, DAE or 3DS file by assimp, with the names of its materials and nodes.
-/// Animations are not played: everything is as in the file's rest pose. assimp sees no other files
+/// Animations are not played: everything is as in the file's rest pose. FBX files are turned, and
+/// mirrored if left-handed, as their axes say. assimp sees no other files
 /// than the source's, and works in a process of its own (RunLimited()).
-/// @throws InputError "shown: rule" if assimp cannot read it, or was not built in.
+/// @throws InputError "shown: rule" if assimp cannot read it, or was not built in, or if the file
+///   needs what is not read (CheckGltf).
 [[nodiscard]] SceneMesh ReadScene(SceneSource source, const std::string& shown);
 
 }  // namespace railcast

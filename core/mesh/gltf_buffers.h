@@ -10,6 +10,15 @@ namespace railcast {
 /// for assimp to say.
 [[nodiscard]] std::vector<std::string> BuffersOfGltf(const std::string& bytes);
 
+/// What a glTF file uses and is not read, although it may change its shape: names of extensions
+/// without which it can be read.
+/// @param shown Name of the file in error messages.
+/// @throws InputError "shown: place: rule (got value)" if it needs an extension that is not read,
+/// or has positions
+///   that are no floats.
+[[nodiscard]] std::vector<std::string> CheckGltf(const std::string& bytes,
+                                                 const std::string& shown);
+
 /// The name of a file as glTF writes it, without its percent signs: "wagon a.bin".
 [[nodiscard]] std::string FileOfUri(const std::string& uri);
 

@@ -11,6 +11,7 @@
 #include "core/base/input_file.h"
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "core/mesh/gltf_buffers.h"
 #include "core/mesh/mesh_format.h"
 #include "core/mesh/mesh_readers.h"
@@ -68,7 +69,7 @@ struct MeshSource {
 PolygonSoup ReadObjIn(MeshSource& source, const std::string& shown, double largest) {
   std::map<std::string, double> luminances;
   for (const FileBeside& library : source.beside) {
-    ReadMtl(ShownPath(source.file.parent_path() / library.name), library.bytes, luminances);
+    ReadMtl(ShownPath(source.file.parent_path() / library.name), AsUtf8(library.bytes), luminances);
   }
   std::istringstream in(std::move(source.bytes));
   PolygonSoup soup = ObjReader(shown, largest).Read(in);
@@ -90,7 +91,8 @@ PolygonSoup ReadSceneIn(MeshSource source,
     throw InputError(shown + ": says itself what its unit and its upward axis are: leave out " +
                      "unit_m and up");
   }
-  SceneMesh scene = ReadScene({format, std::move(source.bytes), std::move(source.beside)}, shown);
+  SceneMesh scene = ReadScene(
+      {format, std::move(source.bytes), std::move(source.beside), units.y_up.has_value()}, shown);
   if (!units.unit_m) units.unit_m = scene.unit_m;
   if (!units.y_up) units.y_up = scene.y_up;
   return std::move(scene.soup);
@@ -118,7 +120,13 @@ PolygonSoup ReadSoup(MeshSource source,
   }
 }
 
+/// Text as UTF-8; what is binary stays as it is.
+std::string MeshTextOf(std::string bytes) {
+  return IsBinaryStl(bytes) ? bytes : AsUtf8(std::move(bytes));
+}
+
 ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
+  source.bytes = MeshTextOf(std::move(source.bytes));
   const std::string shown = ShownPath(source.file);
   const std::optional<MeshFormat> format = MeshFormatOf(source.bytes, source.file);
   if (!format) throw InputError(shown + ": " + UnknownFormatText(source.bytes, source.file));
@@ -131,6 +139,7 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
   CheckCorners(shown, soup);
   ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
   mesh.has_own_up = IsScene(*format) && *format != MeshFormat::k3ds;
+  for (Remark& remark : mesh.remarks) remark.place = shown;
   if (mesh.parts.empty()) throw InputError(shown + ": holds no triangle");
   return mesh;
 }
@@ -163,21 +172,46 @@ std::vector<FileBeside> BuffersBeside(const std::string& bytes, const std::files
   return files;
 }
 
+/// Adds a file beside another if it is there, once; returns whether it is.
+bool AddBeside(const std::string& given,
+               const std::filesystem::path& file,
+               std::vector<FileBeside>& files) {
+  const std::string name = WithoutDot(given);
+  const std::filesystem::path beside = file.parent_path() / name;
+  std::error_code error;
+  if (!IsNameBeside(name) || !std::filesystem::is_regular_file(beside, error)) return false;
+  const auto is_same = [&](const FileBeside& other) { return other.name == name; };
+  if (std::ranges::none_of(files, is_same)) files.push_back({name, ReadFileWhole(beside)});
+  return true;
+}
+
 /// Materials have colours only where their library is there: many OBJ files come without.
 std::vector<FileBeside> LibrariesBeside(const std::string& bytes,
-                                        const std::filesystem::path& file) {
+                                        const std::filesystem::path& file,
+                                        std::vector<Remark>& remarks) {
   std::vector<FileBeside> files;
-  for (const std::string& given : MaterialLibrariesOf(bytes)) {
-    const std::string name = WithoutDot(given);
-    const auto is_same = [&](const FileBeside& other) { return other.name == name; };
-    if (!IsNameBeside(name) || std::ranges::any_of(files, is_same)) continue;
-    const std::filesystem::path beside = file.parent_path() / name;
-    std::error_code error;
-    if (std::filesystem::is_regular_file(beside, error)) {
-      files.push_back({name, ReadFileWhole(beside)});
+  for (const std::vector<std::string>& names : MaterialLibrariesOf(bytes)) {
+    if (AddBeside(names.front(), file, files)) continue;
+    std::vector<std::string> missing;
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      if (!AddBeside(names[i], file, files)) missing.push_back(names[i]);
+    }
+    // Several words of which none is a file are the name of one.
+    if (missing.size() + 1 == names.size()) missing = {names.front()};
+    for (const std::string& name : missing) {
+      AddRemark({RemarkKind::kMaterialFileMissing, ShownPath(file), 1, Quoted(name)}, remarks);
     }
   }
   return files;
+}
+
+std::vector<FileBeside> BesideOf(const std::string& text,
+                                 const std::filesystem::path& file,
+                                 std::vector<Remark>& remarks) {
+  const std::optional<MeshFormat> format = MeshFormatOf(text, file);
+  if (format == MeshFormat::kObj) return LibrariesBeside(text, file, remarks);
+  if (format == MeshFormat::kGltf || format == MeshFormat::kGlb) return BuffersBeside(text, file);
+  return {};
 }
 
 }  // namespace
@@ -190,10 +224,8 @@ ImportedMesh ParseMesh(std::string bytes,
 
 std::vector<FileBeside> FilesBesideMesh(const std::string& bytes,
                                         const std::filesystem::path& file) {
-  const std::optional<MeshFormat> format = MeshFormatOf(bytes, file);
-  if (format == MeshFormat::kObj) return LibrariesBeside(bytes, file);
-  if (format == MeshFormat::kGltf || format == MeshFormat::kGlb) return BuffersBeside(bytes, file);
-  return {};
+  std::vector<Remark> remarks;
+  return BesideOf(MeshTextOf(bytes), file, remarks);
 }
 
 ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units) {
@@ -201,9 +233,14 @@ ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units)
     if (!units.unit_m && !units.y_up) return ReadShippedPly(*shipped);
     return ParseMesh(std::string(*shipped), file, units);
   }
-  std::string bytes = ReadFileWhole(file);
-  std::vector<FileBeside> beside = FilesBesideMesh(bytes, file);
-  return ParseSource({.bytes = std::move(bytes), .file = file, .beside = std::move(beside)}, units);
+  std::string bytes = MeshTextOf(ReadFileWhole(file));
+  std::vector<Remark> remarks;
+  std::vector<FileBeside> beside = BesideOf(bytes, file, remarks);
+  ImportedMesh mesh =
+      ParseSource({.bytes = std::move(bytes), .file = file, .beside = std::move(beside)}, units);
+  mesh.remarks.insert(mesh.remarks.end(), remarks.begin(), remarks.end());
+  for (const Remark& remark : mesh.remarks) Publish(remark);
+  return mesh;
 }
 
 }  // namespace railcast

@@ -28,6 +28,8 @@ inline constexpr std::size_t kMostFaceCorners = 10'000;
 ///   of no known format, has coordinates that are not finite or too far from its origin for the
 ///   precision of its format, or if no triangle remains.
 ///
+/// What it did not take as it stands (ImportedMesh::remarks) it also publishes.
+///
 ///     ImportedMesh wagon = ReadMesh("wagon.obj", {.unit_m = 0.01, .y_up = true});
 [[nodiscard]] ImportedMesh ReadMesh(const std::filesystem::path& file, const MeshUnits& units = {});
 

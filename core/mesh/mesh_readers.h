@@ -47,10 +47,10 @@ class LineFaults {
   ErrorList faults_;
 };
 
-/// The names in the `mtllib` lines of an OBJ file, in their order. A line may name several files,
-/// or one with blanks in its name: it gives the whole rest of the line and, if there are several,
-/// each word of it.
-[[nodiscard]] std::vector<std::string> MaterialLibrariesOf(const std::string& obj);
+/// The `mtllib` lines of an OBJ file, in their order. A line may name several files, or one with
+/// blanks in its name, with or without a backslash before each or quotes: each gives the whole rest
+/// of the line and, if there are several, each word of it.
+[[nodiscard]] std::vector<std::vector<std::string>> MaterialLibrariesOf(const std::string& obj);
 
 /// Reads from a Wavefront MTL file the luminance of each material's diffuse colour (`Kd`), if it
 /// has one and no picture (`map_Kd`) changes it, and adds it to `luminances`. A material that
@@ -115,8 +115,9 @@ inline constexpr std::size_t kStlTriangleBytes = 50;
 [[nodiscard]] PolygonSoup ReadAsciiStl(const std::string& shown, const std::string& bytes);
 [[nodiscard]] PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes);
 
-/// Whether `bytes` are a binary STL file: its length follows from its number of triangles. ASCII
-/// files begin with "solid", but so do some binary ones.
+/// Whether `bytes` are a binary STL file: its length follows from its number of triangles, but for
+/// blanks and line ends behind the last. ASCII files begin with "solid", but so do some binary
+/// ones.
 [[nodiscard]] bool IsBinaryStl(const std::string& bytes);
 
 /// How many triangles a binary STL file has by its header; 0 if it ends within that.

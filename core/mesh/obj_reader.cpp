@@ -54,6 +54,25 @@ std::string Name(std::string_view rest) {
   return std::string(rest.substr(0, rest.find_last_not_of(kBlanks) + 1));
 }
 
+/// The names of files in a text, without quotes about them and backslashes before blanks.
+/// @param divides Whether other blanks divide names; otherwise there is one.
+std::vector<std::string> NamesIn(std::string_view text, bool divides) {
+  std::vector<std::string> names(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_blank = kBlanks.find(text[i]) != std::string_view::npos;
+    const bool is_escape = text[i] == '\\' && i + 1 < text.size() && text[i + 1] == ' ';
+    if (text[i] == '"') {
+      is_quoted = !is_quoted;
+    } else if (is_blank && divides && !is_quoted) {
+      if (!names.back().empty()) names.emplace_back();
+    } else {
+      names.back() += text[is_escape ? ++i : i];
+    }
+  }
+  return names;
+}
+
 /// Whether a line holds a vertex, a face or the like, rather than a name.
 bool IsGeometry(std::string_view line) {
   const std::string_view keyword = NextToken(line);
@@ -62,18 +81,21 @@ bool IsGeometry(std::string_view line) {
 
 }  // namespace
 
-std::vector<std::string> MaterialLibrariesOf(const std::string& obj) {
-  std::vector<std::string> names;
+std::vector<std::vector<std::string>> MaterialLibrariesOf(const std::string& obj) {
+  std::vector<std::vector<std::string>> lines;
   std::string_view rest = obj;
   while (const auto line = TakeLine(rest)) {
     // Most lines are of coordinates and faces.
     if (line->find("mtllib") == std::string_view::npos) continue;
     const auto words = Words(*line);
     if (words.size() < 2 || words[0] != "mtllib") continue;
-    names.push_back(Name({words[0].end(), line->end()}));
-    if (words.size() > 2) names.insert(names.end(), words.begin() + 1, words.end());
+    const std::string whole = Name({words[0].end(), line->end()});
+    std::vector<std::string>& names = lines.emplace_back();
+    names = NamesIn(whole, false);
+    const std::vector<std::string> several = NamesIn(whole, true);
+    if (several.size() > 1) names.insert(names.end(), several.begin(), several.end());
   }
-  return names;
+  return lines;
 }
 
 void ReadMtl(const std::string& shown,
@@ -107,12 +129,8 @@ ObjReader::ObjReader(std::string shown, double largest)
 
 PolygonSoup ObjReader::Read(std::istream& in) {
   std::string line;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   while (ReadLogicalLine(in, line)) {
     std::string_view rest = line;
-    if (line_ == 1 && rest.starts_with(kByteOrderMark)) {
-      rest.remove_prefix(kByteOrderMark.size());
-    }
     const std::string_view keyword = NextToken(rest);
     faults_.Try([&] { ReadKeyword(keyword, rest); });
   }

@@ -42,6 +42,7 @@ class Reader {
 
   PolygonSoup Read() {
     ReadHeader();
+    RefuseSplats();
     for (const Element& element : header_.elements) {
       // Each one has at least a byte: a count beyond that would only fill the memory.
       if (element.count > 0 && element.properties.empty()) {
@@ -51,6 +52,10 @@ class Reader {
       element.name == "vertex" ? ReadVertices(element) : ReadOthers(element);
     }
     CheckCorners();
+    const bool is_blank = rest_.find_first_not_of(" \t\r\n") == std::string_view::npos;
+    if (header_.encoding != Encoding::kAscii || !is_blank) {
+      AddRemark({RemarkKind::kSurplusBytes, {}, rest_.size()}, soup_.remarks);
+    }
     NameMaterialsByColor(colors_, soup_);
     return std::move(soup_);
   }
@@ -89,6 +94,18 @@ class Reader {
       }
     }
     if (!has_format) Fail("its header has no format line");
+  }
+
+  void RefuseSplats() const {
+    for (const Element& element : header_.elements) {
+      if (std::ranges::find(element.properties, "f_dc_0", &Property::name) ==
+          element.properties.end()) {
+        continue;
+      }
+      Fail(
+          "holds Gaussian splats, which are no surface: make a mesh of them first (got the "
+          "property f_dc_0)");
+    }
   }
 
   [[noreturn]] void FailLine(std::string_view line) const {

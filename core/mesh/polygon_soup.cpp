@@ -220,7 +220,8 @@ ImportedMesh MakeTriangles(const PolygonSoup& soup, double unit_m, bool y_up) {
   ImportedMesh result{.parts = {},
                       .origin_m = z_up_m(middle),
                       .num_faces = soup.faces.size(),
-                      .num_cornerless = soup.num_cornerless};
+                      .num_cornerless = soup.num_cornerless,
+                      .remarks = soup.remarks};
   PartBuilders builders(soup);
   for (const PolygonSoup::Face& face : soup.faces) {
     const auto triangles = Triangulate(soup.points, face.corners);

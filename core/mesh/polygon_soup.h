@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "railcast/remark.h"
 #include "railcast/scene.h"
 
 namespace railcast {
@@ -32,6 +33,7 @@ struct PolygonSoup {
   std::vector<std::optional<double>> luminances;
   std::vector<std::string> groups;  ///< Names of groups or objects, each once.
   std::size_t num_cornerless{};     ///< Faces that AddFace() left out.
+  std::vector<Remark> remarks;      ///< Without a place, which is the file.
 
   /// Adds a face without corners equal to the one before, unless fewer than three are left.
   void AddFace(std::vector<std::uint32_t> corners,
@@ -83,6 +85,7 @@ struct ImportedMesh {
   std::size_t num_flat{};        ///< Triangles left out because they have no area in float32.
   double area_m2{};              ///< Of all triangles.
   bool has_own_up{};             ///< Whether the file's format says which axis is up.
+  std::vector<Remark> remarks;   ///< Of its reader; their place is the file.
 
   [[nodiscard]] std::size_t num_triangles() const;
 };

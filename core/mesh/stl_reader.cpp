@@ -85,8 +85,10 @@ std::uint32_t NumBinaryTriangles(const std::string& bytes) {
 }
 
 bool IsBinaryStl(const std::string& bytes) {
-  return bytes.size() >= kStlHeaderBytes &&
-         bytes.size() == kStlHeaderBytes + kStlTriangleBytes * NumBinaryTriangles(bytes);
+  if (bytes.size() < kStlHeaderBytes) return false;
+  const std::size_t num_bytes = kStlHeaderBytes + kStlTriangleBytes * NumBinaryTriangles(bytes);
+  return bytes.size() >= num_bytes &&
+         bytes.find_first_not_of(" \t\r\n", num_bytes) == std::string::npos;
 }
 
 PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes) {
@@ -94,6 +96,9 @@ PolygonSoup ReadBinaryStl(const std::string& shown, const std::string& bytes) {
   using Corner = std::array<float, 3>;
   PolygonSoup soup;
   std::map<Corner, std::uint32_t> index_of;
+  const std::size_t num_bytes = kStlHeaderBytes + kStlTriangleBytes * NumBinaryTriangles(bytes);
+  AddRemark({.kind = RemarkKind::kSurplusBytes, .place = {}, .number = bytes.size() - num_bytes},
+            soup.remarks);
   for (std::size_t i = 0; i < NumBinaryTriangles(bytes); ++i) {
     std::array<Corner, 3> corners{};
     std::memcpy(corners.data(),

@@ -11,6 +11,7 @@
 #include "core/base/text.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_models.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 namespace {
@@ -77,7 +78,12 @@ std::string LeftOutText(const MeshObject& mesh) {
     text += (text.empty() ? "" : " and ") + CountText(mesh.num_cornerless, "face") +
             " with fewer than three different corners";
   }
-  return text.empty() ? "" : ReportLine("", "left out: " + text);
+  if (!text.empty()) text = ReportLine("", "left out: " + text);
+  for (Remark remark : mesh.remarks) {
+    remark.place.clear();
+    text += ReportLine("", "remark: " + remark.Text());
+  }
+  return text;
 }
 
 /// How far the mesh was simplified.

@@ -234,6 +234,7 @@ MeshObject MakeOfMesh(const ObjectSpec& spec,
                     .num_faces = mesh.num_faces,
                     .num_flat = mesh.num_flat,
                     .num_cornerless = mesh.num_cornerless,
+                    .remarks = mesh.remarks,
                     .num_read = mesh.num_triangles()};
   const MeshPlace place = PlaceOfMesh(spec, mesh, box);
   for (NamedMesh& part : mesh.parts) place.Apply(part.mesh);

@@ -96,6 +96,36 @@ TEST_F(FilesBeside, AreTheMaterialsOfAnObjWhereTheyAreThere) {
   EXPECT_EQ(ReadMesh(file).num_triangles(), 1U);
 }
 
+TEST_F(FilesBeside, OfAnObjMayHaveBlanksInTheirNames) {
+  Write("my paints.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
+  const std::string shape = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  for (const char* name : {"my paints.mtl", "my\\ paints.mtl", "\"my paints.mtl\"",
+                           "my\\ paints.mtl my\\ paints.mtl"}) {
+    const fs::path file = Write("rock.obj", "mtllib " + std::string(name) + "\n" + shape);
+    const ImportedMesh mesh = ReadMesh(file);
+    EXPECT_EQ(NamesBeside(file), std::vector<std::string>{"my paints.mtl"}) << name;
+    EXPECT_TRUE(mesh.parts.at(0).luminance.has_value()) << name;
+    EXPECT_TRUE(mesh.remarks.empty()) << name;
+  }
+}
+
+TEST_F(FilesBeside, OfAnObjThatAreNotThereAreTold) {
+  Write("b.mtl", "\xEF\xBB\xBFnewmtl red\nKd 0.8 0.1 0.1\n");
+  const auto missing = [&](const std::string& names) -> std::vector<Remark> {
+    return ReadMesh(Write("rock.obj",
+                          "mtllib " + names + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n"))
+        .remarks;
+  };
+  const std::string place = (folder_.path() / "rock.obj").string();
+  const auto told = [&](std::uint64_t number, const std::string& first) {
+    return std::vector<Remark>{{RemarkKind::kMaterialFileMissing, place, number, first}};
+  };
+  EXPECT_EQ(missing("gone.mtl"), told(1, "\"gone.mtl\""));
+  EXPECT_EQ(missing("two words.mtl"), told(1, "\"two words.mtl\""));
+  EXPECT_EQ(missing("b.mtl gone.mtl lost.mtl"), told(2, "\"gone.mtl\""));
+  EXPECT_EQ(missing("b.mtl"), std::vector<Remark>{});
+}
+
 TEST_F(FilesBeside, AreNoPictures) {
   Write("rock.png", "a picture");
   const std::string picture =

@@ -150,6 +150,37 @@ TEST(ParseMesh, RefusesADamagedStl) {
   EXPECT_EQ(Complaint(bytes), "a.mesh: triangle 1 must have finite coordinates (got nan)");
 }
 
+TEST(ParseMesh, TellsWhatStandsBehindTheShape) {
+  const ImportedMesh mesh = ParseMesh(BinaryStl() + "\r\n", "a.stl");
+  EXPECT_EQ(mesh.num_triangles(), 4U);
+  EXPECT_EQ(mesh.remarks, (std::vector<Remark>{{RemarkKind::kSurplusBytes, "a.stl", 2}}));
+  EXPECT_TRUE(ParseMesh(BinaryStl(), "a.stl").remarks.empty());
+  EXPECT_TRUE(ParseMesh(kPly, "a.ply").remarks.empty());
+  EXPECT_EQ(ParseMesh(std::string(kPly) + "0 0 1\n", "a.ply").remarks,
+            (std::vector<Remark>{{RemarkKind::kSurplusBytes, "a.ply", 7}}));
+}
+
+TEST(ParseMesh, ReadsTextInUtf16AndBehindAByteOrderMark) {
+  for (const std::string& text :
+       {std::string(kObj), std::string(kPly), std::string(kOff), AsciiStl()}) {
+    EXPECT_EQ(ParseMesh("\xEF\xBB\xBF" + text, "a").num_triangles(), 4U) << text;
+    std::string utf16 = "\xFF\xFE";
+    for (const char letter : text) utf16 += letter + std::string(1, '\0');
+    EXPECT_EQ(ParseMesh(utf16, "a").num_triangles(), 4U) << text;
+  }
+  if (HasAssimp()) {
+    EXPECT_EQ(ParseMesh("\xEF\xBB\xBF" + Gltf(), "a.gltf").num_triangles(), 1U);
+  }
+}
+
+TEST(ParseMesh, NamesSplats) {
+  EXPECT_EQ(Complaint("ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+                      "property float y\nproperty float z\nproperty float f_dc_0\nend_header\n" +
+                      std::string(16, '\0')),
+            "a.mesh: holds Gaussian splats, which are no surface: make a mesh of them first (got "
+            "the property f_dc_0)");
+}
+
 TEST(ParseMesh, SaysHowMuchOfABinaryStlIsMissing) {
   const std::string whole = BinaryStl();  // 84 bytes and 4 times 50.
   const std::string is_stl =

@@ -1,12 +1,15 @@
 // What scenes of modelling programs say, which assimp alone would not give.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/mesh/assimp_reader.h"
 #include "tests/core/io/message_of.h"
@@ -174,6 +177,137 @@ TEST_F(SceneImport, ReadsDaeInUtf16) {
                                    "\xFE\xFF" + AsUtf16(text, true), AsUtf16(text, false)}) {
     EXPECT_TRUE(BoxOf(ParseMesh(bytes, "a.dae")).isApprox(lying, 1e-6));
   }
+}
+
+/// An axis of an FBX file: which coordinate, and its sign.
+struct AxisOfFile {
+  int axis = 0;
+  int sign = 1;
+};
+
+/// A triangle that reaches 2 to the right, 3 away from the front and 4 up, as FBX in metres with
+/// these axes to the right, to the front and up.
+std::string TriangleFbx(const std::array<AxisOfFile, 3>& axes) {
+  constexpr std::array<const char*, 3> kNames = {"CoordAxis", "FrontAxis", "UpAxis"};
+  constexpr std::array<int, 3> kReach = {2, -3, 4};
+  std::string settings;
+  std::string vertices;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::string name = kNames[i];
+    settings += "P: \"" + name + "\", \"int\", \"Integer\", \"\"," + std::to_string(axes[i].axis) +
+                "\n" + "P: \"" + name + "Sign\", \"int\", \"Integer\", \"\"," +
+                std::to_string(axes[i].sign) + "\n";
+    for (int axis = 0; axis < 3; ++axis) {
+      const int place = axis == axes[i].axis ? axes[i].sign * kReach[i] : 0;
+      vertices += (vertices.empty() ? "" : ",") + std::to_string(place);
+    }
+  }
+  return "; FBX 7.4.0 project file\nFBXHeaderExtension: {\nFBXHeaderVersion: 1003\n"
+         "FBXVersion: 7400\n}\nGlobalSettings: {\nVersion: 1000\nProperties70: {\n" +
+         settings +
+         "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n}\n}\nObjects: {\n"
+         "Geometry: 1000, \"Geometry::t\", \"Mesh\" {\nVertices: *9 {\na: " +
+         vertices +
+         "\n}\nPolygonVertexIndex: *3 {\na: 0,1,-3\n}\n}\nModel: 2000, \"Model::t\", \"Mesh\" {\n"
+         "Version: 232\n}\n}\nConnections: {\nC: \"OO\",1000,2000\nC: \"OO\",2000,0\n}\n";
+}
+
+// There are 24 right-handed systems. What is left-handed is mirrored, and that is told.
+TEST_F(SceneImport, TurnsFbxAsItsAxesSay) {
+  const Box box(Vector3(0, 0, 0), Vector3(2, 3, 4));
+  int num_right_handed = 0;
+  std::array<int, 3> order = {0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      std::array<AxisOfFile, 3> axes;
+      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+      for (int i = 0; i < 3; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        axes[at] = {order[at], (signs >> i & 1) == 0 ? 1 : -1};
+        matrix(i, axes[at].axis) = i == 1 ? -axes[at].sign : axes[at].sign;
+      }
+      const ImportedMesh mesh = ParseMesh(TriangleFbx(axes), "a.fbx");
+      EXPECT_TRUE(BoxOf(mesh).isApprox(box, 1e-6)) << TriangleFbx(axes);
+      const bool is_right_handed = matrix.determinant() > 0.0;
+      if (is_right_handed) ++num_right_handed;
+      std::vector<Remark> remarks;
+      if (!is_right_handed) remarks.push_back({RemarkKind::kAxesMirrored, "a.fbx"});
+      EXPECT_EQ(mesh.remarks, remarks);
+    }
+  } while (std::ranges::next_permutation(order).found);
+  EXPECT_EQ(num_right_handed, 24);
+}
+
+TEST_F(SceneImport, TurnsFbxAsToldInsteadIfTold) {
+  const std::string bytes = TriangleFbx({{{0, 1}, {1, 1}, {2, -1}}});
+  const Box plain = BoxOf(ParseMesh(bytes, "a.fbx", {.unit_m = {}, .y_up = false}));
+  EXPECT_TRUE(plain.isApprox(Box(Vector3(0, -3, -4), Vector3(2, 0, 0)), 1e-6));
+}
+
+TEST_F(SceneImport, RefusesAxesOfFbxThatAreNoSystem) {
+  EXPECT_EQ(MessageOf([] {
+              (void)ParseMesh(TriangleFbx({{{0, 1}, {2, 1}, {2, 1}}}), "a.fbx");
+            }),
+            "a.fbx: its axes must be three of 0, 1 and 2 with signs 1 or -1 (got CoordAxis 1 * 0, "
+            "FrontAxis 1 * 2, UpAxis 1 * 2)");
+}
+
+std::string GltfWith(const std::string& members) {
+  return TriangleGltf("{\"mesh\": 0}", R"(, "materials": [{"name": "a"}], )" + members);
+}
+
+TEST_F(SceneImport, RefusesWhatGltfNeedsAndIsNotRead) {
+  const auto complaint = [](const std::string& extension) {
+    return MessageOf([&] {
+      (void)ParseMesh(GltfWith("\"extensionsRequired\": [\"" + extension + "\"]"), "a.gltf");
+    });
+  };
+  const std::string rule = "a.gltf: extensionsRequired: must be extensions that are read; ";
+  EXPECT_EQ(complaint("ACME_shrinks_everything"),
+            rule + "railcast reads shapes without it only (got \"ACME_shrinks_everything\")");
+  EXPECT_EQ(complaint("EXT_meshopt_compression"),
+            rule +
+                "gltfpack -noq -i IN.glb -o OUT.glb writes it without (got "
+                "\"EXT_meshopt_compression\")");
+  EXPECT_EQ(complaint("KHR_texture_transform"), "no error");
+  EXPECT_EQ(complaint("KHR_mesh_quantization"), "no error") << "its positions are floats";
+}
+
+// A box of 2 x 3 x 4, encoded with Google's library for 14 bits.
+TEST_F(SceneImport, ReadsGltfCompressedWithDraco) {
+  const std::string data =
+      "RFJBQ08CAgEBAAAACAwACwAAA19LFQEBEAH/AAABAAkDAAACAQEBAA8DARAvATADACSX/"
+      "z8AAAAAAAFgAAAACIAAwP8vAAIA+P//PwEA/z8AAAAAAAAAAP8/AAAAAAAAAAAAAAAAAAAAAIBADg==";
+  const std::string extension = R"("extensionsUsed": ["KHR_draco_mesh_compression"],
+    "extensionsRequired": ["KHR_draco_mesh_compression"])";
+  const ImportedMesh mesh = ParseMesh(R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{
+      "attributes": {"POSITION": 0}, "indices": 1, "extensions": {"KHR_draco_mesh_compression":
+        {"bufferView": 0, "attributes": {"POSITION": 0}}}}]}],
+    "accessors": [{"componentType": 5126, "count": 8, "type": "VEC3", "min": [0, 0, 0],
+                   "max": [2, 3, 4]}, {"componentType": 5123, "count": 36, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 109}], "buffers": [{"byteLength": 109,
+      "uri": "data:application/octet-stream;base64,)" +
+                                          data + "\"}], " + extension + "}",
+                                      "a.gltf");
+  EXPECT_EQ(mesh.num_triangles(), 12U);
+  EXPECT_TRUE(BoxOf(mesh).isApprox(Box(Vector3(0, -4, 0), Vector3(2, 0, 3)), 1e-3));
+}
+
+TEST_F(SceneImport, TellsWhatGltfUsesAndIsNotRead) {
+  const ImportedMesh mesh =
+      ParseMesh(GltfWith(R"("extensionsUsed": ["KHR_materials_unlit", "EXT_mesh_gpu_instancing"])"),
+                "a.gltf");
+  EXPECT_EQ(mesh.remarks, (std::vector<Remark>{{RemarkKind::kExtensionUnread, "a.gltf", 1,
+                                                "\"EXT_mesh_gpu_instancing\""}}));
+}
+
+TEST_F(SceneImport, RefusesPositionsOfGltfThatAreNoFloats) {
+  const std::string bytes = Replaced(GltfWith("\"extensionsUsed\": []"), "5126", "5123");
+  EXPECT_EQ(MessageOf([&] { (void)ParseMesh(bytes, "a.gltf"); }),
+            "a.gltf: accessors/0/componentType: of POSITION must be 5126, float; "
+            "KHR_mesh_quantization is not read (gltfpack -noq -i IN.glb -o OUT.glb writes it "
+            "without) (got 5123)");
 }
 
 std::string GltfWithMaterials(const std::string& materials) {
