@@ -89,7 +89,8 @@ std::vector<std::vector<std::string>> MaterialLibrariesOf(const std::string& obj
     if (line->find("mtllib") == std::string_view::npos) continue;
     const auto words = Words(*line);
     if (words.size() < 2 || words[0] != "mtllib") continue;
-    const std::string whole = Name({words[0].end(), line->end()});
+    const std::string_view rest_of_line(words[0].end(), line->end());
+    const std::string whole = Name(rest_of_line.substr(0, rest_of_line.find(" #")));
     std::vector<std::string>& names = lines.emplace_back();
     names = NamesIn(whole, false);
     const std::vector<std::string> several = NamesIn(whole, true);

@@ -201,6 +201,9 @@ RailMap ReadGeoJson(const std::filesystem::path& file) {
       throw InputError(
           "must be a map: Overpass JSON has a list \"elements\", GeoJSON a \"type\" (got neither)");
     }
+    if (root["type"] == "Topology") {
+      throw InputError("must be GeoJSON (ogr2ogr OUT.geojson IN.json makes it) (got TopoJSON)");
+    }
     GeoJsonReader reader;
     reader.ReadObject(root, "", {}, 0);
     reader.errors().ThrowIfAny();

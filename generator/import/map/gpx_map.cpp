@@ -38,7 +38,6 @@ void GpxReader::Begin(const XmlElement& element) {
   if (element.name == "trkseg" || element.name == "rte") {
     MapLine& line = lines_.emplace_back();
     line.place = "line " + std::to_string(element.line) + ", " + std::string(element.name);
-    line.is_recorded = element.name == "trkseg";
   }
   if (element.name != "trkpt" && element.name != "rtept" && element.name != "wpt") return;
   const auto place_deg = XmlPlace_deg(element, faults_);
@@ -50,8 +49,10 @@ void GpxReader::Begin(const XmlElement& element) {
 void GpxReader::End(std::string_view name, std::string_view text, std::uint64_t line) {
   const std::string_view within = parent();
   if (name == "ele" && (within == "trkpt" || within == "rtept" || within == "wpt")) {
-    const auto height_m = XmlNumber(text);
-    if (!height_m) faults_.Add(line, "ele", "must be a number of metres", Quoted(text));
+    const std::string_view height = XmlTrimmed(text);
+    const auto height_m = XmlNumber(height);
+    const bool is_none = height.empty() || height == "NaN" || height == "nan";
+    if (!height_m && !is_none) faults_.Add(line, "ele", "must be a number of metres", Quoted(text));
     const bool has_point = !lines_.empty() && !lines_.back().heights_m.empty();
     if (within != "wpt" && has_point) lines_.back().heights_m.back() = height_m;
   } else if (name == "name" && (within == "trk" || within == "rte")) {

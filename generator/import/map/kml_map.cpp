@@ -97,7 +97,6 @@ void KmlReader::Begin(const XmlElement& element) {
     line.place = "line " + std::to_string(element.line) + ", " + std::string(element.name);
     line.is_area = parent() == "outerBoundaryIs";
     line.is_point = element.name == "Point";
-    line.is_recorded = element.name == "Track";
   } else if (element.name == "Data" || element.name == "SimpleData") {
     const char* key = element.ValueOf("name");
     key_ = key == nullptr ? "" : key;

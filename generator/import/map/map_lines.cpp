@@ -54,6 +54,9 @@ std::string_view OtherKind(const MapTags& tags) {
   for (const std::string_view key : kOthers) {
     if (!TagOf(tags, key).empty()) return key;
   }
+  // Geofabrik's exports have the values of all of these, and of `railway`, in one key.
+  constexpr std::string_view kClass = "fclass";
+  if (!TagOf(tags, kClass).empty() && !IsTrack(TagOf(tags, kClass))) return kClass;
   return {};
 }
 
@@ -206,7 +209,7 @@ RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks) {
   NodeIndex nodes(map);
   ErrorList errors;
   for (MapLine& line : lines) {
-    if (line.is_recorded && std::ranges::all_of(line.points_deg, IsDegrees)) {
+    if (TagOf(line.tags, "railway").empty() && std::ranges::all_of(line.points_deg, IsDegrees)) {
       const std::size_t num_fewer = ThinFixes(line);
       if (num_fewer > 0) {
         map.remarks.push_back({RemarkKind::kFixesThinned, line.place, num_fewer});

@@ -18,16 +18,15 @@ struct MapLine {
   MapTags tags;
   bool is_area = false;
   bool is_point = false;
-  bool is_recorded = false;  ///< Whether its points are fixes of a receiver on the way.
 };
 
 /// Makes a map of lines, with the remarks that it has.
 ///
 /// If any line has a key `railway`, only those are taken that are tracks (IsTrack). Otherwise all
 /// lines are, but for those with a key that OpenStreetMap has for roads, waterways and the like.
-/// Lines meet where they share a point, to the last digit. Where a receiver stood, its fixes become
-/// one point (ThinnedFixes). Platforms, signals and the like become things; other points are
-/// dropped.
+/// Lines meet where they share a point, to the last digit. Lines without `railway` may be those of
+/// a receiver on the way: where it stood, its fixes become one point (ThinFixes). Platforms,
+/// signals and the like become things; other points are dropped.
 /// @throws InputError if no line is a track, if a track is a polygon or has no two different
 ///   points, or if its coordinates are no degrees.
 [[nodiscard]] RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks);

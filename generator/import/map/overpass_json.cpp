@@ -49,6 +49,7 @@ MapTags OverpassTags(const Json& element) {
   if (!element.contains("tags") || !element["tags"].is_object()) return tags;
   for (const auto& [key, value] : element["tags"].items()) {
     if (value.is_string()) tags.emplace(key, value.get<std::string>());
+    if (value.is_number()) tags.emplace(key, value.dump());
   }
   return tags;
 }

@@ -179,6 +179,9 @@ TEST_F(MapWords, OfRoadsAndRiversMeanNoTracks) {
                                                "highway=primary"}}));
   EXPECT_EQ(Fault("b.geojson", Features(road + "," + Feature(R"({"waterway": "river"})"))),
             "b.geojson: must have a line that is a track (got 2 other lines)");
+  const RailMap classes = Read("c.geojson", Features(Feature(R"({"fclass": "rail"})", 48.3) + "," +
+                                                     Feature(R"({"fclass": "primary"})")));
+  EXPECT_THAT(classes.ways, SizeIs(1));
 }
 
 TEST_F(MapWords, OfCoordinateSystemsOtherThanWgs84AreRefused) {
@@ -253,9 +256,27 @@ TEST_F(MapWords, OfHeightsAreReadInEveryFormat) {
   }
 }
 
+TEST_F(MapWords, OfFixesWhileStandingMeanOnePlaceWhereLinesAreNotMapped) {
+  const std::string stop = "[15.61, 48.2], [15.61002, 48.2], [15.60999, 48.2], [15.61001, 48.2], ";
+  const auto map_with = [&](const std::string& properties) {
+    return Read("a.geojson", Features(R"({"type": "Feature", "properties": )" + properties +
+                                      R"(, "geometry": {"type": "LineString", "coordinates": [
+      [15.6, 48.2], )" + stop + "[15.62, 48.2]]}}"));
+  };
+  const RailMap ride = map_with("{}");
+  EXPECT_EQ(Sizes(ride), std::vector<std::size_t>{3});
+  EXPECT_EQ(RemarkOf(ride, RemarkKind::kFixesThinned)->number, 3U);
+  EXPECT_EQ(Sizes(map_with(R"({"railway": "rail"})")), std::vector<std::size_t>{6});
+}
+
 TEST_F(MapWords, OfMissingHeightsLeaveThemToTheOthers) {
+  const std::string empty =
+      "<ele>250</ele></trkpt><trkpt lat='48.2' lon='15.61'><ele></ele>"
+      "</trkpt><trkpt lat='48.2' lon='15.62'><ele>252</ele></trkpt>";
   for (const RailMap& map :
        {Read("a.gpx", Gpx({250.0, NAN, 252.0})),
+        Read("a.gpx",
+             "<gpx><trk><trkseg><trkpt lat='48.2' lon='15.6'>" + empty + "</trkseg></trk></gpx>"),
         Read("b.kml", Kml("absolute", "15.60,48.20,250 15.61,48.20 15.62,48.20,252")),
         Read("c.geojson", R"({"type": "LineString",
           "coordinates": [[15.6, 48.2, 250], [15.61, 48.2], [15.62, 48.2, 252]]})")}) {
