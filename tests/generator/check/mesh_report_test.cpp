@@ -56,6 +56,13 @@ TEST_F(MeshReport, SaysWhatIsKeptAndWhatNotAndWhatEachPartIs) {
           "(the type's), 1 triangle\n");
 }
 
+TEST_F(MeshReport, SaysWhatItsReaderRemarked) {
+  const std::string text = Text({Write("mtllib gone.mtl\n" + std::string(kGable))});
+  EXPECT_NE(text.find("          remark: 1 material file that is not there: \"gone.mtl\"\n"),
+            std::string::npos)
+      << text;
+}
+
 TEST_F(MeshReport, SaysHowFarAModelIsSimplified) {
   // A square with a peak of 2 mm, and a triangle elsewhere.
   ObjectSpec house = Write(

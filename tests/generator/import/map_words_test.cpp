@@ -215,6 +215,15 @@ TEST_F(MapWords, OfAltitudesThatAreAbsoluteAreObeyedAndOthersTold) {
   EXPECT_TRUE(Read("c.kml", Kml("", "15.60,48.20,0 15.61,48.20,0")).remarks.empty());
 }
 
+TEST_F(MapWords, OfTracksInKmlHaveTheirHeights) {
+  const RailMap map = Read("a.kml", R"(<kml xmlns:gx="http://www.google.com/kml/ext/2.2"><Placemark>
+    <gx:Track><altitudeMode>absolute</altitudeMode><when>2026-01-01T00:00:00Z</when>
+    <gx:coord>15.6 48.2 250</gx:coord><gx:coord>15.61 48.2 251</gx:coord></gx:Track>
+    </Placemark></kml>)");
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(map.nodes[1].height_m, 251.0);
+}
+
 TEST_F(MapWords, OfLinksInKmlAreTold) {
   EXPECT_EQ(Fault("a.kml", "<kml><NetworkLink><Link><href>b.kml</href></Link></NetworkLink></kml>"),
             "a.kml: must hold its lines itself (got links to other files, the first \"b.kml\")");
