@@ -155,7 +155,8 @@ int RunSurvey(const SurveyCommandOptions& options) {
   return kExitSuccess;
 }
 
-void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
+void AddSourceOptions(ProgramOptions& command, SurveyCommandOptions& options) {
+  SurveySource& source = options.source;
   constexpr std::uint32_t kMostFrames = 1'000'000'000;
   constexpr NumberRule kRange{1.0, 1000.0};  // In m.
   command
@@ -170,6 +171,7 @@ void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
   command.AddOption("--stride", source.stride, "Every how many-th frame to take; 1 = all")
       .Check(Whole({1, kMostFrames}))
       .ShowDefault();
+  AddSourceChoice(command, options.choice);
   const Option standing =
       command.AddFlag("--standing", source.is_standing,
                       "Frames without a pose were all taken from one place, the world's origin");
@@ -200,7 +202,7 @@ void AddSourceOptions(ProgramOptions& command, SurveySource& source) {
 void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
   ProgramOptions survey = app.AddCommand("survey", kSurveyDescription);
-  AddSourceOptions(survey, options->source);
+  AddSourceOptions(survey, *options);
   AddCaptureSensor(survey, options->choice.sensor);
   survey.AddOption("--out", options->out, "New or empty folder to write to")
       .Required()

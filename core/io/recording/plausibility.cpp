@@ -52,15 +52,17 @@ Vector3 MiddleOf(const Positions& positions) {
   return middle_m;
 }
 
-/// Whether the positions lie far from 0 as a whole: within 10 km, or in the numbers of a national
-/// grid or of the whole earth within 100 km, as a line of railway.
+/// Whether the positions lie far from 0 as a whole: within 5 km, or in the numbers of a national
+/// grid or of the whole earth within 100 km, as a line of railway. Of a room in millimetres they
+/// are more than 5000 apart.
 bool AreFarTogether(const Positions& positions) {
+  constexpr double kLocal_m = 5e3;
   constexpr double kGrid_m = 1e5;
   constexpr double kEarth_m = 1e8;
   const Vector3 middle_m = MiddleOf(positions);
   const double far_m = middle_m.norm();
   if (!(far_m > kFarPosition_m && far_m < kEarth_m)) return false;
-  return AreTogether(positions, middle_m, far_m > kGrid_m ? kGrid_m : kFarPosition_m);
+  return AreTogether(positions, middle_m, far_m > kGrid_m ? kGrid_m : kLocal_m);
 }
 
 }  // namespace

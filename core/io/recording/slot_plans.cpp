@@ -107,7 +107,7 @@ ScanShape ShapeOf(const std::vector<std::uint32_t>& rings,
 
 std::vector<float> LoadFloats(const Cloud& cloud, std::string_view name) {
   std::vector<float> values(cloud.num_points());
-  VisitField(cloud, *cloud.Find(name),
+  VisitField(cloud, *FindFieldOf(cloud, name),
              [&](std::size_t i, auto value) { values[i] = static_cast<float>(value); });
   return values;
 }

@@ -16,7 +16,7 @@ namespace {
 /// The numbers of points in a room: x y z intensity (0 to 1), and behind them ring, elongation,
 /// time.
 template <typename Number>
-std::string RoomOf(std::size_t num_columns, bool has_ring = true) {
+std::string BinRoom(std::size_t num_columns, bool has_ring = true) {
   constexpr int kRings = 16;
   constexpr int kColumns = 40;
   std::string bytes;
@@ -42,53 +42,55 @@ std::string RoomOf(std::size_t num_columns, bool has_ring = true) {
   return bytes;
 }
 
-std::string FaultOf(const std::string& bytes) {
+std::string BinFault(const std::string& bytes) {
   return MessageOf([&] { (void)ParseKittiFile("a.bin", bytes, {}); });
 }
 
-constexpr const char* kNot =
+constexpr const char* kNotFour =
     "a.bin: its values are not those of 4 numbers a point, x y z intensity, in metres; ";
 
 TEST(KittiReader, NamesTheColumnsThatFitTheValues) {
-  EXPECT_EQ(FaultOf(RoomOf<float>(4)), "no error");
-  EXPECT_EQ(FaultOf(RoomOf<float>(3)), std::string(kNot) + "those of --kitti-columns 3 fit");
-  EXPECT_EQ(
-      FaultOf(RoomOf<float>(5)),
-      std::string(kNot) + "those of nuScenes (x y z intensity ring) fit: --kitti-columns nuscenes");
-  EXPECT_EQ(FaultOf(RoomOf<float>(5, false)), std::string(kNot) + "those of --kitti-columns 5 fit");
-  EXPECT_EQ(FaultOf(RoomOf<float>(6, false)),
-            std::string(kNot) +
+  EXPECT_EQ(BinFault(BinRoom<float>(4)), "no error");
+  EXPECT_EQ(BinFault(BinRoom<float>(3)), std::string(kNotFour) + "those of --kitti-columns 3 fit");
+  EXPECT_EQ(BinFault(BinRoom<float>(5)),
+            std::string(kNotFour) +
+                "those of nuScenes (x y z intensity ring) fit: --kitti-columns nuscenes");
+  EXPECT_EQ(BinFault(BinRoom<float>(5, false)),
+            std::string(kNotFour) + "those of --kitti-columns 5 fit");
+  EXPECT_EQ(BinFault(BinRoom<float>(6, false)),
+            std::string(kNotFour) +
                 "those of Waymo (x y z intensity elongation timestamp) fit: "
                 "--kitti-columns waymo");
-  EXPECT_EQ(FaultOf(RoomOf<double>(4)), std::string(kNot) + "those of --kitti-columns float64 fit");
+  EXPECT_EQ(BinFault(BinRoom<double>(4)),
+            std::string(kNotFour) + "those of --kitti-columns float64 fit");
 }
 
 TEST(KittiReader, NamesTheColumnsOfAnUnevenLength) {
-  std::string bytes = RoomOf<float>(5);
+  std::string bytes = BinRoom<float>(5);
   bytes.resize(bytes.size() - 20);
-  EXPECT_EQ(FaultOf(bytes),
+  EXPECT_EQ(BinFault(bytes),
             "a.bin: must have 16 bytes for each point (got 12780); those of "
             "nuScenes (x y z intensity ring) fit: --kitti-columns nuscenes");
 }
 
 TEST(KittiReader, ReadsTheColumnsThatAreChosen) {
-  const Cloud nuscenes = ParseKittiColumns("a.bin", RoomOf<float>(5), {}, "nuscenes").cloud;
+  const Cloud nuscenes = ParseKittiColumns("a.bin", BinRoom<float>(5), {}, "nuscenes").cloud;
   EXPECT_EQ(nuscenes.num_points(), 640U);
   ASSERT_NE(nuscenes.Find("ring"), nullptr);
   VisitField(nuscenes, *nuscenes.Find("ring"),
              [](std::size_t i, auto value) { ASSERT_EQ(static_cast<std::size_t>(value), i % 16); });
-  const CloudFile doubles = ParseKittiColumns("a.bin", RoomOf<double>(4), {}, "float64");
+  const CloudFile doubles = ParseKittiColumns("a.bin", BinRoom<double>(4), {}, "float64");
   EXPECT_EQ(doubles.cloud.Find("x")->type, NumberType::kDouble);
   EXPECT_EQ(Rewritten(doubles, {doubles.cloud.data, std::vector<std::uint32_t>(640)}).at(0),
-            RoomOf<double>(4));
-  EXPECT_NE(ParseKittiColumns("a.bin", RoomOf<float>(7), {}, "7").cloud.Find("number_7"), nullptr);
+            BinRoom<double>(4));
+  EXPECT_NE(ParseKittiColumns("a.bin", BinRoom<float>(7), {}, "7").cloud.Find("number_7"), nullptr);
   EXPECT_TRUE(IsKittiColumns("16"));
   for (const char* const none : {"", "2", "17", "kitti", "5x"}) EXPECT_FALSE(IsKittiColumns(none));
 }
 
 TEST(KittiReader, SaysHowManyNumbersAPointTheLabelsAreFor) {
   const std::string labels(640 * 4, '\0');
-  EXPECT_EQ(MessageOf([&] { (void)ParseKittiFile("a.bin", RoomOf<float>(5), labels); }),
+  EXPECT_EQ(MessageOf([&] { (void)ParseKittiFile("a.bin", BinRoom<float>(5), labels); }),
             "a.bin: its .label file must have 3200 bytes (got 2560); 640 labels are as many as "
             "points of 5 numbers: --kitti-columns nuscenes?");
 }

@@ -18,41 +18,41 @@ using testing::ElementsAre;
 
 /// The bytes of a number in either order.
 template <typename Number>
-std::string Bytes(Number number, bool is_big) {
+std::string NumberBytes(Number number, bool is_big) {
   auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
   if (is_big) std::ranges::reverse(bytes);
   return {bytes.begin(), bytes.end()};
 }
 
-const std::string kVertex = "element vertex 2\nproperty float x\nproperty ushort ring\n";
+const std::string kPlyVertex = "element vertex 2\nproperty float x\nproperty ushort ring\n";
 
-std::string Header(bool is_big, const std::string& elements) {
+std::string PlyHeaderOf(bool is_big, const std::string& elements) {
   return std::string("ply\nformat binary_") + (is_big ? "big" : "little") + "_endian 1.0\n" +
          elements + "end_header\n";
 }
 
-std::string Points(bool is_big) {
-  return Bytes(6.5F, is_big) + Bytes(std::uint16_t{300}, is_big) + Bytes(-0.25F, is_big) +
-         Bytes(std::uint16_t{2}, is_big);
+std::string PlyPoints(bool is_big) {
+  return NumberBytes(6.5F, is_big) + NumberBytes(std::uint16_t{300}, is_big) +
+         NumberBytes(-0.25F, is_big) + NumberBytes(std::uint16_t{2}, is_big);
 }
 
-std::vector<double> ValuesOf(const CloudFile& read, const std::string& name) {
+std::vector<double> PlyValues(const CloudFile& read, const std::string& name) {
   std::vector<double> values(read.cloud.num_points());
   VisitField(read.cloud, *read.cloud.Find(name),
              [&](std::size_t i, auto value) { values[i] = static_cast<double>(value); });
   return values;
 }
 
-std::string FaultOf(const std::string& bytes) {
+std::string PlyFault(const std::string& bytes) {
   return MessageOf([&] { (void)ParsePlyFile("a.ply", bytes); });
 }
 
 TEST(PlyReader, ReadsAndRewritesEitherByteOrder) {
   for (const bool is_big : {false, true}) {
-    const std::string bytes = Header(is_big, kVertex) + Points(is_big);
+    const std::string bytes = PlyHeaderOf(is_big, kPlyVertex) + PlyPoints(is_big);
     const CloudFile read = ParsePlyFile("a.ply", bytes);
-    EXPECT_THAT(ValuesOf(read, "x"), ElementsAre(6.5, -0.25));
-    EXPECT_THAT(ValuesOf(read, "ring"), ElementsAre(300, 2));
+    EXPECT_THAT(PlyValues(read, "x"), ElementsAre(6.5, -0.25));
+    EXPECT_THAT(PlyValues(read, "ring"), ElementsAre(300, 2));
     EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{bytes});
   }
 }
@@ -61,37 +61,38 @@ TEST(PlyReader, SkipsElementsBeforeThePointsByTheirSize) {
   const std::string camera =
       "element camera 2\nproperty double w\nproperty list uchar short list\n";
   for (const bool is_big : {false, true}) {
-    const std::string skipped = Bytes(1.0, is_big) + Bytes(std::uint8_t{0}, is_big) +
-                                Bytes(2.0, is_big) + Bytes(std::uint8_t{1}, is_big) +
-                                Bytes(std::int16_t{7}, is_big);
-    const std::string bytes = Header(is_big, camera + kVertex) + skipped + Points(is_big);
+    const std::string skipped = NumberBytes(1.0, is_big) + NumberBytes(std::uint8_t{0}, is_big) +
+                                NumberBytes(2.0, is_big) + NumberBytes(std::uint8_t{1}, is_big) +
+                                NumberBytes(std::int16_t{7}, is_big);
+    const std::string bytes =
+        PlyHeaderOf(is_big, camera + kPlyVertex) + skipped + PlyPoints(is_big);
     const CloudFile read = ParsePlyFile("a.ply", bytes);
-    EXPECT_THAT(ValuesOf(read, "x"), ElementsAre(6.5, -0.25));
+    EXPECT_THAT(PlyValues(read, "x"), ElementsAre(6.5, -0.25));
     EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{bytes});
   }
-  const CloudFile text = ParsePlyFile("a.ply", "ply\nformat ascii 1.0\n" + camera + kVertex +
+  const CloudFile text = ParsePlyFile("a.ply", "ply\nformat ascii 1.0\n" + camera + kPlyVertex +
                                                    "end_header\n1 0\n2 1 7\n6.5 3\n1 4\n");
-  EXPECT_THAT(ValuesOf(text, "ring"), ElementsAre(3, 4));
+  EXPECT_THAT(PlyValues(text, "ring"), ElementsAre(3, 4));
 }
 
 TEST(PlyReader, RefusesWhatStandsBehindItsElements) {
-  const std::string bytes = Header(false, kVertex) + Points(false);
+  const std::string bytes = PlyHeaderOf(false, kPlyVertex) + PlyPoints(false);
   EXPECT_EQ(
-      FaultOf(bytes + Points(false)),
+      PlyFault(bytes + PlyPoints(false)),
       "a.ply: element vertex: 2 points, but the file has 12 bytes more than its elements need");
-  EXPECT_EQ(FaultOf(bytes + "\r\n"), "no error");
+  EXPECT_EQ(PlyFault(bytes + "\r\n"), "no error");
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
-  const std::string text = "ply\nformat ascii 1.0\n" + kVertex + face + "end_header\n1 2\n3 4\n";
-  EXPECT_EQ(FaultOf(text + "3 0 1 0\n\n"), "no error");
+  const std::string text = "ply\nformat ascii 1.0\n" + kPlyVertex + face + "end_header\n1 2\n3 4\n";
+  EXPECT_EQ(PlyFault(text + "3 0 1 0\n\n"), "no error");
   EXPECT_EQ(
-      FaultOf(text + "3 0 1 0\n5 6\n7 8\n"),
+      PlyFault(text + "3 0 1 0\n5 6\n7 8\n"),
       "a.ply: element vertex: 2 points, but the file has 2 lines more than its elements need");
 }
 
 TEST(PlyReader, KeepsAllDigitsOfText) {
   const CloudFile read = ParsePlyFile(
-      "a.ply", "ply\nformat ascii 1.0\n" + kVertex + "end_header\n456789.15 2\n456790.12 4\n");
-  EXPECT_THAT(ValuesOf(read, "x"), ElementsAre(456789.15, 456790.12));
+      "a.ply", "ply\nformat ascii 1.0\n" + kPlyVertex + "end_header\n456789.15 2\n456790.12 4\n");
+  EXPECT_THAT(PlyValues(read, "x"), ElementsAre(456789.15, 456790.12));
 }
 
 }  // namespace

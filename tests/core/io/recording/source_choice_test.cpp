@@ -58,7 +58,7 @@ TEST(WithChoice, NamesTheColumnsOfKittisFilesAndFolders) {
     const auto frames = ReadAll(chosen.front());
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_TRUE(frames[0].Has("ring"));
-    EXPECT_EQ(std::ranges::max(frames[0].frame.range_m), std::hypot(9.5F, 2.75F, 8.5F));
+    EXPECT_FLOAT_EQ(std::ranges::max(frames[0].frame.range_m), std::hypot(9.5F, 2.75F, 8.5F));
   }
   EXPECT_EQ(MessageOf([&] { (void)WithChoice({drive}, {.kitti_columns = "two"}); }),
             "--kitti-columns: must be 3 to 16, nuscenes, waymo or float64 (got two)");
