@@ -19,8 +19,8 @@ RemarkReceiver& Receiver() {
 const std::vector<RemarkType>& RemarkTypes() {
   using enum RemarkKind;
   static const std::vector<RemarkType> types = {
-      {kPacketsLost, "packets-lost", "packet missing by the sensor's own numbers",
-       "packets missing by the sensor's own numbers", true},
+      {kPacketsLost, "packets-lost", "packet missing by the sensor's own numbers or times",
+       "packets missing by the sensor's own numbers or times", true},
       {kPacketsDoubled, "packets-doubled", "packet that had come before",
        "packets that had come before", true},
       {kPacketsLate, "packets-late", "packet that came too late to be put in order",

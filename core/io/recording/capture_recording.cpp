@@ -40,6 +40,13 @@ class CaptureRecording : public Recording {
     info_.kind = "capture of " + reader_.sensor().name;
   }
 
+  ~CaptureRecording() override {
+    // Of what was read, where that is not all.
+    if (!is_at_end_) AddRemarks();
+  }
+  CaptureRecording(const CaptureRecording&) = delete;
+  CaptureRecording& operator=(const CaptureRecording&) = delete;
+
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
 
   [[nodiscard]] std::optional<FrameReader> Next() override {
@@ -64,7 +71,11 @@ class CaptureRecording : public Recording {
       reader_.End(turns_);
       is_at_end_ = true;
     }
-    if (turns_.empty() && !is_at_end_) return;
+    if (is_at_end_) AddRemarks();
+  }
+
+  // What seems lost may only be late, so that nothing is said before the end.
+  void AddRemarks() {
     for (const Remark& remark : reader_.remarks()) info_.remarks->Add(remark);
     for (const Remark& remark : datagrams_->remarks()) info_.remarks->Add(remark);
   }

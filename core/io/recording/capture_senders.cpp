@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -20,7 +21,7 @@ namespace {
 /// Datagrams from one port to another, some of which hold packets of a sensor.
 struct FoundStream {
   SenderStream stream;
-  std::optional<CaptureSensor> sensor{};
+  std::shared_ptr<const CaptureSensor> sensor{};
   std::size_t num_packets{};
   std::size_t num_shared{};  ///< Which its address had sent elsewhere shortly before.
   std::size_t first{};       ///< Index among the captured of the first packet.
@@ -41,7 +42,7 @@ class StreamTable {
 
   void Add(const CapturedDatagram& datagram) {
     FoundStream& found = Find(StreamOf(datagram));
-    if (!found.sensor) found.sensor = finder_.Look(datagram.payload);
+    if (!found.sensor) found.sensor = LookAt(datagram.payload);
     if (!found.sensor || datagram.payload.size() < found.sensor->packet_size) return;
     if (found.num_packets++ == 0) found.first = datagram.packet;
     found.last = datagram.packet;
@@ -79,6 +80,16 @@ class StreamTable {
     std::size_t hash{};
   };
 
+  /// Streams of one kind of sensor share it, for there may be very many.
+  std::shared_ptr<const CaptureSensor> LookAt(std::span<const char> payload) {
+    auto sensor = finder_.Look(payload);
+    if (!sensor) return nullptr;
+    const auto known =
+        std::ranges::find(models_, sensor->name, [](const auto& model) { return model->name; });
+    if (known != models_.end()) return *known;
+    return models_.emplace_back(std::make_shared<const CaptureSensor>(std::move(*sensor)));
+  }
+
   FoundStream& Find(const SenderStream& stream) {
     const auto& [from, to] = stream;
     const auto [known, is_new] = places_.try_emplace(
@@ -88,6 +99,7 @@ class StreamTable {
 
   SensorFinder& finder_;
   using Octets = std::array<std::uint8_t, 16>;
+  std::vector<std::shared_ptr<const CaptureSensor>> models_;
   std::deque<FoundStream> streams_;
   std::map<std::tuple<Octets, std::uint16_t, Octets, std::uint16_t>, std::size_t> places_;
   std::deque<Sent> recent_;

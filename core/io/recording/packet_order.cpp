@@ -31,6 +31,11 @@ bool GoesOn(const PacketMark& before, const PacketMark& mark) {
   return mark.azimuth_step > 0 && step > 0 && step < kEighthOfTurn;
 }
 
+bool AreNear(std::int64_t azimuth, std::int64_t other) {
+  constexpr std::int64_t kNear = 600;  // What a packet spans.
+  return std::min(StepTo(azimuth, other), StepTo(other, azimuth)) < kNear;
+}
+
 }  // namespace
 
 bool PacketOrder::JoinSame(const Held& held, std::deque<Held>& others) {
@@ -106,7 +111,8 @@ void PacketOrder::ReleaseFirst() {
   if (!released_.empty()) CountLost(first);
   released_.push_back(
       {first.order, first.packet.captured_ns, PacketHash(first.packet.bytes), first.mark});
-  if (released_.size() > kWindow) released_.pop_front();
+  constexpr std::size_t kMostReleased = 1024;
+  if (released_.size() > kMostReleased) released_.pop_front();
   ready_.push_back(std::move(first.packet));
   held_.pop_front();
 }
@@ -128,6 +134,15 @@ void PacketOrder::CountLost(const Held& next) {
   constexpr std::int64_t kLongestTurn_ns = kNsPerS / 5;
   const std::int64_t turned = StepTo(next.mark.first_azimuth, last.mark.last_azimuth);
   if (gap < kLongestTurn_ns && 2 * turned <= 5 * last.mark.azimuth_step) return;
+  const std::pair gap_azimuths{last.mark.last_azimuth, next.mark.first_azimuth};
+  const auto before = std::exchange(gap_, gap_azimuths);
+  if (before && AreNear(before->first, gap_azimuths.first) &&
+      AreNear(before->second, gap_azimuths.second)) {
+    // Turn by turn, nothing is sent there.
+    has_window_ = true;
+    lost_ = {};
+    return;
+  }
   const double packets = static_cast<double>(gap) / static_cast<double>(packet_ns);
   lost_.Count(next.packet.number, static_cast<std::size_t>(std::llround(packets)) - 1);
 }

@@ -79,7 +79,7 @@ class PacketOrder {
     std::int64_t order{};
     std::int64_t captured_ns{};
     std::size_t hash{};
-    PacketMark mark;
+    PacketMark mark{};
   };
 
   [[nodiscard]] bool JoinSame(const Held& held, std::deque<Held>& others);
@@ -93,7 +93,8 @@ class PacketOrder {
   std::deque<OrderedPacket> ready_;
   std::deque<Released> released_;  ///< The last ones, since the numbers began.
   std::optional<std::pair<std::int64_t, PacketMark>> newest_;  ///< Order and mark.
-  bool has_window_ = false;
+  bool has_window_ = false;  ///< The sensor is silent between two of its azimuths.
+  std::optional<std::pair<std::int64_t, std::int64_t>> gap_;  ///< The azimuths around the last one.
   PacketTally lost_, doubled_, late_, reordered_;
 };
 

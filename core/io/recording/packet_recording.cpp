@@ -86,6 +86,14 @@ std::optional<CapturedDatagram> PacketRecording::NextDatagram() {
   }
 }
 
+void PacketRecording::PublishRemarks() const {
+  for (const Remark& remark : source_->remarks()) Publish(remark);
+  for (const Remark& remark : turn_reader_.remarks()) {
+    // Others are counted here.
+    if (remark.kind != RemarkKind::kOtherSenders) Publish(remark);
+  }
+}
+
 std::deque<RecordedDatagram> PacketRecording::NextTurn() {
   if (fault_ && datagrams_.empty()) std::rethrow_exception(fault_);
   while (turns_.empty() && !is_at_end_ && datagrams_.size() < kMostDatagrams) {
@@ -93,6 +101,7 @@ std::deque<RecordedDatagram> PacketRecording::NextTurn() {
     if (!datagram) {
       is_at_end_ = true;
       turn_reader_.End(turns_);
+      PublishRemarks();
       break;
     }
     const std::size_t packet_size = PacketSizeOf(*datagram);

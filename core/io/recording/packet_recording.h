@@ -65,6 +65,7 @@ class PacketRecording {
   /// Returns the size of the packets of the sensor that sent it; 0 if none did.
   [[nodiscard]] std::size_t PacketSizeOf(const CapturedDatagram& datagram);
   void Take(const CapturedDatagram& datagram, std::size_t packet_size);
+  void PublishRemarks() const;
 
   DatagramPlace place_;
   std::vector<CaptureSensor> sensors_;

@@ -89,8 +89,10 @@ std::optional<std::string> RefuseTail(const SpinningModel& model, std::span<cons
   return RefuseMode(model, ModeOf(model, payload));
 }
 
+/// Whether all is zeros from a block's azimuth on.
 bool IsZeros(const SpinningModel& model, std::span<const char> packet, std::size_t block) {
-  const auto bytes = packet.subspan(model.BlockPlace(block), model.block_size());
+  const std::size_t head = model.azimuth_place();
+  const auto bytes = packet.subspan(model.BlockPlace(block) + head, model.block_size() - head);
   return std::ranges::all_of(bytes, [](char byte) { return byte == 0; });
 }
 
@@ -203,15 +205,19 @@ std::int64_t StepTo(std::int64_t azimuth, std::int64_t before) {
 std::vector<std::size_t> LoopsIn(const SpinningModel& model, std::span<const char> packet) {
   const std::size_t in_group = BlocksInGroup(model, packet);
   std::vector<std::size_t> loops;
-  std::vector<std::size_t> zeros;
+  std::vector<std::size_t> zeros;  // Which may be loops.
   for (std::size_t first = 0; first + in_group <= model.blocks; first += in_group) {
     bool has_zeros = false;
+    bool has_flags = true;
     for (std::size_t i = first; i < first + in_group; ++i) {
-      has_zeros = has_zeros || IsZeros(model, packet, i);
+      const bool is_zeros = IsZeros(model, packet, i);
+      const auto flag = LoadAt<std::uint16_t>(packet.data() + model.BlockPlace(i));
+      has_zeros = has_zeros || is_zeros;
+      has_flags = has_flags && !(is_zeros && flag == 0 && !model.block_flags.empty());
     }
-    (has_zeros ? zeros : loops).push_back(first);
+    if (has_flags) (has_zeros ? zeros : loops).push_back(first);
   }
-  if (zeros.empty() || !model.block_flags.empty()) return loops;
+  if (zeros.empty()) return loops;
   constexpr std::int64_t kNear = 500;
   const bool is_near_zero = std::ranges::any_of(loops, [&](std::size_t first) {
     const std::int64_t azimuth = AzimuthOf(model, packet, first);

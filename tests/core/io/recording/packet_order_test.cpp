@@ -148,13 +148,29 @@ TEST(PacketOrder, BeginsAnewWithASensorThatWasStartedAgain) {
   EXPECT_EQ(read.Number(RemarkKind::kPacketsLate), 0U);
 }
 
+TEST(PacketOrder, MissesNothingWhereASensorIsSilentTurnByTurn) {
+  std::vector<std::string> packets;
+  for (const std::string& packet : TwoTurns()) {
+    const auto azimuth = LoadAt<std::uint16_t>(packet.data() + kAzimuthPlace);
+    if (azimuth > 12'000 && azimuth < 24'000) packets.push_back(packet);
+  }
+  const auto more = packets;
+  for (std::string packet : more) {
+    const auto time_us = LoadAt<std::uint32_t>(packet.data() + kTimePlace);
+    StoreAt<std::uint32_t>(packet.data() + kTimePlace, time_us + 200'000);
+    packets.push_back(packet);
+  }
+  EXPECT_EQ(ReadPackets(packets).Number(RemarkKind::kPacketsLost), 0U);
+}
+
 TEST(SpinningDecoder, LeavesOutBlocksOfZerosAndCountsThem) {
   auto packets = TwoTurns();
   const ReadTurns plain = ReadPackets(packets);
   for (const std::size_t packet : {3U, 10U, 11U}) {
     std::fill_n(packets[packet].begin() + 4 * kBlockSize, 2 * kBlockSize, '\0');
   }
-  std::fill_n(packets[20].begin(), kBlockSize, '\0');
+  // With a flag, too.
+  std::fill_n(packets[20].begin() + 2, kBlockSize - 2, '\0');
   const ReadTurns read = ReadPackets(packets);
   ASSERT_EQ(read.frames.size(), plain.frames.size());
   // Each block of a VLP-16 holds two firing cycles.
