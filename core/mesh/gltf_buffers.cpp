@@ -30,11 +30,13 @@ std::string_view JsonOf(const std::string& bytes) {
 constexpr auto kHarmlessExtensions = std::to_array<std::string_view>(
     {"KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_", "KHR_lights_",
      "EXT_lights_", "KHR_animation_", "KHR_techniques_webgl", "KHR_binary_glTF", "KHR_xmp",
-     "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_mesh_features",
+     "KHR_xmp_", "KHR_mesh_quantization", "KHR_draco_mesh_compression", "EXT_mesh_features",
      "EXT_structural_metadata", "EXT_instance_features", "MSFT_lod", "ADOBE_materials_",
      "FB_materials_"});
 
 bool IsHarmless(const std::string& extension) {
+  // It has colours in place of those that are read.
+  if (extension == "KHR_materials_pbrSpecularGlossiness") return false;
   return std::ranges::any_of(kHarmlessExtensions, [&](std::string_view known) {
     return known.ends_with('_') ? extension.starts_with(known) : extension == known;
   });
@@ -45,7 +47,7 @@ constexpr const char* kWithGltfpack = "gltfpack -noq -i IN.glb -o OUT.glb writes
 /// How to come to a file without an extension.
 std::string WithoutExtension(const std::string& extension) {
   const bool is_meshopt = extension.find("meshopt") != std::string::npos;
-  return is_meshopt ? kWithGltfpack : "railcast reads shapes without it only";
+  return is_meshopt ? kWithGltfpack : "railcast reads files without it only";
 }
 
 std::vector<std::string> StringsIn(const nlohmann::json& json, const char* key) {

@@ -10,8 +10,8 @@ namespace railcast {
 /// for assimp to say.
 [[nodiscard]] std::vector<std::string> BuffersOfGltf(const std::string& bytes);
 
-/// What a glTF file uses and is not read, although it may change its shape: names of extensions
-/// without which it can be read.
+/// What a glTF file uses and is not read, although it may change its shape or colours: names of
+/// extensions without which it can be read.
 /// @param shown Name of the file in error messages.
 /// @throws InputError "shown: place: rule (got value)" if it needs an extension that is not read,
 /// or has positions

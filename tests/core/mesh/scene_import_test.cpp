@@ -264,7 +264,7 @@ TEST_F(SceneImport, RefusesWhatGltfNeedsAndIsNotRead) {
   };
   const std::string rule = "a.gltf: extensionsRequired: must be extensions that are read; ";
   EXPECT_EQ(complaint("ACME_shrinks_everything"),
-            rule + "railcast reads shapes without it only (got \"ACME_shrinks_everything\")");
+            rule + "railcast reads files without it only (got \"ACME_shrinks_everything\")");
   EXPECT_EQ(complaint("EXT_meshopt_compression"),
             rule +
                 "gltfpack -noq -i IN.glb -o OUT.glb writes it without (got "
@@ -296,9 +296,10 @@ TEST_F(SceneImport, ReadsGltfCompressedWithDraco) {
 
 TEST_F(SceneImport, TellsWhatGltfUsesAndIsNotRead) {
   const ImportedMesh mesh =
-      ParseMesh(GltfWith(R"("extensionsUsed": ["KHR_materials_unlit", "EXT_mesh_gpu_instancing"])"),
+      ParseMesh(GltfWith(R"("extensionsUsed": ["KHR_materials_unlit", "EXT_mesh_gpu_instancing",
+                "KHR_materials_pbrSpecularGlossiness"])"),
                 "a.gltf");
-  EXPECT_EQ(mesh.remarks, (std::vector<Remark>{{RemarkKind::kExtensionUnread, "a.gltf", 1,
+  EXPECT_EQ(mesh.remarks, (std::vector<Remark>{{RemarkKind::kExtensionUnread, "a.gltf", 2,
                                                 "\"EXT_mesh_gpu_instancing\""}}));
 }
 
