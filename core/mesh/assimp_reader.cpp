@@ -347,6 +347,11 @@ void CheckGlb(const std::string& bytes, const std::string& shown) {
     throw InputError(shown + ": ends within its first chunk of " + std::to_string(number_at(12)) +
                      " bytes");
   }
+  // assimp looks for what follows behind a multiple of 4 bytes, as the format has it.
+  if (number_at(12) % 4 != 0 && number_at(12) < bytes.size() - kHeaderBytes) {
+    throw InputError(shown + ": its first chunk must have a multiple of 4 bytes" +
+                     Got(number_at(12)));
+  }
 }
 
 /// What assimp makes of a scene, in this process.

@@ -1,4 +1,5 @@
 // What scenes of modelling programs say, which assimp alone would not give.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ std::string Number(std::size_t number) {
 }
 
 // Of version 1, whose header says how long the JSON is and that it is JSON; the rest is the buffer.
-TEST_F(SceneImport, ReadsBinaryGltfOfVersion1) {
+std::string BinaryGltfOfVersion1(std::size_t num_blanks) {
   std::string json =
       R"({"asset": {"version": "1.0"}, "scene": "s", "scenes": {"s": {"nodes": ["n"]}},
       "nodes": {"n": {"meshes": ["m"]}},
@@ -57,14 +58,23 @@ TEST_F(SceneImport, ReadsBinaryGltfOfVersion1) {
       "bufferViews": {"b": {"buffer": "binary_glTF", "byteOffset": 0, "byteLength": 36}},
       "buffers": {"binary_glTF": {"byteLength": 36, "type": "arraybuffer", "uri": "data:,"}},
       "extensionsUsed": ["KHR_binary_glTF"]})";
-  json.resize((json.size() + 3) / 4 * 4, ' ');
+  json.resize((json.size() + 3) / 4 * 4 + num_blanks, ' ');
   const std::string buffer = BytesOfFloats({0, 0, 0, 1, 0, 0, 0, 1, 0});
-  const ImportedMesh mesh =
-      ParseMesh("glTF" + Number(1) + Number(20 + json.size() + buffer.size()) +
-                    Number(json.size()) + Number(0) + json + buffer,
-                "a.glb");
+  return "glTF" + Number(1) + Number(20 + json.size() + buffer.size()) + Number(json.size()) +
+         Number(0) + json + buffer;
+}
+
+TEST_F(SceneImport, ReadsBinaryGltfOfVersion1) {
+  const ImportedMesh mesh = ParseMesh(BinaryGltfOfVersion1(0), "a.glb");
   EXPECT_EQ(mesh.num_triangles(), 1U);
   EXPECT_TRUE(BoxOf(mesh).isApprox(standing, 1e-6));
+}
+
+// Its buffer begins elsewhere than assimp looks for it.
+TEST_F(SceneImport, RefusesBinaryGltfOfWhichTheFirstChunkIsNotPadded) {
+  EXPECT_THAT(MessageOf([] { (void)ParseMesh(BinaryGltfOfVersion1(1), "a.glb"); }),
+              testing::ContainsRegex("^a.glb: its first chunk must have a multiple of 4 bytes .got "
+                                     "[0-9]+.$"));
 }
 
 // Of a skinned mesh, "the transform of the node is ignored" (glTF 2.0, 3.7.3.3): exporters scale it
