@@ -55,7 +55,7 @@ std::string InLowerCase(std::string text) {
   return text;
 }
 
-/// What a file of text holds, by the numbers of its first line.
+/// What a file of text holds, by the numbers of its first line of numbers; empty if it has none.
 std::string AdviceOnText(std::string_view begin) {
   while (const auto line = TakeLine(begin)) {
     std::string plain(*line);
@@ -65,15 +65,15 @@ std::string AdviceOnText(std::string_view begin) {
     if (words.empty() || words[0].starts_with('#')) continue;
     const bool are_numbers = std::ranges::all_of(
         words, [](std::string_view word) { return ParseSignedNumber<double>(word).has_value(); });
-    if (!are_numbers) continue;  // The names of columns.
+    if (!are_numbers || words.size() < 3) continue;  // The names of columns.
+    const std::string numbers = NumberText(words.size()) + " numbers a line";
     if (words.size() == 8 || words.size() == 12) {
-      return "is a file of poses, with " + NumberText(words.size()) +
-             " numbers a line: name the clouds, and these with --poses";
+      return "is a file of poses, with " + numbers + ": name the clouds, and these with --poses";
     }
-    break;
+    return "is text with " + numbers + std::string(kUnread) +
+           "if it is a cloud, CloudCompare or pdal makes a .ply, .pcd or .las of it";
   }
-  return "is text" + std::string(kUnread) +
-         "if it is a cloud, CloudCompare and pdal convert it to .ply, .pcd or .las";
+  return {};
 }
 
 }  // namespace

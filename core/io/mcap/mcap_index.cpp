@@ -242,8 +242,10 @@ std::optional<CutEnd> CutAt(const ByteFile& file, std::uint64_t offset) {
   if (num_bytes == 0) return std::nullopt;
   if (FooterOf(file)) {
     if (num_bytes == kMagic.size()) return std::nullopt;
-    throw InputError(PlaceOf(file, offset) +
-                     "must end within the file, since that has its own end (got another length)");
+    std::uint64_t length{};
+    FieldReader(file.Read(offset + 1, sizeof length))("length", length);
+    throw InputError(PlaceOf(file, offset) + "length: must end within the file, which has its end" +
+                     Got(length));
   }
   return CutEnd{offset, num_bytes};
 }

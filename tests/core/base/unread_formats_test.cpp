@@ -46,7 +46,9 @@ TEST_F(UnreadFormats, TellTextOfPosesFromTextOfPoints) {
             "is a file of poses, with 8" + poses);
   EXPECT_EQ(AdviceOn("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"),
             "is a file of poses, with 12" + poses);
-  EXPECT_TRUE(AdviceOn("cloud.csv", "x,y,z\n1,2,3\n").starts_with("is text, which is not read: "));
+  EXPECT_TRUE(AdviceOn("cloud.csv", "x,y,z\n1,2,3\n")
+                  .starts_with("is text with 3 numbers a line, which is not read: "));
+  EXPECT_EQ(AdviceOn("notes.txt", "Dear reader,\n"), "");
 }
 
 TEST_F(UnreadFormats, AreNoOthers) {

@@ -12,7 +12,7 @@ inline constexpr std::array<std::size_t, 11> kLasPointBytes = {20, 28, 26, 34, 5
                                                                30, 36, 38, 59, 67};
 
 template <typename Number>
-void Put(std::string& bytes, std::size_t place, Number number) {
+void PutNumber(std::string& bytes, std::size_t place, Number number) {
   std::memcpy(&bytes.at(place), &number, sizeof number);
 }
 
@@ -39,19 +39,19 @@ struct MadeLas {
     std::memcpy(bytes.data(), "LASF", 4);
     bytes[24] = 1;
     bytes[25] = static_cast<char>(minor_version);
-    Put(bytes, 94, static_cast<std::uint16_t>(header_bytes()));
-    Put(bytes, 96, static_cast<std::uint32_t>(header_bytes() + records.size()));
-    Put(bytes, 100, num_records);
+    PutNumber(bytes, 94, static_cast<std::uint16_t>(header_bytes()));
+    PutNumber(bytes, 96, static_cast<std::uint32_t>(header_bytes() + records.size()));
+    PutNumber(bytes, 100, num_records);
     bytes[104] = static_cast<char>(format);
-    Put(bytes, 105, static_cast<std::uint16_t>(point_bytes()));
+    PutNumber(bytes, 105, static_cast<std::uint16_t>(point_bytes()));
     if (minor_version == 4) {
-      Put(bytes, 247, std::uint64_t{num_stated});
+      PutNumber(bytes, 247, std::uint64_t{num_stated});
     } else {
-      Put(bytes, 107, static_cast<std::uint32_t>(num_stated));
+      PutNumber(bytes, 107, static_cast<std::uint32_t>(num_stated));
     }
-    for (std::size_t axis = 0; axis < 3; ++axis) Put(bytes, 131 + 8 * axis, 0.001);
-    Put(bytes, 155, 5000.0);
-    Put(bytes, 163, 300'000.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) PutNumber(bytes, 131 + 8 * axis, 0.001);
+    PutNumber(bytes, 155, 5000.0);
+    PutNumber(bytes, 163, 300'000.0);
     bytes += records;
     for (std::size_t i = 1; i <= num_points; ++i) bytes += Point(i);
     return bytes;
@@ -64,26 +64,26 @@ struct MadeLas {
   [[nodiscard]] std::string Point(std::size_t i) const {
     std::string point(point_bytes(), '\0');
     const bool is_newer = format >= 6;
-    Put(point, 0, static_cast<std::int32_t>(1000 * i));
-    Put(point, 4, static_cast<std::int32_t>(-2000 * static_cast<int>(i)));
-    Put(point, 8, std::int32_t{345});
-    Put(point, 12, static_cast<std::uint16_t>(100 * i));
+    PutNumber(point, 0, static_cast<std::int32_t>(1000 * i));
+    PutNumber(point, 4, static_cast<std::int32_t>(-2000 * static_cast<int>(i)));
+    PutNumber(point, 8, std::int32_t{345});
+    PutNumber(point, 12, static_cast<std::uint16_t>(100 * i));
     const auto number = static_cast<std::uint8_t>(i);
     if (is_newer) {
       point[14] = static_cast<char>(3U << 4U | number);
       point[15] = 0x42;
       point[16] = static_cast<char>(number);
-      Put(point, 18, std::int16_t{-2000});
+      PutNumber(point, 18, std::int16_t{-2000});
     } else {
       point[14] = static_cast<char>(0x40U | 3U << 3U | number);
       point[15] = static_cast<char>(0x40U | number);
       point[16] = -12;
     }
     point[17] = static_cast<char>(40 + i);
-    Put(point, is_newer ? 20 : 18, static_cast<std::uint16_t>(7));
+    PutNumber(point, is_newer ? 20 : 18, static_cast<std::uint16_t>(7));
     const double time_s = 7.0 + 0.05 * static_cast<double>(i);
-    if (is_newer) Put(point, 22, time_s);
-    if (format == 1 || (format >= 3 && format <= 5)) Put(point, 20, time_s);
+    if (is_newer) PutNumber(point, 22, time_s);
+    if (format == 1 || (format >= 3 && format <= 5)) PutNumber(point, 20, time_s);
     return point;
   }
 };

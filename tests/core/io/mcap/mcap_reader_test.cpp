@@ -152,7 +152,7 @@ TEST_F(McapFile, IsRefusedIfARecordDoesNotFitIntoIt) {
   std::fill_n(whole.begin() + static_cast<std::ptrdiff_t>(footer), 20, '\0');
   EXPECT_EQ(MessageOf([&] { (void)Read(whole); }),
             "file: record at " + std::to_string(last) +
-                ": must end within the file, since that has its own end (got another length)");
+                ": length: must end within the file, which has its end (got 1152921504606846976)");
 }
 
 TEST_F(McapFile, IsReadOrRefusedWithALineWhateverByteIsDamaged) {

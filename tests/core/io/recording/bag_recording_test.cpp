@@ -31,8 +31,8 @@ namespace {
 
 TEST(BagRecording, ReadsFieldsByNameAndOffsetOfEitherByteOrder) {
   MadeBag bag;
-  bag.Add("/lidar/points", 0, CloudOf(kPoints, 7 * kSecond_ns));
-  bag.Add("/lidar/points", 1, CloudOf(kPoints, 8 * kSecond_ns, true));
+  bag.Add("/lidar/points", 0, CloudOf(kBagPoints, 7 * kSecond_ns));
+  bag.Add("/lidar/points", 1, CloudOf(kBagPoints, 8 * kSecond_ns, true));
   const auto recording = OpenRecording(bag.Closed());
   EXPECT_EQ(recording->info().kind, "bag of ROS 2");
   const auto frames = ReadAll(*recording);
@@ -119,11 +119,12 @@ TEST(BagRecording, HasThePosesThatItsTransformsSay) {
   const double half = std::sqrt(0.5);
   bag.Link("/tf_static", "base_link", "lidar", 0, {{0.0, 0.0, 2.0}, {}});
   bag.Link("/tf", "map", "base_link", 10 * kSecond_ns, {{100.0, 0.0, 0.0}, {}});
-  bag.Add("/lidar/points", 10 * kSecond_ns, CloudOf(kPoints, 10 * kSecond_ns + kSecond_ns / 2));
+  bag.Add("/lidar/points", 10 * kSecond_ns, CloudOf(kBagPoints, 10 * kSecond_ns + kSecond_ns / 2));
   bag.Link("/tf", "map", "base_link", 11 * kSecond_ns,
            {{110.0, 4.0, 0.0}, {0.0, 0.0, half, half}});  // A quarter turn to the left.
-  bag.Add("/lidar/points", 11 * kSecond_ns, CloudOf(kPoints, 11 * kSecond_ns + 900));  // Rounded.
-  bag.Add("/lidar/points", 12 * kSecond_ns, CloudOf(kPoints, 12 * kSecond_ns));
+  bag.Add("/lidar/points", 11 * kSecond_ns,
+          CloudOf(kBagPoints, 11 * kSecond_ns + 900));  // Rounded.
+  bag.Add("/lidar/points", 12 * kSecond_ns, CloudOf(kBagPoints, 12 * kSecond_ns));
   const auto frames = ReadAll(bag.Closed());
   ASSERT_EQ(frames.size(), 3U);
   ASSERT_TRUE(frames[0].has_pose && frames[1].has_pose);
@@ -143,7 +144,7 @@ TEST(BagRecording, RefusesTransformsThatGoInCirclesOrAreNone) {
             "/tf: the transform to \"lidar\" must be a position and a unit quaternion"}}) {
     MadeBag bag;
     bag.Link("/tf", parent, "lidar", 0, {{}, rotation});
-    bag.Add("/lidar/points", 0, CloudOf(kPoints, 0));
+    bag.Add("/lidar/points", 0, CloudOf(kBagPoints, 0));
     const auto file = bag.Closed();
     EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }), file.string() + ": " + rule);
   }
@@ -151,14 +152,16 @@ TEST(BagRecording, RefusesTransformsThatGoInCirclesOrAreNone) {
 
 TEST(BagRecording, AsksWhichOfSeveralTopics) {
   MadeBag bag;
-  bag.Add("/left/points", 0, CloudOf(kPoints, 0));
-  bag.Add("/right/points", 0, CloudOf(kPoints, 5));
+  bag.Add("/left/points", 0, CloudOf(kBagPoints, 0));
+  bag.Add("/right/points", 0, CloudOf(kBagPoints, 5));
   bag.Add("/clock", 0, ros::Clock{});
   const auto file = bag.Closed();
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }),
             file.string() + ": --topic: must be one of /left/points, /right/points (got none)");
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(TopicOfBag(file, "/clock")); }),
-            file.string() + ": --topic: must be one of /left/points, /right/points (got /clock)");
+            file.string() +
+                ": --topic: must be one of /left/points, /right/points (got /clock of "
+                "rosgraph_msgs/msg/Clock)");
   const auto right = OpenRecording(TopicOfBag(file, "/right/points"));
   EXPECT_EQ(right->info().source, file.string() + ":/right/points");
   const auto frames = ReadAll(*right);
@@ -190,11 +193,11 @@ TEST(BagRecording, RefusesCloudsThatContradictThemselves) {
            {[](auto& cloud) { cloud.fields[3].datatype = 9; },
             "fields: \"ring\": datatype: must be 1 to 8 (got 9)"},
            {[](auto& cloud) {
-              cloud.is_bigendian = true;
+              cloud = CloudOf(kBagPoints, 0, true);
               cloud.fields[3].offset = 12;
             },
             "fields: must not share bytes of a big-endian cloud (got \"ring\")"}}) {
-    ros::PointCloud2 cloud = CloudOf(kPoints, 0);
+    ros::PointCloud2 cloud = CloudOf(kBagPoints, 0);
     change(cloud);
     EXPECT_EQ(MessageOf([&] { (void)MakeCloud(cloud); }), message);
   }
@@ -202,7 +205,7 @@ TEST(BagRecording, RefusesCloudsThatContradictThemselves) {
 
 TEST(BagRecording, SaysWhichMessageIsCutShort) {
   MadeBag bag;
-  bag.Add("/lidar/points", 0, CloudOf(kPoints, 0));
+  bag.Add("/lidar/points", 0, CloudOf(kBagPoints, 0));
   const auto file = bag.Closed();
   const TemporaryDirectory folder;
   const auto writer = bag::CreateMcap(folder.path() / "cut.mcap");

@@ -363,14 +363,14 @@ TEST(CloudRecording, NamesWhatIsWrongWithAFile) {
   EXPECT_EQ(MessageOfText("a.bin", std::string(17, 'a')),
             "must have 16 bytes for each point (got 17)");
   EXPECT_EQ(MessageOfText("a.txt", ""),
-            "must be a directory or a .pcd, .ply, .bin, .pcap, .pcapng, .mcap or .db3 file");
+            "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
 }
 
 TEST(OpenRecording, NamesADirectoryOrFileThatIsNoRecording) {
   const TemporaryDirectory directory;
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(directory.path()); }),
             directory.path().string() +
-                ": must be a sequence or hold .pcd, .ply or .bin files (got neither)");
+                ": must be a sequence or hold .pcd, .ply, .bin or .las files (got neither)");
   const auto missing = directory.path() / "missing";
   EXPECT_EQ(MessageOf([&] { (void)OpenRecording(missing); }),
             missing.string() + ": no such file or directory");

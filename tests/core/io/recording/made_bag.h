@@ -54,7 +54,7 @@ inline ros::PointCloud2 CloudOf(const std::vector<std::array<float, 3>>& points,
   return cloud;
 }
 
-inline const std::vector<std::array<float, 3>> kPoints = {
+inline const std::vector<std::array<float, 3>> kBagPoints = {
     {1.5F, 2.0F, 3.0F},
     {0.0F, 0.0F, 0.0F},
     {-4.0F, 5.0F, 0.25F},
