@@ -15,6 +15,9 @@
 #include "tests/analysis/analyze_program.h"
 #include "tests/analysis/made_dataset.h"
 #include "tests/core/io/damage.h"
+#include "tests/core/io/pcap/made_capture.h"
+#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/support/sensor_file.h"
 
 namespace railcast {
 namespace {
@@ -372,6 +375,38 @@ TEST(StatsCommand, RefusesToCountTwice) {
   const Ended run = Analyze("stats " + sequence.string() + " " + again + " --format text");
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.said, again + ": must be named once\n");
+}
+
+TEST(StatsCommand, ListsTheSensorsOfACaptureAndTakesTheOneThatIsChosen) {
+  const TemporaryFolder folder;
+  const MadeScan scan(ReadSensor("vlp16"));
+  const Datagrams datagrams = EncodeAll("vlp16", scan, {scan.MakeFrame(0)});
+  std::vector<CapturedFrame> frames;
+  for (const auto& packet : DataPackets(datagrams)) {
+    const std::string payload(packet.begin(), packet.end());
+    for (const char host : {'\1', '\2', '\2'}) {
+      frames.push_back({EthernetOf(IpOf(payload, host)), 1000 * frames.size()});
+    }
+  }
+  const auto file = WriteCapture(folder.Write("x", "").parent_path() / "a.pcap", frames);
+  const std::string stats = "stats " + file.string() + " --format json";
+  const Ended all = Analyze(stats);
+  EXPECT_EQ(all.status, 1);
+  EXPECT_EQ(all.said, file.string() + ": holds 2 sensors: VLP-16 at 192.168.1.1, VLP-16 at " +
+                          "192.168.1.2; --sensor picks one\n");
+  const Ended one = Analyze(stats + " --sensor 192.168.1.2 2>/dev/null");
+  ASSERT_EQ(one.status, 0) << one.said;
+  const PlainJson report = PlainJson::parse(one.said);
+  const PlainJson& rows = JsonTableOf(report, "capture_sensors")["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  const std::size_t num_packets = DataPackets(datagrams).size();
+  EXPECT_EQ(rows[0]["address"], "192.168.1.1");
+  EXPECT_EQ(rows[0]["packets"], num_packets);
+  EXPECT_EQ(rows[0]["doubled"], 0);
+  EXPECT_EQ(rows[1]["sensor"], "VLP-16");
+  EXPECT_EQ(rows[1]["ports"], "2368");
+  EXPECT_EQ(rows[1]["doubled"], num_packets);
+  EXPECT_EQ(rows[1]["lost"], 0);
 }
 
 class StatsOfCapture : public testing::TestWithParam<std::string> {

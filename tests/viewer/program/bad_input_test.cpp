@@ -267,7 +267,8 @@ TEST_F(BadInput, FilesOfTheFuzzersCrashNothing) {
         if (extension == ".json") source = PathOf("cloud.pcd") + " --scenario " + source;
         const Ended ended = View("--size 64x64 --screenshot " + PathOf("out.png") + " " + source);
         EXPECT_LE(ended.status, 1) << entry.path() << ended.said;
-        EXPECT_TRUE(ended.status == 0 || ended.said.starts_with("error: ")) << entry.path();
+        EXPECT_TRUE(ended.status == 0 || ended.said.find("error: ") != std::string::npos)
+            << entry.path();
         ++(ended.status == 0 ? num_shown : num_refused);
       }
     }
