@@ -174,9 +174,16 @@ void ReadIdentity(MetadataReader& reader, OusterMetadata& metadata) {
       reader.Whole(reader.Find(kSensorInfo, "initialization_id"), 0, kMost24Bits);
 }
 
-// "1024x10": columns of a turn, and turns per second.
+// "1024x10": columns of a turn, and turns per second. The format of the packets has both, too.
 void ReadMode(MetadataReader& reader, OusterMetadata& metadata) {
   const MetadataEntry entry = reader.Find(kConfigParams, "lidar_mode");
+  const MetadataEntry rate = reader.Find(kDataFormat, "fps");
+  if (entry.json == nullptr && rate.json != nullptr) {
+    metadata.rate_hz = reader.Whole(rate, 1, 1000).value_or(1);
+    metadata.columns_per_frame =
+        reader.RequiredWhole(kDataFormat, "columns_per_frame", 1, 1U << 16U).value_or(0);
+    return;
+  }
   if (entry.json == nullptr) return reader.Add(entry, "missing");
   const std::string mode = entry.json->is_string() ? entry.json->get<std::string>() : "";
   const std::size_t cross = std::min(mode.find('x'), mode.size());

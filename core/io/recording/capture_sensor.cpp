@@ -291,7 +291,7 @@ std::string SensorFinder::Findings(const std::vector<Remark>& left_out) const {
   }
   if (num_torn > 0) found += ", and " + NumberText(num_torn) + " that lack IP fragments";
   for (const Remark& remark : left_out) {
-    if (remark.kind == RemarkKind::kFramesUnknown) found += ", and " + remark.Text();
+    if (remark.kind != RemarkKind::kFragmentsMissing) found += ", and " + remark.Text();
   }
   return found;
 }

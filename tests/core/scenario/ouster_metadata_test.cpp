@@ -105,6 +105,15 @@ std::string FaultWith(const std::string& pointer, const nlohmann::ordered_json& 
   return MessageOf([&] { static_cast<void>(ParseOusterOfPackets(metadata.dump())); });
 }
 
+TEST(OusterMetadata, WithoutAModeHaveColumnsAndRateOfTheFormat) {
+  nlohmann::ordered_json made = MadeOusterMetadata();
+  made["config_params"].erase("lidar_mode");
+  made["lidar_data_format"]["fps"] = 20;
+  const OusterMetadata metadata = ParseOusterMetadata(made.dump());
+  EXPECT_EQ(metadata.columns_per_frame, 512U);
+  EXPECT_EQ(metadata.rate_hz, 20.0);
+}
+
 TEST(OusterMetadata, OfPacketsThatAreNotKnownHaveBeamsColumnsAndRate) {
   nlohmann::ordered_json made = MadeOusterMetadata();
   made["config_params"]["lidar_mode"] = "720x15";
