@@ -98,7 +98,7 @@ struct RailMap {
   std::vector<MapThing> things;
   std::string attribution;
   /// What was not taken as it stands in the file; their places are those of the file: "way 7".
-  std::vector<Remark> remarks;
+  std::vector<Remark> remarks{};
 };
 
 }  // namespace railcast
