@@ -220,6 +220,26 @@ class SqliteBagReader : public BagReader {
   bool is_at_end_ = false;
 };
 
+/// Throws if the end of a database is missing, by the number of pages that its header states
+/// (https://www.sqlite.org/fileformat2.html, 1.3). SQLite would only call it malformed.
+void CheckIsWhole(const std::filesystem::path& file, const std::string& name) {
+  std::array<unsigned char, 100> header{};
+  std::ifstream(file, std::ios::binary).read(reinterpret_cast<char*>(header.data()), header.size());
+  const auto number_at = [&](std::size_t place) {
+    std::uint64_t number = 0;
+    for (std::size_t i = place; i < place + 4; ++i) number = number << 8U | header.at(i);
+    return number;
+  };
+  if (number_at(24) != number_at(92)) return;  // The number was not kept.
+  const std::uint64_t stated = number_at(16) >> 16U;
+  const std::uint64_t size = number_at(28) * (stated == 1 ? 65536 : stated);
+  const std::uint64_t got = std::filesystem::file_size(file);
+  if (got >= size) return;
+  throw InputError(name + ": must have its end, " + NumberText(size) + " bytes" + Got(got) +
+                   ": sqlite3 " + ShownPath(file.filename()) +
+                   " .recover makes a database of what is there");
+}
+
 /// Opens a copy of the files, in which SQLite finishes what the recorder had begun.
 std::unique_ptr<SqliteDatabase> OpenCopy(const std::filesystem::path& file,
                                          const std::string& name,
@@ -263,6 +283,7 @@ std::unique_ptr<BagReader> OpenSqliteBag(const std::filesystem::path& file,
                        .detail = "what its recorder had not committed is undone by " +
                                  ShownPath(beside.filename())});
   }
+  if (changes.empty()) CheckIsWhole(file, name);
   auto database = changes.empty()
                       ? std::make_unique<SqliteDatabase>(file, SqliteAccess::kRead, name)
                       : OpenCopy(file, name, changes);

@@ -52,6 +52,16 @@ TEST_F(DamagedBag, IsRefusedIfMessagesAreNone) {
             file.string() + ": message 3: topic_id: must be that of a topic (got 7)");
 }
 
+TEST_F(DamagedBag, IsRefusedIfItsEndIsMissing) {
+  const auto file = Database("VACUUM");
+  const auto size = std::filesystem::file_size(file);
+  std::filesystem::resize_file(file, size - 5000);
+  EXPECT_EQ(MessageAbout(file),
+            file.string() + ": must have its end, " + std::to_string(size) + " bytes (got " +
+                std::to_string(size - 5000) +
+                "): sqlite3 bag_0.db3 .recover makes a database of what is there");
+}
+
 // Also where other topics are asked for: a message of one of these may be among them.
 TEST_F(DamagedBag, IsRefusedIfAMessageThatNobodyAskedForIsOfNoTopic) {
   const auto file = Database("UPDATE messages SET topic_id = 7 WHERE id = 3");
