@@ -54,8 +54,6 @@ const std::vector<RemarkType>& RemarkTypes() {
        "points stored in single precision far from the origin"},
       {kPointsWithheld, "points-withheld", "point that its file marks as withheld",
        "points that their file marks as withheld", true},
-      {kColumnsGuessed, "columns-guessed", "file whose numbers a point were told by its values",
-       "files whose numbers a point were told by their values"},
       {kByteOrderGuessed, "byte-order-guessed",
        "cloud whose byte order was told by its values, against what it states",
        "clouds whose byte order was told by their values, against what they state"},

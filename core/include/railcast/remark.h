@@ -33,7 +33,6 @@ enum class RemarkKind : std::uint8_t {
   kViewpointUnused,
   kPositionsRounded,
   kPointsWithheld,
-  kColumnsGuessed,
   kByteOrderGuessed,
   kFarReturns,
   kTimesRelative,
