@@ -8,6 +8,7 @@
 #include "analysis/inspect/inspection.h"
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
+#include "analysis/stats/statistics.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
@@ -26,13 +27,15 @@ struct InspectOptions {
 
 int RunInspect(const InspectOptions& options, const std::string& command_line) {
   const tbb::global_control limit = LimitThreads(options.num_threads);
-  const auto recording = OpenRecording(WithChoice({options.source}, options.choice).front());
+  const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
+  const auto recording = OpenRecording(source);
   const RecordingLook inspection = Inspect(*recording, options.num_frames);
   const RecordingInfo& info = recording->info();
   if (inspection.num_frames == 0) {
     throw InputError(ShownPath(options.source) + ": must hold a frame");
   }
   Report report = MakeInspectionReport(inspection, info, command_line);
+  if (auto section = CaptureSection({source})) report.sections.push_back(*section);
   AddProvenance({info}, ProgramVersion(), report);
   EmitReport(report, options.output, "inspect");
   for (const JobFitness& job : JobsOf(inspection, info)) {

@@ -12,10 +12,10 @@
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "core/io/cloud/track_fields.h"
+#include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/source_choice.h"
-#include "core/io/recording/turn_reader.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
@@ -228,35 +228,6 @@ Statistics MeasureAll(const std::vector<MeasuredSource>& sources,
   return all;
 }
 
-/// Adds what became of the packets of captures, of those sensors, too, that are not measured.
-void AddCaptureSection(const std::vector<MeasuredSource>& sources, Report& report) {
-  Table table{.key = "capture_sensors",
-              .title = "Sensors of the capture",
-              .note =
-                  "Packets are those that can be read; doubled and late ones are left out, and "
-                  "those out of order were put in order.",
-              .columns = ColumnsOf("capture: Capture; sensor: Sensor; address: Address; "
-                                   "ports: To ports; packets: Packets; lost: Lost; "
-                                   "doubled: Doubled; out_of_order: Out of order; late: Late; "
-                                   "damaged: Damaged; refused: Refused")};
-  for (const MeasuredSource& source : sources) {
-    const auto capture = FindCapture(source.source);
-    if (!capture) continue;
-    for (const TurnReader& reader : CountPackets(*capture)) {
-      const PacketOrder& order = reader.order();
-      table.rows.push_back(
-          {ShownPath(capture->file), reader.sensor().name, reader.sensor().address,
-           PortsText(reader.sensor()), std::uint64_t{reader.num_taken()},
-           std::uint64_t{reader.lost().number}, std::uint64_t{order.doubled().number},
-           std::uint64_t{order.reordered().number}, std::uint64_t{order.late().number},
-           std::uint64_t{reader.damaged().number}, std::uint64_t{reader.refused().number}});
-    }
-  }
-  if (table.rows.empty()) return;
-  report.sections.push_back(
-      {.key = "capture", .title = "Packets of the capture", .tables = {std::move(table)}});
-}
-
 Section SheetSection(const std::vector<MeasuredSource>& sources) {
   std::vector<std::filesystem::path> recordings;
   for (const MeasuredSource& source : sources) {
@@ -270,7 +241,8 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
   // Of captures, a sensor is chosen by its address, of sequences by its name.
   SourceChoice choice = options.choice;
   if (ParseSender(options.sensor)) choice.sensor = options.sensor;
-  std::vector<MeasuredSource> sources = LookAtSources(WithChoice(options.sources, choice));
+  const auto chosen = WithChoice(options.sources, choice);
+  std::vector<MeasuredSource> sources = LookAtSources(chosen);
   SourcesAtFirstSight seen = LookAtRecordings(choice.sensor.empty() ? options.sensor : "", sources);
   Statistics all = MeasureAll(sources, seen.num_frames, TrackOf(options.track), seen.infos);
   if (!seen.has_one_scan) all.ForgetRings();
@@ -285,7 +257,7 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
         "Sensors", NamesText(seen.sensors) + ", taken together; --sensor takes one of them");
   }
   AddDatasetSections(sources, report);
-  AddCaptureSection(sources, report);
+  if (auto section = CaptureSection(chosen)) report.sections.push_back(*section);
   if (!options.output.out.empty()) {
     report.sections.insert(report.sections.begin(), SheetSection(sources));
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -331,6 +332,12 @@ using StatisticsProgress = std::function<void(std::size_t num_frames)>;
 [[nodiscard]] Report MakeStatisticsReport(const Statistics& statistics,
                                           const std::vector<RecordingInfo>& sources,
                                           const std::string& command);
+
+/// What became of the packets of captures, sensor by sensor; nothing if no source is one. Defined
+/// in capture_section.cpp.
+/// @throws InputError if a capture cannot be read.
+[[nodiscard]] std::optional<Section> CaptureSection(
+    const std::vector<std::filesystem::path>& sources);
 
 /// Makes a sheet of pictures of recordings: a row for each sensor, by its name, and for each
 /// camera, of frames spread evenly over all its recordings. Defined in sheet.cpp.
