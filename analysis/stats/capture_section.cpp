@@ -3,6 +3,7 @@
 
 #include "analysis/stats/statistics.h"
 #include "core/base/text.h"
+#include "core/io/recording/packet_order.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/turn_reader.h"
 

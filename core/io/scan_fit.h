@@ -70,6 +70,12 @@ inline constexpr std::uint32_t kNotFired = 0xFFFFFFFF;
 inline constexpr double kAzimuthUnit_deg = 0.01;
 inline constexpr std::int64_t kAzimuthUnitsPerTurn = 36'000;
 
+/// From one azimuth in these units to the next, past 0, too.
+[[nodiscard]] inline std::int64_t StepTo(std::int64_t azimuth, std::int64_t before) {
+  const std::int64_t step = azimuth - before;
+  return step < 0 ? step + kAzimuthUnitsPerTurn : step;
+}
+
 /// Returns the azimuth of the rotor in the packets' unit of 0.01 deg, 0 to 35999.
 /// @param turns How far it has turned since it was at start_azimuth_deg.
 [[nodiscard]] std::uint16_t RotorAzimuth(double start_azimuth_deg, double turns);

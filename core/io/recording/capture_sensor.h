@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "core/io/ouster/ouster_decoder.h"
-#include "core/io/pcap/pcap_reader.h"
 #include "core/io/recording/capture_metadata.h"
 #include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
 #include "core/io/spinning/spinning_decoder.h"
+#include "railcast/io/endpoint.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 
@@ -45,6 +45,8 @@ struct TurnShape {
 [[nodiscard]] std::optional<std::uint8_t> ByteOfIntensity(float intensity, IntensityBytes bytes);
 
 using TurnDecoder = std::variant<SpinningDecoder, OusterDecoder>;
+
+struct CapturedDatagram;
 
 /// Datagrams from one port to another.
 struct SenderStream {

@@ -7,7 +7,6 @@
 
 #include "core/base/units.h"
 #include "core/io/scan_fit.h"
-#include "core/io/spinning/spinning_packet.h"
 
 namespace railcast {
 namespace {

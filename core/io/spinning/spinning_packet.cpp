@@ -197,11 +197,6 @@ std::size_t LoopOf(const SpinningModel& model, std::span<const char> packet, std
   return (begins + block / BlocksInGroup(model, packet) + 1) % model.loops.size();
 }
 
-std::int64_t StepTo(std::int64_t azimuth, std::int64_t before) {
-  const std::int64_t step = azimuth - before;
-  return step < 0 ? step + kAzimuthUnitsPerTurn : step;
-}
-
 std::vector<std::size_t> LoopsIn(const SpinningModel& model, std::span<const char> packet) {
   const std::size_t in_group = BlocksInGroup(model, packet);
   std::vector<std::size_t> loops;

@@ -45,8 +45,6 @@ void StoreChecksums(const SpinningModel& model, std::span<char> packet);
 [[nodiscard]] std::size_t LoopOf(const SpinningModel& model,
                                  std::span<const char> packet,
                                  std::size_t block);
-/// From one azimuth to the next, past 0, too.
-[[nodiscard]] std::int64_t StepTo(std::int64_t azimuth, std::int64_t before);
 /// The first blocks of the loops of a packet, but for those that are zeros. Where there is a flag,
 /// or blocks have none, zeros may be a loop that saw nothing at azimuth 0, if others are near that.
 [[nodiscard]] std::vector<std::size_t> LoopsIn(const SpinningModel& model,

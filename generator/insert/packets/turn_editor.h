@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/recording/packet_order.h"
 #include "core/io/recording/turn_reader.h"
 #include "generator/insert/inserted_frame.h"
 
