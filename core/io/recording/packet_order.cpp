@@ -40,7 +40,9 @@ bool AreNear(std::int64_t azimuth, std::int64_t other) {
 bool PacketOrder::JoinSame(const Held& held, std::deque<Held>& others) {
   for (Held& other : others) {
     if (other.order != held.order) continue;
-    const bool has_both = held.mark.is_counted && other.mark.time_ns == held.mark.time_ns;
+    // Sensors that do not count have 0.
+    const bool has_both =
+        held.mark.is_counted && held.mark.number != 0 && other.mark.time_ns == held.mark.time_ns;
     if (!has_both && other.packet.bytes != held.packet.bytes) continue;
     const auto& places = held.packet.places;
     other.packet.places.insert(other.packet.places.end(), places.begin(), places.end());
