@@ -95,7 +95,9 @@ UdpSender::Counts PacketFeed::delivered() const {
 
 std::string PacketFeed::LeftOut() const {
   const std::size_t num = recording_.num_left_out();
-  return num == 0 ? "" : NumberText(num) + " datagrams that were not sent by the sensors that are replayed";
+  return num == 0
+             ? ""
+             : NumberText(num) + " datagrams that were not sent by the sensors that are replayed";
 }
 
 }  // namespace railcast

@@ -128,7 +128,7 @@ bool IsChosen(const CaptureSensor& sensor, const Endpoint& chosen) {
   });
 }
 
-std::string NamesOf(const std::vector<CaptureSensor>& sensors) {
+std::string SendersText(const std::vector<CaptureSensor>& sensors) {
   std::string names;
   for (const CaptureSensor& sensor : sensors) {
     names += (names.empty() ? "" : ", ") + sensor.name + " at " + sensor.address;
@@ -174,7 +174,7 @@ CaptureSensor FindSensor(const DatagramPlace& place) {
     std::erase_if(chosen, [&](const auto& sensor) { return !IsChosen(sensor, *place.sensor); });
   }
   if (chosen.size() == 1) return std::move(chosen.front());
-  const std::string holds = ShownPath(place.source) + ": holds " + NamesOf(sensors);
+  const std::string holds = ShownPath(place.source) + ": holds " + SendersText(sensors);
   if (!place.sensor || chosen.size() > 1) throw InputError(holds + "; --sensor picks one");
   throw InputError(
       holds + "; must be one of them (got " +
