@@ -62,7 +62,7 @@ constexpr const char* kFull =
     R"("counts":{"ballast":1,"rail":18446744073709551615},"hashes":{"z":"1","a":"2"},"hidden":0.25,)"
     R"("stride":3,"note":"n","lines":[1,2],"any":{"k":[1,null]}})";
 
-std::string Fault(const std::string& text) {
+std::string FaultOfRecord(const std::string& text) {
   try {
     static_cast<void>(ReadRecord<WholeRecord>(text, "FILE:3"));
   } catch (const InputError& error) {
@@ -74,7 +74,7 @@ std::string Fault(const std::string& text) {
 std::string FaultWith(const std::string& from, const std::string& to) {
   std::string text = kFull;
   text.replace(text.find(from), from.size(), to);
-  return Fault(text);
+  return FaultOfRecord(text);
 }
 
 TEST(Record, ReadsWhatItWritesToTheLastDigit) {
@@ -100,7 +100,7 @@ TEST(Record, OfALineMayEndWithItsHash) {
 }
 
 TEST(Record, NamesThePlaceOfTheFirstFault) {
-  EXPECT_EQ(Fault(kFull), "none");
+  EXPECT_EQ(FaultOfRecord(kFull), "none");
   EXPECT_EQ(FaultWith("-9223372036854775808", "9223372036854775808"),
             "FILE:3: /stamp_ns: must be a whole number of at most 63 bits (got "
             "9223372036854775808)");
@@ -126,10 +126,10 @@ TEST(Record, NamesThePlaceOfTheFirstFault) {
 }
 
 TEST(Record, IsDamagedWhereItIsNoJson) {
-  EXPECT_TRUE(Fault("{\"stamp_ns\":").starts_with("FILE:3: is damaged: line 1, column "));
-  EXPECT_EQ(Fault("[]"), "FILE:3: must be an object (got [])");
+  EXPECT_TRUE(FaultOfRecord("{\"stamp_ns\":").starts_with("FILE:3: is damaged: line 1, column "));
+  EXPECT_EQ(FaultOfRecord("[]"), "FILE:3: must be an object (got [])");
   const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
-  EXPECT_TRUE(Fault(deep).starts_with("FILE:3: is damaged: "));
+  EXPECT_TRUE(FaultOfRecord(deep).starts_with("FILE:3: is damaged: "));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ void ExpectSameFrames(const std::filesystem::path& got, const std::filesystem::p
   }
 }
 
-std::string FaultOf(const std::filesystem::path& source) {
+std::string FaultOfCapture(const std::filesystem::path& source) {
   return MessageOf([&] { static_cast<void>(OpenRecording(source)); });
 }
 
@@ -74,8 +74,8 @@ TEST(CaptureSenders, AreNamedUntilOneIsChosen) {
   const std::string holds =
       ": holds 3 sensors: VLP-16 at 192.168.1.201, VLP-16 at 192.168.1.202, HDL-32E at "
       "192.168.1.203; ";
-  EXPECT_EQ(FaultOf(file), file + holds + "--sensor picks one");
-  EXPECT_EQ(FaultOf(file + ":192.168.1.9"),
+  EXPECT_EQ(FaultOfCapture(file), file + holds + "--sensor picks one");
+  EXPECT_EQ(FaultOfCapture(file + ":192.168.1.9"),
             file + ":192.168.1.9" + holds + "must be one of them (got 192.168.1.9)");
   ExpectSameFrames(file + ":192.168.1.202", WriteSent(folder.path() / "b.pcap", {front}));
   ExpectSameFrames(file + ":192.168.1.203:2368", WriteSent(folder.path() / "c.pcap", {rear}));
@@ -92,14 +92,16 @@ TEST(CaptureSenders, AtOneAddressAreToldByTheirPorts) {
   const Sent left{PacketsOf("vlp16"), '\xC9', 5001, 2368};
   const Sent right{PacketsOf("vlp16", 5), '\xC9', 5002, 2368};
   const std::string file = WriteSent(folder.path() / "a.pcap", {left, right}).string();
-  EXPECT_EQ(FaultOf(file), file + ": holds 2 sensors: VLP-16 at 192.168.1.201:5001, VLP-16 at " +
-                               "192.168.1.201:5002; --sensor picks one");
+  EXPECT_EQ(FaultOfCapture(file),
+            file + ": holds 2 sensors: VLP-16 at 192.168.1.201:5001, VLP-16 at " +
+                "192.168.1.201:5002; --sensor picks one");
   ExpectSameFrames(file + ":192.168.1.201:5002", WriteSent(folder.path() / "b.pcap", {right}));
   // From one port, they are told by where they send to.
   const Sent other{right.packets, '\xC9', 5001, 2369};
   const std::string both = WriteSent(folder.path() / "c.pcap", {left, other}).string();
-  EXPECT_EQ(FaultOf(both), both + ": holds 2 sensors: VLP-16 at 192.168.1.201:2368, VLP-16 at " +
-                               "192.168.1.201:2369; --sensor picks one");
+  EXPECT_EQ(FaultOfCapture(both),
+            both + ": holds 2 sensors: VLP-16 at 192.168.1.201:2368, VLP-16 at " +
+                "192.168.1.201:2369; --sensor picks one");
   ExpectSameFrames(both + ":192.168.1.201:2369", WriteSent(folder.path() / "b.pcap", {right}));
 }
 
