@@ -9,8 +9,12 @@ namespace {
 
 using enum Fitness;
 
+constexpr const char* kMapCoordinates =
+    "its positions are map coordinates, and where the sensor was is not known";
+
 /// What it takes to know where each firing went.
 JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
+  if (!seen.origin_m.isZero()) return {"", kNo, kMapCoordinates};
   if (info.origin || seen.num_with_beams == seen.num_frames) return {"", kYes, ""};
   if (seen.num_grids == seen.num_frames) {
     const auto guesses = GuessSensor(seen.rings);
@@ -59,6 +63,7 @@ JobFitness Evaluation(const RecordingLook& seen, const RecordingInfo& info) {
 }
 
 JobFitness Fit(const RecordingLook& seen, const RecordingInfo& info) {
+  if (!seen.origin_m.isZero()) return {"fit", kNo, kMapCoordinates};
   if (seen.num_grids < seen.num_frames) return {"fit", kNo, seen.why_no_grid};
   if (info.origin) return {"fit", kYes, ""};
   return {"fit", kWithOption, "--scenario SCENARIO with its sensor"};

@@ -123,11 +123,6 @@ void InspectedValues::Add(double value) {
   is_whole = is_whole && value == std::floor(value);
 }
 
-bool RecordingLook::HasAlways(const std::string& field) const {
-  const auto found = fields.find(field);
-  return found != fields.end() && found->second == num_frames;
-}
-
 bool RecordingLook::HasStamps() const {
   return std::ranges::any_of(stamps_ns, [](std::int64_t stamp_ns) { return stamp_ns != 0; });
 }
@@ -138,6 +133,9 @@ RecordingLook Inspect(Recording& recording, std::size_t most_frames) {
   while (const auto read = recording.Next()) {
     if (inspection.num_frames == most_frames) {
       inspection.is_cut_short = true;
+      // What is said of captures and bags as a whole is known at their end only.
+      while (!recording.info().num_frames && recording.Next()) {
+      }
       break;
     }
     const RecordedFrame recorded = (*read)();

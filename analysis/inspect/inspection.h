@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -75,8 +74,6 @@ struct RecordingLook {
   static constexpr double kNear_m = 0.5;
   std::array<std::uint64_t, kNumSectors> sectors{};
 
-  /// Whether all frames have a field.
-  [[nodiscard]] bool HasAlways(const std::string& field) const;
   /// Whether the frames have stamps of their own, rather than none at all.
   [[nodiscard]] bool HasStamps() const;
 };

@@ -81,9 +81,12 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
     findings.Add("sensor", info.scenario->lidar.name, "as its scenario says");
   } else if (info.kind.starts_with(kOfPackets)) {
     findings.Add("sensor", info.kind.substr(kOfPackets.size()), "as its packets say");
-  } else if (guesses.empty() || guesses.front().error_deg > kLikelyGuess_deg) {
+  } else if (!seen.origin_m.isZero() || guesses.empty() ||
+             guesses.front().error_deg > kLikelyGuess_deg) {
     findings.Add("sensor", "unknown",
-                 seen.rings.empty() ? seen.why_no_grid : "its rings are no preset's");
+                 seen.rings.empty()       ? seen.why_no_grid
+                 : seen.origin_m.isZero() ? "its rings are no preset's"
+                                          : "its place is not known");
   } else {
     const SensorGuess& best = guesses.front();
     findings.Add("sensor", best.name,
@@ -100,8 +103,9 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
   findings.Count("frames as grids of firings", seen.num_grids, seen.why_no_grid);
   if (!seen.origin_m.isZero()) {
     findings.Add("map coordinates",
-                 NumberText(seen.origin_m.x()) + ", " + NumberText(seen.origin_m.y()) + ", " +
-                     NumberText(seen.origin_m.z()) + " m",
+                 NumberText(std::llround(seen.origin_m.x())) + ", " +
+                     NumberText(std::llround(seen.origin_m.y())) + ", " +
+                     NumberText(std::llround(seen.origin_m.z())) + " m",
                  "positions far from 0 are kept relative to this place; where the sensor was is "
                  "not known");
   }
@@ -209,8 +213,12 @@ std::string ScaleOf(const InspectedValues& intensity, const RecordingInfo& info)
 Section ValuesSection(const RecordingLook& seen, const RecordingInfo& info) {
   Findings findings("values", "Values");
   findings.Count("points", seen.num_points);
-  findings.Add("range, median", ShortText(seen.range_m.Median().value) + " m");
-  findings.Add("range, 99.9 % are below", ShortText(seen.range_m.Quantile(0.999).value) + " m");
+  const bool is_in_map = !seen.origin_m.isZero();
+  const auto add_range = [&](const std::string& what, double range_m) {
+    findings.Add(what, std::isnan(range_m) ? "too few points" : ShortText(range_m) + " m");
+  };
+  if (!is_in_map) add_range("range, median", seen.range_m.Median().value);
+  if (!is_in_map) add_range("range, 99.9 % are below", seen.range_m.Quantile(0.999).value);
   findings.Add("nearer than 0.5 m", ShareText(seen.num_near, seen.num_points),
                "dirt on the window, the vehicle itself, or noise");
   const InspectedValues& intensity = seen.intensity;
@@ -224,6 +232,7 @@ Section ValuesSection(const RecordingLook& seen, const RecordingInfo& info) {
   } else {
     findings.Add("intensity", "none");
   }
+  if (is_in_map) return findings.MakeSection();
   std::string empty;
   for (std::size_t i = 0; i < RecordingLook::kNumSectors;) {
     std::size_t end = i;
@@ -298,7 +307,9 @@ Report MakeInspectionReport(const RecordingLook& inspection,
   report.facts.emplace_back("Source", ShownPath(info.source) + " (" + info.kind + ")");
   report.sections = {JobsSection(JobsOf(inspection, info)), SensorSection(inspection, info),
                      TimesSection(inspection)};
-  if (!inspection.rings.empty()) report.sections.push_back(RingsSection(inspection));
+  if (!inspection.rings.empty() && inspection.origin_m.isZero()) {
+    report.sections.push_back(RingsSection(inspection));
+  }
   report.sections.push_back(ValuesSection(inspection, info));
   report.sections.push_back(PosesSection(inspection));
   report.sections.push_back(RemarksSection(info.remarks->List()));

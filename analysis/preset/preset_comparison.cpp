@@ -290,7 +290,7 @@ PresetComparison ComparePreset(Recording& recording,
                                Sectors sectors) {
   const std::vector<RecordedFrame> turns = WholeTurns(recording);
   for (const RecordedFrame& turn : turns) {
-    const auto far = CheckRanges(turn, scenario.lidar.range_max_m);
+    const auto far = CheckRanges(turn, recording.info(), scenario.lidar.range_max_m);
     if (far) recording.info().remarks->Add(*far, turn.frame.index + 1U);
   }
   PresetComparison comparison =

@@ -63,7 +63,10 @@ const std::vector<RemarkType>& RemarkTypes() {
        "frame whose times count from elsewhere than its stamp: only their differences are taken",
        "frames whose times count from elsewhere than their stamps: only their differences are "
        "taken"},
-      {kFieldsLeftOut, "fields-left-out", "field left out", "fields left out", true},
+      {kUnitsAssumed, "units-assumed", "file that does not state its unit of length: metres",
+       "files that do not state their unit of length: metres"},
+      {kFieldsLeftOut, "fields-left-out", "field of a cloud left out", "fields of clouds left out",
+       true},
       {kFilesLeftOut, "files-left-out", "file left out", "files left out", true},
       {kMaterialFileMissing, "material-file-missing", "material file that is not there",
        "material files that are not there", true},

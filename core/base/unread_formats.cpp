@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 
 namespace railcast {
 namespace {
@@ -20,40 +21,33 @@ struct UnreadFormat {
   std::string_view ending;
   std::string_view begin;
   std::string_view name;
-  std::string_view advice;  ///< FILE stands for the file's name, NAME for it without ending.
+  std::string_view advice;  ///< %f stands for the file's name, %n for it without ending.
 };
 
 constexpr auto kFormats = std::to_array<UnreadFormat>({
-    {".bag", "#ROSBAG V", "a bag of ROS 1", "rosbags-convert --src FILE --dst NAME"},
-    {".osf", "", "a recording of Ouster's SDK", "ouster-cli source FILE save NAME.pcap"},
-    {".e57", "ASTM-E57", "a survey in E57", "pdal translate FILE NAME.las"},
-    {".laz", "", "compressed LAS", "pdal translate FILE NAME.las (or las2las)"},
+    {".bag", "#ROSBAG V", "a bag of ROS 1", "rosbags-convert --src %f --dst %n"},
+    {".osf", "", "a recording of Ouster's SDK", "ouster-cli source %f save %n.pcap"},
+    {".e57", "ASTM-E57", "a survey in E57", "pdal translate %f %n.las"},
+    {".laz", "", "compressed LAS", "pdal translate %f %n.las (or las2las)"},
     {".lvx", "livox_tech", "a recording of Livox Viewer",
      "livox_ros_driver2 plays it as sensor_msgs/msg/PointCloud2 for ros2 bag record"},
     {".lvx2", "", "a recording of Livox Viewer",
      "livox_ros_driver2 plays it as sensor_msgs/msg/PointCloud2 for ros2 bag record"},
-    {".drc", "DRACO", "a cloud compressed by Draco", "draco_decoder -i FILE -o NAME.ply"},
+    {".drc", "DRACO", "a cloud compressed by Draco", "draco_decoder -i %f -o %n.ply"},
     {".npy", "\x93NUMPY", "an array of NumPy",
-     "numpy.load('FILE')[:, :4].astype('<f4').tofile('NAME.bin'), with x, y, z and "
+     "numpy.load('%f')[:, :4].astype('<f4').tofile('%n.bin'), with x, y, z and "
      "reflectance, makes it a file of KITTI's"},
     {".npz", "", "an archive of NumPy",
      "write x, y, z and reflectance of its points as '<f4' to "
-     "NAME.bin, a file of KITTI's"},
-    {".xyz", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
-    {".asc", "", "a cloud as text", "CloudCompare -O FILE -C_EXPORT_FMT PLY -SAVE_CLOUDS"},
-    {".pts", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
-    {".ptx", "", "a cloud as text", "pdal translate FILE NAME.las (or CloudCompare)"},
+     "%n.bin, a file of KITTI's"},
+    {".xyz", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
+    {".asc", "", "a cloud as text", "CloudCompare -O %f -C_EXPORT_FMT PLY -SAVE_CLOUDS"},
+    {".pts", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
+    {".ptx", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
     {".tum", "", "poses", "name the clouds, and these with --poses"},
 });
 
 constexpr auto kTextEndings = std::to_array<std::string_view>({".txt", ".csv"});
-
-std::string InLowerCase(std::string text) {
-  for (char& letter : text) {
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
-  }
-  return text;
-}
 
 /// What a file of text holds, by the numbers of its first line of numbers; empty if it has none.
 std::string AdviceOnText(std::string_view begin) {
@@ -68,7 +62,8 @@ std::string AdviceOnText(std::string_view begin) {
     if (!are_numbers || words.size() < 3) continue;  // The names of columns.
     const std::string numbers = NumberText(words.size()) + " numbers a line";
     if (words.size() == 8 || words.size() == 12) {
-      return "is a file of poses, with " + numbers + ": name the clouds, and these with --poses";
+      return "is text with " + numbers + std::string(kUnread) +
+             "if these are poses, name the clouds, and them with --poses";
     }
     return "is text with " + numbers + std::string(kUnread) +
            "if it is a cloud, CloudCompare or pdal makes a .ply, .pcd or .las of it";
@@ -85,18 +80,18 @@ std::string AdviceOnFile(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
   begin.resize(static_cast<std::size_t>(in.gcount()));
-  const std::string ending = InLowerCase(file.extension().string());
+  const std::string ending = LowerCase(file.extension().string());
   if (std::ranges::find(kTextEndings, ending) != kTextEndings.end()) return AdviceOnText(begin);
   const auto format = std::ranges::find_if(kFormats, [&](const UnreadFormat& known) {
     return known.ending == ending || (!known.begin.empty() && begin.starts_with(known.begin));
   });
   if (format == kFormats.end()) return {};
   std::string advice(format->advice);
-  for (const auto& [word, name] : {std::pair("FILE", file.filename()), {"NAME", file.stem()}}) {
+  for (const auto& [word, name] : {std::pair("%f", file.filename()), {"%n", file.stem()}}) {
     const std::string shown = ShownPath(name);
     for (std::size_t at = advice.find(word); at != std::string::npos;
          at = advice.find(word, at + shown.size())) {
-      advice.replace(at, 4, shown);
+      advice.replace(at, 2, shown);
     }
   }
   return "is " + std::string(format->name) + std::string(kUnread) + advice;

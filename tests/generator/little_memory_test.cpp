@@ -69,8 +69,8 @@ TEST(LittleMemory, MakesTheSameFramesOrSaysWhatDidNotFit) {
     EXPECT_FALSE(std::filesystem::exists(out + "/manifest.json"));
   }
   EXPECT_GT(num_made, 0U);
-  // Which model fails depends on the machine's libraries.
-  EXPECT_THAT(said, testing::Contains(testing::HasSubstr("out of memory while building \"")));
+  // Which model or part of the line fails depends on the machine's libraries.
+  EXPECT_THAT(said, testing::Contains(testing::HasSubstr("out of memory while building ")));
 }
 
 }  // namespace

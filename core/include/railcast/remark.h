@@ -36,6 +36,7 @@ enum class RemarkKind : std::uint8_t {
   kByteOrderGuessed,
   kFarReturns,
   kTimesRelative,
+  kUnitsAssumed,
   kFieldsLeftOut,
   kFilesLeftOut,
   // Meshes.

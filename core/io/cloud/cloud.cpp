@@ -52,7 +52,7 @@ bool Cloud::AppendWords(const std::string& place, const std::vector<std::string_
         using Value = decltype(zero);
         // A number beyond float becomes infinite, as for C's own functions.
         using Parsed = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
-        const auto parsed = ParseNumber<Parsed>(*word);
+        const auto parsed = ParseSignedNumber<Parsed>(*word);
         if (!parsed) {
           throw InputError(place + ": " + ShownText(field.name) + ": no value of its type (got " +
                            ShownText(*word) + ")");

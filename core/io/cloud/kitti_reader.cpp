@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,12 +45,20 @@ std::optional<BinColumns> ColumnsNamed(std::string_view choice) {
   return columns;
 }
 
-/// The first numbers of a file, by which layouts are judged.
+/// Numbers from the middle of a file, by which layouts are judged: clouds may begin with firings
+/// into the sky. They begin with a point of any number of columns up to 8.
 template <typename Number>
-std::vector<Number> FirstNumbers(std::string_view bytes) {
+std::vector<Number> SomeNumbers(std::string_view bytes) {
   constexpr std::size_t kMost = 60'000;
-  std::vector<Number> numbers(std::min(kMost, bytes.size() / sizeof(Number)));
-  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  constexpr std::size_t kCommonMultiple = 840;
+  const std::size_t num = bytes.size() / sizeof(Number);
+  const std::size_t first =
+      num <= kMost ? 0 : (num - kMost) / 2 / kCommonMultiple * kCommonMultiple;
+  std::vector<Number> numbers(std::min(kMost, num));
+  if (!numbers.empty()) {
+    std::memcpy(numbers.data(), bytes.data() + first * sizeof(Number),
+                numbers.size() * sizeof(Number));
+  }
   return numbers;
 }
 
@@ -67,25 +76,48 @@ double DifferenceAt(const std::vector<float>& numbers, std::size_t places) {
   return sum / static_cast<double>(numbers.size() - places);
 }
 
-/// Whether the first three of so many numbers a point can be coordinates: 99 % are metres, and none
-/// is an index 0..n or, of x and y, always 0.
+/// Whether the first three of so many numbers a point can be coordinates: 99 % are metres from 0
+/// or, as in a national grid, from their median, and none is an index 0..n or, of x and y, always
+/// 0. Points that are not finite, or 0, are none.
 template <typename Number>
 bool CanBePositions(const std::vector<Number>& numbers, std::size_t num_columns) {
   constexpr double kMostIndex = 255.0;
   constexpr double kMostWrong = 0.01;
-  const std::size_t num_rows = numbers.size() / num_columns;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::size_t num_wrong = 0;
-    bool is_index = true;
-    double most = 0.0;
-    for (std::size_t row = 0; row < num_rows; ++row) {
-      const double value = static_cast<double>(numbers[row * num_columns + axis]);
-      if (!IsLikelyPosition(value)) ++num_wrong;
-      is_index = is_index && value >= 0.0 && value <= kMostIndex && value == std::floor(value);
-      most = std::max(most, value);
+  constexpr double kEarth_m = 1e8;
+  std::array<std::vector<double>, 3> axes;
+  for (std::size_t first = 0; first + num_columns <= numbers.size(); first += num_columns) {
+    const auto point = std::span(numbers).subspan(first, 3);
+    const bool is_none =
+        std::ranges::all_of(point, [](Number value) { return value == Number{0}; }) ||
+        !std::ranges::all_of(point, [](Number value) { return std::isfinite(value); });
+    for (std::size_t axis = 0; axis < 3 && !is_none; ++axis) {
+      axes.at(axis).push_back(static_cast<double>(point[axis]));
     }
-    if (static_cast<double>(num_wrong) > kMostWrong * static_cast<double>(num_rows)) return false;
-    if (is_index && (most > 0.0 || axis < 2)) return false;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<double>& values = axes.at(axis);
+    if (values.empty()) return true;
+    const bool is_index = std::ranges::all_of(values, [](double value) {
+      return value >= 0.0 && value <= kMostIndex && value == std::floor(value);
+    });
+    if (is_index && (axis < 2 || std::ranges::max(values) > 0.0)) return false;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    const double far = std::abs(*middle);
+    const double origin = far > kFarPosition_m && far < kEarth_m ? *middle : 0.0;
+    const auto num_wrong = std::ranges::count_if(
+        values, [&](double value) { return !IsLikelyPosition(value - origin); });
+    if (static_cast<double>(num_wrong) > kMostWrong * static_cast<double>(values.size())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether a column is one of rings: whole numbers from 0 on.
+bool IsRing(const std::vector<float>& numbers, std::size_t column, std::size_t num_columns) {
+  for (std::size_t i = column; i < numbers.size(); i += num_columns) {
+    if (!(numbers[i] >= 0.0F && numbers[i] == std::floor(numbers[i]))) return false;
   }
   return true;
 }
@@ -96,7 +128,7 @@ std::string FittingColumns(std::string_view bytes) {
   constexpr std::size_t kLeastNumbers = 256;
   constexpr double kClear = 0.9;
   constexpr std::array<std::size_t, 5> kOthers = {3, 5, 6, 7, 8};
-  const auto numbers = FirstNumbers<float>(bytes);
+  const auto numbers = SomeNumbers<float>(bytes);
   const std::size_t num_floats = bytes.size() / sizeof(float);
   if (numbers.size() < kLeastNumbers) return "4";
   const bool is_four = bytes.size() % (4 * sizeof(float)) == 0 && CanBePositions(numbers, 4);
@@ -111,17 +143,11 @@ std::string FittingColumns(std::string_view bytes) {
     best = num;
     least = difference;
   }
-  if (best == 5) {
-    bool is_ring = true;
-    for (std::size_t i = 4; i < numbers.size(); i += 5) {
-      is_ring = is_ring && numbers[i] >= 0.0F && numbers[i] == std::floor(numbers[i]);
-    }
-    return is_ring ? "nuscenes" : "5";
-  }
-  if (best == 6) return "waymo";
+  if (best == 5 && IsRing(numbers, 4, 5)) return "nuscenes";
+  if (best == 6 && !IsRing(numbers, 4, 6)) return "waymo";
   if (best != 4 || is_four) return NumberText(best);
   const bool is_double =
-      bytes.size() % (4 * sizeof(double)) == 0 && CanBePositions(FirstNumbers<double>(bytes), 4);
+      bytes.size() % (4 * sizeof(double)) == 0 && CanBePositions(SomeNumbers<double>(bytes), 4);
   return is_double ? "float64" : "";
 }
 
@@ -142,9 +168,9 @@ void CheckFour(const std::string& file, std::string_view bytes) {
   if (is_uneven) {
     throw InputError(file + ": must have 16 bytes for each point" + Got(bytes.size()) + what);
   }
-  throw InputError(file +
-                   ": its values are not those of 4 numbers a point, x y z intensity, in metres" +
-                   (what.empty() ? "; --kitti-columns says how many it has" : what));
+  throw InputError(
+      file + ": its values are not those of 4 numbers a point, x y z intensity, in metres" +
+      (what.empty() ? "; --kitti-columns N takes N numbers a point as they are" : what));
 }
 
 void CheckLabels(const std::string& file,

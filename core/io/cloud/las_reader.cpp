@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "railcast/remark.h"
 
 namespace railcast {
@@ -131,8 +133,13 @@ LasHeader ReadLasHeader(const Bytes& file) {
 }
 
 /// Throws if a GeoTIFF directory says that coordinates are no metres.
-void CheckGeoKeys(const Bytes& keys) {
+/// Throws if the keys say that coordinates are no metres.
+/// @return The codes of coordinate systems whose units stand in EPSG's register alone.
+std::string CheckGeoKeys(const Bytes& keys) {
   const std::size_t num = keys.size() / 8;
+  // By the key of a system, the one of its unit: of projected and of vertical coordinates.
+  const std::map<int, int> units = {{3072, 3076}, {4096, 4099}};
+  std::map<int, int> values;
   for (std::size_t i = 1; i < num; ++i) {
     const int key = keys.At<std::uint16_t>(8 * i);
     const int value = keys.At<std::uint16_t>(8 * i + 6);
@@ -140,7 +147,16 @@ void CheckGeoKeys(const Bytes& keys) {
     if (key == 1024 && value == 2) RefuseUnit("degrees");
     const bool is_unit = key == 3076 || key == 4099;  // Of projected and of vertical coordinates.
     if (is_unit && value != 0 && value != 9001) RefuseUnit("unit EPSG:" + NumberText(value));
+    values[key] = value;
   }
+  constexpr int kUserDefined = 32767;
+  std::string codes;
+  for (const auto& [system, unit] : units) {
+    const int code = values[system];
+    if (code == 0 || code == kUserDefined || values[unit] != 0) continue;
+    codes += (codes.empty() ? "EPSG:" : ", EPSG:") + NumberText(code);
+  }
+  return codes;
 }
 
 void CheckWkt(std::string_view text) {
@@ -150,22 +166,38 @@ void CheckWkt(std::string_view text) {
 }
 
 /// Throws if a record says that coordinates are no metres.
-void CheckRecords(const Bytes& file, const LasHeader& header) {
+/// @return As CheckGeoKeys().
+std::string CheckRecord(std::string_view user, int id, std::string_view content) {
+  if (!user.starts_with("LASF_Projection")) return {};
+  if (id == 2112) CheckWkt(content);
+  return id == 34735 ? CheckGeoKeys(Bytes(content)) : std::string();
+}
+
+/// As CheckRecord(), of all records, also of those behind the points.
+std::string CheckRecords(const Bytes& file, const LasHeader& header) {
   constexpr std::size_t kHead_bytes = 54;
+  constexpr std::size_t kExtendedHead_bytes = 60;
+  std::string codes;
   std::uint64_t place = header.header_bytes;
   for (std::uint32_t i = 0; i < header.num_records; ++i) {
     if (place + kHead_bytes > header.points_begin) {
       throw InputError("records: must end before the points, " + NumberText(header.points_begin));
     }
     const std::size_t size = file.At<std::uint16_t>(place + 20);
-    const std::string_view content = file.Text(place + kHead_bytes, size);
-    const int id = file.At<std::uint16_t>(place + 18);
-    if (file.Text(place + 2, 15) == "LASF_Projection") {
-      if (id == 34735) CheckGeoKeys(Bytes(content));
-      if (id == 2112) CheckWkt(content);
-    }
+    codes += CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
+                         file.Text(place + kHead_bytes, size));
     place += kHead_bytes + size;
   }
+  if (header.minor_version < 4 || header.header_bytes < 247) return codes;
+  place = file.At<std::uint64_t>(235);
+  const auto num_extended = file.At<std::uint32_t>(243);
+  for (std::uint32_t i = 0; i < num_extended; ++i) {
+    const auto size = file.At<std::uint64_t>(place + 20);
+    codes += CheckRecord(file.Text(place + 2, 16), file.At<std::uint16_t>(place + 18),
+                         file.Text(place + kExtendedHead_bytes, size));
+    place += kExtendedHead_bytes + size;
+  }
+  return codes;
 }
 
 /// Where the points and what belongs to them end: behind them stand waveforms and further records.
@@ -241,7 +273,7 @@ std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
 Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
   const Bytes file(bytes);
   const LasHeader header = ReadLasHeader(file);
-  CheckRecords(file, header);
+  const std::string codes = CheckRecords(file, header);
   Cloud cloud = EmptyCloud(header);
   cloud.data.reserve(header.num_points * cloud.point_step);
   std::uint64_t num_withheld = 0;
@@ -258,6 +290,10 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
       {.kind = RemarkKind::kPointsBeyondData, .place = name, .number = rest / header.point_bytes},
       {.kind = RemarkKind::kSurplusBytes, .place = name, .number = rest % header.point_bytes},
       {.kind = RemarkKind::kPointsWithheld, .place = name, .number = num_withheld},
+      {.kind = RemarkKind::kUnitsAssumed,
+       .place = name,
+       .number = codes.empty() ? 0U : 1U,
+       .detail = codes},
       {.kind = RemarkKind::kFieldsLeftOut,
        .place = name,
        .number = left_out.size(),
@@ -269,9 +305,7 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
 }  // namespace
 
 bool IsLasFile(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& letter : ending) letter = static_cast<char>(letter | 0x20);
-  return ending == ".las";
+  return LowerCase(file.extension().string()) == ".las";
 }
 
 Cloud ParseLas(const std::string& file, std::string_view bytes) {

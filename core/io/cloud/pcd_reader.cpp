@@ -168,11 +168,11 @@ void ReadPcdText(const HeaderReader& reader, const std::string& file, CloudFile&
 }
 
 /// Whether data have this size, or end in the zeros that PCL's writer of PCLPointCloud2 leaves
-/// behind them: up to a page.
+/// behind them, up to a page, or in the end of a line.
 bool HasSize(std::string_view data, std::uint64_t expected) {
   constexpr std::size_t kMostPadding = 65536;  // The largest page that Linux has, on ARM.
   return data.size() >= expected && data.size() - expected <= kMostPadding &&
-         data.find_first_not_of('\0', expected) == std::string_view::npos;
+         data.find_first_not_of(std::string_view("\0\r\n", 3), expected) == std::string_view::npos;
 }
 
 void ReadBinary(const HeaderReader& reader, CloudFile& read) {

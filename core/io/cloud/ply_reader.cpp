@@ -133,7 +133,8 @@ void CheckLength(const std::string& file, const CloudFile& read) {
 /// Reads the lines of the points and returns what is behind them.
 std::string_view ReadPlyText(const std::string& file, std::string_view text, Cloud& cloud) {
   for (std::uint32_t point = 0; point < cloud.width; ++point) {
-    const auto line = TakeLine(text);
+    auto line = TakeLine(text);
+    while (line && Words(*line).empty()) line = TakeLine(text);
     const auto words = line ? Words(*line) : std::vector<std::string_view>{};
     const std::string place = file + ": point " + std::to_string(point);
     if (words.size() != cloud.fields.size()) {

@@ -64,9 +64,9 @@ constexpr std::array<Alias, 9> kAliases = {{
     {"ring", "line_index"},
 }};
 
-/// Columns that are not kept: colours, whose packed numbers mean nothing, and PCD's padding.
-constexpr std::array<std::string_view, 7> kUnwanted = {"rgb",  "rgba",  "red", "green",
-                                                       "blue", "alpha", "_"};
+/// Columns that are not kept: colours, whose packed numbers mean nothing.
+constexpr std::array<std::string_view, 6> kUnwanted = {"rgb",   "rgba", "red",
+                                                       "green", "blue", "alpha"};
 
 // Limits memory: a damaged or hostile header may name thousands of fields, each of which would be
 // stored for all slots.
@@ -177,14 +177,22 @@ std::vector<const CloudField*> OwnColumns(const Cloud& cloud, const Frame& frame
 void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   const Frame& frame = recorded.frame;
   const std::vector<const CloudField*> own = OwnColumns(cloud, frame);
+  Remark left_out{.kind = RemarkKind::kFieldsLeftOut, .place = recorded.name, .number = 0};
   for (const CloudField& column : cloud.fields) {
-    if (recorded.foreign.size() == kMaxForeign) return;
     const std::string_view name = column.plain_name();
-    const bool is_repeated = cloud.Find(name) != &column;
-    if (is_repeated || std::ranges::find(own, &column) != own.end() ||
-        std::ranges::find(kUnwanted, name) != kUnwanted.end()) {
-      continue;
+    if (name == "_") continue;  // Padding of PCD.
+    const bool is_own = std::ranges::find(own, &column) != own.end();
+    const bool is_wanted = recorded.foreign.size() < kMaxForeign && cloud.Find(name) == &column &&
+                           std::ranges::find(kUnwanted, name) == kUnwanted.end();
+    if ((!is_own && !is_wanted) || column.count > 1) {
+      constexpr std::size_t kMostNamed = 5;
+      if (left_out.number < kMostNamed) {
+        left_out.detail.append(left_out.detail.empty() ? "" : ", ").append(ShownText(column.name));
+        if (is_own || is_wanted) left_out.detail += " but for its first number";
+      }
+      ++left_out.number;
     }
+    if (is_own || !is_wanted) continue;
     std::vector<float> values(frame.num_slots(), kNaN);
     CopyColumn(cloud, column, plan, recorded.name, values);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -192,6 +200,7 @@ void FillForeign(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& record
     }
     recorded.foreign.push_back({std::string(name), std::move(values)});
   }
+  AddRemark(left_out, recorded.remarks);
 }
 
 /// Says that positions far from 0 are stored in single precision.

@@ -57,12 +57,13 @@ void SortNaturally(std::vector<fs::path>& paths) {
   });
 }
 
-/// A name with one number that has a decimal point: "cloud_", "12", "5", "".
+/// A name with one number, which may have a decimal point: "cloud_", "12", "5", "".
 struct DecimalName {
   std::string before;
   std::string whole;     ///< Without zeros in front.
   std::string fraction;  ///< Without zeros behind.
   std::string after;
+  bool has_point{};
 
   [[nodiscard]] auto number() const { return std::tuple(whole.size(), whole, fraction); }
 };
@@ -75,17 +76,18 @@ std::optional<DecimalName> DecimalNameOf(const fs::path& file) {
   decimal.before = rest.substr(0, static_cast<std::size_t>(first - rest.begin()));
   rest.remove_prefix(decimal.before.size());
   decimal.whole = WithoutZeros(TakeAllDigits(rest));
-  if (!rest.starts_with('.')) return std::nullopt;
-  rest.remove_prefix(1);
-  decimal.fraction = TakeAllDigits(rest);
-  if (decimal.fraction.empty() || std::ranges::any_of(rest, IsDigit)) return std::nullopt;
+  decimal.has_point = rest.size() > 1 && rest[0] == '.' && IsDigit(rest[1]);
+  if (decimal.has_point) rest.remove_prefix(1);
+  if (decimal.has_point) decimal.fraction = TakeAllDigits(rest);
+  if (decimal.before.size() == name.size() || std::ranges::any_of(rest, IsDigit))
+    return std::nullopt;
   decimal.fraction.resize(decimal.fraction.find_last_not_of('0') + 1);
   decimal.after = rest;
   return decimal;
 }
 
-/// The decimal names of all files; nothing if some have none, or if two are the same number, as
-/// where 1.10 is the tenth of the first.
+/// The decimal names of all files; nothing if some have none, none has a point, or if two are the
+/// same number, as where 1.10 is the tenth of the first.
 std::optional<std::vector<DecimalName>> DecimalNamesOf(const std::vector<fs::path>& files) {
   std::vector<DecimalName> names;
   for (const fs::path& file : files) {
@@ -96,6 +98,7 @@ std::optional<std::vector<DecimalName>> DecimalNamesOf(const std::vector<fs::pat
       return std::nullopt;
     }
   }
+  if (std::ranges::none_of(names, &DecimalName::has_point)) return std::nullopt;
   std::vector<DecimalName> sorted = names;
   std::ranges::sort(sorted, {}, &DecimalName::number);
   const auto twice = std::ranges::adjacent_find(sorted, {}, &DecimalName::number);

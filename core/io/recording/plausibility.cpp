@@ -18,7 +18,7 @@ constexpr double kMostWrong = 0.01;
 
 using Positions = std::vector<Vector3>;
 
-/// The positions of a cloud as stored, but for those that are not a number, or 0 for "no return".
+/// The positions of a cloud as stored, but for those that are not finite, or 0 for "no return".
 Positions StoredPositions(const Cloud& cloud) {
   Positions positions(cloud.num_points());
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -27,8 +27,9 @@ Positions StoredPositions(const Cloud& cloud) {
     VisitField(cloud, *field,
                [&](std::size_t i, auto value) { positions[i][axis] = static_cast<double>(value); });
   }
-  std::erase_if(positions,
-                [](const Vector3& position) { return position.hasNaN() || position.isZero(0.0); });
+  std::erase_if(positions, [](const Vector3& position) {
+    return !position.allFinite() || position.isZero(0.0);
+  });
   return positions;
 }
 
@@ -80,8 +81,11 @@ std::string FaultOfPositions(const Cloud& cloud) {
          ShortText(100.0 * share) + " %): other columns, another byte order or unit?";
 }
 
-std::optional<Remark> CheckRanges(const RecordedFrame& recorded, double range_max_m) {
-  if (!recorded.origin_m.isZero()) return std::nullopt;  // The sensor's place is not known.
+std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
+                                  const RecordingInfo& info,
+                                  double range_max_m) {
+  // In a grid, the sensor's place is not known.
+  if (info.origin || !recorded.origin_m.isZero()) return std::nullopt;
   std::size_t num = 0;
   std::size_t num_far = 0;
   float farthest_m = 0.0F;
@@ -96,7 +100,7 @@ std::optional<Remark> CheckRanges(const RecordedFrame& recorded, double range_ma
   const double share = static_cast<double>(num_far) / static_cast<double>(num);
   const std::string got =
       ShortText(100.0 * share) + " %, the farthest " + NumberText(std::round(farthest_m)) + " m";
-  if (share > kMostWrong) {
+  if (share > kMostWrong && !recorded.beam_of) {
     throw InputError(recorded.name +
                      ": range_m: at most 1 % of the returns may be beyond the sensor's "
                      "range_max_m of " +

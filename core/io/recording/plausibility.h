@@ -12,12 +12,15 @@ namespace railcast {
 
 /// What is wrong with the positions of a cloud; empty if they can be metres: 99 % of the points are
 /// finite and less than 10 km from 0, or all of them lie together farther away, as in a national
-/// grid. Points that are not a number, or 0, are none.
+/// grid. Points that are not finite, or 0, are none.
 /// @pre The cloud has x, y and z (FindFieldOf()).
 [[nodiscard]] std::string FaultOfPositions(const Cloud& cloud);
 
-/// A remark (RemarkKind::kFarReturns) if the frame has returns beyond the sensor's range.
-/// @throws InputError "NAME: range_m: rule (got value)" if more than 1 % of them are.
-[[nodiscard]] std::optional<Remark> CheckRanges(const RecordedFrame& recorded, double range_max_m);
+/// A remark (RemarkKind::kFarReturns) if the frame has returns beyond the sensor's range. Of captures,
+/// whose packets state the unit, and of railcast's own sequences there is nothing to doubt.
+/// @throws InputError "NAME: range_m: rule (got value)" if more than 1 % of the returns of others are.
+[[nodiscard]] std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
+                                                const RecordingInfo& info,
+                                                double range_max_m);
 
 }  // namespace railcast

@@ -306,7 +306,7 @@ void UseIntensities(const std::filesystem::path& recording, InsertPlan& plan) {
     const auto read = opened->Next();
     if (!read) break;
     const RecordedFrame recorded = (*read)();
-    (void)CheckRanges(recorded, plan.scenario.lidar.range_max_m);  // Before anything is written.
+    (void)CheckRanges(recorded, opened->info(), plan.scenario.lidar.range_max_m);  // Before anything is written.
     finder.Add(recorded);
   }
   plan.intensity_scale = finder.Found();

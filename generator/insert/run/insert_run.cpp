@@ -265,7 +265,7 @@ class InsertRun {
 
   [[nodiscard]] RecordedFrame ReadFrame(FrameOnWay& way) const {
     RecordedFrame recorded = std::exchange(way.read, {})();
-    const auto far = CheckRanges(recorded, plan_.scenario.lidar.range_max_m);
+    const auto far = CheckRanges(recorded, recording_.info(), plan_.scenario.lidar.range_max_m);
     if (far) recording_.info().remarks->Add(*far, way.frame + 1U);
     return recorded;
   }

@@ -32,6 +32,9 @@ TEST_F(UnreadFormats, AreKnownByTheirEndingsInAnyCase) {
             "drive.pcap");
   EXPECT_EQ(AdviceOn("site.laz", ""),
             "is compressed LAS, which is not read: pdal translate site.laz site.las (or las2las)");
+  EXPECT_EQ(
+      AdviceOn("MYNAME.laz", ""),
+      "is compressed LAS, which is not read: pdal translate MYNAME.laz MYNAME.las (or las2las)");
 }
 
 TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
@@ -41,11 +44,12 @@ TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
 }
 
 TEST_F(UnreadFormats, TellTextOfPosesFromTextOfPoints) {
-  const std::string poses = " numbers a line: name the clouds, and these with --poses";
+  const std::string poses =
+      " numbers a line, which is not read: if these are poses, name the clouds, and them with "
+      "--poses";
   EXPECT_EQ(AdviceOn("tum.txt", "# time x y z qx qy qz qw\n1.5 0 0 0 0 0 0 1\n"),
-            "is a file of poses, with 8" + poses);
-  EXPECT_EQ(AdviceOn("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"),
-            "is a file of poses, with 12" + poses);
+            "is text with 8" + poses);
+  EXPECT_EQ(AdviceOn("kitti.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), "is text with 12" + poses);
   EXPECT_TRUE(AdviceOn("cloud.csv", "x,y,z\n1,2,3\n")
                   .starts_with("is text with 3 numbers a line, which is not read: "));
   EXPECT_EQ(AdviceOn("notes.txt", "Dear reader,\n"), "");

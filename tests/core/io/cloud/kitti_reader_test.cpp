@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -57,12 +58,35 @@ TEST(KittiReader, NamesTheColumnsThatFitTheValues) {
                 "those of nuScenes (x y z intensity ring) fit: --kitti-columns nuscenes");
   EXPECT_EQ(BinFault(BinRoom<float>(5, false)),
             std::string(kNotFour) + "those of --kitti-columns 5 fit");
+  EXPECT_EQ(BinFault(BinRoom<float>(6)), std::string(kNotFour) + "those of --kitti-columns 6 fit");
   EXPECT_EQ(BinFault(BinRoom<float>(6, false)),
             std::string(kNotFour) +
                 "those of Waymo (x y z intensity elongation timestamp) fit: "
                 "--kitti-columns waymo");
   EXPECT_EQ(BinFault(BinRoom<double>(4)),
             std::string(kNotFour) + "those of --kitti-columns float64 fit");
+}
+
+TEST(KittiReader, TakesFiringsWithoutAReturnAndNationalGridsAsTheyAre) {
+  std::string sky(15'000 * 16, '\0');
+  EXPECT_EQ(BinFault(sky + BinRoom<float>(4)), "no error");
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), 0.0F}) {
+    std::string bytes = BinRoom<float>(4);
+    for (std::size_t point = 0; point < 300; ++point) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        std::memcpy(&bytes[point * 16 + i * 4], &value, sizeof value);
+      }
+    }
+    EXPECT_EQ(BinFault(bytes), "no error") << value;
+  }
+  std::string grid = BinRoom<float>(4);
+  for (std::size_t point = 0; point < grid.size(); point += 16) {
+    float x = 0.0F;
+    std::memcpy(&x, &grid[point], sizeof x);
+    x += 500'000.0F;
+    std::memcpy(&grid[point], &x, sizeof x);
+  }
+  EXPECT_EQ(BinFault(grid), "no error");
 }
 
 TEST(KittiReader, NamesTheColumnsOfAnUnevenLength) {

@@ -140,6 +140,11 @@ TEST_F(LasFile, IsRefusedIfItsCoordinatesAreNoMetres) {
   EXPECT_EQ(MessageAbout(with(RecordOf(2112, "PROJCS[\"X\",UNIT[\"US survey foot\",0.3]]"))),
             rule + "feet" + advice);
   EXPECT_EQ(Read(with(RecordOf(34735, GeoKey(3076, 9001)))).num_points(), 1U);
+  // The unit of a system of EPSG's stands in its register: feet in New York.
+  const auto remarks = Read(with(RecordOf(34735, GeoKey(3072, 2263)))).remarks;
+  ASSERT_FALSE(remarks.empty());
+  EXPECT_EQ(remarks.front().kind, RemarkKind::kUnitsAssumed);
+  EXPECT_EQ(remarks.front().detail, "EPSG:2263");
   EXPECT_EQ(
       Read(with(RecordOf(2112, "PROJCS[\"X\",GEOGCS[\"Y\"],UNIT[\"metre\",1]]"))).num_points(), 1U);
 }

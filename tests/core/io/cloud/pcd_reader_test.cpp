@@ -59,6 +59,13 @@ TEST(PcdReader, TakesKeysTypesAndDataInAnyCase) {
   EXPECT_THAT(PcdValues(ParsePcdFile("a.pcd", one).cloud, "n"), ElementsAre(7));
 }
 
+TEST(PcdReader, PassesOverTheEndOfALineBehindBinaryDataAndSignsOfNumbers) {
+  const std::string header = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ";
+  const std::string point(12, '\1');
+  EXPECT_EQ(ParsePcdFile("a.pcd", header + "binary\n" + point + "\n", {}).cloud.num_points(), 1U);
+  EXPECT_EQ(ParsePcdFile("a.pcd", header + "ascii\n+1.0e+00 -2 +3\n", {}).cloud.num_points(), 1U);
+}
+
 TEST(PcdReader, ReadsACloudWithoutPoints) {
   const std::string header = "FIELDS x\nSIZE 4\nTYPE F\nCOUNT 1\nWIDTH 0\nHEIGHT 0\nPOINTS 0\n";
   for (const char* const data : {"ascii", "binary", "binary_compressed"}) {

@@ -75,6 +75,13 @@ TEST(PlyReader, SkipsElementsBeforeThePointsByTheirSize) {
   EXPECT_THAT(PlyValues(text, "ring"), ElementsAre(3, 4));
 }
 
+TEST(PlyReader, PassesOverBlankLinesOfText) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n\n1 2 3\n\n4 5 6\n";
+  EXPECT_EQ(ParsePlyFile("a.ply", text, {}).cloud.num_points(), 2U);
+}
+
 TEST(PlyReader, RefusesWhatStandsBehindItsElements) {
   const std::string bytes = PlyHeaderOf(false, kPlyVertex) + PlyPoints(false);
   EXPECT_EQ(

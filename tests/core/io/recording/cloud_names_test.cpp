@@ -30,6 +30,9 @@ TEST(CloudNames, AreComparedAsDecimalNumbersWhereAllAreSuch) {
               ElementsAre("9.9.pcd", "17.05.pcd", "17.1.pcd", "17.15.pcd", "17.2.pcd"));
   EXPECT_THAT(FramesOf({"c_1.5_x.pcd", "c_1.25_x.pcd"}),
               ElementsAre("c_1.25_x.pcd", "c_1.5_x.pcd"));
+  // A whole second has no point.
+  EXPECT_THAT(FramesOf({"17.5.pcd", "18.pcd", "17.25.pcd"}),
+              ElementsAre("17.25.pcd", "17.5.pcd", "18.pcd"));
   // The tenth of the first.
   EXPECT_THAT(FramesOf({"1.1.pcd", "1.2.pcd", "1.10.pcd"}),
               ElementsAre("1.1.pcd", "1.2.pcd", "1.10.pcd"));

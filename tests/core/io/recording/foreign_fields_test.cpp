@@ -90,6 +90,21 @@ TEST(ForeignFields, AreNoColours) {
   EXPECT_THAT(ReadPly({"float rgb", "uint rgba"}, {"1 2 3 4 5"}).foreign, IsEmpty());
 }
 
+TEST(ForeignFields, ThatAreLeftOutAreTold) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcd";
+  WriteFileWhole(file,
+                 "FIELDS x y z rgb normal _\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
+                 "COUNT 1 1 1 1 3 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 4 5 6 7 8\n");
+  const auto recording = OpenRecording(file);
+  (void)ReadAll(*recording);
+  EXPECT_THAT(recording->info().remarks->List(),
+              ElementsAre(Remark{.kind = RemarkKind::kFieldsLeftOut,
+                                 .place = file.string(),
+                                 .number = 2,
+                                 .detail = "\"rgb\", \"normal\" but for its first number"}));
+}
+
 TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {
   const RecordedFrame recorded =
       ReadPly({"float reflectivity", "float intensity"}, {"1 2 3 0.25 0.5"});

@@ -48,8 +48,7 @@ TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
       "(got ";
   const std::string end = " %): other columns, another byte order or unit?";
   EXPECT_EQ(FaultOfPositions(RoomOf(200, 1000.0)), rule + "0" + end);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const double wrong : {kInfinity, 1e19, 1e-30}) {
+  for (const double wrong : {1e19, 1e-30}) {
     Cloud cloud = RoomOf(200, 1.0);
     SetX(wrong, 2, cloud);
     EXPECT_EQ(FaultOfPositions(cloud), "");
@@ -59,9 +58,13 @@ TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
 }
 
 TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
-  Cloud cloud = RoomOf(200, 1.0);
-  SetX(std::numeric_limits<double>::quiet_NaN(), 150, cloud);
-  EXPECT_EQ(FaultOfPositions(cloud), "");
+  // Simulators write infinity for firings without a return.
+  for (const double none :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Cloud cloud = RoomOf(200, 1.0);
+    SetX(none, 150, cloud);
+    EXPECT_EQ(FaultOfPositions(cloud), "");
+  }
 }
 
 TEST(FaultOfPositions, IsSaidByWhatMakesFramesOfClouds) {
@@ -79,15 +82,22 @@ RecordedFrame WithRanges(std::size_t num, std::size_t num_far) {
 }
 
 TEST(CheckRanges, TellsFewAndRefusesMore) {
-  EXPECT_EQ(CheckRanges(WithRanges(200, 0), 100.0), std::nullopt);
-  EXPECT_EQ(CheckRanges(WithRanges(200, 2), 100.0),
+  EXPECT_EQ(CheckRanges(WithRanges(200, 0), {}, 100.0), std::nullopt);
+  EXPECT_EQ(CheckRanges(WithRanges(200, 2), {}, 100.0),
             (Remark{.kind = RemarkKind::kFarReturns,
                     .place = "a.pcd",
                     .number = 2,
                     .detail = "1 %, the farthest 16681 m"}));
-  EXPECT_EQ(MessageOf([] { (void)CheckRanges(WithRanges(200, 50), 100.0); }),
+  EXPECT_EQ(MessageOf([] { (void)CheckRanges(WithRanges(200, 50), {}, 100.0); }),
             "a.pcd: range_m: at most 1 % of the returns may be beyond the sensor's range_max_m of "
             "100 (got 25 %, the farthest 16681 m): another unit?");
+}
+
+TEST(CheckRanges, TellsAnyNumberOfCapturesWhosePacketsStateTheUnit) {
+  RecordedFrame turn = WithRanges(200, 50);
+  turn.beam_of = [](std::uint32_t, std::uint32_t) { return RecordedBeam{}; };
+  ASSERT_TRUE(CheckRanges(turn, {}, 100.0).has_value());
+  EXPECT_EQ(CheckRanges(turn, {}, 100.0)->number, 50U);
 }
 
 }  // namespace
