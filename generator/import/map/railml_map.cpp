@@ -339,6 +339,17 @@ RailMap RailMlReader::Map() const {
   return map;
 }
 
+/// Version 2 has a root in small letters.
+void RefuseOlder(const CPLXMLNode& tree, const std::filesystem::path& file) {
+  for (const CPLXMLNode* node = &tree; node != nullptr; node = node->psNext) {
+    if (node->eType != CXT_Element || std::string_view(node->pszValue) != "railml") continue;
+    throw InputError(ShownPath(file) +
+                     ": must be railML 3, which has coordinates of its net (got "
+                     "railML " +
+                     ShownText(CPLGetXMLValue(node, "version", "2")) + ")");
+  }
+}
+
 }  // namespace
 
 bool IsRailMl(std::string_view begin) {
@@ -358,16 +369,11 @@ RailMap ReadRailMl(const std::filesystem::path& file) {
                      ShownText(gdal_errors.first()) + ")");
   }
   CPLStripXMLNamespace(tree.get(), nullptr, 1);
+  RefuseOlder(*tree, file);
   RailMlReader reader;
   reader.Read(tree.get());
   AtPlace(ShownPath(file) + ": ", [&] { reader.errors().ThrowIfAny(); });
   RailMap map = reader.Map();
-  const std::string version = CPLGetXMLValue(tree.get(), "=railML.version", "");
-  if (map.ways.empty() && version.starts_with('2')) {
-    throw InputError(ShownPath(file) + ": is railML " + ShownText(version) +
-                     ", which is not read: must be exported as railML 3, which has coordinates of "
-                     "its net");
-  }
   if (map.ways.empty()) {
     throw InputError(ShownPath(file) +
                      ": must have a netElement with geometricCoordinates (got none)");

@@ -1,7 +1,10 @@
 #include "generator/import/map/xml_file.h"
 
 #include <expat.h>
+#include <iconv.h>
 
+#include <array>
+#include <cerrno>
 #include <cmath>
 #include <sstream>
 #include <type_traits>
@@ -22,6 +25,31 @@ std::string_view LocalName(std::string_view name) {
   return name.substr(name.find(':') + 1);
 }
 
+/// Fills in the letters of an encoding; returns whether each is one byte, and the first are ASCII.
+bool TakeLetters(const char* name, XML_Encoding& encoding) {
+  const iconv_t letters = iconv_open("UTF-32LE", name);
+  if (letters == iconv_t(-1)) return false;  // NOLINT(performance-no-int-to-ptr): as POSIX has it.
+  bool is_taken = true;
+  for (int byte = 0; byte < 256; ++byte) {
+    std::array<char, 1> in = {static_cast<char>(byte)};
+    std::array<unsigned char, 4> out{};
+    char* from = in.data();
+    char* to = reinterpret_cast<char*>(out.data());
+    std::size_t num_in = in.size();
+    std::size_t num_out = out.size();
+    const bool is_letter = iconv(letters, &from, &num_in, &to, &num_out) != std::size_t(-1);
+    if (!is_letter && errno != EILSEQ) is_taken = false;  // The first byte of several.
+    constexpr int kReplacement = 0xFFFD;
+    encoding.map[byte] = is_letter ? out[0] | out[1] << 8 | out[2] << 16 : kReplacement;
+    if (byte < 0x80 && encoding.map[byte] != byte) is_taken = false;
+  }
+  iconv_close(letters);
+  encoding.data = nullptr;
+  encoding.convert = nullptr;
+  encoding.release = nullptr;
+  return is_taken;
+}
+
 /// Hands the elements of a file to the reader of its root element. What that throws waits until the
 /// parser, which is in C, has returned.
 class XmlVisit {
@@ -37,6 +65,14 @@ class XmlVisit {
     XML_SetCharacterDataHandler(parser, [](void* data, const char* text, int length) {
       static_cast<XmlVisit*>(data)->text_.append(text, static_cast<std::size_t>(length));
     });
+    XML_SetUnknownEncodingHandler(
+        parser,
+        [](void* data, const char* name, XML_Encoding* encoding) -> int {
+          const bool is_taken = TakeLetters(name, *encoding);
+          if (!is_taken) static_cast<XmlVisit*>(data)->other_encoding_ = name;
+          return is_taken ? XML_STATUS_OK : XML_STATUS_ERROR;
+        },
+        this);
   }
 
   /// Parses a part of the file; returns whether to go on.
@@ -44,6 +80,10 @@ class XmlVisit {
     const auto status = XML_Parse(parser_, part.data(), static_cast<int>(part.size()), is_last);
     if (thrown_) std::rethrow_exception(thrown_);
     if (status != XML_STATUS_ERROR) return true;
+    if (!other_encoding_.empty()) {
+      throw InputError("encoding: must be UTF-8, UTF-16 or one with a byte for each letter (got " +
+                       Quoted(other_encoding_) + ")");
+    }
     faults_.list().Add({"line " + std::to_string(line()), "must be XML to its end",
                         XML_ErrorString(XML_GetErrorCode(parser_))});
     return false;
@@ -84,9 +124,6 @@ class XmlVisit {
     if (LocalName(root) == "gpx") reader_ = MakeGpxReader(faults_);
     if (LocalName(root) == "kml") reader_ = MakeKmlReader(faults_);
     if (reader_) return;
-    if (LocalName(root) == "railml") {
-      throw InputError("must be railML 3, which has coordinates in its topology (got railML 2)");
-    }
     throw InputError("must be a map: of OpenStreetMap (<osm>), GPX, KML or railML 3 (got <" +
                      ShownText(root) + ">)");
   }
@@ -95,24 +132,9 @@ class XmlVisit {
   XmlFaults faults_;
   std::unique_ptr<XmlMapReader> reader_;
   std::string text_;
+  std::string other_encoding_;  ///< That is not read.
   std::exception_ptr thrown_;
 };
-
-/// Letters beyond ASCII matter to names only, so that any encoding that contains ASCII will do.
-int XMLCALL TakeAnyEncoding(void* /*data*/, const char* /*name*/, XML_Encoding* encoding) {
-  constexpr int kReplacement = 0xFFFD;
-  for (int byte = 0; byte < 256; ++byte) encoding->map[byte] = byte < 0x80 ? byte : kReplacement;
-  encoding->data = nullptr;
-  encoding->convert = nullptr;
-  encoding->release = nullptr;
-  return XML_STATUS_OK;
-}
-
-/// Whether the first bytes are of UTF-16.
-bool IsUtf16(const std::string& begin) {
-  const std::string text = AsUtf8(begin);
-  return text.size() < begin.size() && !begin.starts_with("\xEF\xBB\xBF");
-}
 
 }  // namespace
 
@@ -163,14 +185,13 @@ RailMap ReadXmlMap(const std::filesystem::path& file) {
   };
   bool is_last = read(stream);
   // A file that was saved anew in UTF-16 may still say that it is UTF-8.
-  const bool is_utf16 = IsUtf16(block.substr(0, 4));
+  const bool is_utf16 = IsUtf16(block);
   std::istringstream text;
   if (is_utf16) {
     text.str(ReadTextWhole(file));
     is_last = read(text);
   }
   const XmlParser parser(XML_ParserCreate(is_utf16 ? "UTF-8" : nullptr), &XML_ParserFree);
-  XML_SetUnknownEncodingHandler(parser.get(), TakeAnyEncoding, nullptr);
   XmlVisit visit(parser.get());
   return AtPlace(ShownPath(file) + ": ", [&] {
     while (visit.Parse(block, is_last) && !is_last) {

@@ -130,8 +130,7 @@ TEST_F(RailMl, TakesOtherCoordinateSystems) {
 TEST_F(RailMl, IsRefusedByNameInItsOlderVersion) {
   EXPECT_EQ(FaultOf(R"(<railml xmlns="https://www.railml.org/schemas/2018" version="2.4">
 <infrastructure><tracks/></infrastructure></railml>)"),
-            "net.xml: is railML 2.4, which is not read: must be exported as railML 3, which has "
-            "coordinates of its net");
+            "net.xml: must be railML 3, which has coordinates of its net (got railML 2.4)");
 }
 
 TEST_F(RailMl, IsRefusedInOneLineWhereItIsWrong) {
