@@ -45,7 +45,7 @@ void AddTagsIn(const Json& properties, MapTags& tags) {
   for (const auto& [key, value] : properties.items()) {
     if (key == "tags") {
       const Json inner =
-          value.is_string() ? Json::parse(value.get<std::string>(), nullptr, false) : value;
+          value.is_string() ? ParseJson(value.get<std::string>()).json.value_or(nullptr) : value;
       AddTagsIn(inner, tags);
     } else if (key == "other_tags" && value.is_string()) {
       AddOtherTags(value.get<std::string>(), tags);
