@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -43,9 +45,11 @@ struct LineStretch {
     std::span<const double> chainages_m,
     const std::function<bool(const MapTags&)>& has);
 
-/// Whether a value of OpenStreetMap says that a thing is there: anything but "" and "no".
+/// Whether a value of OpenStreetMap says that a thing is there: anything but "" and "no", of which
+/// GeoJSON makes `false`, and Geofabrik "F" and 0.
 [[nodiscard]] inline bool IsThere(std::string_view value) {
-  return !value.empty() && value != "no";
+  constexpr auto kNo = std::to_array<std::string_view>({"", "no", "false", "F", "0"});
+  return std::ranges::find(kNo, value) == kNo.end();
 }
 
 /// Where something lies against a line.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ class GpxReader final : public XmlMapReader {
   std::vector<MapLine> lines_;
   std::size_t first_line_ = 0;  ///< Of the track or route that is open.
   std::string name_;            ///< Of the same.
+  bool is_loose_ = false;       ///< Whether the last line's points are without a segment.
 };
 
 void GpxReader::Begin(const XmlElement& element) {
@@ -35,13 +37,28 @@ void GpxReader::Begin(const XmlElement& element) {
     first_line_ = lines_.size();
     name_.clear();
   }
-  if (element.name == "trkseg" || element.name == "rte") {
+  // Some tracks have their points without a segment.
+  const bool begins_loose = element.name == "trkpt" && parent() == "trk" && !is_loose_;
+  if (element.name == "trk" || element.name == "trkseg") is_loose_ = false;
+  if (element.name == "trkseg" || element.name == "rte" || begins_loose) {
+    is_loose_ = begins_loose;
     MapLine& line = lines_.emplace_back();
     line.place = "line " + std::to_string(element.line) + ", " + std::string(element.name);
   }
-  if (element.name != "trkpt" && element.name != "rtept" && element.name != "wpt") return;
+  // Garmin's routes have their shape in extensions of their points.
+  const bool is_shape = element.name == "rpt" && std::ranges::find(open_, "rte") != open_.end();
+  const bool is_point = element.name == "trkpt" || element.name == "rtept" || is_shape;
+  if (!is_point && element.name != "wpt") return;
   const auto place_deg = XmlPlace_deg(element, faults_);
-  if (element.name == "wpt" || lines_.empty() || !place_deg) return;
+  if (!is_point || !place_deg) return;
+  const bool is_in_line = element.name == "trkpt"   ? parent() == "trkseg" || parent() == "trk"
+                          : element.name == "rtept" ? parent() == "rte"
+                                                    : true;
+  if (!is_in_line) {
+    faults_.Add(element.line, std::string(element.name), "must be in a track or route",
+                "in <" + ShownText(parent()) + ">");
+    return;
+  }
   lines_.back().points_deg.push_back(*place_deg);
   lines_.back().heights_m.emplace_back();
 }

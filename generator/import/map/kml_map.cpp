@@ -43,7 +43,11 @@ class KmlReader final : public XmlMapReader {
   [[nodiscard]] std::string_view parent() const {
     return open_.size() < 2 ? std::string_view() : open_[open_.size() - 2];
   }
-  void AddTuple(std::string_view tuple, std::uint64_t line, std::string_view separators);
+  /// @param parts Of the tuple.
+  void AddTuple(std::string_view tuple,
+                const std::vector<std::string_view>& parts,
+                std::uint64_t line,
+                const char* what);
   void AddTuples(std::string_view text);
   void EndGeometry(std::string_view name);
   void EndPlacemark();
@@ -60,17 +64,19 @@ class KmlReader final : public XmlMapReader {
   std::uint64_t coordinates_line_{};
 };
 
-void KmlReader::AddTuple(std::string_view tuple, std::uint64_t line, std::string_view separators) {
+void KmlReader::AddTuple(std::string_view tuple,
+                         const std::vector<std::string_view>& parts,
+                         std::uint64_t line,
+                         const char* what) {
   constexpr std::array kMost = {kMostLongitude_deg, kMostLatitude_deg};
-  const std::vector<std::string_view> parts = Parts(tuple, separators, false);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::optional<double> value = XmlNumber(parts[i]);
     if (value && (i >= kMost.size() || std::abs(*value) <= kMost[i])) numbers.push_back(*value);
   }
   if (numbers.size() != parts.size() || parts.size() < 2 || parts.size() > 3) {
-    faults_.Add(line, "coordinates",
-                "must be longitude, latitude in degrees and, if known, height in m", Quoted(tuple));
+    faults_.Add(line, what, "must be longitude, latitude in degrees and, if known, height in m",
+                Quoted(tuple));
     return;
   }
   if (lines_.empty() || !IsKmlGeometry(parent())) return;
@@ -81,7 +87,9 @@ void KmlReader::AddTuple(std::string_view tuple, std::uint64_t line, std::string
 void KmlReader::AddTuples(std::string_view text) {
   std::uint64_t line = coordinates_line_;
   for (const std::string_view row : Parts(text, "\n", false)) {
-    for (const std::string_view tuple : Parts(row, " \t\r", true)) AddTuple(tuple, line, ",");
+    for (const std::string_view tuple : Parts(row, " \t\r", true)) {
+      AddTuple(tuple, Parts(tuple, ",", false), line, "coordinates");
+    }
     ++line;
   }
 }
@@ -140,7 +148,14 @@ void KmlReader::End(std::string_view name, std::string_view text, std::uint64_t 
   if (name == "coordinates") {
     AddTuples(text);
   } else if (name == "coord") {
-    AddTuple(XmlTrimmed(text), line, " ");
+    const std::vector<std::string_view> parts = Parts(text, " \t\r\n", true);
+    if (!parts.empty()) {
+      AddTuple(XmlTrimmed(text), parts, line, "coord");
+    } else {
+      // A time without a place.
+      remarks_.push_back(
+          {RemarkKind::kFieldsLeftOut, "line " + std::to_string(line), 1, "<coord> is empty"});
+    }
   } else if (IsKmlGeometry(name)) {
     EndGeometry(name);
   } else if (name == "Placemark") {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -46,6 +47,13 @@ void TakeThings(std::vector<MapLine>& lines, RailMap& map) {
   });
 }
 
+/// Geofabrik's exports have the values of `railway`, and of those of OtherKind(), in one key.
+constexpr std::string_view kClass = "fclass";
+
+void TellLeftOut(const MapLine& line, std::string why, RailMap& map) {
+  map.remarks.push_back({RemarkKind::kLinesLeftOut, line.place, 1, std::move(why)});
+}
+
 /// Whether a line has a key that OpenStreetMap's roads, rivers and the like have.
 std::string_view OtherKind(const MapTags& tags) {
   constexpr auto kOthers = std::to_array<std::string_view>(
@@ -54,22 +62,27 @@ std::string_view OtherKind(const MapTags& tags) {
   for (const std::string_view key : kOthers) {
     if (!TagOf(tags, key).empty()) return key;
   }
-  // Geofabrik's exports have the values of all of these, and of `railway`, in one key.
-  constexpr std::string_view kClass = "fclass";
   if (!TagOf(tags, kClass).empty() && !IsTrack(TagOf(tags, kClass))) return kClass;
   return {};
 }
 
 /// Leaves the tracks.
 void EraseOthers(std::vector<MapLine>& lines, RailMap& map) {
+  for (MapLine& line : lines) {
+    const std::string_view of_class = TagOf(line.tags, kClass);
+    if (IsTrack(of_class) && TagOf(line.tags, "railway").empty()) line.tags["railway"] = of_class;
+  }
   const bool has_railways = std::ranges::any_of(
       lines, [](const MapLine& line) { return !TagOf(line.tags, "railway").empty(); });
   std::erase_if(lines, [&](const MapLine& line) {
-    if (has_railways) return !IsTrack(TagOf(line.tags, "railway"));
+    const std::string_view railway = TagOf(line.tags, "railway");
+    if (!railway.empty()) return !IsTrack(railway);
     const std::string_view kind = OtherKind(line.tags);
-    if (kind.empty()) return false;
-    map.remarks.push_back({RemarkKind::kLinesLeftOut, line.place, 1,
-                           std::string(kind) + "=" + ShownText(TagOf(line.tags, kind))});
+    if (kind.empty() && !has_railways) return false;
+    TellLeftOut(line,
+                kind.empty() ? "it has no railway"
+                             : std::string(kind) + "=" + ShownText(TagOf(line.tags, kind)),
+                map);
     return true;
   });
 }
@@ -104,11 +117,6 @@ void AddLine(const MapLine& line, NodeIndex& nodes, RailMap& map, ErrorList& err
   if (num_without > 0 && num_without < line.points_deg.size()) {
     map.remarks.push_back({RemarkKind::kHeightsMissing, line.place, num_without});
   }
-  if (way.nodes.size() < 2) {
-    errors.Add(
-        {line.place, "must have two different points or more", std::to_string(way.nodes.size())});
-    return;
-  }
   map.ways.push_back(std::move(way));
 }
 
@@ -127,6 +135,22 @@ class NearbyMetres {
   static constexpr double kPerDegree_m = 111.3e3;
   Eigen::Vector2d scale_m;
 };
+
+/// Leaves lines with two different points or more.
+/// @throws InputError if there are none.
+void EraseEmpty(std::vector<MapLine>& lines, RailMap& map) {
+  ErrorList errors;
+  std::erase_if(lines, [&](const MapLine& line) {
+    const auto& points_deg = line.points_deg;
+    if (std::ranges::adjacent_find(points_deg, std::not_equal_to{}) != points_deg.end())
+      return false;
+    const std::string num = points_deg.empty() ? "0" : "1";
+    errors.Add({line.place, "must have two different points or more", num});
+    TellLeftOut(line, "its different points are " + num, map);
+    return true;
+  });
+  if (lines.empty()) errors.ThrowIfAny();
+}
 
 /// Where the run of fixes from one on ends that lie within so many metres of their mean.
 std::size_t EndOfRun(const std::vector<Eigen::Vector2d>& points_deg, std::size_t begin) {
@@ -154,14 +178,37 @@ bool TurnsBack(const std::vector<Eigen::Vector2d>& points_deg, std::size_t begin
   return false;
 }
 
+/// Makes one point of equal neighbours, with the first height among them.
+void JoinEqual(MapLine& line) {
+  std::size_t num = 0;
+  for (std::size_t i = 0; i < line.points_deg.size(); ++i) {
+    const bool is_new = num == 0 || line.points_deg[i] != line.points_deg[num - 1];
+    if (is_new) line.points_deg[num++] = line.points_deg[i];
+    if (line.heights_m.empty()) continue;
+    std::optional<double>& height_m = line.heights_m[num - 1];
+    if (is_new || !height_m) height_m = line.heights_m[i];
+  }
+  line.points_deg.resize(num);
+  if (!line.heights_m.empty()) line.heights_m.resize(num);
+}
+
 /// The fixes with each run that turns back as one.
 MapLine OnceThinned(const MapLine& line) {
   MapLine thin = line;
   thin.points_deg.clear();
   thin.heights_m.clear();
+  std::size_t first_unknown = 0;
   for (std::size_t i = 0; i < line.points_deg.size();) {
-    std::size_t end = EndOfRun(line.points_deg, i);
-    if (!TurnsBack(line.points_deg, i, end)) end = i + 1;
+    std::size_t end = i + 1;
+    if (i >= first_unknown) {
+      const std::size_t end_of_run = EndOfRun(line.points_deg, i);
+      if (TurnsBack(line.points_deg, i, end_of_run)) {
+        end = end_of_run;
+      } else {
+        // The next run to begin is one in which the last of these may turn.
+        first_unknown = std::max(i + 3, end_of_run) - 2;
+      }
+    }
     Eigen::Vector2d sum_deg = Eigen::Vector2d::Zero();
     double sum_m = 0.0;
     double num_heights = 0.0;
@@ -186,6 +233,7 @@ MapLine OnceThinned(const MapLine& line) {
 }  // namespace
 
 std::size_t ThinFixes(MapLine& line) {
+  JoinEqual(line);
   const std::size_t num_before = line.points_deg.size();
   // What is left of a long stop may turn back again.
   while (true) {
@@ -203,11 +251,10 @@ RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks) {
   const std::size_t num_lines = lines.size();
   EraseOthers(lines, map);
   if (lines.empty()) {
-    throw InputError("must have a line that is a track (got " + std::to_string(num_lines) +
-                     " other lines)");
+    throw InputError("must have a line that is a track (got " +
+                     (num_lines == 0 ? "no lines" : std::to_string(num_lines) + " other lines") +
+                     ")");
   }
-  NodeIndex nodes(map);
-  ErrorList errors;
   for (MapLine& line : lines) {
     if (TagOf(line.tags, "railway").empty() && std::ranges::all_of(line.points_deg, IsDegrees)) {
       const std::size_t num_fewer = ThinFixes(line);
@@ -215,8 +262,11 @@ RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks) {
         map.remarks.push_back({RemarkKind::kFixesThinned, line.place, num_fewer});
       }
     }
-    AddLine(line, nodes, map, errors);
   }
+  EraseEmpty(lines, map);
+  NodeIndex nodes(map);
+  ErrorList errors;
+  for (const MapLine& line : lines) AddLine(line, nodes, map, errors);
   errors.ThrowIfAny();
   return map;
 }
