@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 #include "core/base/error.h"
@@ -150,6 +151,12 @@ RailMap CropMap(const RailMap& map, const Eigen::AlignedBox2d& within_deg) {
     });
     if (is_inside) cropped.things.push_back(thing);
   }
+  // What is said of a way goes with it.
+  std::set<std::string_view> gone;
+  for (const MapWay& way : map.ways) gone.insert(way.place);
+  for (const MapWay& way : cropped.ways) gone.erase(way.place);
+  gone.erase("");
+  std::erase_if(cropped.remarks, [&](const Remark& it) { return gone.contains(it.place); });
   return cropped;
 }
 

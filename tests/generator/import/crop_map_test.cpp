@@ -47,6 +47,19 @@ TEST(CropMap, DividesAWayThatLeavesAndComesBack) {
   EXPECT_THAT(two.ways[1].nodes, ElementsAre(3, 4));
 }
 
+TEST(CropMap, LeavesOutWhatIsSaidOfWaysOutside) {
+  RailMap map = StraightMap();
+  map.ways[0].place = "way 7";
+  map.ways.push_back({8, {0, 1}, {}, "way 8"});
+  for (const char* place : {"way 7", "way 8", "node 3", ""}) {
+    map.remarks.push_back({RemarkKind::kTagsUnread, place});
+  }
+  const RailMap cropped = CropMap(map, Between(1.5, 4.5));
+  ASSERT_THAT(cropped.remarks, SizeIs(3));
+  EXPECT_EQ(cropped.remarks[0].place, "way 7");
+  EXPECT_EQ(cropped.remarks[1].place, "node 3");
+}
+
 TEST(CropMap, LeavesOutThingsThatReachOutside) {
   RailMap map = StraightMap();
   for (const double end_deg : {3.0, 6.0}) {
