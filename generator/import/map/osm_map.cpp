@@ -1,6 +1,7 @@
 #include "generator/import/map/osm_map.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/text.h"
 #include "generator/import/map/map_formats.h"
@@ -15,6 +16,8 @@ std::string ShownDegrees(const Eigen::Vector2d& place_deg) {
 std::string NameOfElement(const std::string& kind, std::int64_t id) {
   return kind + " " + std::to_string(id);
 }
+
+constexpr const char* kOneTime = "must be the same wherever it is: histories are not read";
 
 bool IsKept(const MapTags& tags) {
   return IsTrack(TagOf(tags, "railway")) || IsThing(tags);
@@ -34,9 +37,9 @@ std::optional<Fault> CheckLife(const char* action, const char* visible, bool& is
 }
 
 void RefuseRemark(const std::string& place, std::string_view remark) {
-  throw InputError(
-      place + ": must not be there: the answer is not whole; ask again with a smaller " +
-      "area or a longer timeout (got \"" + ShownPath(std::filesystem::path(remark)) + "\")");
+  throw InputError(place +
+                   ": the answer is not whole; ask again with a smaller area or a longer timeout " +
+                   "(got \"" + ShownPath(std::filesystem::path(remark)) + "\")");
 }
 
 void OsmMapMaker::Tell(RemarkKind kind,
@@ -58,16 +61,26 @@ std::optional<Fault> OsmMapMaker::AddPlace(std::int64_t id, const Eigen::Vector2
 std::optional<Fault> OsmMapMaker::AddNode(std::int64_t id,
                                           const Eigen::Vector2d& place_deg,
                                           MapTags tags) {
+  if (deleted_.contains(id)) return Fault{"", kOneTime, "deleted, and not deleted"};
   if (auto fault = AddPlace(id, place_deg)) return fault;
   if (keeps_all_nodes_) (void)NodeAt(place_deg);
   // An answer may repeat nodes, with their tags or without.
-  if (tags.empty() || node_tags_.contains(id)) return std::nullopt;
+  if (tags.empty()) return std::nullopt;
+  if (const auto known = node_tags_.find(id); known != node_tags_.end()) {
+    if (known->second == tags) return std::nullopt;
+    return Fault{"", kOneTime, "other tags than before"};
+  }
   if (IsThing(tags)) map_.things.push_back({{place_deg}, {}, tags});
   node_tags_.emplace(id, std::move(tags));
   return std::nullopt;
 }
 
 std::optional<Fault> OsmMapMaker::AddWay(OsmWay way) {
+  if (deleted_ways_.contains(way.id)) return Fault{"", kOneTime, "deleted, and not deleted"};
+  const auto before = way_of_id_.find(way.id);
+  const bool has_other_tags =
+      before != way_of_id_.end() && !way.tags.empty() && ways_[before->second].tags != way.tags;
+  if (has_other_tags) return Fault{"", kOneTime, "other tags than before"};
   if (!IsKept(way.tags)) {
     ++num_others_;
     return std::nullopt;
@@ -95,12 +108,20 @@ std::optional<Fault> OsmMapMaker::AddWay(OsmWay way) {
 }
 
 void OsmMapMaker::AddRelation(std::int64_t id, const MapTags& tags) {
-  if (!IsPlatform(tags) || TagOf(tags, "type") != "multipolygon") return;
+  if (!IsPlatform(tags)) return;
   Tell(RemarkKind::kOutlinesLeftOut, NameOfElement("relation", id), 1, "it has several parts");
 }
 
-void OsmMapMaker::AddDeleted(const std::string& kind, std::int64_t id, const MapTags& tags) {
+std::optional<Fault> OsmMapMaker::AddDeleted(const std::string& kind,
+                                             std::int64_t id,
+                                             const MapTags& tags) {
+  const bool is_alive =
+      (kind == "node" && places_deg_.contains(id)) || (kind == "way" && way_of_id_.contains(id));
+  if (is_alive) return Fault{"", kOneTime, "deleted, and not deleted"};
+  if (kind == "way") deleted_ways_.insert(id);
+  if (kind == "node" && !deleted_.try_emplace(id, IsThing(tags)).second) return std::nullopt;
   if (IsKept(tags)) Tell(RemarkKind::kDeletedLeftOut, NameOfElement(kind, id));
+  return std::nullopt;
 }
 
 std::size_t OsmMapMaker::NodeAt(const Eigen::Vector2d& place_deg) {
@@ -150,8 +171,11 @@ void OsmMapMaker::MakeTrack(const OsmWay& way) {
     run.nodes.clear();
   };
   for (std::size_t i = 0; i < std::max(way.nodes.size(), way.drawn_deg.size()); ++i) {
-    if (i < way.nodes.size() && deleted_.contains(way.nodes[i])) {
-      Tell(RemarkKind::kDeletedLeftOut, NameOfElement("node", way.nodes[i]));
+    const auto deleted = i < way.nodes.size() ? deleted_.find(way.nodes[i]) : deleted_.end();
+    if (deleted != deleted_.end()) {
+      if (!std::exchange(deleted->second, true)) {
+        Tell(RemarkKind::kDeletedLeftOut, NameOfElement("node", way.nodes[i]));
+      }
     } else if (const auto place_deg = PlaceOf_deg(way, i)) {
       AppendNode(TrackNode(way, i, *place_deg), run);
     } else {

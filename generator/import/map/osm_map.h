@@ -29,13 +29,14 @@ struct OsmWay {
 ///
 /// Ways that are tracks and things (IsTrack, IsThing) are kept. Nodes in one place are one,
 /// whatever their ids. A way is cut where a node of it is not in the file, and goes on without
-/// nodes that are deleted. What is there twice is taken once.
+/// nodes that are deleted. What is there twice is taken once, and refused if it differs, as in
+/// histories.
 class OsmMapMaker {
  public:
   /// @param keeps_all_nodes Whether nodes that belong to no track are nodes of the map, too.
   explicit OsmMapMaker(bool keeps_all_nodes = false) : keeps_all_nodes_(keeps_all_nodes) {}
 
-  /// @returns A fault, whose place is left to the caller, if the node is somewhere else before.
+  /// @returns A fault, whose place is left to the caller, if the node is another before.
   [[nodiscard]] std::optional<Fault> AddNode(std::int64_t id,
                                              const Eigen::Vector2d& place_deg,
                                              MapTags tags);
@@ -43,9 +44,11 @@ class OsmMapMaker {
   [[nodiscard]] std::optional<Fault> AddWay(OsmWay way);
   /// Platforms of several outlines are left out.
   void AddRelation(std::int64_t id, const MapTags& tags);
-  void AddDeletedNode(std::int64_t id) { deleted_.insert(id); }
-  /// @param kind "way" or "relation".
-  void AddDeleted(const std::string& kind, std::int64_t id, const MapTags& tags);
+  /// @param kind "node", "way" or "relation".
+  /// @returns A fault likewise if it is not deleted before.
+  [[nodiscard]] std::optional<Fault> AddDeleted(const std::string& kind,
+                                                std::int64_t id,
+                                                const MapTags& tags);
 
   /// Whether a way that was added needs the place of a node.
   [[nodiscard]] bool Needs(std::int64_t node) const { return needed_.contains(node); }
@@ -71,7 +74,8 @@ class OsmMapMaker {
   std::unordered_map<std::int64_t, Eigen::Vector2d> places_deg_;  ///< By the ids of nodes.
   std::unordered_map<std::int64_t, MapTags> node_tags_;
   std::unordered_set<std::int64_t> needed_;
-  std::unordered_set<std::int64_t> deleted_;
+  std::unordered_map<std::int64_t, bool> deleted_;  ///< Nodes, and whether they are told.
+  std::unordered_set<std::int64_t> deleted_ways_;
   std::map<std::pair<double, double>, std::size_t> node_at_;
   std::unordered_map<std::size_t, std::int64_t> id_of_node_;
   std::unordered_set<std::int64_t> joined_;

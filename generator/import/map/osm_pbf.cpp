@@ -222,7 +222,8 @@ void OsmPbfReader::ReadWays(std::string_view data) {
     const bool is_way = field.number == kWay;
     PbfElement element = ElementOf(block, field.bytes, field.number);
     if (element.is_deleted) {
-      maker_.AddDeleted(is_way ? "way" : "relation", element.id, element.tags);
+      const char* kind = is_way ? "way" : "relation";
+      RefuseFault(kind, element.id, maker_.AddDeleted(kind, element.id, element.tags));
     } else if (is_way) {
       element.way.id = element.id;
       element.way.tags = std::move(element.tags);
@@ -264,7 +265,7 @@ void OsmPbfReader::ReadDense(const PbfBlock& block, std::string_view message) {
     }
     ++word;
     if (i < visible.size() && visible[i] == 0) {
-      maker_.AddDeletedNode(ids[i]);
+      RefuseFault("node", ids[i], maker_.AddDeleted("node", ids[i], tags));
     } else {
       AddNode(ids[i], block.Place_deg(longitudes[i], latitudes[i]), std::move(tags));
     }
@@ -277,7 +278,7 @@ void OsmPbfReader::ReadNodes(std::string_view data) {
     if (field.number != kNode) return;
     PbfElement node = ElementOf(block, field.bytes, kNode);
     if (node.is_deleted) {
-      maker_.AddDeletedNode(node.id);
+      RefuseFault("node", node.id, maker_.AddDeleted("node", node.id, node.tags));
     } else {
       AddNode(node.id, block.Place_deg(node.longitude, node.latitude), std::move(node.tags));
     }
@@ -292,16 +293,19 @@ std::string DataOfBlob(std::string_view blob) {
   std::string data;
   std::string_view zlib;
   std::uint64_t raw_size = 0;
+  bool has_data = false;
   VisitFields(blob, [&](const PbfField& field) {
     if (field.number == 1) data = field.bytes;
     if (field.number == 2) raw_size = field.value;
     if (field.number == 3) zlib = field.bytes;
+    has_data = has_data || field.number == 1 || field.number == 3;
     if (field.number < 4 || field.number >= 4 + kCompressions.size()) return;
     throw InputError(
         "must have blobs that are zlib or plain (osmium cat IN.pbf -o OUT.pbf makes "
         "them so) (got " +
         std::string(kCompressions[field.number - 4]) + ")");
   });
+  if (!has_data) FailDamaged();
   if (zlib.empty()) return data;
   if (raw_size > kMostBytes) FailDamaged();
   data.resize(raw_size);
@@ -315,13 +319,12 @@ std::string DataOfBlob(std::string_view blob) {
 
 /// What a file needs of its reader, by its header.
 void CheckFeatures(std::string_view header) {
-  constexpr auto kKnown = std::to_array<std::string_view>(
-      {"OsmSchema-V0.6", "DenseNodes", "HistoricalInformation", "LocationsOnWays"});
+  constexpr auto kKnown =
+      std::to_array<std::string_view>({"OsmSchema-V0.6", "DenseNodes", "LocationsOnWays"});
   VisitFields(header, [&](const PbfField& field) {
     if (field.number != 4 || std::ranges::find(kKnown, field.bytes) != kKnown.end()) return;
     throw InputError(
-        "must need no features but OsmSchema-V0.6, DenseNodes, HistoricalInformation "
-        "and LocationsOnWays (got " +
+        "must need no features but OsmSchema-V0.6, DenseNodes and LocationsOnWays (got " +
         Quoted(field.bytes) + ")");
   });
 }

@@ -80,7 +80,7 @@ void OsmXmlReader::AddPoint(const XmlElement& element) {
 
 void OsmXmlReader::EndElement() {
   if (is_deleted_) {
-    kind_ == "node" ? maker_.AddDeletedNode(id_) : maker_.AddDeleted(kind_, id_, tags_);
+    AddFault(maker_.AddDeleted(kind_, id_, tags_));
   } else if (kind_ == "node") {
     AddFault(maker_.AddNode(id_, *place_deg_, std::move(tags_)));
   } else if (kind_ == "relation") {
@@ -103,6 +103,9 @@ bool IsOsmElement(std::string_view name) {
 void OsmXmlReader::Begin(const XmlElement& element) {
   if (IsOsmElement(element.name)) {
     BeginElement(element);
+  } else if (element.name == "action") {
+    throw InputError("line " + std::to_string(element.line) +
+                     ": must be a map, and no changes from one to another (got <action>)");
   } else if (element.name == "nd" && kind_ == "way") {
     AddPoint(element);
   } else if (element.name == "tag" && !kind_.empty()) {

@@ -172,10 +172,8 @@ void OverpassReader::ReadElement(const Json& element, const std::string& pointer
   AddFault(CheckLife(action.empty() ? nullptr : action.c_str(),
                      visible.empty() ? nullptr : visible.c_str(), is_deleted),
            pointer);
-  if (is_deleted && type == "node") {
-    maker_.AddDeletedNode(*id);
-  } else if (is_deleted) {
-    maker_.AddDeleted(type, *id, OverpassTags(element));
+  if (is_deleted) {
+    AddFault(maker_.AddDeleted(type, *id, OverpassTags(element)), pointer);
   } else if (type == "node") {
     ReadNode(element, *id, pointer);
   } else if (type == "way") {

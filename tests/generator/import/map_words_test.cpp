@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "generator/import/map/map_lines.h"
+#include "generator/import/lines/line_places.h"
 #include "tests/generator/import/written_maps.h"
 
 namespace railcast {
@@ -92,6 +92,40 @@ TEST_F(MapWords, AboutLifeThatNobodyWritesAreRefused) {
             "b.json: /elements/5/visible: must be true or false (got \"no\")");
 }
 
+TEST_F(MapWords, OfHistoriesAndChangesAreRefused) {
+  const std::string rule = "must be the same wherever it is: histories are not read (got ";
+  const std::string life = rule + "deleted, and not deleted)";
+  const std::string xml = NodesInXml() + WayInXml({1, 2}, " version='1'");
+  const std::string gone = "<way id='7' version='2' visible='false'/>";
+  EXPECT_EQ(Fault("a.osm", Xml(xml + gone)), "a.osm: line 1, way 7: " + life);
+  EXPECT_EQ(Fault("b.osm", Xml(gone + xml)), "b.osm: line 1, way 7: " + life);
+  EXPECT_EQ(Fault("c.osm", Xml(xml + "<node id='1' visible='false'/>")),
+            "c.osm: line 1, node 1: " + life);
+  EXPECT_EQ(Fault("d.json", JsonMap(NodesInJson() + WayInJson({1, 2}) +
+                                    R"(, {"type": "way", "id": 7, "visible": false})")),
+            "d.json: /elements/6: " + life);
+  EXPECT_EQ(Fault("e.osm", Xml(xml + "<way id='7'><tag k='railway' v='abandoned'/></way>")),
+            "e.osm: line 1, way 7: " + rule + "other tags than before)");
+  EXPECT_EQ(Fault("f.osm", Xml("<action type='delete'><old>" + xml + "</old></action>")),
+            "f.osm: line 1: must be a map, and no changes from one to another (got <action>)");
+  // Answers may repeat elements, and leave out their tags.
+  EXPECT_THAT(Read("g.osm", Xml(xml + WayInXml({1, 2}) + "<way id='7'/>")).ways, SizeIs(1));
+}
+
+TEST_F(MapWords, AreToldOfPlatformsAndSignalsThatAreLeftOut) {
+  const std::string platform = "<tag k='railway' v='platform'/>";
+  EXPECT_EQ(Read("a.osm",
+                 Xml(NodesInXml() + WayInXml({1, 2}) + "<way id='8'><nd ref='1'/><nd ref='98'/>" +
+                     platform + "</way><relation id='9'>" + platform + "</relation>"))
+                .remarks,
+            (std::vector<Remark>{
+                {RemarkKind::kOutlinesLeftOut, "relation 9", 1, "it has several parts"},
+                {RemarkKind::kOutlinesLeftOut, "way 8", 1, "1 of its nodes are missing"}}));
+  const std::string signal = "<node id='6' visible='false'><tag k='railway' v='signal'/></node>";
+  EXPECT_EQ(Read("b.osm", Xml(NodesInXml() + signal + WayInXml({1, 2, 6}))).remarks,
+            (std::vector<Remark>{{RemarkKind::kDeletedLeftOut, "node 6"}}));
+}
+
 TEST_F(MapWords, CutWaysWhereNodesAreMissing) {
   const std::string geometry = R"(, "geometry": [{"lat": 48.2, "lon": 15.61},
     {"lat": 48.2, "lon": 15.62}, null, null, {"lat": 48.2, "lon": 15.64},
@@ -108,7 +142,7 @@ TEST_F(MapWords, CutWaysWhereNodesAreMissing) {
 TEST_F(MapWords, OfOverpassThatTheAnswerIsNotWholeAreQuoted) {
   const std::string remark = "runtime error: Query timed out in \"query\" at line 3";
   const std::string rule =
-      "remark: must not be there: the answer is not whole; ask again with a smaller area or a "
+      "remark: the answer is not whole; ask again with a smaller area or a "
       "longer timeout (got \"runtime error: Query timed out in \"query\" at line 3\")";
   const std::string json = R"(, "remark": "runtime error: Query timed out in \"query\" at line 3")";
   EXPECT_EQ(Fault("a.json", JsonMap(NodesInJson() + WayInJson({1, 2}), json)), "a.json: /" + rule);
@@ -149,7 +183,7 @@ TEST_F(MapWords, OfOtherXmlAreNamed) {
             "a.osc: must be a map: of OpenStreetMap (<osm>), GPX, KML or railML 3 (got "
             "<osmChange>)");
   EXPECT_EQ(Fault("b.xml", "<railml xmlns='http://www.railml.org/schemas/2016'/>"),
-            "b.xml: must be railML 3, which has coordinates in its topology (got railML 2)");
+            "b.xml: must be railML 3, which has coordinates of its net (got railML 2)");
 }
 
 std::string Feature(const std::string& properties, double latitude_deg = 48.2) {
@@ -159,6 +193,24 @@ std::string Feature(const std::string& properties, double latitude_deg = 48.2) {
 }
 std::string Features(const std::string& features) {
   return R"({"type": "FeatureCollection", "features": [)" + features + "]}";
+}
+
+TEST_F(MapWords, ThatAreNestedDeepAreRefused) {
+  constexpr std::size_t kMany = 300000;
+  std::string tags;
+  for (std::size_t i = 0; i < kMany; ++i) tags += R"({"tags":)";
+  const std::string lists = std::string(kMany, '[') + std::string(kMany, ']');
+  const std::string objects = tags + "1" + std::string(kMany, '}');
+  for (const std::string& text :
+       {R"({"type": "FeatureCollection", "crs": )" + lists + "}", Features(Feature(objects)),
+        R"({"elements": [{"type": "node", "id": 1, "visible": )" + lists + "}]}"}) {
+    EXPECT_THAT(Fault("a.json", text),
+                HasSubstr("a.json: must be JSON: nested deeper than 64 levels"));
+  }
+  // No levels are those in texts.
+  EXPECT_THAT(
+      Read("b.json", Features(Feature(R"({"name": "\")" + std::string(99, '[') + "\"}"))).ways,
+      SizeIs(1));
 }
 
 TEST_F(MapWords, OfOsmtogeojsonStandInTags) {
@@ -182,6 +234,31 @@ TEST_F(MapWords, OfRoadsAndRiversMeanNoTracks) {
   const RailMap classes = Read("c.geojson", Features(Feature(R"({"fclass": "rail"})", 48.3) + "," +
                                                      Feature(R"({"fclass": "primary"})")));
   EXPECT_THAT(classes.ways, SizeIs(1));
+  EXPECT_EQ(Fault("d.geojson", Features("")),
+            "d.geojson: must have a line that is a track (got no lines)");
+}
+
+TEST_F(MapWords, OfLinesWithoutRailwayBesideOthersAreTold) {
+  const RailMap map = Read("a.geojson", Features(Feature(R"({"railway": "rail"})") + "," +
+                                                 Feature(R"({"railway": "abandoned"})", 48.3) +
+                                                 "," + Feature(R"({"name": "x"})", 48.4)));
+  EXPECT_THAT(map.ways, SizeIs(1));
+  EXPECT_EQ(map.remarks, (std::vector<Remark>{{RemarkKind::kLinesLeftOut, "/features/2/geometry", 1,
+                                               "it has no railway"}}));
+}
+
+TEST_F(MapWords, OfGeofabrikSayWhichKindTracksAreAndWhatIsNotThere) {
+  const RailMap map =
+      Read("a.geojson", Features(Feature(R"({"fclass": "tram", "bridge": "F", "tunnel": "F"})") +
+                                 "," + Feature(R"({"railway": "rail", "tunnel": false})", 48.3)));
+  ASSERT_THAT(map.ways, SizeIs(2));
+  EXPECT_EQ(TagOf(map.ways[0].tags, "railway"), "tram");
+  for (const std::string_view value :
+       {TagOf(map.ways[0].tags, "bridge"), TagOf(map.ways[1].tags, "tunnel"), std::string_view("0"),
+        std::string_view("no"), std::string_view()}) {
+    EXPECT_FALSE(IsThere(value)) << value;
+  }
+  for (const char* value : {"yes", "T", "viaduct", "1"}) EXPECT_TRUE(IsThere(value)) << value;
 }
 
 TEST_F(MapWords, OfCoordinateSystemsOtherThanWgs84AreRefused) {
@@ -224,7 +301,28 @@ TEST_F(MapWords, OfTracksInKmlHaveTheirHeights) {
   EXPECT_EQ(map.nodes[1].height_m, 251.0);
 }
 
+TEST_F(MapWords, OfTracksInKmlMayLackPlaces) {
+  const auto track = [](const std::string& coord) {
+    return R"(<kml xmlns:gx="http://www.google.com/kml/ext/2.2"><gx:Track>
+<gx:coord>15.6 48.2 250</gx:coord>)" +
+           coord + "<gx:coord>15.61  48.2\n251</gx:coord></gx:Track></kml>";
+  };
+  const RailMap map = Read("a.kml", track("<gx:coord/>"));
+  EXPECT_EQ(Sizes(map), std::vector<std::size_t>{2});
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kFieldsLeftOut),
+            (Remark{RemarkKind::kFieldsLeftOut, "line 2", 1, "<coord> is empty"}));
+  EXPECT_EQ(Fault("b.kml", track("<gx:coord>15.6</gx:coord>")),
+            "b.kml: line 2, coord: must be longitude, latitude in degrees and, if known, height in "
+            "m (got \"15.6\")");
+}
+
 TEST_F(MapWords, OfLinksInKmlAreTold) {
+  const RailMap map =
+      Read("b.kml",
+           "<kml><NetworkLink><Link><href>c.kml</href></Link></NetworkLink><LineString>"
+           "<coordinates>15.6,48.2 15.61,48.2</coordinates></LineString></kml>");
+  EXPECT_EQ(map.remarks,
+            (std::vector<Remark>{{RemarkKind::kFilesLeftOut, "NetworkLink", 1, "\"c.kml\""}}));
   EXPECT_EQ(Fault("a.kml", "<kml><NetworkLink><Link><href>b.kml</href></Link></NetworkLink></kml>"),
             "a.kml: must hold its lines itself (got links to other files, the first \"b.kml\")");
 }
@@ -300,29 +398,6 @@ TEST_F(MapWords, OfHeightsThatAreNoneAreTold) {
   const RailMap map = Read("a.osm", Xml(NodesInXml() + node + WayInXml({8, 1})));
   EXPECT_EQ(map.remarks,
             (std::vector<Remark>{{RemarkKind::kTagsUnread, "node 8", 1, "ele=820 ft"}}));
-}
-
-constexpr double kPerMetre_deg = 1.0 / 111.3e3;
-
-TEST(ThinFixes, MakesOneOfThoseWhereAReceiverStood) {
-  MapLine line;
-  for (int i = 0; i <= 10; ++i) line.points_deg.emplace_back(0.0, 80.0 * i * kPerMetre_deg);
-  for (int i = 0; i < 30; ++i) {
-    // On a circle of 8 m.
-    line.points_deg.emplace_back(8.0 * std::sin(2.0 * i) * kPerMetre_deg,
-                                 (880.0 + 8.0 * std::cos(2.0 * i)) * kPerMetre_deg);
-  }
-  for (int i = 12; i <= 20; ++i) line.points_deg.emplace_back(0.0, 80.0 * i * kPerMetre_deg);
-  EXPECT_EQ(ThinFixes(line), 29U);
-  ASSERT_THAT(line.points_deg, SizeIs(21));
-  EXPECT_NEAR(line.points_deg[11].y() / kPerMetre_deg, 880.0, 1.0);
-  EXPECT_NEAR(line.points_deg[11].x() / kPerMetre_deg, 0.0, 1.0);
-}
-
-TEST(ThinFixes, LeavesDenseOnesThatGoOn) {
-  MapLine line;
-  for (int i = 0; i <= 100; ++i) line.points_deg.emplace_back(0.0, 2.0 * i * kPerMetre_deg);
-  EXPECT_EQ(ThinFixes(line), 0U);
 }
 
 std::string Utf16Of(const std::string& text, bool is_big) {

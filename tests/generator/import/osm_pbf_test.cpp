@@ -144,7 +144,7 @@ TEST_F(OsmPbfWords, CutWaysWhereNodesAreMissing) {
   EXPECT_EQ(RemarkOf(map, RemarkKind::kNodesMissing)->place, "way 7");
 }
 
-TEST_F(OsmPbfWords, LeaveOutWhatIsDeletedInHistories) {
+TEST_F(OsmPbfWords, LeaveOutWhatIsDeleted) {
   // The second of three nodes is not visible.
   const std::string visible = Bytes(5, Bytes(6, Varint(1) + Varint(0) + Varint(1)));
   const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(3, visible) + Way({1, 2, 3})));
@@ -154,9 +154,19 @@ TEST_F(OsmPbfWords, LeaveOutWhatIsDeletedInHistories) {
 }
 
 TEST_F(OsmPbfWords, AreRefusedIfTheyNeedWhatIsNotRead) {
-  EXPECT_EQ(Fault("map.pbf", FileOfGroups("", Bytes(4, "Curves"))),
-            "map.pbf: must need no features but OsmSchema-V0.6, DenseNodes, HistoricalInformation "
-            "and LocationsOnWays (got \"Curves\")");
+  for (const std::string feature : {"Curves", "HistoricalInformation"}) {
+    EXPECT_EQ(Fault("map.pbf", FileOfGroups("", Bytes(4, feature))),
+              "map.pbf: must need no features but OsmSchema-V0.6, DenseNodes and LocationsOnWays "
+              "(got \"" +
+                  feature + "\")");
+  }
+}
+
+TEST_F(OsmPbfWords, AreRefusedIfABlobHasNoData) {
+  const std::string header = Bytes(1, "OSMData") + Number(3, Varint(2));
+  EXPECT_EQ(Fault("map.pbf", FileOfGroups("") + std::string(3, '\0') +
+                                 static_cast<char>(header.size()) + header + Number(2, Varint(0))),
+            "map.pbf: must be a .pbf file to its end (got damaged data)");
 }
 
 TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
