@@ -14,7 +14,7 @@ PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "inspect.md"
 BEGIN, END = "<!-- table -->\n", "<!-- end of table -->\n"
 HEAD = ("| recording | what | sensor | frames | insert | weather | survey | fit | remarks |\n"
         "|---|---|---|---|---|---|---|---|---|\n")
-ENDINGS = (".pcap", ".pcapng", ".mcap", ".db3", ".pcd", ".ply", ".bin")
+ENDINGS = (".pcap", ".pcapng", ".mcap", ".db3", ".pcd", ".ply", ".bin", ".las")
 # Folders of messages of all kinds, of which hardly any has points.
 OTHERS = ("mcap/conformance", "rosbag2/", "meshes", "mcap/spec")
 SHORT = {"yes": "yes", "with an option": "option", "no": "no"}
@@ -26,7 +26,9 @@ def inspected(program, file, data):
                            check=False)
     name = file.relative_to(data)
     if ended.returncode != 0:
-        return f"| {name} | refused: {ended.stderr.strip().splitlines()[-1].replace(str(data) + '/', '')} | | | | | | | |\n"
+        lines = [line for line in ended.stderr.splitlines() if line.strip() and ": remark " not in line]
+        said = lines[-1] if lines else f"ended with {ended.returncode}"
+        return f"| {name} | refused: {said.replace(str(data) + '/', '').replace('|', '&#124;')} | | | | | | | |\n"
     report = json.loads(ended.stdout)
     rows = {section["key"]: section["tables"][0]["rows"] for section in report["sections"]}
     jobs = {row["job"]: SHORT[row["fit"]] for row in rows["jobs"]}
@@ -36,13 +38,18 @@ def inspected(program, file, data):
             f"{jobs['survey']} | {jobs['fit']} | {remarks} |\n")
 
 
+def recordings(data):
+    """Those of a folder, in the order of their names."""
+    return sorted(file for file in data.rglob("*") if file.suffix.lower() in ENDINGS
+                  and not str(file.relative_to(data)).startswith(OTHERS))
+
+
 def main(build, data, write):
     if not data.is_dir():
         print(f"skipped: {data} is not there")
         return SKIPPED
-    files = sorted(file for file in data.rglob("*") if file.suffix in ENDINGS
-                   and not str(file.relative_to(data)).startswith(OTHERS))
-    table = HEAD + "".join(inspected(build / "analysis" / "railcast-analyze", file, data) for file in files)
+    program = build / "analysis" / "railcast-analyze"
+    table = HEAD + "".join(inspected(program, file, data) for file in recordings(data))
     page = PAGE.read_text()
     before, after = page[:page.index(BEGIN) + len(BEGIN)], page[page.index(END):]
     if write:
