@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <regex>
 #include <string>
 
 namespace railcast {
@@ -35,6 +38,25 @@ TEST_F(UnreadFormats, AreKnownByTheirEndingsInAnyCase) {
   EXPECT_EQ(
       AdviceOn("MYNAME.laz", ""),
       "is compressed LAS, which is not read: pdal translate MYNAME.laz MYNAME.las (or las2las)");
+}
+
+TEST_F(UnreadFormats, StandInTheTableOfTheirPage) {
+  const auto count = [](const std::string& file, const std::regex& row, const auto& visit) {
+    std::ifstream in(std::string(RAILCAST_SOURCE_DIR "/") + file);
+    const std::string text(std::istreambuf_iterator<char>(in), {});
+    const auto rows = std::sregex_iterator(text.begin(), text.end(), row);
+    return std::count_if(rows, {}, visit);
+  };
+  const std::regex row(R"(\| `(\.\w+)` \| ([^|\n]+) \| `?([^|`\n]+)`? \|)");
+  const auto num_rows = count("docs/recordings.md", row, [&](const std::smatch& found) {
+    const std::string file = "a" + found.str(1);
+    std::string advice = std::regex_replace(found.str(3), std::regex("FILE"), file);
+    advice = std::regex_replace(advice, std::regex("NAME"), "a");
+    EXPECT_EQ(AdviceOn(file, ""), "is " + found.str(2) + ", which is not read: " + advice);
+    return true;
+  });
+  EXPECT_EQ(num_rows, count("core/base/unread_formats.cpp", std::regex(R"(\n    \{"\.)"),
+                            [](const std::smatch& /*found*/) { return true; }));
 }
 
 TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
