@@ -63,7 +63,6 @@ std::optional<Fault> OsmMapMaker::AddNode(std::int64_t id,
                                           MapTags tags) {
   if (deleted_.contains(id)) return Fault{"", kOneTime, "deleted, and not deleted"};
   if (auto fault = AddPlace(id, place_deg)) return fault;
-  if (keeps_all_nodes_) (void)NodeAt(place_deg);
   // An answer may repeat nodes, with their tags or without.
   if (tags.empty()) return std::nullopt;
   if (const auto known = node_tags_.find(id); known != node_tags_.end()) {

@@ -33,9 +33,6 @@ struct OsmWay {
 /// histories.
 class OsmMapMaker {
  public:
-  /// @param keeps_all_nodes Whether nodes that belong to no track are nodes of the map, too.
-  explicit OsmMapMaker(bool keeps_all_nodes = false) : keeps_all_nodes_(keeps_all_nodes) {}
-
   /// @returns A fault, whose place is left to the caller, if the node is another before.
   [[nodiscard]] std::optional<Fault> AddNode(std::int64_t id,
                                              const Eigen::Vector2d& place_deg,
@@ -67,7 +64,6 @@ class OsmMapMaker {
   void MakeThing(OsmWay& way);
   void Tell(RemarkKind kind, std::string place, std::uint64_t number = 1, std::string detail = {});
 
-  bool keeps_all_nodes_;
   RailMap map_;
   std::vector<OsmWay> ways_;
   std::unordered_map<std::int64_t, std::size_t> way_of_id_;

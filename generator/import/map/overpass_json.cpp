@@ -41,7 +41,7 @@ class OverpassReader {
   }
 
   ErrorList errors_;
-  OsmMapMaker maker_{true};
+  OsmMapMaker maker_;
 };
 
 MapTags OverpassTags(const Json& element) {

@@ -92,6 +92,14 @@ TEST_F(MapWords, AboutLifeThatNobodyWritesAreRefused) {
             "b.json: /elements/5/visible: must be true or false (got \"no\")");
 }
 
+TEST_F(MapWords, OfNodesThatNoTrackHasMakeNone) {
+  for (const RailMap& map : {Read("a.osm", Xml(NodesInXml() + WayInXml({2, 1}))),
+                             Read("b.json", JsonMap(NodesInJson() + WayInJson({2, 1})))}) {
+    ASSERT_THAT(map.nodes, SizeIs(2));
+    EXPECT_EQ(map.nodes[0].geographic_deg.x(), 15.62);
+  }
+}
+
 TEST_F(MapWords, OfHistoriesAndChangesAreRefused) {
   const std::string rule = "must be the same wherever it is: histories are not read (got ";
   const std::string life = rule + "deleted, and not deleted)";
