@@ -121,8 +121,7 @@ std::unique_ptr<ReplayFeed> OpenUdp(const ReplayOptions& options) {
 }
 
 std::unique_ptr<ReplayFeed> OpenFeed(const ReplayOptions& options) {
-  // Says so where a topic is given for what is no bag.
-  static_cast<void>(WithChoice({options.recording}, options.choice));
+  static_cast<void>(SourceOf(options));  // Refuses what was chosen of another kind of recording.
   switch (KindOf(options)) {
     case ReplayKind::kPackets:
       return OpenPackets(options);

@@ -270,6 +270,10 @@ TEST(ReplayCommand, SaysWhatDoesNotGoTogether) {
                 run.string() + ")\n");
   EXPECT_EQ(fault(run.string() + " --sensor 10.0.0.1"),
             "--sensor: must come with a capture, .pcap or .pcapng (got " + run.string() + ")\n");
+  const fs::path bag = folder.path() / "a.mcap";
+  WriteFileWhole(bag, "");
+  EXPECT_EQ(fault(bag.string() + " --sensor 10.0.0.1"),
+            "--sensor: is for captures, since bags do not say who sent packets\n");
   EXPECT_EQ(fault(run.string() + " --domain 3"), "--domain: is for protocol ros2\n");
   EXPECT_EQ(
       fault(run.string() + " --protocol ros2 --to :9"),
