@@ -20,9 +20,7 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
       .AddOption("--fields", choices.fields,
                  "Fields to write, separated by commas, or all; for mcap and rosbag2 also a layout "
                  "of points: railcast, velodyne, ouster, hesai, livox, aeva or autoware; those of "
-                 "the track, such "
-                 "as "
-                 "in_gauge, are not among all")
+                 "the track, such as in_gauge, are not among all")
       .ShowDefault();
   command.AddFlag("--merged", choices.is_merged,
                   "Also write the clouds of all sensors together, in the vehicle's axes, with "
