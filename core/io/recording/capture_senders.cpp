@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,12 +27,21 @@ struct FoundStream {
   std::size_t num_shared{};  ///< Which its address had sent elsewhere shortly before.
   std::size_t first{};       ///< Index among the captured of the first packet.
   std::size_t last{};
+  std::size_t num_runs{};  ///< Of packets between which its address sent none elsewhere.
 
+  /// Whether what the address sends elsewhere comes before or after long runs.
+  [[nodiscard]] bool HasLongRuns() const {
+    constexpr std::size_t kLong = 32;
+    return kLong * num_runs <= num_packets;
+  }
   [[nodiscard]] bool IsOfSensorOf(const FoundStream& other) const {
     const bool is_like =
         stream.from.address == other.stream.from.address && sensor->name == other.sensor->name;
-    const bool is_apart = first > other.last || last < other.first;
-    return is_like && (is_apart || 2 * num_shared >= std::min(num_packets, other.num_packets));
+    const bool is_apart =
+        first > other.last || last < other.first || (HasLongRuns() && other.HasLongRuns());
+    const bool is_shared =
+        2 * (num_shared + other.num_shared) >= std::min(num_packets, other.num_packets);
+    return is_like && (is_apart || is_shared);
   }
 };
 
@@ -52,6 +62,10 @@ class StreamTable {
       return other.hash == sent.hash && other.stream != &found &&
              other.stream->stream.from.address == found.stream.from.address;
     });
+    const auto before = std::find_if(recent_.rbegin(), recent_.rend(), [&](const Sent& other) {
+      return other.stream->stream.from.address == found.stream.from.address;
+    });
+    found.num_runs += before == recent_.rend() || before->stream != &found;
     recent_.push_back(sent);
     constexpr std::size_t kMostRecent = 64;
     if (recent_.size() > kMostRecent) recent_.pop_front();
@@ -122,10 +136,24 @@ std::string AddressIn(const std::vector<CaptureSensor>& sensors, const CaptureSe
   return EndpointText(has_own_port ? own.from : Endpoint{own.from.address, own.to.port});
 }
 
-bool IsChosen(const CaptureSensor& sensor, const Endpoint& chosen) {
-  return std::ranges::any_of(sensor.streams, [&](const SenderStream& stream) {
-    return chosen.Covers(stream.from) || chosen.Covers({stream.from.address, stream.to.port});
+/// The sensors of that name; if there is none, those that send from there, else to that port.
+std::vector<CaptureSensor> Chosen(const std::vector<CaptureSensor>& sensors,
+                                  const Endpoint& chosen) {
+  std::vector<CaptureSensor> found;
+  const auto take = [&](auto is_chosen) {
+    if (found.empty()) std::ranges::copy_if(sensors, std::back_inserter(found), is_chosen);
+  };
+  const auto take_streams = [&](auto is_chosen) {
+    take([&](const CaptureSensor& sensor) {
+      return std::ranges::any_of(sensor.streams, is_chosen);
+    });
+  };
+  take([&](const CaptureSensor& sensor) { return sensor.address == EndpointText(chosen); });
+  take_streams([&](const SenderStream& stream) { return chosen.Covers(stream.from); });
+  take_streams([&](const SenderStream& stream) {
+    return chosen.Covers({stream.from.address, stream.to.port});
   });
+  return found;
 }
 
 std::string SendersText(const std::vector<CaptureSensor>& sensors) {
@@ -169,10 +197,7 @@ std::vector<CaptureSensor> FindSensors(const DatagramPlace& place) {
 
 CaptureSensor FindSensor(const DatagramPlace& place) {
   std::vector<CaptureSensor> sensors = FindSensors(place);
-  std::vector<CaptureSensor> chosen = sensors;
-  if (place.sensor) {
-    std::erase_if(chosen, [&](const auto& sensor) { return !IsChosen(sensor, *place.sensor); });
-  }
+  std::vector<CaptureSensor> chosen = place.sensor ? Chosen(sensors, *place.sensor) : sensors;
   if (chosen.size() == 1) return std::move(chosen.front());
   const std::string holds = ShownPath(place.source) + ": holds " + SendersText(sensors);
   if (!place.sensor || chosen.size() > 1) throw InputError(holds + "; --sensor picks one");

@@ -118,6 +118,33 @@ TEST(CaptureSenders, ThatSendToTwoPortsAreOne) {
   EXPECT_EQ(readers[0].lost().number, 0U);
 }
 
+TEST(CaptureSenders, ThatSendToTwoInAnyOrderOrChangeTheReceiverAreOne) {
+  const TemporaryDirectory folder;
+  const auto packets = PacketsOf("vlp16");
+  const auto plain = WriteSent(folder.path() / "plain.pcap", {{packets}});
+  std::vector<CapturedFrame> mirrored;
+  std::vector<CapturedFrame> changed;
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    for (const bool is_first : {true, false}) {
+      const std::size_t to = is_first == (i == 0) ? 2368 : 2370;
+      mirrored.push_back({EthernetOf(IpOf(packets[i], '\xC9', 2368, to)), 1000 * i});
+    }
+    const std::size_t to = i >= 40 && i < 80 ? 2370 : 2368;
+    changed.push_back({EthernetOf(IpOf(packets[i], '\xC9', 2368, to)), 1000 * i});
+  }
+  ExpectSameFrames(WriteCapture(folder.path() / "a.pcap", mirrored), plain);
+  ExpectSameFrames(WriteCapture(folder.path() / "b.pcap", changed), plain);
+}
+
+TEST(CaptureSenders, AreChosenByTheirOwnPortFirst) {
+  const TemporaryDirectory folder;
+  const Sent left{PacketsOf("vlp16"), '\xC9', 2368, 2368};
+  const Sent right{PacketsOf("vlp16", 5), '\xC9', 2369, 2368};
+  const std::string file = WriteSent(folder.path() / "a.pcap", {left, right}).string();
+  ExpectSameFrames(file + ":192.168.1.201:2368", WriteSent(folder.path() / "b.pcap", {left}));
+  ExpectSameFrames(file + ":192.168.1.201:2369", WriteSent(folder.path() / "c.pcap", {right}));
+}
+
 TEST(CaptureSenders, AreWrittenAsAddresses) {
   EXPECT_EQ(EndpointText(*ParseSender("10.0.0.1:7502")), "10.0.0.1:7502");
   EXPECT_EQ(ParseSender("10.0.0.1")->port, 0);
