@@ -26,6 +26,8 @@ IpFragments::Packet& IpFragments::PacketOf(const IpFragment& fragment) {
     if (is_old) GiveUp(packet);
     return is_old;
   });
+  std::erase_if(finished_,
+                [&](const Packet& packet) { return fragment.time_ns - packet.time_ns > kNsPerS; });
   const auto found = std::ranges::find(unfinished_, fragment.packet, &Packet::name);
   if (found != unfinished_.end()) return *found;
   if (unfinished_.size() == kMostUnfinished) {
@@ -37,15 +39,33 @@ IpFragments::Packet& IpFragments::PacketOf(const IpFragment& fragment) {
                                          .number = fragment.number,
                                          .bytes = {},
                                          .parts = {},
-                                         .end = {}});
+                                         .end = {},
+                                         .is_copy = true});
 }
 
 void IpFragments::GiveUp(const Packet& packet) {
+  if (packet.is_copy) return;
   if (num_given_up_++ == 0) first_given_up_ = packet.number;
 }
 
+bool IpFragments::IsOfFinished(const IpFragment& fragment) const {
+  return std::ranges::any_of(finished_, [&](const Packet& packet) {
+    return packet.name == fragment.packet &&
+           fragment.offset + fragment.bytes.size() <= packet.bytes.size() &&
+           std::ranges::equal(
+               fragment.bytes,
+               std::span(packet.bytes).subspan(fragment.offset, fragment.bytes.size()));
+  });
+}
+
+std::size_t IpFragments::num_torn() const {
+  const auto num = std::ranges::count(unfinished_, false, &Packet::is_copy);
+  return num_given_up_ + static_cast<std::size_t>(num);
+}
+
 std::size_t IpFragments::first_torn() const {
-  return num_given_up_ > 0 ? first_given_up_ : unfinished_.front().number;
+  if (num_given_up_ > 0) return first_given_up_;
+  return std::ranges::find(unfinished_, false, &Packet::is_copy)->number;
 }
 
 std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment) {
@@ -55,6 +75,7 @@ std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment
     throw InputError("an IP fragment must end within 65535 bytes" + Got(end));
   }
   Packet& packet = PacketOf(fragment);
+  packet.is_copy = packet.is_copy && IsOfFinished(fragment);
   const std::size_t last = packet.parts.empty() ? 0 : packet.parts.rbegin()->second.end;
   if ((packet.end && end > *packet.end) || (fragment.is_last && end < last)) {
     throw InputError("an IP fragment must lie before the end of its packet (got bytes " +
@@ -86,9 +107,10 @@ std::optional<std::span<const char>> IpFragments::Add(const IpFragment& fragment
   for (const auto& [part_begin, part] : packet.parts) {
     pieces_.push_back({part.place, part.end - part_begin});
   }
-  whole_ = std::move(packet.bytes);
-  unfinished_.remove_if([&](const Packet& other) { return &other == &packet; });
-  return whole_;
+  const auto place = std::ranges::find(unfinished_, &packet, [](Packet& each) { return &each; });
+  finished_.splice(finished_.end(), unfinished_, place);
+  if (finished_.size() > kMostUnfinished) finished_.pop_front();
+  return finished_.back().bytes;
 }
 
 }  // namespace railcast

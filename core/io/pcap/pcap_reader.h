@@ -51,9 +51,10 @@ struct IpFragment {
 /// Puts together what was sent in fragments (RFC 791, 3.2; RFC 8200, 4.5), in whatever order these
 /// were captured.
 ///
-/// Fragments that a capture holds twice count once. A packet of which a fragment is missing is
-/// lost: it is given up when a fragment follows that was captured more than a second after its
-/// first one, or when 64 newer ones are unfinished.
+/// Fragments that a capture holds twice count once. Where some of those of a packet that was put
+/// together follow within a second of its first one, nothing is missing. Any other packet of which
+/// a fragment is missing is lost: it is given up when a fragment follows that was captured more
+/// than a second after its first one, or when 64 newer ones are unfinished.
 class IpFragments {
  public:
   /// Takes a fragment.
@@ -65,7 +66,7 @@ class IpFragments {
   [[nodiscard]] const std::vector<CapturedPiece>& pieces() const { return pieces_; }
 
   /// Number of packets that are unfinished or were given up.
-  [[nodiscard]] std::size_t num_torn() const { return num_given_up_ + unfinished_.size(); }
+  [[nodiscard]] std::size_t num_torn() const;
   /// IpFragment::number of the first fragment of the first of these.
   /// @pre num_torn() > 0
   [[nodiscard]] std::size_t first_torn() const;
@@ -82,13 +83,16 @@ class IpFragments {
     std::vector<char> bytes;
     std::map<std::size_t, Part> parts;  ///< By begin.
     std::optional<std::size_t> end;     ///< Known once the last fragment is there.
+    bool is_copy{};                     ///< Of one of the finished, as far as it is there.
   };
 
   Packet& PacketOf(const IpFragment& fragment);
   void GiveUp(const Packet& packet);
+  /// Whether the fragment is that of a packet that was put together.
+  [[nodiscard]] bool IsOfFinished(const IpFragment& fragment) const;
 
   std::list<Packet> unfinished_;  ///< From the oldest on.
-  std::vector<char> whole_;
+  std::list<Packet> finished_;    ///< The last ones.
   std::vector<CapturedPiece> pieces_;
   std::size_t num_given_up_{};
   std::size_t first_given_up_{};

@@ -93,6 +93,18 @@ TEST(IpFragments, OfSeveralDatagramsMayAlternateAndBeCapturedTwice) {
   EXPECT_EQ(read.num_torn, 0U);
 }
 
+TEST(IpFragments, MayBeCapturedTwiceOneByOne) {
+  const std::string udp = Udp(Counted(100, 1));
+  const std::string first = FragmentOf(udp, 0, 64);
+  const std::string last = FragmentOf(udp, 64, 64);
+  const ReadCapture read = ReadFragments({{first}, {first}, {last}, {last}});
+  EXPECT_THAT(read.payloads, testing::ElementsAre(Counted(100, 1)));
+  EXPECT_EQ(read.num_torn, 0U);
+  // A fragment of another packet of that number.
+  const std::string other = FragmentOf(Udp(Counted(100, 2)), 64, 64);
+  EXPECT_EQ(ReadFragments({{first}, {last}, {other}}).num_torn, 1U);
+}
+
 TEST(IpFragments, LoseTheirDatagramWhereOneIsMissing) {
   const std::string udp = Udp(Counted(100, 1));
   const ReadCapture read = ReadFragments(
