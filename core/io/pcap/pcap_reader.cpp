@@ -353,11 +353,12 @@ std::optional<CapturedDatagram> PcapReader::Next() {
                        " of " + NumberText(header->len) + " bytes)");
     }
     if (!is_datagram) {
-      if (!content.is_ip() && !content.is_cut && !CarriesNoUdp(content.type)) {
-        if (unknown_.number++ == 0) {
-          unknown_.first = packet;
-          unknown_.detail = "type " + TypeText(content.type);
-        }
+      const bool is_unknown = content.is_ip() ? MayBeginDatagram(content)
+                                              : !content.is_cut && !CarriesNoUdp(content.type);
+      if (is_unknown && unknown_.number++ == 0) {
+        unknown_.first = packet;
+        unknown_.detail = content.is_ip() ? "a length of IP or UDP that the frame does not have"
+                                          : "type " + TypeText(content.type);
       }
       continue;
     }

@@ -82,9 +82,26 @@ TEST(PcapReader, CountsFramesOfUnknownTypes) {
       PayloadsIn(WriteCapture(file, {{EthernetOf(IpOf("d"))}, {arp}, {mpls}, {mpls}}));
   EXPECT_EQ(read.payloads.size(), 1U);
   ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(
+      read.remarks[0].Text(),
+      "2 frames of the network of an unknown type or wrong length: type 0x8847 (the first in " +
+          file.string() + ": packet 2)");
+}
+
+TEST(PcapReader, CountsFramesWithoutTheLengthsThatTheyState) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.pcap";
+  std::string udp = EthernetOf(IpOf("abc"));
+  udp.replace(38, 2, Big16(12));
+  std::string ip = EthernetOf(IpOf("abc"));
+  ip.replace(16, 2, Big16(32));
+  const ReadPayloads read = PayloadsIn(WriteCapture(file, {{EthernetOf(IpOf("d"))}, {udp}, {ip}}));
+  EXPECT_EQ(read.payloads.size(), 1U);
+  ASSERT_EQ(read.remarks.size(), 1U);
   EXPECT_EQ(read.remarks[0].Text(),
-            "2 frames of the network of an unknown type: type 0x8847 (the first in " +
-                file.string() + ": packet 2)");
+            "2 frames of the network of an unknown type or wrong length: a length of IP or UDP "
+            "that the frame does not have (the first in " +
+                file.string() + ": packet 1)");
 }
 
 /// A capture of three frames in pcapng, after draft-tuexen-opsawg-pcapng.
