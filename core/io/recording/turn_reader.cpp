@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 
@@ -36,7 +35,8 @@ void TurnReader::CountUnknown(const CapturedDatagram& datagram) {
   const std::size_t size = datagram.payload.size();
   if (std::ranges::count(kReports, size) > 0) return;
   // Packets of points that come from elsewhere are those of another sensor.
-  (size < sensor_.packet_size ? unknown_ : others_).Count(datagram.packet);
+  const bool is_own = std::ranges::count(sensor_.streams, StreamOf(datagram)) > 0;
+  (is_own || size < sensor_.packet_size ? unknown_ : others_).Count(datagram.packet);
 }
 
 void TurnReader::CountRefused(const CapturedDatagram& datagram, const std::string& why) {
@@ -55,20 +55,21 @@ void TurnReader::Take(const CapturedDatagram& datagram,
     return CountOther(datagram);
   }
   if (datagram.payload.empty()) return CountUnknown(datagram);
-  for (std::size_t offset = 0; offset < datagram.payload.size(); offset += sensor_.packet_size) {
-    const auto packet = datagram.payload.subspan(
-        offset, std::min(sensor_.packet_size, datagram.payload.size() - offset));
+  const std::size_t size = datagram.payload.size();
+  for (std::size_t offset = 0; offset < size; offset += sensor_.packet_size) {
+    const auto packet =
+        datagram.payload.subspan(offset, std::min(sensor_.packet_size, size - offset));
     const auto refusal =
         std::visit([&](const auto& decoder) { return decoder.Refuse(packet); }, sensor_.decoder);
+    if (!refusal && offset == 0 && size % sensor_.packet_size != 0) {
+      refused_.Count(
+          datagram.packet, size / sensor_.packet_size,
+          "must be whole packets of " + NumberText(sensor_.packet_size) + " bytes" + Got(size));
+      break;
+    }
     if (refusal) CountRefused(datagram, *refusal);
     if (refusal && offset == 0 && *refusal != kWrongChecksum) break;
-    if (packet.size() < sensor_.packet_size) {
-      throw InputError(source_ + ": packet " + NumberText(datagram.packet) +
-                       ": must hold whole packets of " + sensor_.name + ", of " +
-                       NumberText(sensor_.packet_size) + " bytes each (got " +
-                       NumberText(datagram.payload.size()) + " bytes)");
-    }
-    if (refusal) continue;
+    if (refusal || packet.size() < sensor_.packet_size) continue;
     ++num_taken_;
     order_.Add(
         {.bytes = {packet.begin(), packet.end()},

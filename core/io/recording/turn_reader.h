@@ -23,7 +23,6 @@ class TurnReader {
   /// Takes the next datagram, which holds one packet, several that were captured as one, or what is
   /// none of the sensor's, and appends the turns that are complete.
   /// @param decoded Receives the packets that the decoder was given, if that is wanted.
-  /// @throws InputError if a datagram of several ends within a packet.
   void Take(const CapturedDatagram& datagram,
             std::deque<SensorTurn>& turns,
             std::deque<OrderedPacket>* decoded = nullptr);
