@@ -35,16 +35,21 @@ inline constexpr std::string_view kWrongChecksum = "the checksum must be that of
 struct PacketMark {
   /// Counted by the sensor, else a time in ns.
   std::int64_t number{};
+  bool has_number = true;  ///< Else the packet follows the one that came before.
   bool is_counted{};
   std::int64_t period{};   ///< After which numbers begin anew; 0 = never.
   std::int64_t time_ns{};  ///< That it states, since whenever; two of one number and time are one.
-  // Where packets are known by their times alone:
+  std::int64_t time_period_ns{};  ///< As `period`, of the time.
+  // Where packets are known by their times:
   std::int64_t packet_ns{};  ///< From it to the next one.
   // Azimuths are in 0.01 deg, of its first and last block.
   std::int64_t first_azimuth{};
   std::int64_t last_azimuth{};
   std::int64_t azimuth_step{};  ///< From block to block.
-  bool has_window{};            ///< Whether the sensor is silent between two of its azimuths.
+  std::int64_t turn_ns{};       ///< At which the blocks turn; 0 if they stand still.
+  // The azimuths of the blocks between which the sensor seems to be silent; the same if it is not.
+  std::int64_t silent_from{};
+  std::int64_t silent_to{};
 };
 
 /// What a sensor measures of each point besides its place and intensity.

@@ -60,15 +60,20 @@ OusterDecoder::OusterDecoder(const OusterMetadata& metadata)
 
 PacketMark OusterDecoder::MarkOf(std::span<const char> payload) const {
   // Columns that were not measured need not state their place.
-  std::uint32_t column = 0;
+  const OusterColumn begin = layout_.ColumnOf(payload, 0);
+  std::uint32_t column = begin.measurement_id;
   std::uint64_t time_ns = 0;
-  for (std::uint32_t i = 0; i < layout_.num_columns(); ++i) {
+  bool is_measured = false;
+  bool has_places = column < metadata_.columns_per_frame;
+  for (std::uint32_t i = 0; i < layout_.num_columns() && !is_measured; ++i) {
     const OusterColumn stated = layout_.ColumnOf(payload, i);
-    if (!stated.is_valid) continue;
+    is_measured = stated.is_valid;
+    has_places = has_places && stated.measurement_id == begin.measurement_id + i;
+    if (!is_measured) continue;
     column = stated.measurement_id - std::min<std::uint32_t>(i, stated.measurement_id);
     time_ns = stated.time_ns;
-    break;
   }
+  if (!is_measured && !has_places) return {.has_number = false, .is_counted = true};
   const std::int64_t in_turn = packets_before_.back();
   const std::int64_t turn = layout_.HeaderOf(payload).frame_id;
   return {.number = turn * in_turn + packets_before_[column],

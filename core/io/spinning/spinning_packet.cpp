@@ -245,14 +245,11 @@ PacketMark MarkOf(const SpinningModel& model, std::span<const char> packet) {
   PacketMark mark;
   mark.time_ns = has_date ? StatedNs(model, packet)
                           : kNsPerUs * LoadAt<std::uint32_t>(packet.data() + model.time_place);
-  if (model.sequence_place > 0) {
-    mark.number = LoadAt<std::uint32_t>(packet.data() + model.sequence_place);
-    mark.is_counted = true;
-    mark.period = kUint32s;
-    return mark;
-  }
-  mark.number = mark.time_ns;
-  mark.period = has_date ? 0 : kUsPerHour * kNsPerUs;
+  mark.time_period_ns = has_date ? 0 : kUsPerHour * kNsPerUs;
+  mark.is_counted = model.sequence_place > 0;
+  mark.number =
+      mark.is_counted ? LoadAt<std::uint32_t>(packet.data() + model.sequence_place) : mark.time_ns;
+  mark.period = mark.is_counted ? kUint32s : mark.time_period_ns;
   const double loop_ns = has_date
                              ? static_cast<double>(model.loop_ns)
                              : 1e3 * model.cycle_us * static_cast<double>(model.cycles_per_block());
@@ -265,7 +262,20 @@ PacketMark MarkOf(const SpinningModel& model, std::span<const char> packet) {
   // More than the blocks that may be missing within the packet take.
   const std::int64_t most = mark.azimuth_step * static_cast<std::int64_t>(2 * num_loops) + 100;
   const std::int64_t turned = StepTo(mark.last_azimuth, mark.first_azimuth);
-  mark.has_window = turned > most && turned < kAzimuthUnitsPerTurn / 2;
+  if (mark.azimuth_step > 0) {
+    mark.turn_ns = mark.packet_ns * kAzimuthUnitsPerTurn /
+                   (mark.azimuth_step * static_cast<std::int64_t>(num_loops));
+  }
+  if (turned <= most || turned >= kAzimuthUnitsPerTurn / 2) return mark;
+  std::int64_t longest = 0;
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    const std::int64_t before = AzimuthOf(model, packet, loops[i - 1]);
+    const std::int64_t after = AzimuthOf(model, packet, loops[i]);
+    if (StepTo(after, before) <= longest) continue;
+    longest = StepTo(after, before);
+    mark.silent_from = before;
+    mark.silent_to = after;
+  }
   return mark;
 }
 

@@ -161,6 +161,27 @@ TEST(OusterDecoder, PutsPacketsInOrderAndLeavesOutLateAndRepeatedOnes) {
   EXPECT_EQ(turns[1].points.size(), 32U);
 }
 
+TEST(OusterDecoder, OrdersPacketsOfUnmeasuredColumnsByTheirNumbers) {
+  const MadePackets made;
+  const OusterDecoder decoder(made.metadata());
+  const OusterLayout layout(made.metadata());
+  std::vector<char> packet = made.Packet(7, 32);
+  const PacketMark mark = decoder.MarkOf(packet);
+  const auto store = [&](std::uint16_t first, std::uint16_t step) {
+    for (std::uint16_t i = 0; i < 16; ++i) {
+      layout.Store({.measurement_id = static_cast<std::uint16_t>(first + step * i)}, i, 7, 0,
+                   packet);
+    }
+  };
+  store(32, 1);
+  EXPECT_EQ(decoder.MarkOf(packet).number, mark.number);
+  EXPECT_TRUE(decoder.MarkOf(packet).has_number);
+  store(0, 0);
+  EXPECT_FALSE(decoder.MarkOf(packet).has_number);
+  store(60'000, 1);
+  EXPECT_FALSE(decoder.MarkOf(packet).has_number);
+}
+
 TEST(OusterDecoder, SaysWhyAPacketIsRefused) {
   const MadePackets made;
   const auto refusal = [&](const auto& change) {

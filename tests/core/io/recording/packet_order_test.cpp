@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,33 @@
 namespace railcast {
 namespace {
 
-/// The packets of two turns of a sensor.
-std::vector<std::string> TwoTurns(const char* format = "vlp16") {
-  const MadeScan scan(ReadSensor(std::string(SensorOf(format))));
+/// The packets of turns of a sensor.
+std::vector<std::string> Turns(std::uint32_t num, const char* format = "vlp16", double hz = 10.0) {
+  ScanSpec spec = ReadSensor(std::string(SensorOf(format)));
+  spec.rate_hz = hz;
+  const MadeScan scan(spec);
+  std::vector<Frame> frames;
+  for (std::uint32_t i = 0; i < num; ++i) frames.push_back(scan.MakeFrame(i));
   std::vector<std::string> payloads;
-  const Datagrams datagrams = EncodeAll(format, scan, {scan.MakeFrame(0), scan.MakeFrame(1)});
+  const Datagrams datagrams = EncodeAll(format, scan, frames);
   for (const auto& packet : DataPackets(datagrams)) {
     payloads.emplace_back(packet.begin(), packet.end());
   }
   return payloads;
+}
+
+std::vector<std::string> TwoTurns(const char* format = "vlp16") {
+  return Turns(2, format);
+}
+
+/// The packets whose first azimuth, in 0.01 deg, lies from 12000 to 24000.
+std::vector<std::string> WindowOf(const std::vector<std::string>& packets) {
+  std::vector<std::string> within;
+  for (const std::string& packet : packets) {
+    const auto azimuth = LoadAt<std::uint16_t>(packet.data() + kAzimuthPlace);
+    if (azimuth > 12'000 && azimuth < 24'000) within.push_back(packet);
+  }
+  return within;
 }
 
 /// The frames of a capture of these packets, each millisecond one, and what is said of it.
@@ -149,18 +168,93 @@ TEST(PacketOrder, BeginsAnewWithASensorThatWasStartedAgain) {
 }
 
 TEST(PacketOrder, MissesNothingWhereASensorIsSilentTurnByTurn) {
-  std::vector<std::string> packets;
-  for (const std::string& packet : TwoTurns()) {
-    const auto azimuth = LoadAt<std::uint16_t>(packet.data() + kAzimuthPlace);
-    if (azimuth > 12'000 && azimuth < 24'000) packets.push_back(packet);
-  }
-  const auto more = packets;
-  for (std::string packet : more) {
-    const auto time_us = LoadAt<std::uint32_t>(packet.data() + kTimePlace);
-    StoreAt<std::uint32_t>(packet.data() + kTimePlace, time_us + 200'000);
-    packets.push_back(packet);
-  }
+  const auto packets = WindowOf(Turns(6));
   EXPECT_EQ(ReadPackets(packets).Number(RemarkKind::kPacketsLost), 0U);
+  // Packets are missing in the middle of what is sent.
+  auto gappy = packets;
+  std::size_t num_lost = 0;
+  for (std::size_t i = 0; i < packets.size(); i += 23) {
+    const auto azimuth = LoadAt<std::uint16_t>(packets[i].data() + kAzimuthPlace);
+    if (azimuth < 14'000 || azimuth > 22'000) continue;
+    gappy.erase(gappy.begin() + static_cast<std::ptrdiff_t>(i - num_lost));
+    ++num_lost;
+  }
+  ASSERT_GT(num_lost, 2U);
+  EXPECT_EQ(ReadPackets(gappy).Number(RemarkKind::kPacketsLost), num_lost);
+}
+
+TEST(PacketOrder, TakesNoRandomLossesForAWindow) {
+  const auto packets = Turns(20);
+  std::mt19937 random(5);
+  std::vector<std::string> kept;
+  for (const std::string& packet : packets) {
+    const bool is_end = kept.empty() || &packet == &packets.back();
+    if (is_end || random() % 12 != 0) kept.push_back(packet);
+  }
+  const ReadTurns read = ReadPackets(kept);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsLost), packets.size() - kept.size());
+}
+
+TEST(PacketOrder, CountsLossesAfterAPacketWithADamagedAzimuth) {
+  auto packets = TwoTurns();
+  StoreAt<std::uint16_t>(packets[20].data() + kAzimuthPlace,
+                         LoadAt<std::uint16_t>(packets[20].data() + kAzimuthPlace) - 5000);
+  packets.erase(packets.begin() + 50, packets.begin() + 60);
+  EXPECT_EQ(ReadPackets(packets).Number(RemarkKind::kPacketsLost), 10U);
+}
+
+TEST(PacketOrder, PutsAPacketInOrderThatIsLateByNearlyATurn) {
+  auto packets = Turns(4, "vlp16", 20.0);
+  const ReadTurns plain = ReadPackets(packets);
+  std::rotate(packets.begin() + 50, packets.begin() + 51, packets.begin() + 85);
+  const ReadTurns read = ReadPackets(packets);
+  ExpectSameFrames(read, plain);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsReordered), 1U);
+}
+
+TEST(PacketOrder, KnowsCopiesOfWhatItHasReturned) {
+  const auto packets = TwoTurns();
+  const ReadTurns plain = ReadPackets(packets);
+  for (const std::ptrdiff_t later : {63, 64, 65, 70, 74}) {
+    auto copied = packets;
+    copied.insert(copied.begin() + 20 + later + 1, packets[20]);
+    const ReadTurns read = ReadPackets(copied);
+    ExpectSameFrames(read, plain);
+    EXPECT_EQ(read.remarks.size(), 1U) << later;
+    EXPECT_EQ(read.Number(RemarkKind::kPacketsDoubled), 1U) << later;
+  }
+}
+
+TEST(PacketOrder, GoesByTheTimesWhereAllNumbersAre0) {
+  auto packets = TwoTurns("xt32");
+  for (std::string& packet : packets) {
+    StoreAt<std::uint32_t>(packet.data() + Xt32Model().sequence_place, 0);
+  }
+  const ReadTurns plain = ReadPackets(packets);
+  EXPECT_TRUE(plain.remarks.empty());
+  std::swap(packets[30], packets[33]);
+  const ReadTurns read = ReadPackets(packets);
+  ExpectSameFrames(read, plain);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsReordered), 3U);
+  packets.erase(packets.begin() + 60, packets.begin() + 64);
+  EXPECT_EQ(ReadPackets(packets).Number(RemarkKind::kPacketsLost), 4U);
+}
+
+TEST(PacketOrder, PutsPacketsWithoutNumbersBehindThoseBefore) {
+  PacketOrder order;
+  std::string got;
+  for (const char packet : std::string("x01y3")) {
+    const bool has_number = packet < 'a';
+    order.Add({.bytes = {packet}, .places = {{0, 0}}}, {.number = has_number ? packet - '0' : 0,
+                                                        .has_number = has_number,
+                                                        .is_counted = true,
+                                                        .time_ns = packet});
+  }
+  order.End();
+  while (const auto packet = order.Next()) got += packet->bytes[0];
+  EXPECT_EQ(got, "x01y3");
+  EXPECT_EQ(order.lost().number, 0U);
 }
 
 TEST(SpinningDecoder, LeavesOutBlocksOfZerosAndCountsThem) {
@@ -189,13 +283,23 @@ TEST(CaptureRecording, SaysWhyItRefusesAPacketOfItsSensor) {
   packets[8][kModelPlace] = '\x77';
   packets.emplace_back(512, 'r');  // A report of its position.
   packets.emplace_back(300, 'u');
+  packets.emplace_back(1500, 'v');
   const ReadTurns read = ReadPackets(packets);
   ASSERT_EQ(read.remarks.size(), 2U);
   EXPECT_EQ(read.remarks[0].kind, RemarkKind::kPacketsRefused);
   EXPECT_EQ(read.remarks[0].number, 2U);
   EXPECT_EQ(read.remarks[0].detail, "model must be 34, VLP-16 (got 119)");
   EXPECT_TRUE(read.remarks[0].place.ends_with(": packet 7"));
-  EXPECT_EQ(read.Number(RemarkKind::kDatagramsUnknown), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kDatagramsUnknown), 2U);
+}
+
+TEST(CaptureRecording, LeavesOutAPacketOfAnotherSize) {
+  auto packets = TwoTurns();
+  packets[40] += "tail";
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(read.Number(RemarkKind::kPacketsRefused), 1U);
+  EXPECT_EQ(read.remarks[0].detail, "must be whole packets of 1206 bytes (got 1210)");
 }
 
 }  // namespace
