@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -32,17 +32,30 @@ bool IsOfAsprs(const RecordingInfo& info) {
   return label != nullptr && label->name == "unclassified";
 }
 
-double WhiteIntensity(const RecordedFrame& recorded,
-                      const RecordingInfo& info,
-                      const SurveySource& source) {
+bool HasReflectances(const RecordingInfo& info) {
+  return info.origin || info.kind.starts_with("capture");
+}
+
+double WhiteIntensity(const RecordingInfo& info, const SurveySource& source) {
   if (source.white_intensity) return *source.white_intensity;
-  if (info.origin || info.kind.starts_with("capture")) return 1.0;
-  const auto& values = recorded.frame.intensity;
-  const float highest = std::accumulate(values.begin(), values.end(), 0.0F, [](float a, float b) {
-    return b > a ? b : a;  // Whatever is NaN.
-  });
-  if (IsOfAsprs(info) && highest > 255.0F) return 65535.0;
-  return highest > 1.0F ? 255.0 : 1.0;
+  return HasReflectances(info) ? 1.0 : source.guessed_white;
+}
+
+/// Reads the frames that the source names of each of its recordings. Returns how many the recording
+/// has, if it was read to its end.
+std::optional<std::uint32_t> ReadNamed(
+    Recording& recording,
+    const SurveySource& source,
+    const std::function<void(std::uint32_t index, RecordedFrame frame)>& take) {
+  std::uint32_t index = 0;
+  for (; const auto read = recording.Next(); ++index) {
+    if (index < source.first_frame || (index - source.first_frame) % source.stride != 0) continue;
+    if (source.num_frames && (index - source.first_frame) / source.stride >= *source.num_frames) {
+      return std::nullopt;
+    }
+    take(index, (*read)());
+  }
+  return index;
 }
 
 std::uint16_t RecordedLabelOf(std::uint32_t id, const RecordingInfo& info, SurveyLabels& labels) {
@@ -65,20 +78,23 @@ class PosesBeside {
  public:
   explicit PosesBeside(const SurveySource& source) : file_(source.poses) {
     if (file_.empty()) return;
-    poses_ = ReadPoseFile(file_, "lidar").world_from_sensor;
+    poses_ = ReadPoseFile(file_, "lidar", std::numeric_limits<double>::infinity());
     if (source.recordings.size() != 1) {
       throw InputError("--poses: must belong to one recording" + Got(source.recordings.size()));
     }
   }
-  void Give(std::size_t index, RecordedFrame& recorded) const {
+  void Give(std::size_t index, RecordedFrame& recorded) {
     if (file_.empty()) return;
-    if (index >= poses_.size()) Refuse("more frames");
-    recorded.frame.world_from_sensor = poses_[index];
+    if (index >= poses_.world_from_sensor.size()) Refuse("more frames");
+    const FrameStamp time{index, recorded.frame.stamp_ns};
+    if (!first_) first_ = time;
+    CheckFrameStamps(poses_, {*first_, time}, ShownPath(file_));
+    recorded.frame.world_from_sensor = poses_.world_from_sensor[index];
     recorded.has_pose = true;
   }
   /// Of a recording that has ended.
   void CheckNumber(std::size_t num_frames) const {
-    if (!file_.empty() && num_frames != poses_.size()) {
+    if (!file_.empty() && num_frames != poses_.world_from_sensor.size()) {
       Refuse(std::to_string(num_frames) + " frames");
     }
   }
@@ -86,10 +102,12 @@ class PosesBeside {
  private:
   void Refuse(const std::string& frames) const {
     throw InputError(ShownPath(file_) + ": must have a pose for each frame (got " +
-                     std::to_string(poses_.size()) + " poses and " + frames + ")");
+                     std::to_string(poses_.world_from_sensor.size()) + " poses and " + frames +
+                     ")");
   }
   std::filesystem::path file_;
-  std::vector<Transform> poses_;
+  PoseFile poses_;
+  std::optional<FrameStamp> first_;
 };
 
 }  // namespace
@@ -98,6 +116,26 @@ std::uint16_t SurveyLabels::IndexOf(const std::string& name) {
   const auto index = std::ranges::find(names_, name) - names_.begin();
   if (index == std::ssize(names_)) names_.push_back(name);
   return static_cast<std::uint16_t>(index);
+}
+
+std::optional<double> GuessWhite(const SurveySource& source) {
+  if (source.white_intensity) return std::nullopt;
+  std::optional<double> white;
+  for (const std::filesystem::path& path : source.recordings) {
+    const auto recording = OpenRecording(path);
+    const RecordingInfo& info = recording->info();
+    if (HasReflectances(info)) continue;
+    ReadNamed(*recording, source, [&](std::uint32_t /*index*/, const RecordedFrame& recorded) {
+      if (!recorded.Has("intensity")) return;
+      for (const float value : recorded.frame.intensity) {
+        const double least = IsOfAsprs(info) && value > 255.0F ? 65535.0
+                             : value > 1.0F                    ? 255.0
+                                                               : 1.0;
+        white = std::max(white.value_or(1.0), least);
+      }
+    });
+  }
+  return white;
 }
 
 SurveyFrame BeamsOf(const RecordedFrame& recorded,
@@ -117,7 +155,7 @@ SurveyFrame BeamsOf(const RecordedFrame& recorded,
   beams.has_origins = recorded.has_pose || source.is_standing;
   const ScanMotion motion(frame);
   const bool has_motion = KnowsMotion(recorded);
-  const double white = WhiteIntensity(recorded, info, source);
+  const double white = WhiteIntensity(info, source);
   const bool has_intensity = recorded.Has("intensity");
   const bool has_outcome = recorded.Has("outcome");
   const bool has_label = recorded.Has("label");
@@ -145,23 +183,17 @@ SurveyFrame BeamsOf(const RecordedFrame& recorded,
 void VisitFrames(const SurveySource& source,
                  SurveyLabels& labels,
                  const std::function<void(const SurveyFrame& frame)>& visit) {
-  const PosesBeside poses(source);
+  PosesBeside poses(source);
   std::size_t num_visited = 0;
   for (const std::filesystem::path& path : source.recordings) {
     const auto recording = OpenRecording(path);
-    std::uint32_t index = 0;
-    bool is_whole = true;
-    for (; const auto read = recording->Next(); ++index) {
-      if (index < source.first_frame || (index - source.first_frame) % source.stride != 0) continue;
-      is_whole =
-          !source.num_frames || (index - source.first_frame) / source.stride < *source.num_frames;
-      if (!is_whole) break;
-      RecordedFrame recorded = (*read)();
-      poses.Give(index, recorded);
-      visit(BeamsOf(recorded, recording->info(), source, labels));
-      ++num_visited;
-    }
-    if (is_whole) poses.CheckNumber(index);
+    const auto num_frames =
+        ReadNamed(*recording, source, [&](std::uint32_t index, RecordedFrame recorded) {
+          poses.Give(index, recorded);
+          visit(BeamsOf(recorded, recording->info(), source, labels));
+          ++num_visited;
+        });
+    if (num_frames) poses.CheckNumber(*num_frames);
   }
   if (num_visited == 0) {
     throw InputError("--start-frame: must be a frame of the recording" + Got(source.first_frame));

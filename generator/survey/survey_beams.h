@@ -26,10 +26,10 @@ struct SurveySource {
   bool is_standing = false;
   /// ... or are in the world's axes, from where nobody knows.
   bool is_in_world = false;
-  double range_max_m = 60.0;  ///< Points farther from the sensor are left out.
-  /// The recorded intensity of a white surface; absent: 1, 255 where a frame has more than 1, or
-  /// 65535 where one of LAS has more than 255.
-  std::optional<double> white_intensity{};
+  double range_max_m = 60.0;                ///< Points farther from the sensor are left out.
+  std::optional<double> white_intensity{};  ///< The recorded intensity of a white surface.
+  /// The same where it is absent, of recordings of others than railcast and captures.
+  double guessed_white = 1.0;
 };
 
 /// A recorded point and where its beam came from, both in the world.
@@ -65,6 +65,12 @@ class SurveyLabels {
  private:
   std::vector<std::string> names_{"ground", "object", "contact_wire"};
 };
+
+/// What a white surface has in recordings of others, by the highest intensity in all of their
+/// frames that the source names: 1, 255 if they have more than 1, or 65535 if LAS has more than
+/// 255. Absent where the source says it, or where no such recording has intensities.
+/// @throws InputError as OpenRecording() and its readers do.
+[[nodiscard]] std::optional<double> GuessWhite(const SurveySource& source);
 
 /// Makes beams of the points of a recorded frame. Echoes of rain, snow and fog are left out where
 /// the recording knows them.

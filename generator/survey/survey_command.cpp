@@ -131,8 +131,10 @@ std::string WriteWorld(const SurveyCommandOptions& options, const Survey& survey
   return text;
 }
 
-int RunSurvey(const SurveyCommandOptions& options) {
+int RunSurvey(SurveyCommandOptions& options) {
   MakeEmptyFolder(options.out);
+  const auto white = GuessWhite(options.source);
+  options.source.guessed_white = white.value_or(1.0);
   SurveyLabels labels;
   const ProgressLine progress;
   std::size_t num_visited = 0;
@@ -147,6 +149,11 @@ int RunSurvey(const SurveyCommandOptions& options) {
   const std::string bytes = EncodeSurvey(survey.labels, survey.tiles);
   WriteFileWhole(options.out / kSurveyFile, bytes);
   std::cout << SurveyReport(survey, bytes.size());
+  if (white) {
+    std::cout << "white surfaces are taken to have an intensity of "
+              << NumberText(options.source.guessed_white)
+              << ", by the highest one of all files; --white says it\n";
+  }
   SurveyRecord record = SurveyRecordOf(options, survey);
   record.files.emplace_back(kSurveyFile, ContentHash(bytes));
   const std::string world = WriteWorld(options, survey);
@@ -192,8 +199,8 @@ void AddSourceOptions(ProgramOptions& command, SurveyCommandOptions& options) {
       .Check(Number(kRange));
   command
       .AddOption("--white", source.white_intensity,
-                 "Recorded intensity of a white surface; default: 1, or 255 in foreign clouds with "
-                 "more than 1")
+                 "Recorded intensity of a white surface; default: 1, 255 in foreign clouds with "
+                 "more than 1, 65535 in LAS with more than 255")
       .Check(Number({1e-6, 1e6}));
 }
 

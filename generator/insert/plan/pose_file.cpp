@@ -20,22 +20,22 @@
 #include "core/io/run/frame_record.h"
 #include "core/io/write_file.h"
 #include "core/scenario/json_text.h"
+#include "railcast/remark.h"
 
 namespace railcast {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kMost_s = 9'000'000'000;  // As ns in 64 bits.
+constexpr std::int64_t kMost_s = 4'500'000'000;  // Differences fit into 64 bits as ns.
 
 constexpr std::size_t kTumNumbers = 8;
 
 /// Whether frames of a recording can be this far apart.
-bool IsFrameStep(double step_s) {
+bool IsFrameStep(double step_s, double most_s = kMostFrameStep_s) {
   constexpr double kLeast_s = 0.01;
-  constexpr double kMostStep_s = 10.0;
   constexpr double kRounding = 1e-6;  // Of times in microseconds.
-  return step_s >= kLeast_s - kRounding && step_s <= kMostStep_s + kRounding;
+  return step_s >= kLeast_s - kRounding && step_s <= most_s + kRounding;
 }
 
 std::string PlaceInFile(const fs::path& file, std::size_t line) {
@@ -286,25 +286,30 @@ std::string OtherUnit(double step_s) {
   return "";
 }
 
-/// Checks that times are those of frames.
-void CheckSteps(const std::vector<std::int64_t>& stamps_ns, const std::string& place) {
+/// Checks that times are those of frames, and returns their median step.
+std::int64_t CheckSteps(const std::vector<std::int64_t>& stamps_ns,
+                        const std::string& place,
+                        double most_step_s = kMostFrameStep_s) {
   std::vector<std::int64_t> steps_ns;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i) {
     steps_ns.push_back(stamps_ns[i] - stamps_ns[i - 1]);
   }
-  if (steps_ns.empty()) return;
+  if (steps_ns.empty()) return 0;
   const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
   std::ranges::nth_element(steps_ns, middle);
   const double step_s = SecondsFromNs(*middle);
-  if (IsFrameStep(step_s)) return;
-  throw InputError(place + ": times: must be 0.01 to 10 s apart in the median (got " +
+  if (IsFrameStep(step_s, most_step_s)) return *middle;
+  const std::string steps =
+      std::isfinite(most_step_s) ? "0.01 to " + ShortText(most_step_s) : "at least 0.01";
+  throw InputError(place + ": times: must be " + steps + " s apart in the median (got " +
                    ShortText(step_s) + " s)" + OtherUnit(step_s));
 }
 
-/// Checks the times of a file's poses, if it has any, and the speed over the whole way.
-void CheckTimes(const PoseFile& poses, const std::string& place) {
+/// Checks the times of a file's poses, if it has any, and the speed over the whole way; takes their
+/// step.
+void CheckTimes(const std::string& place, double most_step_s, PoseFile& poses) {
   if (poses.stamps_ns.empty()) return;
-  CheckSteps(poses.stamps_ns, place);
+  poses.step_ns = CheckSteps(poses.stamps_ns, place, most_step_s);
   double length_m = 0.0;
   for (std::size_t i = 1; i < poses.world_from_sensor.size(); ++i) {
     length_m +=
@@ -329,8 +334,9 @@ PoseFile ReadCsv(const fs::path& file) {
     const std::string place = PlaceInFile(file, number);
     const std::string_view word = line->substr(0, line->find(','));
     const auto stamp_ns = ParseNumber<std::int64_t>(word);
-    if (!stamp_ns) {
-      throw InputError(place + ": stamp_ns: must be a whole number (got " +
+    constexpr std::int64_t kMost_ns = kMost_s * kNsPerS;
+    if (!stamp_ns || *stamp_ns < -kMost_ns || *stamp_ns > kMost_ns) {
+      throw InputError(place + ": stamp_ns: must be a whole number of at most 4.5e18 (got " +
                        ShownText(std::string(word)) + ")");
     }
     poses.world_from_sensor.push_back(ReadPoseLine(*line, *stamp_ns, place));
@@ -375,13 +381,39 @@ KittiPoses ReadKittiPoses(const fs::path& source, std::size_t num_frames) {
   return read;
 }
 
-PoseFile ReadPoseFile(const fs::path& file, const std::string& sensor) {
+PoseFile ReadPoseFile(const fs::path& file, const std::string& sensor, double most_step_s) {
   const std::string extension = LowerCase(file.extension().string());
   PoseFile poses = extension == ".csv"    ? ReadCsv(file)
                    : extension == ".json" ? ReadOpenLabelPoses(file, sensor)
                                           : ReadNumberLines(file);
-  CheckTimes(poses, ShownPath(file));
+  CheckTimes(ShownPath(file), most_step_s, poses);
   return poses;
+}
+
+void CheckFrameStamps(const PoseFile& poses,
+                      const std::vector<FrameStamp>& frames,
+                      const std::string& place) {
+  if (poses.stamps_ns.empty() || frames.empty()) return;
+  const FrameStamp& first = frames.front();
+  const bool has_times = std::ranges::any_of(
+      frames, [&](const FrameStamp& frame) { return frame.stamp_ns != first.stamp_ns; });
+  if (!has_times) return;
+  const auto seconds = [](std::int64_t to_ns, std::int64_t from_ns) {
+    return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) / kNsPerS;
+  };
+  const std::int64_t first_ns = poses.stamps_ns.at(first.frame);
+  const double half_step_s = SecondsFromNs(poses.step_ns) / 2.0;
+  for (const auto& [frame, stamp_ns] : frames) {
+    const double pose_s = seconds(poses.stamps_ns.at(frame), first_ns);
+    const double frame_s = seconds(stamp_ns, first.stamp_ns);
+    if (std::abs(pose_s - frame_s) <= half_step_s) continue;
+    throw InputError(place +
+                     ": times: must be as long after the first as those of the frames (got " +
+                     ShortText(pose_s) + " s for frame " + NumberText(frame) +
+                     ", which came after " + ShortText(frame_s) + " s)");
+  }
+  if (std::abs(seconds(first.stamp_ns, first_ns)) <= half_step_s) return;
+  Publish({.kind = RemarkKind::kTimesRelative, .place = place, .number = poses.stamps_ns.size()});
 }
 
 void CheckSpeed(double length_m, double time_s, const std::string& place) {

@@ -11,6 +11,7 @@
 namespace railcast {
 
 inline constexpr double kMostSpeed_mps = 150.0;  ///< That of the fastest train was 168, on rails.
+inline constexpr double kMostFrameStep_s = 10.0;
 
 /// Checks the speed over a whole way.
 /// @throws InputError "place: poses: rule (got value)" if it is more than kMostSpeed_mps.
@@ -34,6 +35,7 @@ struct KittiPoses {
 struct PoseFile {
   std::vector<Transform> world_from_sensor;
   std::vector<std::int64_t> stamps_ns{};  ///< Of the frames; empty if the file does not say them.
+  std::int64_t step_ns{};                 ///< Median of the differences of stamps.
 };
 
 /// Reads a file of poses:
@@ -41,13 +43,29 @@ struct PoseFile {
 /// - `.json`: OpenLABEL 1.0, where the `transforms` of each frame's `frame_properties` and the
 ///   `coordinate_systems` lead from the sensor's coordinate system to that of the world, and where
 ///   `timestamp` is in seconds;
-/// - else lines of KITTI's: the 12 numbers of the upper three rows of a matrix; or of TUM's: time
+/// - else lines of KITTI's, the 12 numbers of the upper three rows of a matrix, or of TUM's: time
 /// in
 ///   seconds, x, y, z, qx, qy, qz, qw.
 /// Text may have a byte order mark or be UTF-16.
 /// @param sensor Name of the sensor's coordinate system in OpenLABEL.
+/// @param most_step_s Of frames. Stations of a survey may be any time apart.
 /// @throws InputError "FILE:3: rule" or "FILE: pointer: rule" if it is none of these, if its times
-///   are not 0.01 to 10 s apart in the median, or as CheckSpeed().
-[[nodiscard]] PoseFile ReadPoseFile(const std::filesystem::path& file, const std::string& sensor);
+///   are not 0.01 s to most_step_s apart in the median, or as CheckSpeed().
+[[nodiscard]] PoseFile ReadPoseFile(const std::filesystem::path& file,
+                                    const std::string& sensor,
+                                    double most_step_s = kMostFrameStep_s);
+
+struct FrameStamp {
+  std::size_t frame{};  ///< Index of its pose.
+  std::int64_t stamp_ns{};
+};
+
+/// Holds the times of poses against those of frames, if both have some: the differences must agree;
+/// a remark says if the times themselves do not.
+/// @throws InputError "place: times: rule (got value)" if one since the first differs by more than
+///   half a step.
+void CheckFrameStamps(const PoseFile& poses,
+                      const std::vector<FrameStamp>& frames,
+                      const std::string& place);
 
 }  // namespace railcast

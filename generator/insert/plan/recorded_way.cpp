@@ -186,6 +186,9 @@ void UsePoseFile(const fs::path& file, const std::string& sensor, std::vector<Po
     throw InputError(ShownPath(file) + ": must have a pose for each of the " +
                      NumberText(frames.size()) + " frames" + Got(poses.world_from_sensor.size()));
   }
+  std::vector<FrameStamp> times;
+  for (const PosedFrame& frame : frames) times.push_back({times.size(), frame.stamp_ns});
+  CheckFrameStamps(poses, times, ShownPath(file));
   const bool has_stamps =
       std::ranges::any_of(frames, [](const PosedFrame& frame) { return frame.stamp_ns != 0; });
   for (std::size_t i = 0; i < frames.size(); ++i) {

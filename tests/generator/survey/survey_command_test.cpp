@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/base/input_file.h"
 #include "core/base/text.h"
@@ -13,6 +14,7 @@
 #include "core/io/write_file.h"
 #include "core/rail/survey/survey_file.h"
 #include "core/scenario/json_text.h"
+#include "generator/survey/survey_beams.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/cloud/made_las.h"
 #include "tests/core/io/temporary_directory.h"
@@ -68,6 +70,39 @@ TEST(SurveyCommand, TakesPointsAndClassesOfLas) {
   const SurveyFile file(directory.path() / "out" / "scene.survey");
   EXPECT_EQ(file.num_surfels(), 900U);
   EXPECT_EQ(file.labels().back(), "road");
+}
+
+// The first file's intensities alone would fit a byte.
+TEST(SurveyCommand, TakesOneScaleOfIntensitiesForAllFiles) {
+  const TemporaryDirectory directory;
+  create_directory(directory.path() / "site");
+  const auto write = [&](const std::string& name, std::uint16_t intensity, std::int32_t east_mm) {
+    std::string las = MadeLas{}.Bytes(900);
+    for (std::size_t i = 0; i < 900; ++i) {
+      const auto step = static_cast<std::int32_t>(i);
+      PutNumber(las, 227 + 20 * i, east_mm + 100 * (step % 30));
+      PutNumber(las, 231 + 20 * i, 100 * (step / 30));
+      PutNumber(las, 239 + 20 * i, intensity);
+    }
+    WriteFileWhole(directory.path() / "site" / name, las);
+  };
+  write("0.las", 200, 0);
+  write("1.las", 32'768, 50'000);
+  const Ended ended = Generate("survey " + (directory.path() / "site").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(ended.said,
+              testing::HasSubstr("white surfaces are taken to have an intensity of 65535, by the "
+                                 "highest one of all files; --white says it\n"));
+  SurveySource source{.recordings = {directory.path() / "site"}, .is_in_world = true};
+  source.guessed_white = GuessWhite(source).value();
+  SurveyLabels labels;
+  std::vector<float> reflectances;
+  VisitFrames(source, labels, [&](const SurveyFrame& frame) {
+    reflectances.push_back(frame.beams.front().reflectance);
+  });
+  EXPECT_THAT(reflectances, testing::ElementsAre(testing::FloatEq(200.0F / 65535.0F),
+                                                 testing::FloatEq(32768.0F / 65535.0F)));
 }
 
 TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
@@ -227,6 +262,25 @@ TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
       testing::HasSubstr("poses.txt: must have a pose for each frame (got 3 poses and 2 frames)"));
   EXPECT_THAT(said(pose + "1 2 3\n"),
               testing::HasSubstr("poses.txt:2: must be the 12 numbers of a pose"));
+}
+
+TEST(SurveyCommand, HoldsTimesOfPosesAgainstThoseOfFrames) {
+  const auto survey = [](const std::string& first_s, const std::string& second_s) {
+    const TemporaryDirectory directory;
+    const std::string command = WriteGroundSeenTwice(
+        directory.path(), first_s + " 100 20 7 0 0 0 1\n" + second_s + " 104 20 7 0 0 0 1\n");
+    const auto clouds = directory.path() / "clouds";
+    rename(clouds / "0.ply", clouds / "100.0.ply");
+    rename(clouds / "1.ply", clouds / "400.0.ply");
+    return Generate(command);
+  };
+  EXPECT_THAT(survey("100", "400").said, testing::Not(testing::HasSubstr("remark")));
+  const Ended other = survey("5000", "5300");
+  EXPECT_EQ(other.status, 0) << other.said;
+  EXPECT_THAT(other.said, testing::HasSubstr("remark times-relative: 2 frames"));
+  EXPECT_THAT(survey("100", "280").said,
+              testing::HasSubstr("must be as long after the first as those of the frames (got 180 "
+                                 "s for frame 1, which came after 300 s)"));
 }
 
 }  // namespace

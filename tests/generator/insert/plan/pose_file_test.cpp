@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/io/write_file.h"
 #include "generator/insert/plan/recorded_way.h"
+#include "railcast/remark.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 
@@ -113,12 +115,46 @@ TEST(PoseFile, NamesTheUnitThatItsTimesHave) {
             "a.csv: poses: must not be faster than 150 m/s over the whole way (got 20 m in 0.1 s)");
 }
 
+TEST(PoseFile, MayBeOfStationsThatAreMinutesApart) {
+  const TemporaryDirectory folder;
+  const fs::path file = folder.path() / "a.txt";
+  const auto read = [&](const std::string& second_time) {
+    WriteFileWhole(file, "0 0 0 0 0 0 0 1\n" + second_time + " 0.9 0 0 0 0 0 1\n");
+    return ReadPoseFile(file, "lidar", std::numeric_limits<double>::infinity());
+  };
+  EXPECT_EQ(read("300").step_ns, 300'000'000'000);
+  EXPECT_EQ(MessageOf([&] { (void)read("0.0001"); }),
+            file.string() +
+                ": times: must be at least 0.01 s apart in the median (got 0.0001 s): are they "
+                "microseconds?");
+}
+
+TEST(PoseFile, MustHaveTheTimesOfTheFramesSinceTheFirst) {
+  const PoseFile csv = ReadText("poses.csv", kCsv);
+  std::vector<Remark> remarks;
+  SetRemarkReceiver([&](const Remark& remark) { remarks.push_back(remark); });
+  CheckFrameStamps(csv, {{0, 0}, {1, 0}}, "a.csv");  // The frames have no times.
+  CheckFrameStamps(csv, {{0, 1'000'000'000}, {1, 1'150'000'000}}, "a.csv");
+  EXPECT_THAT(remarks, testing::IsEmpty());
+  CheckFrameStamps(csv, {{0, 100'000'000'000}, {1, 100'100'000'000}}, "a.csv");
+  EXPECT_THAT(remarks, ElementsAre(Remark{RemarkKind::kTimesRelative, "a.csv", 2}));
+  SetRemarkReceiver(nullptr);
+  EXPECT_EQ(MessageOf([&] {
+              CheckFrameStamps(csv, {{0, 0}, {1, 151'000'000}}, "a.csv");
+            }),
+            "a.csv: times: must be as long after the first as those of the frames (got 0.1 s for "
+            "frame 1, which came after 0.151 s)");
+}
+
 TEST(PoseFile, SaysWhatIsWrong) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
             "a.txt:1: must be the 12 numbers of a pose");
   EXPECT_EQ(FaultOf("a.csv", "t,x\n"), "a.csv:1: must be stamp_ns,x,y,z,qx,qy,qz,qw (got t,x)");
   EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\nnow,0,0,0,0,0,0,1\n"),
-            "a.csv:2: stamp_ns: must be a whole number (got now)");
+            "a.csv:2: stamp_ns: must be a whole number of at most 4.5e18 (got now)");
+  EXPECT_EQ(FaultOf("a.csv", "stamp_ns,x,y,z,qx,qy,qz,qw\n-9223372036854775808,0,0,0,0,0,0,1\n"),
+            "a.csv:2: stamp_ns: must be a whole number of at most 4.5e18 (got "
+            "-9223372036854775808)");
   EXPECT_EQ(FaultOf("a.json", "{"), "a.json: must be a file of OpenLABEL");
   EXPECT_EQ(FaultOf("a.json", "{}"), "a.json: /openlabel: missing");
   EXPECT_EQ(FaultOf("a.json", OpenLabelOf("")),
@@ -168,6 +204,13 @@ TEST(PoseFile, GivesCloudsWithoutPosesTheirWay) {
   WriteFileWhole(folder.path() / "clouds/c.pcd", ReadFileWhole(folder.path() / "clouds/a.pcd"));
   EXPECT_EQ(MessageOf([&] { (void)read(); }),
             file.string() + ": must have a pose for each of the 3 frames (got 2)");
+  fs::remove(folder.path() / "clouds/c.pcd");
+  fs::rename(folder.path() / "clouds/a.pcd", folder.path() / "clouds/1.0.pcd");
+  fs::rename(folder.path() / "clouds/b.pcd", folder.path() / "clouds/1.3.pcd");
+  EXPECT_EQ(MessageOf([&] { (void)read(); }),
+            file.string() +
+                ": times: must be as long after the first as those of the frames (got 0.1 s for "
+                "frame 1, which came after 0.3 s)");
 }
 
 }  // namespace
