@@ -21,7 +21,7 @@ TEST(Remark, SaysHowManyThingsAndWhereTheFirstIs) {
   EXPECT_EQ((Remark{.kind = kPacketsDamaged, .place = "a.pcap: turn 3", .number = 7}.Text()),
             "7 packets with a wrong checksum (the first in a.pcap: turn 3)");
   EXPECT_EQ((Remark{.kind = kFieldsLeftOut, .place = {}, .detail = "rgb"}.Text()),
-            "1 field left out: rgb");
+            "1 field of a cloud left out: rgb");
 }
 
 TEST(RemarkTypes, StandInTheOrderOfTheirKindsWithNamesOfTheirOwn) {

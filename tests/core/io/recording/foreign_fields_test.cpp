@@ -102,7 +102,7 @@ TEST(ForeignFields, ThatAreLeftOutAreTold) {
               ElementsAre(Remark{.kind = RemarkKind::kFieldsLeftOut,
                                  .place = file.string(),
                                  .number = 2,
-                                 .detail = "\"rgb\", \"normal\" but for its first number"}));
+                                 .detail = "rgb, normal but for its first number"}));
 }
 
 TEST(ForeignFields, HoldASecondColumnOfOneMeaning) {

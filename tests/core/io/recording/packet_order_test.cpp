@@ -23,10 +23,11 @@ namespace railcast {
 namespace {
 
 /// The packets of turns of a sensor.
-std::vector<std::string> Turns(std::uint32_t num, const char* format = "vlp16", double hz = 10.0) {
-  ScanSpec spec = ReadSensor(std::string(SensorOf(format)));
-  spec.rate_hz = hz;
-  const MadeScan scan(spec);
+/// @param sensor Its file; empty: the format's.
+std::vector<std::string> Turns(std::uint32_t num,
+                               const char* format = "vlp16",
+                               const std::string& sensor = {}) {
+  const MadeScan scan(ReadSensor(sensor.empty() ? std::string(SensorOf(format)) : sensor));
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < num; ++i) frames.push_back(scan.MakeFrame(i));
   std::vector<std::string> payloads;
@@ -204,7 +205,7 @@ TEST(PacketOrder, CountsLossesAfterAPacketWithADamagedAzimuth) {
 }
 
 TEST(PacketOrder, PutsAPacketInOrderThatIsLateByNearlyATurn) {
-  auto packets = Turns(4, "vlp16", 20.0);
+  auto packets = Turns(4, "vlp16", "vlp16_20hz");
   const ReadTurns plain = ReadPackets(packets);
   std::rotate(packets.begin() + 50, packets.begin() + 51, packets.begin() + 85);
   const ReadTurns read = ReadPackets(packets);
