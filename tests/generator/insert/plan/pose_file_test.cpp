@@ -107,7 +107,7 @@ TEST(PoseFile, NamesTheUnitThatItsTimesHave) {
   const std::string rule = "a.csv: times: must be 0.01 to 10 s apart in the median (got ";
   EXPECT_EQ(FaultOf("a.csv", csv("100000", "100.9")), rule + "0.0001 s): are they microseconds?");
   EXPECT_EQ(FaultOf("a.csv", csv("100", "100.9")), rule + "1e-07 s): are they milliseconds?");
-  EXPECT_EQ(FaultOf("a.csv", csv("30000000000", "100.9")), rule + "30 s)");
+  EXPECT_EQ(FaultOf("a.csv", csv("30000000000", "100.9")), rule + "30 s): are they milliseconds?");
   EXPECT_EQ(FaultOf("a.txt", "0 0 0 0 0 0 0 1\n100 0 0 0 0 0 0 1\n"),
             "a.txt: times: must be 0.01 to 10 s apart in the median (got 100 s): are they "
             "milliseconds?");
