@@ -77,7 +77,7 @@ TEST_F(BadInput, GarbageIsNamed) {
       "notes.txt", garbage,
       "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
   ExpectFaultOf(
-      "cloud.PCD", garbage,
+      "cloud.xyzzy", garbage,
       "must be a directory or a .pcd, .ply, .bin, .las, .pcap, .pcapng, .mcap or .db3 file");
 }
 
