@@ -203,6 +203,9 @@ void AddCompare(ProgramOptions& app, ProgramCommand& command) {
     if (is_ablation && !options->choice.topic.empty()) {
       FailUsage("--topic", "applies to two recordings only");
     }
+    if (is_ablation && !options->choice.kitti_columns.empty()) {
+      FailUsage("--kitti-columns", "applies to two recordings only");
+    }
     if (is_ablation && options->pairing) {
       FailUsage("--pair", "applies to two recordings only");
     }

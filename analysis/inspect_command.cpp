@@ -21,12 +21,10 @@ struct InspectOptions {
   SourceChoice choice;
   std::string job;  // Empty = none.
   std::size_t num_frames = 100;
-  int num_threads = 0;
   ReportOutput output;
 };
 
 int RunInspect(const InspectOptions& options, const std::string& command_line) {
-  const tbb::global_control limit = LimitThreads(options.num_threads);
   const std::filesystem::path source = WithChoice({options.source}, options.choice).front();
   const auto recording = OpenRecording(source);
   const RecordingLook inspection = Inspect(*recording, options.num_frames);
@@ -64,7 +62,6 @@ void AddInspect(ProgramOptions& app, ProgramCommand& command) {
   inspect.AddOption("--frames", options->num_frames, "Frames to look at, from the first on")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
-  AddThreads(inspect, options->num_threads);
   AddReportOptions(inspect, options->output);
   inspect.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunInspect(*options, line); };

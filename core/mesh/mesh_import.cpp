@@ -122,7 +122,7 @@ PolygonSoup ReadSoup(MeshSource source,
 
 /// Text as UTF-8; what is binary stays as it is.
 std::string MeshTextOf(std::string bytes) {
-  return IsBinaryStl(bytes) ? bytes : AsUtf8(std::move(bytes));
+  return IsBinaryStl(bytes) ? std::move(bytes) : AsUtf8(std::move(bytes));
 }
 
 ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {

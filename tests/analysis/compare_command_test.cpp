@@ -31,7 +31,8 @@ TEST(RailcastAnalyzeCompare, WantsTwoRecordingsOrAScenario) {
   for (const char* const arguments :
        {"--format text", "a.pcd --format text", "a b c --format text", "a b",
         "a --ablate s.json --format text", "a b --frames 3 --format text",
-        "--ablate s.json --pair index --format text", "a b --pair time --format text"}) {
+        "--ablate s.json --pair index --format text", "a b --pair time --format text",
+        "--ablate s.json --kitti-columns 5 --format text"}) {
     EXPECT_EQ(Compare(arguments).status, 2) << arguments;
   }
 }
