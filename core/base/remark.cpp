@@ -63,6 +63,9 @@ const std::vector<RemarkType>& RemarkTypes() {
        "frame whose times count from elsewhere than its stamp: only their differences are taken",
        "frames whose times count from elsewhere than their stamps: only their differences are "
        "taken"},
+      {kPosesOverturned, "poses-overturned",
+       "pose that turns its sensor upside down: a quaternion as w, x, y, z?",
+       "poses that turn their sensor upside down: quaternions as w, x, y, z?"},
       {kUnitsAssumed, "units-assumed", "file that does not state its unit of length: metres",
        "files that do not state their unit of length: metres"},
       {kFieldsLeftOut, "fields-left-out", "field of a cloud left out", "fields of clouds left out",
@@ -102,6 +105,8 @@ const std::vector<RemarkType>& RemarkTypes() {
        "cells of an elevation model with heights that cannot be: they count as without one", true},
       {kHeightsFar, "heights-far", "height more than 5 m from the fitted gradients",
        "heights more than 5 m from the fitted gradients"},
+      {kPlacesFar, "places-far", "point of a track more than 5 m from the fitted line",
+       "points of tracks more than 5 m from the fitted lines"},
   };
   return types;
 }

@@ -36,6 +36,7 @@ enum class RemarkKind : std::uint8_t {
   kByteOrderGuessed,
   kFarReturns,
   kTimesRelative,
+  kPosesOverturned,
   kUnitsAssumed,
   kFieldsLeftOut,
   kFilesLeftOut,
@@ -57,6 +58,7 @@ enum class RemarkKind : std::uint8_t {
   kHeightsMissing,
   kHeightsVoid,
   kHeightsFar,
+  kPlacesFar,
 };
 
 /// What is said of a kind of remark.

@@ -319,6 +319,28 @@ void CheckTimes(const std::string& place, double most_step_s, PoseFile& poses) {
   CheckSpeed(length_m, SecondsFromNs(poses.stamps_ns.back() - poses.stamps_ns.front()), place);
 }
 
+/// Checks that z points up: no railway climbs as a camera's z axis, which points ahead, does.
+void CheckAxes(const std::string& place, const std::vector<Transform>& world_from_sensor) {
+  if (world_from_sensor.empty()) return;
+  const Eigen::Vector3d first_m = world_from_sensor.front().translation();
+  Eigen::Vector3d way_m = Eigen::Vector3d::Zero();  // To the farthest pose.
+  std::size_t num_overturned = 0;
+  for (const Transform& pose : world_from_sensor) {
+    const Eigen::Vector3d from_first_m = pose.translation() - first_m;
+    if (from_first_m.norm() > way_m.norm()) way_m = from_first_m;
+    num_overturned += pose.linear()(2, 2) < 0.0 ? 1 : 0;
+  }
+  constexpr double kLeastWay_m = 5.0;
+  constexpr double kMostClimb = 0.5;
+  if (way_m.norm() >= kLeastWay_m && std::abs(way_m.z()) > kMostClimb * way_m.norm()) {
+    throw InputError(place + ": poses: must not climb more than 1 m in 2 m (got " +
+                     ShortText(way_m.z()) + " m in " + ShortText(way_m.norm()) +
+                     " m): are the axes those of a camera?");
+  }
+  if (num_overturned == 0) return;
+  Publish({.kind = RemarkKind::kPosesOverturned, .place = place, .number = num_overturned});
+}
+
 PoseFile ReadCsv(const fs::path& file) {
   const std::string text = ReadTextWhole(file);
   std::string_view rest = text;
@@ -387,6 +409,7 @@ PoseFile ReadPoseFile(const fs::path& file, const std::string& sensor, double mo
                    : extension == ".json" ? ReadOpenLabelPoses(file, sensor)
                                           : ReadNumberLines(file);
   CheckTimes(ShownPath(file), most_step_s, poses);
+  CheckAxes(ShownPath(file), poses.world_from_sensor);
   return poses;
 }
 

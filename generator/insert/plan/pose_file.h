@@ -50,7 +50,8 @@ struct PoseFile {
 /// @param sensor Name of the sensor's coordinate system in OpenLABEL.
 /// @param most_step_s Of frames. Stations of a survey may be any time apart.
 /// @throws InputError "FILE:3: rule" or "FILE: pointer: rule" if it is none of these, if its times
-///   are not 0.01 s to most_step_s apart in the median, or as CheckSpeed().
+///   are not 0.01 s to most_step_s apart in the median, if z does not point up, or as CheckSpeed().
+/// Poses that turn the sensor upside down are told as a remark.
 [[nodiscard]] PoseFile ReadPoseFile(const std::filesystem::path& file,
                                     const std::string& sensor,
                                     double most_step_s = kMostFrameStep_s);

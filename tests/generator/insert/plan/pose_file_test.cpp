@@ -146,6 +146,21 @@ TEST(PoseFile, MustHaveTheTimesOfTheFramesSinceTheFirst) {
             "frame 1, which came after 0.151 s)");
 }
 
+TEST(PoseFile, MustHaveAxesOfWhichZIsUp) {
+  EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0.1 0 0 1 8\n"),
+            "a.txt: poses: must not climb more than 1 m in 2 m (got 8 m in 8.001 m): are the axes "
+            "those of a camera?");
+  std::vector<Remark> remarks;
+  SetRemarkReceiver([&](const Remark& remark) { remarks.push_back(remark); });
+  (void)ReadText("a.tum", "0 0 0 0 0 0 0 1\n0.1 1 0 4 0 0 0 1\n");  // A step of noise.
+  EXPECT_THAT(remarks, testing::IsEmpty());
+  (void)ReadText("a.tum", "0 0 0 0 1 0 0 0\n0.1 1 0 0 1 0 0 0\n");
+  SetRemarkReceiver(nullptr);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0].kind, RemarkKind::kPosesOverturned);
+  EXPECT_EQ(remarks[0].number, 2U);
+}
+
 TEST(PoseFile, SaysWhatIsWrong) {
   EXPECT_EQ(FaultOf("a.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n"),
             "a.txt:1: must be the 12 numbers of a pose");
