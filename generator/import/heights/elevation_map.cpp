@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/base/text_encoding.h"
 #include "generator/import/map/gdal_errors.h"
 #include "generator/import/map/rail_map.h"
 
@@ -96,20 +97,23 @@ GDALRasterBand& BandOf(GDALDataset& dataset, const std::string& name) {
   return band;
 }
 
-/// Reads the rows before a row of an ASCII grid, which has no table of where rows begin. Where the
-/// file ends before the row, GDAL would look for it from each row before, and for each of these
-/// likewise: for 2^n steps, n rows behind the file's end.
-/// @returns Whether they could be read; the error handler has the reason.
-bool CanFindRow(GDALRasterBand& band, int row) {
-  if (std::string_view(band.GetDataset()->GetDriverName()) != "AAIGrid") return true;
-  for (int before = 0; before < row; ++before) {
-    float height_m = 0.0F;
-    if (band.RasterIO(GF_Read, 0, before, 1, 1, &height_m, 1, 1, GDT_Float32, 0, 0, nullptr) !=
-        CE_None) {
-      return false;
-    }
+/// Checks the number of an ASCII grid's heights. GDAL takes them one after another, whatever the
+/// lines: one too few or too many moves all behind it. Rows behind the file's end cost it 2^n
+/// steps.
+void CheckNumHeights(const std::filesystem::path& file,
+                     GDALDataset& dataset,
+                     const std::string& name) {
+  if (std::string_view(dataset.GetDriverName()) != "AAIGrid") return;
+  std::ifstream stream = OpenInput(file);
+  std::int64_t num = 0;
+  for (std::string word; stream >> word; ++num) {
+    const bool is_key = word.front() >= 'A' && LowerCase(word) != "nan";
+    if (is_key && stream >> word) --num;  // A key and its value.
   }
-  return true;
+  if (num == std::int64_t{dataset.GetRasterXSize()} * dataset.GetRasterYSize()) return;
+  throw InputError(name + ": must have as many heights as ncols x nrows (got " + NumberText(num) +
+                   " for " + NumberText(dataset.GetRasterXSize()) + " x " +
+                   NumberText(dataset.GetRasterYSize()) + ")");
 }
 
 }  // namespace
@@ -212,7 +216,7 @@ void ElevationMap::Raster::Choose(const Eigen::AlignedBox2d& bounds_m,
 
 void ElevationMap::Raster::Read(GDALRasterBand& band) {
   heights_m.resize(static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows));
-  if (heights_m.empty() || !CanFindRow(band, first_row)) return;
+  if (heights_m.empty()) return;
   if (band.RasterIO(GF_Read, first_column, first_row, num_columns, num_rows, heights_m.data(),
                     num_columns, num_rows, GDT_Float32, 0, 0, nullptr) != CE_None) {
     return;  // The handler has the error.
@@ -250,6 +254,7 @@ ElevationMap::ElevationMap(const std::filesystem::path& file,
   }
   gdal_errors.Forget();
   GDALRasterBand& band = BandOf(*dataset, name);
+  CheckNumHeights(file, *dataset, name);
   auto raster = std::make_unique<Raster>();
   raster->places = PlacesOf(*dataset, name);
   raster->system_from_map = TransformationFrom(projection, *dataset, crs, name);
