@@ -62,6 +62,7 @@ class GeoJsonReader {
   void ReadObject(const Json& object, const std::string& pointer, const MapTags& tags, int depth);
   [[nodiscard]] ErrorList& errors() { return errors_; }
   [[nodiscard]] std::vector<MapLine>& lines() { return lines_; }
+  [[nodiscard]] std::vector<Remark>& remarks() { return remarks_; }
 
  private:
   void CheckSystem(const Json& object, const std::string& pointer);
@@ -77,6 +78,7 @@ class GeoJsonReader {
 
   ErrorList errors_;
   std::vector<MapLine> lines_;
+  std::vector<Remark> remarks_;
 };
 
 void GeoJsonReader::AddPosition(const Json& position, const std::string& pointer, MapLine& line) {
@@ -180,7 +182,9 @@ void GeoJsonReader::ReadObject(const Json& object,
       ReadObject(object[key][i], pointer + "/" + key + "/" + std::to_string(i), own, depth + 1);
     }
   }
-  if (object.contains("geometry")) {
+  if (object.contains("geometry") && object["geometry"].is_null()) {
+    remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no geometry"});
+  } else if (object.contains("geometry")) {
     ReadObject(object["geometry"], pointer + "/geometry", own, depth + 1);
   }
   if (object.contains("coordinates")) ReadCoordinates(object, pointer, own);
@@ -208,7 +212,7 @@ RailMap ReadGeoJson(const std::filesystem::path& file) {
     reader.ReadObject(root, "", {}, 0);
     reader.errors().ThrowIfAny();
     const bool is_osm = std::ranges::any_of(reader.lines(), IsOfOpenStreetMap);
-    RailMap map = MapOfLines(std::move(reader.lines()), {});
+    RailMap map = MapOfLines(std::move(reader.lines()), std::move(reader.remarks()));
     if (is_osm) map.attribution = kOpenStreetMapAttribution;
     return map;
   });

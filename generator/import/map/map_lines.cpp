@@ -76,7 +76,9 @@ void EraseOthers(std::vector<MapLine>& lines, RailMap& map) {
       lines, [](const MapLine& line) { return !TagOf(line.tags, "railway").empty(); });
   std::erase_if(lines, [&](const MapLine& line) {
     const std::string_view railway = TagOf(line.tags, "railway");
-    if (!railway.empty()) return !IsTrack(railway);
+    if (IsTrack(railway)) return false;
+    if (IsUnreadTrack(railway)) TellLeftOut(line, "railway=" + ShownText(railway), map);
+    if (!railway.empty()) return true;
     const std::string_view kind = OtherKind(line.tags);
     if (kind.empty() && !has_railways) return false;
     TellLeftOut(line,

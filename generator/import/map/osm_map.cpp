@@ -82,6 +82,11 @@ std::optional<Fault> OsmMapMaker::AddWay(OsmWay way) {
   if (has_other_tags) return Fault{"", kOneTime, "other tags than before"};
   if (!IsKept(way.tags)) {
     ++num_others_;
+    const std::string_view railway = TagOf(way.tags, "railway");
+    if (IsUnreadTrack(railway) && other_tracks_.insert(way.id).second) {
+      Tell(RemarkKind::kLinesLeftOut, NameOfElement("way", way.id), 1,
+           "railway=" + ShownText(railway));
+    }
     return std::nullopt;
   }
   const auto [known, is_new] = way_of_id_.try_emplace(way.id, ways_.size());

@@ -73,6 +73,44 @@ TEST_F(MapWords, LeaveOutDeletedWays) {
   }
 }
 
+TEST_F(MapWords, NameTracksThatAreNotRead) {
+  const auto of_kind = [](std::string text, const std::string& kind) {
+    const std::size_t at = text.rfind("rail");
+    return text.replace(at, 4, kind);
+  };
+  const std::string way = WayInXml({3, 4, 5}, "", 8);
+  const std::string way_json = WayInJson({3, 4, 5}, "", 8);
+  for (const std::string kind : {"construction", "Rail", "rail;tram"}) {
+    for (const RailMap& map :
+         {Read("a.osm", Xml(NodesInXml() + WayInXml({1, 2, 3}) + of_kind(way, kind))),
+          Read("b.json",
+               JsonMap(NodesInJson() + WayInJson({1, 2, 3}) + "," + of_kind(way_json, kind)))}) {
+      EXPECT_EQ(Sizes(map), std::vector<std::size_t>{3});
+      EXPECT_EQ(map.remarks,
+                (std::vector<Remark>{{RemarkKind::kLinesLeftOut, "way 8", 1, "railway=" + kind}}));
+    }
+  }
+  const RailMap gone =
+      Read("c.osm", Xml(NodesInXml() + WayInXml({1, 2, 3}) + of_kind(way, "abandoned")));
+  EXPECT_THAT(gone.remarks, testing::IsEmpty());
+}
+
+TEST_F(MapWords, OfGeoJsonNameFeaturesWithoutATrack) {
+  const auto feature = [](const std::string& railway, const std::string& geometry) {
+    return R"({"type": "Feature", "properties": {"railway": ")" + railway + R"("}, "geometry": )" +
+           geometry + "}";
+  };
+  const std::string line =
+      R"({"type": "LineString", "coordinates": [[15.61, 48.2], [15.62, 48.2]]})";
+  const RailMap map =
+      Read("a.geojson", R"({"type": "FeatureCollection", "features": [)" + feature("rail", line) +
+                            "," + feature("rail", "null") + "," + feature("disused", line) + "]}");
+  EXPECT_EQ(map.remarks,
+            (std::vector<Remark>{
+                {RemarkKind::kLinesLeftOut, "/features/1", 1, "it has no geometry"},
+                {RemarkKind::kLinesLeftOut, "/features/2/geometry", 1, "railway=disused"}}));
+}
+
 TEST_F(MapWords, LeadWaysPastDeletedNodes) {
   for (const RailMap& map :
        {Read("a.osm", Xml(NodesInXml(" action='delete'") + WayInXml({1, 2, 3, 4}))),
