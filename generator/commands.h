@@ -23,6 +23,9 @@ inline constexpr const char* kImportDescription =
 inline constexpr const char* kInsertDescription =
     "Put objects and weather into a recording; run the same command again to continue an "
     "interrupted run";
+inline constexpr const char* kConvertDescription =
+    "Write a recording or a data set in another format; run the same command again to continue an "
+    "interrupted run";
 inline constexpr const char* kReplayDescription =
     "Send a recording at its own pace, faster, or step by step";
 inline constexpr const char* kDatasetDescription =
@@ -43,6 +46,8 @@ void AddOwnProgram(const OwnProgram& own, ProgramOptions& app, ProgramCommand& c
 void AddSequence(ProgramOptions& app, ProgramCommand& command);
 /// Puts objects and weather into a recording.
 void AddInsert(ProgramOptions& app, ProgramCommand& command);
+/// Writes a recording or a data set in another format.
+void AddConvert(ProgramOptions& app, ProgramCommand& command);
 /// Sends frames live, at the pace of real sensors, until stopped.
 void AddStream(ProgramOptions& app, ProgramCommand& command);
 /// Sends a recording at its own pace, faster, or step by step.

@@ -10,7 +10,7 @@ namespace {
 
 /// The commands that are not built yet say how they come.
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  for (const std::string name : {"insert", "stream", "replay", "check", "world", "trace", "dataset",
+  for (const std::string name : {"insert", "convert", "stream", "replay", "check", "world", "trace", "dataset",
                                  "merge", "survey", "import"}) {
     railcast::ProgramOptions subcommand = app.AddForeignCommand(name, "Not built yet");
     subcommand.WhenParsed([&command, name] {
@@ -30,6 +30,7 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
     railcast::AddOwnProgram({name, description, "railcast-recordings", "railcast"}, app, command);
   };
   add_of_recordings("insert", railcast::kInsertDescription);
+  add_of_recordings("convert", railcast::kConvertDescription);
   railcast::AddStream(app, command);
   add_of_recordings("replay", railcast::kReplayDescription);
   railcast::AddCheck(app, command);

@@ -7,6 +7,7 @@ void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCom
   app.RequireCommand();
   app.AddFlag("-v,--verbose", "Print details of each step");
   railcast::AddInsert(app, command);
+  railcast::AddConvert(app, command);
   railcast::AddReplay(app, command);
   railcast::AddDataset(app, command);
   railcast::AddMerge(app, command);
@@ -17,8 +18,8 @@ void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCom
 
 int main(int argc, char** argv) {
   return railcast::ProgramMain({.name = "railcast-generate",
-                                .description = "Puts objects into recordings, sends them, and "
-                                               "makes scenes and data sets of them.",
+                                .description = "Puts objects into recordings, converts and "
+                                               "sends them, and makes scenes and data sets of them.",
                                 .footer = railcast::kExitStatusText,
                                 .add = AddCommandsOfRecordings},
                                argc, argv);

@@ -20,7 +20,6 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
-#include "generator/insert/run/insert_folder.h"
 
 namespace railcast {
 namespace {

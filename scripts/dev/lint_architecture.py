@@ -20,7 +20,7 @@ ROOM_ORDERS = {
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud record run velodyne hesai spinning pcap net ouster ros mcap bag osi dds stream recording verify".split(),
-    "generator": ". run check sequence insert live replay trace world dataset survey import python".split(),
+    "generator": ". run check sequence insert live replay trace world dataset convert survey import python".split(),
     "generator/insert": ". plan firings clouds packets run".split(),
     "generator/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report limits pictures stats inspect card compare detectability detectors sight study preset fit frontier dossier receive .".split(),

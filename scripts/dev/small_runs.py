@@ -37,6 +37,7 @@ ROWS = (
     ("railcast-generate world", "drive.json --from-s 100 --to-s 110 --out world.ply", ["world.ply"], None),
     ("railcast-generate insert", "drive plan.json --frames 0..2 --out inserted", ["inserted/insert.jsonl"], None),
     ("railcast-generate insert", "drive plan.json --frames 0..2 --check", "box", None),
+    ("railcast-generate convert", "drive converted --frames 0..2 --format ply", ["converted/frames/000002.ply"], None),
     ("railcast-generate survey", "drive --frames 5 --out site", ["site/world.json", "site/scene.survey"], None),
     ("railcast-generate dataset", "recipe.json --shard 1/2 --out shards/1", ["shards/1/scenarios.jsonl"], None),
     ("railcast-generate dataset", "recipe.json --shard 2/2 --out shards/2", ["shards/2/scenarios.jsonl"], None),

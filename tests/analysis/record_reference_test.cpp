@@ -6,6 +6,7 @@
 
 #include "analysis/study/approach_record.h"
 #include "analysis/study/study_directory.h"
+#include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/dataset_report_record.h"
 #include "core/io/run/insert_record.h"
@@ -120,6 +121,9 @@ TEST(RecordReference, IsWhatTheDescriptionsSay) {
       TableOf<MergedRecord>("merged/merged.jsonl") +
       TableOf<InsertRunRecord>("run.json of an insertion") + TableOf<InsertRecord>("insert.jsonl") +
       TableOf<InsertManifestRecord>("manifest.json of an insertion") +
+      TableOf<ConvertRunRecord>("run.json of a conversion") +
+      TableOf<ConvertRecord>("convert.jsonl") +
+      TableOf<ConvertManifestRecord>("manifest.json of a conversion") +
       TableOf<SurveyRecord>("survey.json") + TableOf<DatasetRecord>("dataset.json") +
       TableOf<ScenarioRecord>("scenarios.jsonl") + TableOf<IndexRecord>("index.jsonl") +
       TableOf<DatasetReportRecord>("report.json of a data set") +

@@ -45,6 +45,8 @@ MAKERS = (
     ("insertion into a capture", "in_capture", ("generate insert vlp16.pcap plan_standing.json --out in_capture",)),
     ("insertion into a bag", "in_bag", ("generate insert mcap/frames.mcap plan_rig.json --out in_bag",)),
     ("received stream", "arrived", ("receive",)),
+    ("converted clouds", "converted", ("generate convert vlp16.pcap converted",)),
+    ("converted to a bag", "converted_bag/frames.mcap", ("generate convert kitti converted_bag --format mcap",)),
     ("run over a survey", "surveyed", ("generate survey drive --frames 5 --out site",
                                        "generate sequence surveyed.json --frames 3 --out surveyed",)),
     ("data set", "whole_set", ("generate dataset recipe_small.json --out whole_set",)),
@@ -65,6 +67,7 @@ TAKERS = (
     ("`fit`", "analyze fit @ --scenario SCENARIO --out OUT", "analyze fit @ --out OUT"),
     ("`preset`", "analyze preset @ --scenario SCENARIO --out OUT"),
     ("`insert`", "generate insert @ PLAN --format pcd --out OUT", "generate insert @ PLAN --out OUT"),
+    ("`convert`", "generate convert @ OUT --format ply"),
     ("`survey`", "generate survey @ --sensor-height 2.5 --out OUT", "generate survey @ --out OUT",
      "generate survey @ --standing --out OUT"),
     ("`replay`", "generate replay @ --rate-hz 50 --to 127.0.0.1:PORT", "generate replay @ --rate 50 --to 127.0.0.1:PORT",
@@ -97,7 +100,7 @@ INPUTS = {
 OF_OTHERS = {**dict.fromkeys(("drive", "in_sequence", "surveyed", "arrived", "whole_set", "two/merged"),
                              ("drive.json", "plan.json")),
              **dict.fromkeys(("clouds", "in_clouds"), ("drive.json", "plan_clouds.json")),
-             **dict.fromkeys(("vlp16.pcap", "in_capture"), ("sensor_vlp16.json", "plan_standing.json"))}
+             **dict.fromkeys(("vlp16.pcap", "in_capture", "converted"), ("sensor_vlp16.json", "plan_standing.json"))}
 REFUSALS = ("ValueError", "TypeError", "railcast._railcast.InputError")
 
 

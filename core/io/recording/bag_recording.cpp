@@ -123,26 +123,21 @@ CloudMessage ReadCloud2(std::span<const std::byte> data) {
   return {header, std::move(cloud), first_ns};
 }
 
-/// Gives the frame the time of its first point. A time farther from the message's stamp than the
-/// frame is long is none since the stamp, nor on its clock: then the stamp stays, with a remark.
+/// Gives the frame the time of its first point, or leaves the stamp, with a remark.
 void FillStamp(const CloudMessage& message, RecordedFrame& recorded) {
   Frame& frame = recorded.frame;
   const std::int64_t stamp_ns = NsOf(message.header.stamp);
   frame.stamp_ns = message.defined_ns.value_or(stamp_ns);
   if (!message.first_ns || message.defined_ns) return;
-  const double first_ns = *message.first_ns;
-  const double since_stamp_ns = first_ns - static_cast<double>(stamp_ns);
-  const bool is_absolute = std::abs(since_stamp_ns) < std::abs(first_ns);
-  const double offset_ns = is_absolute ? since_stamp_ns : first_ns;
-  // Where the stamp is that of the last packet, its points come behind it.
-  constexpr double kPacket = 0.1;
-  if (offset_ns <= frame.duration_ns && -offset_ns <= (1.0 + kPacket) * frame.duration_ns) {
-    frame.stamp_ns += std::llround(offset_ns);
+  const FirstPointTime first = FirstPointTimeOf(stamp_ns, *message.first_ns, frame.duration_ns);
+  if (first.is_certain) {
+    frame.stamp_ns += std::llround(first.since_stamp_ns);
     return;
   }
   AddRemark({.kind = RemarkKind::kTimesRelative,
              .place = recorded.name,
-             .detail = "the first time is " + ShortText(offset_ns / kNsPerS) + " s from the stamp"},
+             .detail = "the first time is " + ShortText(first.since_stamp_ns / kNsPerS) +
+                       " s from the stamp"},
             recorded.remarks);
 }
 
@@ -244,6 +239,15 @@ std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag)
   }
   throw InputError(ShownPath(bag) + ": must hold packets of a sensor (got " +
                    ShownText(topics[picked].type) + ")");
+}
+
+FirstPointTime FirstPointTimeOf(std::int64_t stamp_ns, double first_ns, std::uint32_t duration_ns) {
+  const double since_stamp_ns = first_ns - static_cast<double>(stamp_ns);
+  const bool is_absolute = std::abs(since_stamp_ns) < std::abs(first_ns);
+  const double offset_ns = is_absolute ? since_stamp_ns : first_ns;
+  // Where the stamp is that of the last packet, its points come behind it.
+  constexpr double kPacket = 0.1;
+  return {offset_ns, offset_ns <= duration_ns && -offset_ns <= (1.0 + kPacket) * duration_ns};
 }
 
 std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,

@@ -25,4 +25,17 @@ namespace railcast {
 /// @throws InputError as above.
 [[nodiscard]] Cloud MakeCloud(const ros::LivoxCloud& message, std::int64_t& first_ns);
 
+/// When the first point of a message was measured.
+struct FirstPointTime {
+  double since_stamp_ns{};
+  /// Not if it is farther from the stamp than the frame is long: then it is none since the stamp,
+  /// nor on its clock.
+  bool is_certain{};
+};
+
+/// @param first_ns As stored: since the stamp or, where these are nearer, as the stamp counts.
+[[nodiscard]] FirstPointTime FirstPointTimeOf(std::int64_t stamp_ns,
+                                              double first_ns,
+                                              std::uint32_t duration_ns);
+
 }  // namespace railcast

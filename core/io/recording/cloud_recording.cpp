@@ -13,6 +13,7 @@
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/run/frame_record.h"
+#include "core/io/run/sequence_files.h"
 #include "railcast/io/cloud_files.h"
 
 namespace railcast {
@@ -97,15 +98,18 @@ RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const Pl
   const auto duration_ns =
       has_end ? ParseNumber<std::uint32_t>(words[kNumWords]) : std::optional<std::uint32_t>(0);
   if (!index || !stamp_ns || !duration_ns) fail();
-  const Transform world_from_sensor = pose_from(4);
+  // Conversions of recordings without poses have none.
+  const bool has_pose = !words[4].empty();
+  const Transform world_from_sensor = has_pose ? pose_from(4) : Transform::Identity();
   // In the lines of older programs, and of points in other axes, as at the stamp.
-  const Transform world_from_sensor_end = has_end ? pose_from(kNumWords + 1) : world_from_sensor;
+  const Transform world_from_sensor_end =
+      has_pose && has_end ? pose_from(kNumWords + 1) : world_from_sensor;
   RecordedFrame recorded = ReadCloudFrame(directory / words[0], *index);
   recorded.frame.stamp_ns = *stamp_ns;
   recorded.frame.world_from_sensor = world_from_sensor;
   recorded.frame.duration_ns = *duration_ns;
   recorded.frame.world_from_sensor_end = world_from_sensor_end;
-  recorded.has_pose = true;
+  recorded.has_pose = has_pose;
   return recorded;
 }
 
@@ -117,6 +121,7 @@ class ReceivedRecording : public Recording {
     info_.kind = "received stream";
     info_.num_frames = std::max<std::size_t>(1, CountLines(directory / kReceivedFile)) - 1;
     (void)lines_.Need();  // Skip the line of column names.
+    if (exists(directory / kLabelsFile)) info_.labels = ReadLabelTable(directory / kLabelsFile);
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }

@@ -11,6 +11,7 @@
 #include "core/io/record/read_record.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/sequence_check.h"
+#include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/insert_record.h"
 #include "core/io/run/run_record.h"
@@ -23,11 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a line of insert.jsonl says of the files of its frame.
-std::vector<KnownFile> FilesOfLine(const PlacedLine& line, std::uint32_t frame) {
+/// What a line of the ledger says of the files of its frame.
+std::vector<KnownFile> FilesOfLine(std::string_view ledger,
+                                   const PlacedLine& line,
+                                   std::uint32_t frame) {
   const std::string fault = LineHashFault(line.text);
   if (!fault.empty()) throw InputError(line.place + ": " + fault);
-  const FrameRecord record = ReadInsertLine(line.text, line.place).frame;
+  const FrameRecord record = ReadLedgerLine(ledger, line.text, line.place);
   if (record.frame == frame) return record.files;
   throw InputError(line.place + ": /frame: must be " + NumberText(frame) + Got(record.frame));
 }
@@ -35,7 +38,9 @@ std::vector<KnownFile> FilesOfLine(const PlacedLine& line, std::uint32_t frame) 
 class InsertionVerifier : private Findings {
  public:
   InsertionVerifier(const fs::path& directory, const std::function<void(double)>& on_progress)
-      : directory_(directory), on_progress_(on_progress) {}
+      : directory_(directory),
+        on_progress_(on_progress),
+        ledger_(IsThere(directory / kConvertFile) ? kConvertFile : kInsertFile) {}
 
   Verification Run() {
     const bool has_manifest = Try([&] { CheckManifest(); });
@@ -43,10 +48,11 @@ class InsertionVerifier : private Findings {
     const fs::path recording = directory_ / kRecordingFolder;
     // A sequence names its files itself.
     const bool is_sequence =
-        IsThere(recording / kRunFile) ||
-        (has_manifest && std::ranges::none_of(known_, [](const std::string& name) {
-           return name.starts_with(std::string(kRecordingFolder) + "/");
-         }));
+        ledger_ == kInsertFile &&
+        (IsThere(recording / kRunFile) ||
+         (has_manifest && std::ranges::none_of(known_, [](const std::string& name) {
+            return name.starts_with(std::string(kRecordingFolder) + "/");
+          })));
     if (is_sequence) {
       Try([&] {
         Verification found = VerifySequence(recording, [](double) {});
@@ -54,10 +60,10 @@ class InsertionVerifier : private Findings {
         Add(found);
       });
     }
-    if (!has_manifest) return Take();
-    FindOthers(directory_, "is named neither in manifest.json nor in insert.jsonl",
+    if (!has_manifest) return Findings::Take();
+    FindOthers(directory_, "is named neither in manifest.json nor in " + std::string(ledger_),
                is_sequence ? NameSet{std::string(kRecordingFolder)} : NameSet());
-    return Take();
+    return Findings::Take();
   }
 
  private:
@@ -65,39 +71,49 @@ class InsertionVerifier : private Findings {
     const fs::path file = directory_ / kManifestFile;
     known_.emplace(kManifestFile);
     known_.emplace(kRunFile);
-    known_.emplace(kInsertFile);
+    known_.emplace(ledger_);
     if (!IsThere(file)) {
       throw InputError({Fault{ShownPath(file), "missing: the run is unfinished", ""}});
     }
-    const auto manifest = ReadRecord<InsertManifestRecord>(ReadManifestText(file), ShownPath(file));
+    const std::string text = ReadManifestText(file);
+    if (ledger_ == kConvertFile) {
+      Take(ReadRecord<ConvertManifestRecord>(text, ShownPath(file)));
+    } else {
+      Take(ReadRecord<InsertManifestRecord>(text, ShownPath(file)));
+    }
+  }
+
+  template <typename Manifest>
+  void Take(const Manifest& manifest) {
     num_frames_ = manifest.run.num_frames;
     first_frame_ = manifest.run.first_frame;
     CheckHashes(directory_, manifest.files, kManifestFile);
   }
 
   void CheckFrames() {
-    LineReader lines(directory_ / kInsertFile);
+    LineReader lines(directory_ / ledger_);
     std::uint32_t num = 0;
     for (; const auto line = lines.Next(); ++num) {
       if (num_frames_ > 0) {
         on_progress_(static_cast<double>(num) / static_cast<double>(num_frames_));
       }
       Try([&] {
-        for (const KnownFile& file : FilesOfLine(*line, first_frame_ + num)) {
+        for (const KnownFile& file : FilesOfLine(ledger_, *line, first_frame_ + num)) {
           known_.insert(file.name);
-          CheckHash(directory_ / file.name, file.hash, std::string(kInsertFile));
+          CheckHash(directory_ / file.name, file.hash, std::string(ledger_));
         }
       });
     }
     result_.num_frames += num;
     if (num == num_frames_ || num_frames_ == 0) return;
-    faults_.Add({ShownPath(directory_ / kInsertFile),
+    faults_.Add({ShownPath(directory_ / ledger_),
                  "must have a line for each of " + NumberText(num_frames_) + " frames",
                  NumberText(num)});
   }
 
   const fs::path& directory_;
   const std::function<void(double)>& on_progress_;
+  std::string_view ledger_;  ///< The file with a line for each frame.
   std::uint32_t first_frame_ = 0;
   std::uint32_t num_frames_ = 0;  ///< 0 = not known.
 };
@@ -105,7 +121,7 @@ class InsertionVerifier : private Findings {
 }  // namespace
 
 bool IsInsertion(const fs::path& directory) {
-  return IsThere(directory / kInsertFile);
+  return IsThere(directory / kInsertFile) || IsThere(directory / kConvertFile);
 }
 
 Verification VerifyInsertion(const fs::path& directory,

@@ -26,27 +26,11 @@ FieldSelection FieldsFor(const RecordedFrame& recorded) {
   return FieldSelection(list, recorded.frame.has_velocity);
 }
 
-/// The frame as the encoders expect it: with an outcome for each slot, and labels of one table.
+/// With labels of one table.
 Frame WholeFrame(const InsertedFrame& inserted, const LabelNumbers& labels) {
-  Frame frame = inserted.recorded.frame;
+  Frame frame = WithOutcomes(inserted.recorded);
   frame.label = WrittenLabels(inserted, labels);
-  if (inserted.recorded.Has("outcome")) return frame;
-  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    frame.outcome[slot] = std::isnan(frame.x[slot]) ? Outcome::kNoSurface : Outcome::kReturned;
-  }
   return frame;
-}
-
-/// The table for encoders, where labels are SemanticKITTI's numbers.
-LabelTable KittiNumbers(const Frame& frame) {
-  const std::set<std::uint32_t> ids(frame.label.begin(), frame.label.end());
-  std::vector<Label> labels;
-  for (const std::uint32_t id : ids) {
-    Label& label = labels.emplace_back();
-    label.id = id;
-    label.semantic_kitti = static_cast<std::uint16_t>(id);
-  }
-  return LabelTable(std::move(labels));
 }
 
 /// Clouds of any recording in a format of railcast's.
@@ -94,7 +78,7 @@ class ConvertedClouds : public RecordingOutput {
     const Frame whole = WholeFrame(inserted, labels_);
     const FrameFileSpec spec = {.format = &format_,
                                 .fields = FieldsFor(inserted.recorded),
-                                .labels = has_kitti_labels_ ? KittiNumbers(whole) : table_};
+                                .labels = has_kitti_labels_ ? KittiNumbersIn(whole) : table_};
     WrittenFrame output;
     const std::uint32_t number = format_.dataset ? frame - first_frame_ : frame;
     EncodeFrameFiles(whole, spec, number, output.files, moving);
@@ -131,6 +115,26 @@ class ConvertedClouds : public RecordingOutput {
 };
 
 }  // namespace
+
+Frame WithOutcomes(const RecordedFrame& recorded) {
+  Frame frame = recorded.frame;
+  if (recorded.Has("outcome")) return frame;
+  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    frame.outcome[slot] = std::isnan(frame.x[slot]) ? Outcome::kNoSurface : Outcome::kReturned;
+  }
+  return frame;
+}
+
+LabelTable KittiNumbersIn(const Frame& frame) {
+  const std::set<std::uint32_t> ids(frame.label.begin(), frame.label.end());
+  std::vector<Label> labels;
+  for (const std::uint32_t id : ids) {
+    Label& label = labels.emplace_back();
+    label.id = id;
+    label.semantic_kitti = static_cast<std::uint16_t>(id);
+  }
+  return LabelTable(std::move(labels));
+}
 
 std::unique_ptr<RecordingOutput> MakeConvertedClouds(const RecordingInfo& info,
                                                      const InsertPlan& plan,

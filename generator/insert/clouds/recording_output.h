@@ -18,6 +18,8 @@
 
 namespace railcast {
 
+struct SequenceSummary;
+
 /// A file that stands beside those of the frames.
 struct FixedFile {
   std::string name;  ///< Relative to the folder of the recording.
@@ -68,6 +70,22 @@ class RecordingOutput {
   /// Finish().
   [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
 };
+
+/// What the run of a recorded sequence was, but for its directory and frames.
+[[nodiscard]] SequenceSpec SpecOfRecorded(const SequenceSummary& summary,
+                                          const ScenarioSpec& scenario);
+
+/// Whether points are in the sensor's axes, as recordings are read.
+[[nodiscard]] inline bool IsInSensorAxes(const OutputSpec& output) {
+  return output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
+}
+
+/// The frame as encoders expect it: with an outcome for each slot.
+/// @param recorded Of which `frame` is taken.
+[[nodiscard]] Frame WithOutcomes(const RecordedFrame& recorded);
+
+/// The table for encoders, where labels are SemanticKITTI's numbers.
+[[nodiscard]] LabelTable KittiNumbersIn(const Frame& frame);
 
 /// Writes a recording of cloud files as it was; null if it is none. Beside some of its frames,
 /// poses.txt and times.txt of KITTI have the lines of these.

@@ -18,35 +18,6 @@
 namespace railcast {
 namespace {
 
-/// What the run of a recorded sequence was, but for its directory and frames.
-SequenceSpec SpecOf(const SequenceSummary& summary, const ScenarioSpec& scenario) {
-  const RunRecord& run = summary.run;
-  SequenceSpec spec;
-  spec.version = run.version;
-  spec.embree_version = run.embree;
-  spec.isa = run.isa;
-  spec.identity = IdentityOf(scenario);
-  if (!run.commands_hash.empty())
-    spec.commands_jsonl = ReadFileWhole(summary.directory / kCommandsFile);
-  spec.seed = run.seed;
-  if (summary.manifest && !summary.manifest->fidelity_choice.is_null()) {
-    spec.fidelity_choice_json = summary.manifest->fidelity_choice.dump();
-  }
-  spec.files = {
-      .format = &ParseFrameFormat(run.format),
-      .fields = run.fields.empty() ? FieldSelection() : FieldSelection(run.fields, true, true),
-      .labels = LabelTable(scenario.labels)};
-  if (scenario.camera) {
-    spec.camera = scenario.camera->name;
-    spec.calibration_json =
-        ReadFileWhole(summary.directory / CalibrationFileName(scenario.camera->name));
-  }
-  if (!run.motion_sensors.empty()) spec.motion_sensors = scenario.motion_sensors;
-  spec.materials = MaterialLibrary(scenario.materials);
-  spec.stride = run.stride();
-  return spec;
-}
-
 /// Counts changed by what was inserted.
 FrameCounts CountsWith(FrameCounts counts,
                        const RecordedFirings& firings,
@@ -175,6 +146,34 @@ class SameSequence : public RecordingOutput {
 
 }  // namespace
 
+SequenceSpec SpecOfRecorded(const SequenceSummary& summary, const ScenarioSpec& scenario) {
+  const RunRecord& run = summary.run;
+  SequenceSpec spec;
+  spec.version = run.version;
+  spec.embree_version = run.embree;
+  spec.isa = run.isa;
+  spec.identity = IdentityOf(scenario);
+  if (!run.commands_hash.empty())
+    spec.commands_jsonl = ReadFileWhole(summary.directory / kCommandsFile);
+  spec.seed = run.seed;
+  if (summary.manifest && !summary.manifest->fidelity_choice.is_null()) {
+    spec.fidelity_choice_json = summary.manifest->fidelity_choice.dump();
+  }
+  spec.files = {
+      .format = &ParseFrameFormat(run.format),
+      .fields = run.fields.empty() ? FieldSelection() : FieldSelection(run.fields, true, true),
+      .labels = LabelTable(scenario.labels)};
+  if (scenario.camera) {
+    spec.camera = scenario.camera->name;
+    spec.calibration_json =
+        ReadFileWhole(summary.directory / CalibrationFileName(scenario.camera->name));
+  }
+  if (!run.motion_sensors.empty()) spec.motion_sensors = scenario.motion_sensors;
+  spec.materials = MaterialLibrary(scenario.materials);
+  spec.stride = run.stride();
+  return spec;
+}
+
 std::unique_ptr<RecordingOutput> MakeSameSequence(const RecordingInfo& info,
                                                   const InsertPlan& plan,
                                                   const InsertRange& range,
@@ -187,10 +186,8 @@ std::unique_ptr<RecordingOutput> MakeSameSequence(const RecordingInfo& info,
   };
   const FrameFormat& format = ParseFrameFormat(summary.run.format);
   if (format.files.empty()) refuse("must have clouds in files of their own");
-  const bool is_in_sensor_axes = scenario.output.frame == OutputFrame::kSensor &&
-                                 scenario.output.handedness == Handedness::kRight;
-  if (!format.dataset && !is_in_sensor_axes) refuse("must have its points in the sensor's axes");
-  SequenceSpec spec = SpecOf(summary, scenario);
+  if (!format.dataset && !IsInSensorAxes(scenario.output)) refuse("must have its points in the sensor's axes");
+  SequenceSpec spec = SpecOfRecorded(summary, scenario);
   spec.directory = folder;
   return std::make_unique<SameSequence>(summary, std::move(spec), LabelNumbersOf(plan, info),
                                         range);

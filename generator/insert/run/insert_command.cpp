@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -27,23 +28,11 @@ struct InsertOptions {
   bool is_check = false;
 };
 
-/// Reads "12..30" or "12".
-void ReadRange(const std::string& text, InsertChoices& choices) {
-  if (text.empty()) return;
-  const std::size_t dots = text.find("..");
-  const auto first = ParseWholeNumber(text.substr(0, dots));
-  const auto last = dots == std::string::npos ? first : ParseWholeNumber(text.substr(dots + 2));
-  if (!first || !last || *first > *last || *last > kMaxFrame) {
-    throw InputError("--frames: must be numbers of frames, first and last, such as 12..30 (got " +
-                     ShownText(text) + ")");
-  }
-  choices.first_frame = static_cast<std::uint32_t>(*first);
-  choices.last_frame = static_cast<std::uint32_t>(*last);
-}
-
 int RunInsertCommand(InsertOptions options) {
   InsertChoices& choices = options.choices;
-  ReadRange(options.frames, choices);
+  if (!options.frames.empty()) {
+    std::tie(choices.first_frame, choices.last_frame) = FramesNamed(options.frames);
+  }
   if (!options.is_check && choices.directory.empty()) {
     throw InputError("--out: missing (only --check writes nothing)");
   }

@@ -20,10 +20,12 @@
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
+#include "core/io/run/insert_record.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
 #include "core/io/write_file.h"
+#include "core/program/command_line.h"
 #include "core/program/version.h"
 #include "core/simulate/frame_poses.h"
 #include "core/trace/trace_program.h"
@@ -34,7 +36,7 @@
 #include "generator/insert/inserter.h"
 #include "generator/insert/packets/same_copy.h"
 #include "generator/insert/plan/recorded_run.h"
-#include "generator/insert/run/insert_folder.h"
+#include "generator/insert/run/frame_folder.h"
 #include "generator/run/frame_pipe.h"
 #include "generator/run/run_directory.h"
 
@@ -176,9 +178,14 @@ class InsertRun {
         finder_(recording.info(), plan.scenario.lidar.scan, choices.may_use_points_alone),
         inserter_(plan, choices.num_threads),
         output_(OutputOf(choices, recording.info(), plan, range_)),
+        run_(RecordOfRun(choices, recording.info(), plan, range_)),
         folder_({.directory = choices.directory,
-                 .run = RecordOfRun(choices, recording.info(), plan, range_),
+                 .made = "an insertion",
+                 .run = RecordFile(run_),
+                 .first_frame = range_.first,
+                 .num_frames = range_.num,
                  .line_files = LineFiles(),
+                 .ledger = std::string(kInsertFile),
                  .is_known = choices.is_known}) {}
 
   InsertResult Run() {
@@ -307,7 +314,7 @@ class InsertRun {
     output_->Finish();
     std::vector<std::string> others;
     for (const std::string& name : output_->WholeFiles()) others.push_back(InRecording(name));
-    folder_.Finish(plan_.remarks, others);
+    folder_.Finish(InsertManifestRecord{.run = run_, .remarks = plan_.remarks}, others);
   }
 
   const InsertPlan& plan_;
@@ -320,7 +327,8 @@ class InsertRun {
   FiringFinder finder_;
   Inserter inserter_;
   std::unique_ptr<RecordingOutput> output_;
-  InsertFolder folder_;
+  InsertRunRecord run_;
+  FrameFolder folder_;
 };
 
 /// Sums what insert.jsonl says of the frames.
@@ -354,14 +362,31 @@ std::string ReportOf(const fs::path& directory) {
 
 }  // namespace
 
-InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
-  const auto num = static_cast<std::uint32_t>(plan.frame_times_ns.size());
-  const std::uint32_t last = choices.last_frame.value_or(num == 0 ? 0 : num - 1);
-  if (choices.first_frame < num && last < num && choices.first_frame <= last) {
-    return {choices.first_frame, last - choices.first_frame + 1};
+std::pair<std::uint32_t, std::uint32_t> FramesNamed(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  const auto first = ParseWholeNumber(text.substr(0, dots));
+  const auto last = dots == std::string::npos ? first : ParseWholeNumber(text.substr(dots + 2));
+  if (!first || !last || *first > *last || *last > kMaxFrame) {
+    throw InputError("--frames: must be numbers of frames, first and last, such as 12..30 (got " +
+                     ShownText(text) + ")");
+  }
+  return {static_cast<std::uint32_t>(*first), static_cast<std::uint32_t>(*last)};
+}
+
+InsertRange RangeOf(std::uint32_t first_frame,
+                    std::optional<std::uint32_t> last_frame,
+                    std::uint32_t num) {
+  const std::uint32_t last = last_frame.value_or(num == 0 ? 0 : num - 1);
+  if (first_frame < num && last < num && first_frame <= last) {
+    return {first_frame, last - first_frame + 1};
   }
   throw InputError("--frames: must be of the recording's " + NumberText(num) + " frames (got " +
-                   NumberText(choices.first_frame) + ".." + NumberText(last) + ")");
+                   NumberText(first_frame) + ".." + NumberText(last) + ")");
+}
+
+InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan) {
+  return RangeOf(choices.first_frame, choices.last_frame,
+                 static_cast<std::uint32_t>(plan.frame_times_ns.size()));
 }
 
 void CheckIsApart(const InsertChoices& choices) {

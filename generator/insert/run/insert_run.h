@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "generator/insert/insert_plan.h"
 #include "generator/run/frame_pipe.h"
@@ -30,8 +31,16 @@ struct InsertResult : RunResult {
   std::string text;  ///< The report of a complete run.
 };
 
-/// The frames that are wanted, of those that the plan has found.
+/// Reads --frames: the first and the last frame, "12..30", or the only one, "12".
+/// @throws InputError if it is neither.
+[[nodiscard]] std::pair<std::uint32_t, std::uint32_t> FramesNamed(const std::string& text);
+
+/// The frames that are wanted, of as many as a recording has.
 /// @throws InputError if the recording has not all of them.
+[[nodiscard]] InsertRange RangeOf(std::uint32_t first_frame,
+                                  std::optional<std::uint32_t> last_frame,
+                                  std::uint32_t num);
+/// As above, of those that the plan has found.
 [[nodiscard]] InsertRange RangeOf(const InsertChoices& choices, const InsertPlan& plan);
 
 /// @throws InputError if what is written would be read as a part of the recording.

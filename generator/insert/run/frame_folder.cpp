@@ -1,4 +1,4 @@
-#include "generator/insert/run/insert_folder.h"
+#include "generator/insert/run/frame_folder.h"
 
 #include <algorithm>
 #include <functional>
@@ -10,10 +10,8 @@
 #include "core/base/text.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/read_record.h"
-#include "core/io/record/record_text.h"
+#include "core/io/run/convert_record.h"
 #include "core/io/run/folder_identity.h"
-#include "core/io/run/run_record.h"
-#include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
@@ -23,36 +21,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a line of insert.jsonl says; nothing if it is not that of the frame.
-std::optional<LedgerItem> ReadItem(std::string_view line,
-                                   std::uint32_t frame,
-                                   std::size_t num_others) {
-  const auto record =
-      ReadWholeLine(line, [](std::string_view whole) { return ReadInsertLine(whole, "").frame; });
+/// What a line of the ledger says; nothing if it is not that of the frame.
+std::optional<LedgerItem> ReadItem(const FrameFolderSpec& spec,
+                                   std::string_view line,
+                                   std::uint32_t frame) {
+  const auto record = ReadWholeLine(
+      line, [&](std::string_view whole) { return ReadLedgerLine(spec.ledger, whole, ""); });
   if (!record || record->frame != frame) return std::nullopt;
-  return LedgerItem{record->files, record->records_hash, std::vector(num_others, 1U)};
+  return LedgerItem{record->files, record->records_hash, std::vector(spec.line_files.size(), 1U)};
 }
 
 // What another value of a key of run.json means.
-std::string InsertDifference(const std::string& key, const Json& found, const Json& ours) {
+std::string FolderDifference(const std::string& key, const Json& found, const Json& ours) {
   return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
 }
 
-std::vector<LineFileName> WithOwn(std::vector<LineFileName> files) {
-  files.push_back({std::string(kInsertFile), ""});
+std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
+  std::vector<LineFileName> files = spec.line_files;
+  files.push_back({spec.ledger, ""});
   return files;
 }
 
 }  // namespace
 
-InsertFolder::InsertFolder(InsertFolderSpec spec)
-    : spec_(std::move(spec)),
-      lock_(spec_.directory),
-      lines_(spec_.directory, WithOwn(spec_.line_files)) {
+FrameFolder::FrameFolder(FrameFolderSpec spec)
+    : spec_(std::move(spec)), lock_(spec_.directory), lines_(spec_.directory, WithLedger(spec_)) {
   const FolderIdentity identity{.file = spec_.directory / kRunFile,
-                                .text = RecordFile(spec_.run),
+                                .text = spec_.run,
                                 .is_complete = fs::exists(spec_.directory / kManifestFile)};
-  if (!spec_.is_known) was_empty_ = TakeFolder(identity, "an insertion", InsertDifference);
+  if (!spec_.is_known) was_empty_ = TakeFolder(identity, spec_.made, FolderDifference);
   is_complete_ = identity.is_complete;
   if (is_complete_) {
     changed_ = FaultsToMend(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));
@@ -62,18 +59,18 @@ InsertFolder::InsertFolder(InsertFolderSpec spec)
     fs::remove(spec_.directory / kManifestFile);
     WriteFileWhole(identity.file, identity.text);
   }
-  num_done_ = lines_.Count(spec_.run.num_frames, [&](std::uint32_t i, std::string_view line) {
-    return ReadItem(line, spec_.run.first_frame + i, spec_.line_files.size());
+  num_done_ = lines_.Count(spec_.num_frames, [&](std::uint32_t i, std::string_view line) {
+    return ReadItem(spec_, line, spec_.first_frame + i);
   });
 }
 
-void InsertFolder::Open(std::uint32_t num_kept) {
+void FrameFolder::Open(std::uint32_t num_kept) {
   Check(num_kept <= num_done_, "only frames that are there are kept");
   num_done_ = num_kept;
   lines_.Open(num_kept);
 }
 
-void InsertFolder::WriteFixed(const FixedFile& file) {
+void FrameFolder::WriteFixed(const FixedFile& file) {
   const fs::path path = spec_.directory / file.name;
   fixed_.push_back(file.name);
   if (fs::exists(path)) {  // Else what it is to hold need not be read twice.
@@ -93,22 +90,15 @@ void InsertFolder::WriteFixed(const FixedFile& file) {
   copy.Finish();
 }
 
-void InsertFolder::Write(const std::vector<FrameFile>& files,
-                         const std::vector<std::string>& lines,
-                         InsertRecord entry) {
+void FrameFolder::WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const {
   for (const FrameFile& file : files) {
     MakeFolders((spec_.directory / file.name).parent_path());
     WriteFileWhole(spec_.directory / file.name, file.bytes);
-    entry.frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
+    frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
-  lines_.Append(lines, [&](std::string records_hash) {
-    entry.frame.records_hash = std::move(records_hash);
-    return HashedRecordLine(entry);
-  });
-  ++num_done_;
 }
 
-void InsertFolder::Abandon() noexcept {
+void FrameFolder::Abandon() noexcept {
   if (!was_empty_ || num_done_ > 0) return;
   std::error_code error;
   fs::remove_all(spec_.directory, error);
@@ -116,7 +106,7 @@ void InsertFolder::Abandon() noexcept {
 
 // What a run that was killed has left beside the file that it wrote, unless the recording has a
 // file of this name.
-void InsertFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
+void FrameFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(spec_.directory)) {
     const fs::path& file = entry.path();
@@ -128,20 +118,18 @@ void InsertFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
   for (const fs::path& file : files) fs::remove(file);
 }
 
-void InsertFolder::Finish(const std::vector<std::string>& remarks,
-                          const std::vector<std::string>& others) {
+NamedValues<std::string> FrameFolder::HashesOfWhole(const std::vector<std::string>& others) {
   lines_.Sync();
-  InsertManifestRecord manifest{.run = spec_.run, .remarks = remarks};
   std::vector<std::string> names = {std::string(kRunFile)};
   names.insert(names.end(), fixed_.begin(), fixed_.end());
   names.insert(names.end(), others.begin(), others.end());
   for (const LineFileName& file : lines_.files()) names.push_back(file.name);
   RemoveUnfinished(names);
+  NamedValues<std::string> hashes;
   for (const std::string& name : names) {
-    manifest.files.emplace_back(name, HashFile(spec_.directory / name).hash);
+    hashes.emplace_back(name, HashFile(spec_.directory / name).hash);
   }
-  WriteFileWhole(spec_.directory / kManifestFile, WithManifestHash(RecordFile(manifest)));
-  is_complete_ = true;
+  return hashes;
 }
 
 }  // namespace railcast

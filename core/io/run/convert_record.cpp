@@ -1,0 +1,46 @@
+#include "core/io/run/convert_record.h"
+
+#include "core/io/record/read_record.h"
+#include "core/io/run/insert_record.h"
+#include "core/scenario/archive.h"
+
+namespace railcast {
+
+void Describe(Archive& a, ConvertRunRecord& s) {
+  a.Required("version", s.version, "Of railcast.");
+  a.Required("recording", s.recording, "Its path, as the command line names it.");
+  a.Required("recording_xxh3", s.recording_hash, "Hash of its files' names and hashes.");
+  a.Required("kind", s.kind, "What the recording is.");
+  a.Required("format", s.format, "");
+  a.Required("fields", s.fields, "As --fields names them.");
+  a.Required("first_frame", s.first_frame, "");
+  a.Required("num_frames", s.num_frames, "");
+}
+
+void Describe(Archive& a, ConvertManifestRecord& s) {
+  Describe(a, s.run);
+  a.Required("lost", s.lost, "What the format has no place for, and how often.");
+  a.Required("files_xxh3", s.files, "Hashes of all files but those that convert.jsonl names.");
+}
+
+void Describe(Archive& a, ConvertRecord& s) {
+  a.Required("frame", s.frame.frame, "Its number in the recording.");
+  a.Required("stamp_ns", s.frame.stamp_ns, "");
+  a.Required("points", s.frame.counts.points, "");
+  a.Optional("lost", s.lost, "Of this frame, as in manifest.json.");
+  a.Required("files", s.frame.files, "Of this frame.");
+  a.Required("records_xxh3", s.frame.records_hash, "Hash of the frame's lines in the other files.");
+}
+
+ConvertRecord ReadConvertLine(std::string_view line, const std::string& place) {
+  return ReadRecordLine<ConvertRecord>(line, place);
+}
+
+FrameRecord ReadLedgerLine(std::string_view ledger,
+                           std::string_view line,
+                           const std::string& place) {
+  return ledger == kConvertFile ? ReadConvertLine(line, place).frame
+                                : ReadInsertLine(line, place).frame;
+}
+
+}  // namespace railcast

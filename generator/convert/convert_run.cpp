@@ -1,0 +1,206 @@
+#include <tbb/task_arena.h>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/record/record_text.h"
+#include "core/io/recording/line_reader.h"
+#include "core/io/recording/recording_kinds.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/sequence_files.h"
+#include "core/io/verify/dataset_verification.h"
+#include "core/program/version.h"
+#include "generator/convert/convert_output.h"
+#include "generator/insert/plan/recorded_run.h"
+#include "generator/insert/run/frame_folder.h"
+#include "generator/insert/run/insert_run.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As many as a recording has; of captures it is known once their packets were read.
+std::uint32_t CountFrames(const fs::path& recording, const RecordingInfo& info) {
+  if (info.num_frames) return static_cast<std::uint32_t>(*info.num_frames);
+  const auto again = OpenRecording(recording);
+  std::uint32_t num = 0;
+  while (again->Next()) ++num;
+  return num;
+}
+
+/// A frame on its way from the recording to the folder.
+struct ConvertSlot {
+  std::uint32_t number{};
+  std::function<SourceFrame()> read;
+  ConvertedFrame frame;
+};
+
+/// The conversion of a recording that is no sequence, or does not become one.
+class RecordingConversion {
+ public:
+  RecordingConversion(const ConvertChoices& choices, const RunHooks& hooks)
+      : choices_(choices),
+        hooks_(hooks),
+        source_(choices.recording),
+        range_(RangeOf(choices.first_frame,
+                       choices.last_frame,
+                       CountFrames(choices.recording, source_.info()))),
+        first_(ReadFirst()),
+        output_(MakeConvertOutput(choices, source_.info(), first_)),
+        run_{.version = ProgramVersion(),
+             .recording = choices.recording.lexically_normal().generic_string(),
+             .recording_hash = ContentHash(RecordingTraits(choices.recording)),
+             .kind = source_.info().kind,
+             .format = choices.format,
+             .fields = choices.fields,
+             .first_frame = range_.first,
+             .num_frames = range_.num},
+        folder_({.directory = choices.directory,
+                 .made = "a conversion",
+                 .run = RecordFile(run_),
+                 .first_frame = range_.first,
+                 .num_frames = range_.num,
+                 .line_files = output_->LineFiles(),
+                 .ledger = std::string(kConvertFile)}) {}
+
+  ConvertResult Run() {
+    ConvertResult result;
+    result.num = range_.num;
+    result.was_complete = folder_.is_complete();
+    result.changed = folder_.changed();
+    result.num_resumed = folder_.num_done();
+    if (!folder_.is_complete()) {
+      result.num_resumed = output_->Begin(folder_.num_done());
+      folder_.Open(result.num_resumed);
+      for (const FixedFile& file : output_->FixedFiles()) folder_.WriteFixed(file);
+      try {
+        MakeFrames();
+      } catch (...) {
+        output_.reset();
+        folder_.Abandon();
+        throw;
+      }
+    }
+    result.num_done = folder_.num_done();
+    if (result.num_done == range_.num) {
+      result.lost = LostOfFrames();
+      if (!folder_.is_complete()) Finish(result.lost);
+    }
+    result.is_complete = folder_.is_complete();
+    return result;
+  }
+
+ private:
+  SourceFrame ReadFirst() {
+    for (; next_ < range_.first; ++next_) (void)source_.Next();
+    const auto read = source_.Next();
+    if (!read) throw InputError(ShownPath(choices_.recording) + ": must have a frame");
+    SourceFrame first = (*read)();
+    ahead_ = [first] { return first; };
+    return first;
+  }
+
+  std::optional<std::function<SourceFrame()>> TakeNext() {
+    return ahead_ ? std::exchange(ahead_, std::nullopt) : source_.Next();
+  }
+
+  void MakeFrames() {
+    std::uint32_t num_done = folder_.num_done();
+    WithConvertPipe(choices_.num_threads, [&](FramePipe& pipe) {
+      std::vector<ConvertSlot> slots(pipe.num_slots());
+      pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
+        for (; next_ < first; ++next_) (void)TakeNext();
+        if (next_ == range_.first + range_.num || hooks_.is_stopped()) return false;
+        auto read = TakeNext();
+        if (!read) return false;
+        slots[i].number = next_++;
+        slots[i].read = std::move(*read);
+        return true;
+      };
+      pipe.stages = {{false, [&](std::size_t i) {
+                        ConvertSlot& slot = slots[i];
+                        const SourceFrame source = std::exchange(slot.read, {})();
+                        slot.frame = {};
+                        slot.frame.record.frame.frame = slot.number;
+                        slot.frame.record.frame.stamp_ns = source.recorded.frame.stamp_ns;
+                        output_->Encode(source, slot.number, slot.frame);
+                      }}};
+      pipe.write = [&](std::size_t i) {
+        output_->Write(slots[i].frame);
+        folder_.Write(slots[i].frame.files, slots[i].frame.lines, slots[i].frame.record);
+      };
+      pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
+      hooks_.on_progress(num_done, range_.num);
+      RunPipe(pipe);
+    });
+  }
+
+  [[nodiscard]] Losses LostOfFrames() const {
+    Losses lost = output_->LostOfAll();
+    std::uint64_t num_points = 0;
+    LineReader lines(choices_.directory / kConvertFile);
+    while (const auto line = lines.Next()) {
+      const ConvertRecord record = ReadConvertLine(line->text, line->place);
+      num_points += record.frame.counts.points;
+      for (const auto& [what, number] : record.lost) AddLoss(what, number, lost);
+    }
+    const auto& scenario = source_.info().scenario;
+    if (source_.info().origin && scenario && !IsInSensorAxes(scenario->output)) {
+      AddLoss("positions turned into the sensor's axes, rounded", num_points, lost);
+    }
+    return lost;
+  }
+
+  void Finish(const Losses& lost) {
+    output_->Finish();
+    folder_.Finish(ConvertManifestRecord{.run = run_, .lost = lost}, output_->WholeFiles());
+  }
+
+  const ConvertChoices& choices_;
+  const RunHooks& hooks_;
+  SourceFrames source_;
+  InsertRange range_;
+  std::uint32_t next_ = 0;  ///< The number of the frame that is taken next.
+  std::optional<std::function<SourceFrame()>> ahead_;  ///< Its reader, if it is there already.
+  SourceFrame first_;
+  std::unique_ptr<ConvertOutput> output_;
+  ConvertRunRecord run_;
+  FrameFolder folder_;
+};
+
+}  // namespace
+
+void WithConvertPipe(int num_threads, const std::function<void(FramePipe& pipe)>& work) {
+  tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
+  FramePipe pipe;
+  pipe.num_at_once = static_cast<std::size_t>(arena.max_concurrency()) + 1;
+  pipe.num_waiting = 2;
+  pipe.execute = [&](const std::function<void()>& run) { arena.execute(run); };
+  work(pipe);
+}
+
+std::vector<std::string> ConvertFormats() {
+  std::vector<std::string> names;
+  for (const FrameFormat& format : FrameFormats()) {
+    if (!format.files.empty() || !format.bag.empty()) names.emplace_back(format.name);
+  }
+  return names;
+}
+
+ConvertResult RunConvert(const ConvertChoices& choices, const RunHooks& hooks) {
+  if (IsInFolder(choices.directory, KittiSourceOf(choices.recording).clouds)) {
+    throw InputError("OUT: must not be in the recording's directory (got " +
+                     ShownPath(choices.directory) + ")");
+  }
+  if (IsDataset(choices.recording)) return ConvertDataset(choices, hooks);
+  if (BecomesSequence(choices)) return ConvertSequence(choices, hooks);
+  return RecordingConversion(choices, hooks).Run();
+}
+
+}  // namespace railcast

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/cloud/kitti.h"
+#include "core/io/cloud/track_fields.h"
+#include "core/io/content_hash.h"
+#include "core/io/recording/sequence_check.h"
+#include "core/io/run/camera_files.h"
+#include "core/io/run/dataset_files.h"
+#include "core/io/run/motion_files.h"
+#include "core/io/run/run_folder.h"
+#include "core/io/run/sequence_files.h"
+#include "generator/convert/convert.h"
+#include "generator/insert/clouds/recording_output.h"
+#include "generator/insert/run/insert_run.h"
+#include "generator/run/run_directory.h"
+#include "railcast/rail_world.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of a sequence of railcast, which an insertion into one holds, too; empty if it is
+/// none.
+fs::path SequenceIn(const fs::path& recording) {
+  for (const fs::path& folder : {recording, recording / kRecordingFolder}) {
+    if (fs::exists(folder / kFramesFile)) return folder;
+  }
+  return {};
+}
+
+/// The fields that both the recorded points and the new ones have.
+/// @throws InputError "--fields: ..." if one is wanted that the recording lacks.
+FieldSelection FieldsOfBoth(const FieldSelection& recorded,
+                            const ConvertChoices& choices,
+                            const ScenarioSpec& scenario) {
+  if (choices.fields == "all") return recorded;
+  FieldSelection wanted(choices.fields, scenario.lidar.velocity.has_value(), true);
+  for (const std::string& name : wanted.names()) {
+    if (recorded.Has(name)) continue;
+    throw InputError("--fields: must be among those of the recording, " + recorded.Text() +
+                     " (got " + name + ")");
+  }
+  return wanted;
+}
+
+/// The run that writes the sequence.
+SequenceSpec SpecOfConverted(const SequenceSummary& summary,
+                             const ConvertChoices& choices,
+                             const InsertRange& range) {
+  const ScenarioSpec scenario = ReadScenario(summary.directory / kScenarioFile);
+  const FrameFormat& format = ParseFrameFormat(summary.run.format);
+  if (format.files.empty() && format.bag.empty()) {
+    throw InputError(ShownPath(summary.directory) + ": must have points (got format " +
+                     summary.run.format + ")");
+  }
+  if (!IsInSensorAxes(scenario.output)) {
+    throw InputError(ShownPath(summary.directory) +
+                     ": must have its points in the sensor's axes to become a sequence; "
+                     "--format mcap or rosbag2 takes them");
+  }
+  SequenceSpec spec = SpecOfRecorded(summary, scenario);
+  const FrameFormat& wanted = ParseFrameFormat(choices.format);
+  if (wanted.dataset && choices.fields != "all") {
+    throw InputError("--fields: " + std::string(wanted.dataset->title) +
+                     "'s are fixed, so it must be left out with --format " + choices.format +
+                     " (got " + choices.fields + ")");
+  }
+  spec.directory = choices.directory;
+  spec.files.format = &wanted;
+  spec.files.fields =
+      wanted.dataset ? FieldSelection() : FieldsOfBoth(spec.files.fields, choices, scenario);
+  if (spec.files.fields.NeedsTrack()) {
+    spec.files.fields.SetTrack(std::make_shared<const FrameTrack>(
+        FrameTrack{OwnTrack(*MakeWorld(scenario), scenario.world.catenary), scenario.output,
+                   VehicleFromSensor(scenario.lidar.mount)}));
+  }
+  spec.start_frame = summary.run.start_frame + range.first * spec.stride;
+  spec.num_frames = range.num;
+  return spec;
+}
+
+/// A frame on its way from one sequence to another.
+struct SequenceSlot {
+  std::uint32_t index{};  ///< Among the frames that are written.
+  FrameLines lines;
+  Recording::FrameReader read;
+  EncodedFrame encoded;
+};
+
+/// Writes a frame as the sequence's own run would have done it: all but its clouds are as recorded.
+void EncodeConverted(const fs::path& source, const SequenceSpec& spec, SequenceSlot& slot) {
+  const RecordedFrame recorded = std::exchange(slot.read, {})();
+  const FrameLines& lines = slot.lines;
+  EncodedFrame& encoded = slot.encoded;
+  encoded = {};
+  encoded.record = ReadFrameLine(lines.frame.text, lines.frame.place);
+  const std::uint32_t number = spec.files.format->dataset ? slot.index : encoded.record.frame;
+  std::set<std::uint32_t> moving;
+  for (const RecordedObject& object : recorded.objects) {
+    if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
+  }
+  EncodeFrameFiles(WithOutcomes(recorded), spec.files, number, encoded.files, moving);
+  const std::vector<std::string> images = CameraFileNames(spec.camera, number);
+  auto image = images.begin();
+  for (const KnownFile& file : std::exchange(encoded.record.files, {})) {
+    if (!IsCameraFile(file.name)) continue;
+    encoded.files.push_back({*image++, ReadKnownFile(source, file, kFramesFile)});
+  }
+  for (const FrameFile& file : encoded.files) {
+    encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
+  }
+  encoded.record.clouds_hash.clear();
+  encoded.pose = ReadPoseRecord(lines.records.at(0).text, lines.records.at(0).place);
+  encoded.objects_line = lines.records.at(1).text + "\n";
+  for (const PlacedLine& motion : lines.motion) encoded.motion_lines.push_back(motion.text);
+}
+
+/// What the new format has no place for.
+/// @param counts Of all frames.
+Losses LostOfSequence(const SequenceSummary& summary,
+                      const SequenceSpec& spec,
+                      const FrameCounts& counts) {
+  const FrameFormat& from = ParseFrameFormat(summary.run.format);
+  const FrameFormat& to = *spec.files.format;
+  Losses lost;
+  std::uint64_t num_absent = 0;
+  for (std::size_t i = 0; i < counts.outcomes.size(); ++i) {
+    if (!HasPoint(static_cast<Outcome>(i))) num_absent += counts.outcomes[i];
+  }
+  const bool had_all_slots = from.has_all_slots || !from.bag.empty();
+  AddLoss("firings without a point", had_all_slots && !to.has_all_slots ? num_absent : 0, lost);
+  if (!to.dataset) return lost;
+  const FieldSelection recorded = summary.run.fields.empty()
+                                      ? FieldSelection()
+                                      : FieldSelection(summary.run.fields, true, true);
+  const std::set<std::string, std::less<>> held = {"x", "y", "z", "intensity", "label", "instance"};
+  for (const std::string& name : recorded.names()) {
+    if (!held.contains(name)) AddLoss("values of " + name, counts.points, lost);
+  }
+  return lost;
+}
+
+}  // namespace
+
+bool BecomesSequence(const ConvertChoices& choices) {
+  const fs::path folder = SequenceIn(choices.recording);
+  if (folder.empty() || ParseFrameFormat(choices.format).files.empty()) return false;
+  const FrameFormat* const from = FindFrameFormat(ReadSequenceSummary(folder).run.format);
+  return from != nullptr && !from->dataset;
+}
+
+ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hooks) {
+  const fs::path source = SequenceIn(choices.recording);
+  const SequenceSummary summary = ReadSequenceSummary(source);
+  const auto recording = OpenRecording(source);
+  FrameLineReader lines(summary);
+  const InsertRange range = RangeOf(choices.first_frame, choices.last_frame,
+                                    static_cast<std::uint32_t>(lines.num_frames()));
+  const SequenceSpec spec = SpecOfConverted(summary, choices, range);
+  const FolderLock lock(spec.directory);
+  RunDirectory directory(spec);
+  ConvertResult result;
+  result.num = range.num;
+  result.was_complete = directory.is_complete();
+  result.changed = directory.changed();
+  result.num_resumed = directory.num_done();
+  std::uint32_t num_done = directory.num_done();
+  hooks.on_progress(num_done, range.num);
+  WithConvertPipe(choices.num_threads, [&](FramePipe& pipe) {
+    std::vector<SequenceSlot> slots(pipe.num_slots());
+    std::uint32_t next = 0;
+    const auto take = [&](SequenceSlot& slot) {
+      slot.lines = lines.Next().value();
+      slot.read = recording->Next().value();
+      slot.index = next++ - range.first;
+    };
+    pipe.begin = [&, first = range.first + num_done](std::size_t i) {
+      if (first == range.first + range.num) return false;
+      while (next < first) take(slots[i]);
+      if (next == range.first + range.num || hooks.is_stopped()) return false;
+      take(slots[i]);
+      return true;
+    };
+    pipe.stages = {{false, [&](std::size_t i) { EncodeConverted(source, spec, slots[i]); }}};
+    pipe.write = [&](std::size_t i) { directory.Write(slots[i].encoded); };
+    pipe.on_written = [&] { hooks.on_progress(++num_done, range.num); };
+    RunPipe(pipe);
+  });
+  result.num_done = directory.num_done();
+  if (!directory.is_complete() && result.num_done == range.num) directory.Finish();
+  result.is_complete = directory.is_complete();
+  if (result.is_complete) result.lost = LostOfSequence(summary, spec, directory.counts());
+  return result;
+}
+
+}  // namespace railcast
