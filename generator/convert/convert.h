@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/io/run/convert_record.h"
+#include "generator/insert/insert_plan.h"
 #include "generator/run/frame_pipe.h"
 #include "railcast/io/recording.h"
 
@@ -47,6 +48,10 @@ struct ConvertResult : RunResult {
 [[nodiscard]] bool BecomesSequence(const ConvertChoices& choices);
 [[nodiscard]] ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hooks);
 [[nodiscard]] ConvertResult ConvertDataset(const ConvertChoices& choices, const RunHooks& hooks);
+
+/// What is beside the points of a sequence; nothing of another recording.
+[[nodiscard]] Losses LostBesidePoints(const std::filesystem::path& recording,
+                                      const InsertRange& range);
 
 /// Threads and slots of a pipe for the conversion of frames.
 /// @param work Gets the pipe to complete and run.

@@ -150,6 +150,10 @@ class RecordingConversion {
       num_points += record.frame.counts.points;
       for (const auto& [what, number] : record.lost) AddLoss(what, number, lost);
     }
+    for (const auto& [what, number] : LostBesidePoints(choices_.recording, range_)) {
+      AddLoss(what, number, lost);
+    }
+    AddLoss("names of materials", source_.info().materials.size(), lost);
     const auto& scenario = source_.info().scenario;
     if (source_.info().origin && scenario && !IsInSensorAxes(scenario->output)) {
       AddLoss("positions turned into the sensor's axes, rounded", num_points, lost);

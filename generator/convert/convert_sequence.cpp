@@ -34,17 +34,33 @@ fs::path SequenceIn(const fs::path& recording) {
   return {};
 }
 
+bool HasAllSlots(const FrameFormat& format) {
+  return format.has_all_slots || !format.bag.empty();
+}
+
+/// Whether the sequence gets places for firings without a point, of which the recorded one does not
+/// say why.
+bool LacksOutcomes(const SequenceSummary& summary, const FrameFormat& wanted) {
+  return wanted.has_all_slots && !HasAllSlots(ParseFrameFormat(summary.run.format));
+}
+
 /// The fields that both the recorded points and the new ones have.
 /// @throws InputError "--fields: ..." if one is wanted that the recording lacks.
 FieldSelection FieldsOfBoth(const FieldSelection& recorded,
                             const ConvertChoices& choices,
-                            const ScenarioSpec& scenario) {
-  if (choices.fields == "all") return recorded;
-  FieldSelection wanted(choices.fields, scenario.lidar.velocity.has_value(), true);
+                            const SequenceSummary& summary) {
+  std::string list;
+  for (const std::string& name : recorded.names()) {
+    if (name == "outcome" && LacksOutcomes(summary, ParseFrameFormat(choices.format))) continue;
+    list += (list.empty() ? "" : ",") + name;
+  }
+  const FieldSelection there(list, true, true);
+  if (choices.fields == "all") return there;
+  FieldSelection wanted(choices.fields, true, true);
   for (const std::string& name : wanted.names()) {
-    if (recorded.Has(name)) continue;
-    throw InputError("--fields: must be among those of the recording, " + recorded.Text() +
-                     " (got " + name + ")");
+    if (there.Has(name)) continue;
+    throw InputError("--fields: must be among those of the recording, " + list + " (got " + name +
+                     ")");
   }
   return wanted;
 }
@@ -74,7 +90,7 @@ SequenceSpec SpecOfConverted(const SequenceSummary& summary,
   spec.directory = choices.directory;
   spec.files.format = &wanted;
   spec.files.fields =
-      wanted.dataset ? FieldSelection() : FieldsOfBoth(spec.files.fields, choices, scenario);
+      wanted.dataset ? FieldSelection() : FieldsOfBoth(spec.files.fields, choices, summary);
   if (spec.files.fields.NeedsTrack()) {
     spec.files.fields.SetTrack(std::make_shared<const FrameTrack>(
         FrameTrack{OwnTrack(*MakeWorld(scenario), scenario.world.catenary), scenario.output,
@@ -133,12 +149,14 @@ Losses LostOfSequence(const SequenceSummary& summary,
   for (std::size_t i = 0; i < counts.outcomes.size(); ++i) {
     if (!HasPoint(static_cast<Outcome>(i))) num_absent += counts.outcomes[i];
   }
-  const bool had_all_slots = from.has_all_slots || !from.bag.empty();
-  AddLoss("firings without a point", had_all_slots && !to.has_all_slots ? num_absent : 0, lost);
-  if (!to.dataset) return lost;
+  AddLoss("firings without a point", HasAllSlots(from) && !to.has_all_slots ? num_absent : 0, lost);
   const FieldSelection recorded = summary.run.fields.empty()
                                       ? FieldSelection()
                                       : FieldSelection(summary.run.fields, true, true);
+  if (recorded.Has("outcome") && LacksOutcomes(summary, to)) {
+    AddLoss("values of outcome, not known without a point", counts.points, lost);
+  }
+  if (!to.dataset) return lost;
   const std::set<std::string, std::less<>> held = {"x", "y", "z", "intensity", "label", "instance"};
   for (const std::string& name : recorded.names()) {
     if (!held.contains(name)) AddLoss("values of " + name, counts.points, lost);
@@ -153,6 +171,26 @@ bool BecomesSequence(const ConvertChoices& choices) {
   if (folder.empty() || ParseFrameFormat(choices.format).files.empty()) return false;
   const FrameFormat* const from = FindFrameFormat(ReadSequenceSummary(folder).run.format);
   return from != nullptr && !from->dataset;
+}
+
+Losses LostBesidePoints(const fs::path& recording, const InsertRange& range) {
+  Losses lost;
+  const fs::path folder = SequenceIn(recording);
+  if (folder.empty()) return lost;
+  AddLoss("scenarios of the run", 1, lost);
+  FrameLineReader lines(ReadSequenceSummary(folder));
+  for (std::uint32_t i = 0; i < range.first + range.num; ++i) {
+    const FrameLines next = lines.Next().value();
+    if (i < range.first) continue;
+    const FrameRecord record = ReadFrameLine(next.frame.text, next.frame.place);
+    for (const KnownFile& file : record.files) {
+      AddLoss("files of images", IsCameraFile(file.name) ? 1 : 0, lost);
+    }
+    for (const std::uint32_t num : record.motion_lines) {
+      AddLoss("samples of motion sensors", num, lost);
+    }
+  }
+  return lost;
 }
 
 ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hooks) {

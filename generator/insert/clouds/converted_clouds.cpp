@@ -120,6 +120,9 @@ Frame WithOutcomes(const RecordedFrame& recorded) {
   Frame frame = recorded.frame;
   if (recorded.Has("outcome")) return frame;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
+    // Files of points alone know the outcomes of these.
+    const bool is_known = !std::isnan(frame.x[slot]) && HasPoint(frame.outcome[slot]);
+    if (is_known) continue;
     frame.outcome[slot] = std::isnan(frame.x[slot]) ? Outcome::kNoSurface : Outcome::kReturned;
   }
   return frame;

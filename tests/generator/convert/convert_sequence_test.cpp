@@ -74,6 +74,19 @@ TEST(ConvertSequence, TellsWhatTheFormatHasNoPlaceFor) {
             (Losses{{"firings without a point", num_absent}, {"values of ring", num_points}}));
 }
 
+TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {
+  const TemporaryDirectory folder;
+  const auto path = [&](const std::string& name) { return folder.path() / name; };
+  MadeSequenceSpec made;
+  made.format = "ply";
+  (void)MakeSequence(path("ply"), made);
+  const ConvertResult result =
+      ConvertAll({.recording = path("ply"), .directory = path("pcd"), .format = "pcd"});
+  EXPECT_THAT(result.lost, testing::ElementsAre(testing::Key(
+                               "values of outcome, not known without a point")));
+  ExpectSameFrames(ReadAll(path("pcd")), ReadAll(path("ply")));
+}
+
 TEST(ConvertSequence, GivesTheSameBytesHoweverItIsMade) {
   const TemporaryDirectory folder;
   const auto path = [&](const std::string& name) { return folder.path() / name; };
