@@ -57,7 +57,7 @@ int RunConvertCommand(ConvertOptions options) {
     std::tie(choices.first_frame, choices.last_frame) = FramesNamed(options.frames);
   }
   const bool is_set = IsDataset(choices.recording);
-  if (!is_set) choices.recording = WithChoice({choices.recording}, options.choice).front();
+  choices.recording = WithChoice({choices.recording}, options.choice).front();
   CatchStopSignals();
   FrameProgress progress;
   const auto show = [&](std::uint32_t num_done, std::uint32_t num) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "generator/insert/run/insert_folder.h"
+#include "core/io/run/insert_record.h"
 #include "generator/insert/run/insert_run.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
