@@ -32,8 +32,11 @@ class ConvertOutput {
   [[nodiscard]] virtual std::vector<LineFileName> LineFiles() const { return {}; }
   [[nodiscard]] virtual std::vector<FixedFile> FixedFiles() const { return {}; }
   /// Begins, or goes on after an interruption.
-  /// @return How many of the `num_done` frames that an earlier run has written are there.
-  [[nodiscard]] virtual std::uint32_t Begin(std::uint32_t num_done) { return num_done; }
+  /// @param num_done How many of the `num_frames` an earlier run has written.
+  /// @return How many of these are there.
+  [[nodiscard]] virtual std::uint32_t Begin(std::uint32_t num_done, std::uint32_t /*num_frames*/) {
+    return num_done;
+  }
   /// Fills `files`, `lines`, `messages`, and what is lost. Several threads may do so at once.
   /// @param number Of the frame in the recording.
   virtual void Encode(const SourceFrame& source,

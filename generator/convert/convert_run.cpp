@@ -76,7 +76,7 @@ class RecordingConversion {
     result.changed = folder_.changed();
     result.num_resumed = folder_.num_done();
     if (!folder_.is_complete()) {
-      result.num_resumed = output_->Begin(folder_.num_done());
+      result.num_resumed = output_->Begin(folder_.num_done(), range_.num);
       folder_.Open(result.num_resumed);
       for (const FixedFile& file : output_->FixedFiles()) folder_.WriteFixed(file);
       try {

@@ -76,11 +76,12 @@ class ConvertedBag final : public ConvertOutput {
     }
   }
 
-  [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done) override {
+  [[nodiscard]] std::uint32_t Begin(std::uint32_t num_done, std::uint32_t num_frames) override {
     fs::path unfinished = path_;
     if (is_mcap_) unfinished += kUnfinishedSuffix;
-    const bool is_begun =
-        num_done > 0 && fs::exists(unfinished) && !fs::exists(path_ / "metadata.yaml");
+    // With all frames it may have been closed, and cannot be gone on with.
+    const bool is_begun = num_done > 0 && num_done < num_frames && fs::exists(unfinished) &&
+                          !fs::exists(path_ / "metadata.yaml");
     if (is_begun) {
       writer_ = is_mcap_ ? bag::ContinueMcap(path_, bag::McapCompression::kZstd, num_done)
                          : bag::ContinueRosbag2(path_, num_done);

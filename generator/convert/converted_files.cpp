@@ -174,8 +174,12 @@ class ConvertedKitti final : public ConvertOutput {
     converted.record.frame.counts.points = num_points;
     const std::set<std::string, std::less<>> held = {"x",         "y",     "z",
                                                      "intensity", "label", "instance"};
+    // These follow from positions and rows where the cloud has them not.
+    const std::set<std::string, std::less<>> filled_in = {"range_m", "column", "return_index",
+                                                          "return_count"};
     for (const std::string& name : recorded.fields) {
-      if (!held.contains(name)) AddLoss("values of " + name, num_points, lost);
+      const bool is_stored = !filled_in.contains(name) || source.cloud.Find(name) != nullptr;
+      if (is_stored && !held.contains(name)) AddLoss("values of " + name, num_points, lost);
     }
     for (const ForeignField& field : recorded.foreign) {
       AddLoss("values of " + field.name, num_points, lost);

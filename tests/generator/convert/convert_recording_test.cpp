@@ -32,7 +32,7 @@ class ConvertRecording : public testing::Test {
   /// Two clouds of others: fields of all types, one in double precision, times, a missing point.
   [[nodiscard]] fs::path MakeClouds() const {
     const std::string header =
-        "VERSION 0.7\nFIELDS x y z intensity t curvature gps_time class_id channel offset\n"
+        "VERSION 0.7\nFIELDS x y z intensity t curvature gps_time class_id echo_id offset\n"
         "SIZE 4 4 4 4 4 4 8 1 2 4\nTYPE F F F F U F F U U I\nWIDTH 3\nHEIGHT 1\nPOINTS 3\n"
         "DATA ascii\n";
     fs::create_directories(Path("clouds"));
@@ -120,7 +120,7 @@ TEST_F(ConvertRecording, SaysWhatKittiHasNoPlaceFor) {
       ConvertAll({.recording = MakeClouds(), .directory = Path("kitti"), .format = "kitti"});
   EXPECT_EQ(result.lost, (Losses{{"places without a point", 2},
                                  {"stamps of the first frame, from which the others count", 1},
-                                 {"values of channel", 4},
+                                 {"values of echo_id", 4},
                                  {"values of class_id", 4},
                                  {"values of curvature", 4},
                                  {"values of gps_time", 4},
@@ -264,7 +264,7 @@ TEST_F(ConvertRecording, RefusesFieldsThatAreNotThere) {
   };
   EXPECT_EQ(message("x,y,z,ring", "pcd"),
             "--fields: must be among those of the recording, x, y, z, intensity, t, curvature, "
-            "gps_time, class_id, channel, offset (got ring)");
+            "gps_time, class_id, echo_id, offset (got ring)");
   EXPECT_EQ(message("x,y,t", "ply"), "--fields: must contain x, y and z (got x,y,t)");
   EXPECT_EQ(message("x,y,z", "kitti"),
             "--fields: KITTI's are fixed, so it must be left out with --format kitti (got x,y,z)");

@@ -82,8 +82,8 @@ TEST(ConvertSequence, DoesNotSayWhyFiringsHaveNoPointWhereTheRecordingDoesNot) {
   (void)MakeSequence(path("ply"), made);
   const ConvertResult result =
       ConvertAll({.recording = path("ply"), .directory = path("pcd"), .format = "pcd"});
-  EXPECT_THAT(result.lost, testing::ElementsAre(testing::Key(
-                               "values of outcome, not known without a point")));
+  EXPECT_THAT(result.lost,
+              testing::ElementsAre(testing::Key("values of outcome, not known without a point")));
   ExpectSameFrames(ReadAll(path("pcd")), ReadAll(path("ply")));
 }
 

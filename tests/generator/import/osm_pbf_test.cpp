@@ -50,7 +50,7 @@ std::string FileBlock(const std::string& type, const std::string& content, int c
   return block + static_cast<char>(header.size()) + header + blob;
 }
 
-std::string Node(std::int64_t id, double longitude_deg, double latitude_deg) {
+std::string NodeOfMap(std::int64_t id, double longitude_deg, double latitude_deg) {
   const auto units = [](double angle_deg) {
     return Signed(static_cast<std::int64_t>(angle_deg * 1e7 + 0.5));
   };
@@ -83,7 +83,7 @@ std::string SmallPbf(int compression = kRaw) {
   const std::string way = Number(1, Varint(7)) + Bytes(2, Varint(1) + Varint(3)) +
                           Bytes(3, Varint(2) + Varint(4)) + Bytes(8, Signed(1) + Signed(1));
   const std::string data = Bytes(1, texts) +
-                           Bytes(2, Node(1, 15.60, 48.20) + Node(2, 15.61, 48.21)) +
+                           Bytes(2, NodeOfMap(1, 15.60, 48.20) + NodeOfMap(2, 15.61, 48.21)) +
                            Bytes(2, Bytes(3, way));
   return FileBlock("OSMHeader", Bytes(4, "OsmSchema-V0.6")) +
          FileBlock("OSMData", data, compression);
