@@ -10,8 +10,8 @@ namespace {
 
 /// The commands that are not built yet say how they come.
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  for (const std::string name : {"insert", "convert", "stream", "replay", "check", "world", "trace", "dataset",
-                                 "merge", "survey", "import"}) {
+  for (const std::string name : {"insert", "convert", "stream", "replay", "check", "world", "trace",
+                                 "dataset", "merge", "survey", "import"}) {
     railcast::ProgramOptions subcommand = app.AddForeignCommand(name, "Not built yet");
     subcommand.WhenParsed([&command, name] {
       command = [name](const std::string&) -> int {

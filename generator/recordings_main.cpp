@@ -17,10 +17,11 @@ void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCom
 }  // namespace
 
 int main(int argc, char** argv) {
-  return railcast::ProgramMain({.name = "railcast-generate",
-                                .description = "Puts objects into recordings, converts and "
-                                               "sends them, and makes scenes and data sets of them.",
-                                .footer = railcast::kExitStatusText,
-                                .add = AddCommandsOfRecordings},
-                               argc, argv);
+  return railcast::ProgramMain(
+      {.name = "railcast-generate",
+       .description = "Puts objects into recordings, converts and "
+                      "sends them, and makes scenes and data sets of them.",
+       .footer = railcast::kExitStatusText,
+       .add = AddCommandsOfRecordings},
+      argc, argv);
 }
