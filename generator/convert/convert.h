@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/io/run/convert_record.h"
@@ -56,6 +57,12 @@ struct ConvertResult : RunResult {
 /// Threads and slots of a pipe for the conversion of frames.
 /// @param work Gets the pipe to complete and run.
 void WithConvertPipe(int num_threads, const std::function<void(FramePipe& pipe)>& work);
+
+/// Whether KITTI's files have a place for a field.
+inline bool IsKittiField(std::string_view name) {
+  return name == "x" || name == "y" || name == "z" || name == "intensity" || name == "label" ||
+         name == "instance";
+}
 
 /// Adds what a format has no place for; nothing of which there is none.
 inline void AddLoss(const std::string& what, std::uint64_t number, Losses& lost) {

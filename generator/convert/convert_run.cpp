@@ -202,6 +202,12 @@ ConvertResult RunConvert(const ConvertChoices& choices, const RunHooks& hooks) {
     throw InputError("OUT: must not be in the recording's directory (got " +
                      ShownPath(choices.directory) + ")");
   }
+  const auto& dataset = ParseFrameFormat(choices.format).dataset;
+  if (dataset && choices.fields != "all") {
+    throw InputError("--fields: " + std::string(dataset->title) +
+                     "'s are fixed, so it must be left out with --format " + choices.format +
+                     " (got " + choices.fields + ")");
+  }
   if (IsDataset(choices.recording)) return ConvertDataset(choices, hooks);
   if (BecomesSequence(choices)) return ConvertSequence(choices, hooks);
   return RecordingConversion(choices, hooks).Run();

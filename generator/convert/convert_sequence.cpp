@@ -82,11 +82,7 @@ SequenceSpec SpecOfConverted(const SequenceSummary& summary,
   }
   SequenceSpec spec = SpecOfRecorded(summary, scenario);
   const FrameFormat& wanted = ParseFrameFormat(choices.format);
-  if (wanted.dataset && choices.fields != "all") {
-    throw InputError("--fields: " + std::string(wanted.dataset->title) +
-                     "'s are fixed, so it must be left out with --format " + choices.format +
-                     " (got " + choices.fields + ")");
-  }
+
   spec.directory = choices.directory;
   spec.files.format = &wanted;
   spec.files.fields =
@@ -157,9 +153,9 @@ Losses LostOfSequence(const SequenceSummary& summary,
     AddLoss("values of outcome, not known without a point", counts.points, lost);
   }
   if (!to.dataset) return lost;
-  const std::set<std::string, std::less<>> held = {"x", "y", "z", "intensity", "label", "instance"};
+
   for (const std::string& name : recorded.names()) {
-    if (!held.contains(name)) AddLoss("values of " + name, counts.points, lost);
+    if (!IsKittiField(name)) AddLoss("values of " + name, counts.points, lost);
   }
   return lost;
 }

@@ -172,14 +172,13 @@ class ConvertedKitti final : public ConvertOutput {
       num_unknown += is_known || label->semantic_kitti != 0 ? 0 : 1;
     }
     converted.record.frame.counts.points = num_points;
-    const std::set<std::string, std::less<>> held = {"x",         "y",     "z",
-                                                     "intensity", "label", "instance"};
+
     // These follow from positions and rows where the cloud has them not.
     const std::set<std::string, std::less<>> filled_in = {"range_m", "column", "return_index",
                                                           "return_count"};
     for (const std::string& name : recorded.fields) {
       const bool is_stored = !filled_in.contains(name) || source.cloud.Find(name) != nullptr;
-      if (is_stored && !held.contains(name)) AddLoss("values of " + name, num_points, lost);
+      if (is_stored && !IsKittiField(name)) AddLoss("values of " + name, num_points, lost);
     }
     for (const ForeignField& field : recorded.foreign) {
       AddLoss("values of " + field.name, num_points, lost);
@@ -256,11 +255,6 @@ std::unique_ptr<ConvertOutput> MakeConvertOutput(const ConvertChoices& choices,
   const FrameFormat& format = ParseFrameFormat(choices.format);
   if (!first.recorded.Has("x")) {
     throw InputError(ShownPath(info.source) + ": must have points (got a sequence without)");
-  }
-  if (format.dataset && choices.fields != "all") {
-    throw InputError("--fields: " + std::string(format.dataset->title) +
-                     "'s are fixed, so it must be left out with --format " + choices.format +
-                     " (got " + choices.fields + ")");
   }
   if (format.dataset) {
     return std::make_unique<ConvertedKitti>(format, info, choices.first_frame, first.recorded);
