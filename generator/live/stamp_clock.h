@@ -23,8 +23,8 @@ inline constexpr auto kEnumNames<StampClock> = std::to_array<EnumName<StampClock
 inline constexpr std::int64_t kTaiAhead_ns = 37 * kNsPerS;
 
 /// Whether the sensors whose packets a protocol has follow PTP (IEEE 1588): Hesai's state what the
-/// grandmaster tells, as their manuals say, and Ouster's do with TIME_FROM_PTP_1588. Those of
-/// Velodyne's that can be sent follow GPS alone, and nodes of ROS 2 the clock of their machine.
+/// grandmaster tells, as their manuals say, and Ouster's do with TIME_FROM_PTP_1588. Velodyne's are
+/// sent as they are by GPS, and nodes of ROS 2 follow the clock of their machine.
 [[nodiscard]] constexpr bool FollowsPtp(Protocol protocol) {
   return protocol >= Protocol::kPandar64 && protocol <= Protocol::kOuster;
 }

@@ -65,7 +65,8 @@ class Remade {
   [[nodiscard]] std::vector<char> Packet(std::size_t index) const {
     const std::vector<char>& real = packets_[index];
     const auto mode = static_cast<std::uint8_t>(real[model_.mode_place]);
-    const std::size_t in_group = model_.IsDual(mode) ? 2 : 1;
+    const std::size_t in_group = BlocksInGroup(model_, real);
+    const bool is_dual = model_.IsDual(mode);
     const bool has_last_second = mode == kFirstAndLastMode && !model_.has_last_first;
     SpinningPacket packet(model_, mode);
     const std::size_t groups = model_.blocks / in_group;
@@ -88,7 +89,7 @@ class Remade {
         packet.SetReturn(model_.ReturnPlace(group * in_group + (return_index ^ first), laser),
                          coded);
         const bool is_repeated =
-            return_index == 0 && in_group == 2 &&
+            return_index == 0 && is_dual &&
             !returns_.contains({point_column, point_loop, laser, std::size_t{1}});
         if (is_repeated) {
           packet.SetReturn(model_.ReturnPlace(group * in_group + (1 - first), laser), coded);
@@ -105,14 +106,22 @@ class Remade {
   }
 
  private:
+  [[nodiscard]] double Speed_deg_per_us() const {
+    const std::vector<char>& packet = packets_[0];
+    if (model_.speed_place == 0) {
+      const std::int64_t step = UsualStep(model_, packet, LoopsIn(model_, packet));
+      return 0.01 * static_cast<double>(step) / model_.cycle_us;
+    }
+    return 6e-6 * LoadAt<std::uint16_t>(packet.data() + model_.speed_place);
+  }
+
   using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::size_t>;
 
   void Add(const TurnPoint& point) {
     const auto [loop, channel] = places_.at(point.ring);
-    const auto distance = static_cast<std::uint16_t>(std::lround(point.range_m / 0.004F));
+    const auto distance = static_cast<std::uint16_t>(std::lround(250.0F * point.range_m));
     returns_[{point.column, loop, point.laser, point.return_index}] = {distance, point.intensity};
-    const double speed_deg_per_us =
-        6e-6 * LoadAt<std::uint16_t>(packets_[0].data() + model_.speed_place);
+    const double speed_deg_per_us = Speed_deg_per_us();
     const ChannelSpec& spec = model_.channels[channel];
     const double loop_us = 1e-3 * static_cast<double>(model_.loop_ns) * static_cast<double>(loop);
     const double turned_us =
@@ -172,10 +181,11 @@ std::vector<bool> OwnBytes(const SpinningModel& model,
     mark(model.BlockPlace(block), model.block_head_size());
   }
   mark(model.mode_place, 1);
-  mark(model.speed_place, 2);
-  mark(model.date_place, 6);
+  if (model.mark_place > 0) mark(model.mark_place, 1);
+  if (model.date_place > 0) mark(model.date_place, 6);
+  if (model.speed_place > 0) mark(model.speed_place, 2);
+  if (model.factory_place > 0) mark(model.factory_place, 1);
   if (states_time) mark(model.time_place, 4);
-  mark(model.factory_place, 1);
   if (model.sequence_place > 0) mark(model.sequence_place, 4);
   if (model.loop_place > 0) mark(model.loop_place, 1);
   return own;
@@ -192,27 +202,35 @@ void PrintTo(const RealCapture& capture, std::ostream* out) {
   *out << capture.name;
 }
 
+/// The capture of this sensor; empty if there is but a bag.
+std::string RealCaptureFile(const std::string& name) {
+  const std::string folder = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/";
+  if (name == "pandar64") return folder + "pandar64.pcap";
+  return name.starts_with("v") ? folder + name + "_single.pcap" : "";
+}
+
 std::string WhyNoCapture(const std::string& name) {
-  if (name != "pandar64") return WhyNoHesaiBag(name);
-  const std::string file = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/pandar64.pcap";
+  const std::string file = RealCaptureFile(name);
+  if (file.empty()) return WhyNoHesaiBag(name);
   return std::filesystem::exists(file) ? "" : file + " is not there";
 }
 
 Packets RealPackets(const std::string& name) {
-  if (name == "pandar64") {
-    return PacketsOf(RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/pandar64.pcap");
-  }
+  if (const std::string file = RealCaptureFile(name); !file.empty()) return PacketsOf(file);
   const TemporaryDirectory folder;
   return PacketsOf(CaptureOfHesaiBag(name, folder));
 }
 
-class HesaiPacketOf : public testing::TestWithParam<RealCapture> {};
+class SpinningPacketOf : public testing::TestWithParam<RealCapture> {};
 
-TEST_P(HesaiPacketOf, ARealCaptureIsRemadeByteByByte) {
-  const auto& [name, first, per_cycle, num_expected] = GetParam();
+TEST_P(SpinningPacketOf, ARealCaptureIsRemadeByteByByte) {
+  const std::string name = GetParam().name;
+  const auto& [_, first, per_cycle, num_expected] = GetParam();
   if (const std::string why = WhyNoCapture(name); !why.empty()) GTEST_SKIP() << why;
   const Packets packets = RealPackets(name);
-  const SpinningModel& model = ModelOfSize(name, packets[0].size());
+  const bool is_dated = !name.starts_with("v");
+  const SpinningModel& model =
+      is_dated ? ModelOfSize(name, packets[0].size()) : *FindSpinningModel(name);
   std::size_t num_packets = 0;
   std::size_t num_bytes = 0;
   std::size_t num_different = 0;
@@ -240,12 +258,14 @@ TEST_P(HesaiPacketOf, ARealCaptureIsRemadeByteByByte) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Captures,
-                         HesaiPacketOf,
+                         SpinningPacketOf,
                          testing::Values(RealCapture{"pandar64", 0, 1, 2396},
                                          RealCapture{"xt32", 0, 1, 1996},
                                          RealCapture{"qt128", 1, 2, 1798},
                                          RealCapture{"pandar40p", 0, 1, 1436},
-                                         RealCapture{"qt64", 0, 1, 1200}),
+                                         RealCapture{"qt64", 0, 1, 1200},
+                                         RealCapture{"vlp32c", 0, 1, 374},
+                                         RealCapture{"vls128", 0, 1, 2190}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 // A QT128's: of the blocks, of the functional safety without its version, of the rest.

@@ -79,7 +79,7 @@ TEST_P(CapturedFormat, HasASlotForEveryFiringOfTheFrames) {
 
 INSTANTIATE_TEST_SUITE_P(CaptureRecording,
                          CapturedFormat,
-                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c"),
+                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "vls128"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');

@@ -74,7 +74,7 @@ TEST_P(MergedCapture, GivesTheFramesOfTheUnmergedOne) {
 
 INSTANTIATE_TEST_SUITE_P(CaptureRecording,
                          MergedCapture,
-                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c"),
+                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "vls128"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');

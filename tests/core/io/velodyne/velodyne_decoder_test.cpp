@@ -130,7 +130,7 @@ TEST_P(DecodedFormat, GivesBackTheFramesThatWereEncoded) {
 INSTANTIATE_TEST_SUITE_P(
     VelodyneDecoder,
     DecodedFormat,
-    testing::Combine(testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "hdl64e"),
+    testing::Combine(testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "vls128", "hdl64e"),
                      testing::Values(Window{}, Window{{100.3, 200.0}}, Window{{300.0, 60.0}})),
     [](const auto& test) {
       std::string name = std::get<0>(test.param);

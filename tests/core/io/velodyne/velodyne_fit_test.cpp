@@ -28,6 +28,7 @@ TEST(VelodyneFit, TakesTheSensorsThatShip) {
   EXPECT_EQ(FitSaid("vlp16-dual", "vlp16", Nothing, ReturnMode::kDual), "no error");
   EXPECT_EQ(FitSaid("hdl32e", "hdl32e", Nothing), "no error");
   EXPECT_EQ(FitSaid("vlp32c", "vlp32c", Nothing), "no error");
+  EXPECT_EQ(FitSaid("vls128", "vls128", Nothing), "no error");
   EXPECT_EQ(FitSaid("hdl64e", "hdl64e", Nothing), "no error");
 }
 

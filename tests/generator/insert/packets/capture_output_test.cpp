@@ -144,7 +144,7 @@ TEST_P(VelodyneCaptureCopies, DecodeToTheEditsAlone) {
 
 INSTANTIATE_TEST_SUITE_P(All,
                          VelodyneCaptureCopies,
-                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c"));
+                         testing::Values("vlp16", "vlp16-dual", "hdl32e", "vlp32c", "vls128"));
 
 /// The sum of RFC 1071 of a UDP datagram over IPv6, as PcapWriter frames it, with its checksum.
 std::uint32_t UdpSumOf(const std::string& file, const CapturedPiece& udp) {
