@@ -26,7 +26,6 @@
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_heights.h"
 #include "generator/import/lines/line_tags.h"
-#include "generator/import/lines/speed_limits.h"
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"

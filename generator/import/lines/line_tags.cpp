@@ -7,6 +7,9 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "core/base/text.h"
 
 namespace railcast {
 namespace {
@@ -37,6 +40,85 @@ struct TaggedLength {
     return tagged_m > 0.0 && 2.0 * tagged_m >= all_m && 2.0 * contact_line_m >= tagged_m;
   }
 };
+
+constexpr std::string_view kBetweenSpeeds = ";|";
+
+/// One speed with its unit.
+std::optional<double> OneSpeed_kmph(std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    double speed_kmph;
+  };
+  constexpr auto kUnits = std::to_array<Unit>(
+      {{"", 1.0}, {"km/h", 1.0}, {"kmh", 1.0}, {"kph", 1.0}, {"mph", 1.609344}, {"knots", 1.852}});
+  constexpr double kFastest_kmph = 1000.0;
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  double speed = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
+  if (error != std::errc{}) return std::nullopt;
+  const auto words = Words({end, static_cast<std::size_t>(text.data() + text.size() - end)});
+  const std::string_view name = words.empty() ? std::string_view() : words.front();
+  const auto unit = std::ranges::find(kUnits, name, &Unit::name);
+  if (unit == kUnits.end() || words.size() > 1) return std::nullopt;
+  speed *= unit->speed_kmph;
+  // "inf" and "nan" are numbers, too.
+  return speed > 0.0 && speed <= kFastest_kmph ? std::optional(speed) : std::nullopt;
+}
+
+constexpr std::string_view kConditional = "maxspeed:conditional";
+constexpr auto kDirections =
+    std::to_array<std::string_view>({"maxspeed:forward", "maxspeed:backward"});
+
+/// A value of `maxspeed:conditional`: "60 @ (22:00-06:00)".
+struct ConditionalSpeed {
+  std::string_view text;
+  std::optional<double> speed_kmph;
+  bool holds_always{};
+};
+
+std::vector<ConditionalSpeed> ConditionalSpeedsOf(std::string_view value) {
+  std::vector<ConditionalSpeed> speeds;
+  std::size_t begin = 0;
+  int depth = 0;  // Conditions in brackets may have semicolons, too.
+  for (std::size_t i = 0; i <= value.size(); ++i) {
+    if (i < value.size()) {
+      depth += value[i] == '(' ? 1 : value[i] == ')' ? -1 : 0;
+      if (value[i] != ';' || depth > 0) continue;
+    }
+    const std::string_view text = value.substr(begin, i - begin);
+    begin = i + 1;
+    const std::size_t at = std::min(text.find('@'), text.size());
+    std::string condition(text.substr(std::min(at + 1, text.size())));
+    std::erase_if(condition,
+                  [](char letter) { return letter == ' ' || letter == '(' || letter == ')'; });
+    speeds.push_back({text.substr(std::min(text.find_first_not_of(' '), text.size())),
+                      SpeedOf_kmph(text.substr(0, at)), condition.empty() || condition == "24/7"});
+  }
+  return speeds;
+}
+
+/// Says what becomes of a way's speeds by direction and by condition.
+void TellOtherSpeeds(const MapWay& way, std::vector<Remark>& remarks) {
+  std::string chosen;
+  for (const std::string_view key : kDirections) {
+    const std::string_view value = TagOf(way.tags, key);
+    if (value.empty()) continue;
+    const std::string text = std::string(key) + "=" + ShownText(value);
+    if (SpeedOf_kmph(value)) {
+      chosen += (chosen.empty() ? "" : ", ") + text;
+    } else {
+      remarks.push_back({RemarkKind::kSpeedsUnread, way.place, 1, text});
+    }
+  }
+  if (!chosen.empty()) remarks.push_back({RemarkKind::kSpeedsChosen, way.place, 1, chosen});
+  const std::string_view conditional = TagOf(way.tags, kConditional);
+  if (conditional.empty()) return;
+  for (const ConditionalSpeed& each : ConditionalSpeedsOf(conditional)) {
+    const bool is_taken = each.holds_always && each.speed_kmph;
+    remarks.push_back({is_taken ? RemarkKind::kSpeedsChosen : RemarkKind::kTagsUnread, way.place, 1,
+                       std::string(kConditional) + "=" + ShownText(each.text)});
+  }
+}
 
 }  // namespace
 
@@ -99,6 +181,57 @@ bool HasContactLine(const RailMap& map, const TrackLine& track) {
   const bool says_something = with_m[0] + without_m[0] > 0.0;
   const std::size_t source = says_something ? 0 : 1;
   return with_m[source] > 0.0 && with_m[source] >= without_m[source];
+}
+
+std::optional<double> SpeedOf_kmph(std::string_view maxspeed) {
+  std::optional<double> least_kmph;
+  while (true) {
+    const std::size_t end = std::min(maxspeed.find_first_of(kBetweenSpeeds), maxspeed.size());
+    const std::optional<double> one_kmph = OneSpeed_kmph(maxspeed.substr(0, end));
+    if (!one_kmph) return std::nullopt;
+    least_kmph = std::min(*one_kmph, least_kmph.value_or(*one_kmph));
+    if (end == maxspeed.size()) return least_kmph;
+    maxspeed.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> SpeedOf_kmph(const MapTags& tags) {
+  std::optional<double> of_both_kmph = SpeedOf_kmph(TagOf(tags, "maxspeed"));
+  const std::string_view conditional = TagOf(tags, kConditional);
+  if (!conditional.empty()) {
+    for (const ConditionalSpeed& each : ConditionalSpeedsOf(conditional)) {
+      if (each.holds_always && each.speed_kmph) of_both_kmph = each.speed_kmph;
+    }
+  }
+  std::optional<double> least_kmph;
+  for (const std::string_view key : kDirections) {
+    const std::optional<double> own_kmph = SpeedOf_kmph(TagOf(tags, key));
+    const std::optional<double> speed_kmph = own_kmph ? own_kmph : of_both_kmph;
+    if (speed_kmph) least_kmph = std::min(*speed_kmph, least_kmph.value_or(*speed_kmph));
+  }
+  return least_kmph;
+}
+
+void TellSpeeds(RailMap& map) {
+  constexpr auto kOthers = std::to_array<std::string_view>(
+      {"maxspeed:type", "maxspeed:source", "maxspeed:reason", "maxspeed:note", kDirections[0],
+       kDirections[1], kConditional});
+  for (const MapWay& way : map.ways) {
+    const std::string_view maxspeed = TagOf(way.tags, "maxspeed");
+    if (!maxspeed.empty() && !SpeedOf_kmph(maxspeed)) {
+      map.remarks.push_back({RemarkKind::kSpeedsUnread, way.place, 1, Quoted(maxspeed)});
+    } else if (maxspeed.find_first_of(kBetweenSpeeds) != std::string_view::npos) {
+      map.remarks.push_back({RemarkKind::kSpeedsChosen, way.place, 1, Quoted(maxspeed)});
+    }
+    TellOtherSpeeds(way, map.remarks);
+    for (const auto& [key, value] : way.tags) {
+      const bool is_unread =
+          key.starts_with("maxspeed:") && std::ranges::find(kOthers, key) == kOthers.end();
+      if (!is_unread) continue;
+      map.remarks.push_back(
+          {RemarkKind::kTagsUnread, way.place, 1, ShownText(key) + "=" + ShownText(value)});
+    }
+  }
 }
 
 }  // namespace railcast

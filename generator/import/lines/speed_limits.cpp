@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <string>
+#include <string_view>
 
-#include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
 #include "generator/import/fit/plan_window.h"
+#include "generator/import/lines/line_tags.h"
 
 namespace railcast {
 namespace {
@@ -72,63 +71,7 @@ bool IsSlower(const SpeedOfArc& arc, const StepSpeed& speed) {
   return arc.radius_m < kLeastShareOfRadius / SharpestCurvature_per_m(speed.speed_kmph);
 }
 
-constexpr std::string_view kBetweenSpeeds = ";|";
-
-/// One speed with its unit.
-std::optional<double> OneSpeed_kmph(std::string_view text) {
-  struct Unit {
-    std::string_view name;
-    double speed_kmph;
-  };
-  constexpr auto kUnits = std::to_array<Unit>(
-      {{"", 1.0}, {"km/h", 1.0}, {"kmh", 1.0}, {"kph", 1.0}, {"mph", 1.609344}, {"knots", 1.852}});
-  constexpr double kFastest_kmph = 1000.0;
-  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
-  double speed = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
-  if (error != std::errc{}) return std::nullopt;
-  const auto words = Words({end, static_cast<std::size_t>(text.data() + text.size() - end)});
-  const std::string_view name = words.empty() ? std::string_view() : words.front();
-  const auto unit = std::ranges::find(kUnits, name, &Unit::name);
-  if (unit == kUnits.end() || words.size() > 1) return std::nullopt;
-  speed *= unit->speed_kmph;
-  // "inf" and "nan" are numbers, too.
-  return speed > 0.0 && speed <= kFastest_kmph ? std::optional(speed) : std::nullopt;
-}
-
 }  // namespace
-
-std::optional<double> SpeedOf_kmph(std::string_view maxspeed) {
-  std::optional<double> least_kmph;
-  while (true) {
-    const std::size_t end = std::min(maxspeed.find_first_of(kBetweenSpeeds), maxspeed.size());
-    const std::optional<double> one_kmph = OneSpeed_kmph(maxspeed.substr(0, end));
-    if (!one_kmph) return std::nullopt;
-    least_kmph = std::min(*one_kmph, least_kmph.value_or(*one_kmph));
-    if (end == maxspeed.size()) return least_kmph;
-    maxspeed.remove_prefix(end + 1);
-  }
-}
-
-void TellSpeeds(RailMap& map) {
-  constexpr auto kSaysNoSpeed = std::to_array<std::string_view>(
-      {"maxspeed:type", "maxspeed:source", "maxspeed:reason", "maxspeed:note"});
-  for (const MapWay& way : map.ways) {
-    const std::string_view maxspeed = TagOf(way.tags, "maxspeed");
-    if (!maxspeed.empty() && !SpeedOf_kmph(maxspeed)) {
-      map.remarks.push_back({RemarkKind::kSpeedsUnread, way.place, 1, Quoted(maxspeed)});
-    } else if (maxspeed.find_first_of(kBetweenSpeeds) != std::string_view::npos) {
-      map.remarks.push_back({RemarkKind::kSpeedsChosen, way.place, 1, Quoted(maxspeed)});
-    }
-    for (const auto& [key, value] : way.tags) {
-      const bool is_speed = key.starts_with("maxspeed:") &&
-                            std::ranges::find(kSaysNoSpeed, key) == kSaysNoSpeed.end();
-      if (!is_speed) continue;
-      map.remarks.push_back(
-          {RemarkKind::kTagsUnread, way.place, 1, ShownText(key) + "=" + ShownText(value)});
-    }
-  }
-}
 
 double UsualSpeed_kmph(const MapTags& tags, double running_kmph) {
   if (!TagOf(tags, "service").empty()) return kService_kmph;
@@ -154,7 +97,7 @@ std::vector<StepSpeed> SpeedsAlong(const RailMap& map, const TrackLine& line, do
   std::vector<double> middle_m;  // Along the line.
   double along_m = 0.0;
   for (std::size_t i = 0; i < line.ways.size(); ++i) {
-    given.push_back(SpeedOf_kmph(TagOf(map.ways[line.ways[i]].tags, "maxspeed")));
+    given.push_back(SpeedOf_kmph(map.ways[line.ways[i]].tags));
     const double length_m = StepLength_m(map, line, i);
     middle_m.push_back(along_m + 0.5 * length_m);
     along_m += length_m;

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "generator/import/fit/plan_model.h"
@@ -11,15 +9,6 @@
 #include "railcast/alignment.h"
 
 namespace railcast {
-
-/// The value of OpenStreetMap's key `maxspeed` in km/h: "120", "50 mph", "30 knots"; of several
-/// ("120;100") the least. Absent for anything else ("none", "signals", "DE:rural") and for what is
-/// not above 0 and at most 1000 km/h.
-[[nodiscard]] std::optional<double> SpeedOf_kmph(std::string_view maxspeed);
-
-/// Adds to a map's remarks the ways whose speeds are not understood, are several, or are given by
-/// direction, time or kind of train, too (`maxspeed:forward`, `maxspeed:conditional`, ...).
-void TellSpeeds(RailMap& map);
 
 /// The speed that a way usually has by its kind, that is `railway`, `service` and `usage`, where
 /// the map gives none (docs/import.md).

@@ -35,6 +35,14 @@ RailMap TwoWays(const MapTags& tags, const MapTags& more_of_second = {}) {
   return map;
 }
 
+std::vector<double> SpeedsOf_kmph(const RailMap& map) {
+  std::vector<double> speeds_kmph;
+  for (const StepSpeed& speed : SpeedsAlong(map, FindLines(map, 0.0).front(), 60.0)) {
+    speeds_kmph.push_back(speed.speed_kmph);
+  }
+  return speeds_kmph;
+}
+
 TEST(SpeedLimits, AreReadInKilometresAndMilesPerHour) {
   EXPECT_EQ(SpeedOf_kmph("120"), 120.0);
   EXPECT_EQ(SpeedOf_kmph("80 km/h"), 80.0);
@@ -53,26 +61,53 @@ TEST(SpeedLimits, AreTheLeastOfSeveral) {
   EXPECT_NEAR(*SpeedOf_kmph("100; 50 mph"), 80.47, 0.01);
 }
 
+TEST(SpeedLimits, AreTheLesserOfTwoDirections) {
+  EXPECT_EQ(SpeedOf_kmph(MapTags{{"maxspeed", "120"}}), 120.0);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{{"maxspeed", "120"}, {"maxspeed:backward", "90"}}), 90.0);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{{"maxspeed", "80"}, {"maxspeed:forward", "100"}}), 80.0);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{
+                {"maxspeed", "80"}, {"maxspeed:backward", "90"}, {"maxspeed:forward", "100"}}),
+            90.0);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{{"maxspeed:forward", "100"}}), 100.0);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{{"maxspeed:forward", "signals"}}), std::nullopt);
+  EXPECT_EQ(SpeedOf_kmph(MapTags{}), std::nullopt);
+  EXPECT_THAT(SpeedsOf_kmph(TwoWays({{"railway", "rail"}, {"maxspeed:forward", "70"}})),
+              Each(70.0));
+}
+
+TEST(SpeedLimits, AreThoseOfAConditionOnlyIfItAlwaysHolds) {
+  const auto speed_kmph = [](const char* conditional) {
+    return SpeedOf_kmph(MapTags{{"maxspeed", "80"}, {"maxspeed:conditional", conditional}});
+  };
+  for (const char* other : {"60 @ (22:00-06:00)", "60 @ wet", "none @ 24/7", ";", "@", "(", ")"}) {
+    EXPECT_EQ(speed_kmph(other), 80.0) << other;
+  }
+  EXPECT_EQ(speed_kmph("60 @ (22:00-06:00); 100 @ (24/7)"), 100.0);
+  EXPECT_EQ(speed_kmph("40 mph"), 40.0 * 1.609344);
+}
+
 TEST(SpeedLimits, AreToldWhereTheyAreNotTakenAsTheyStand) {
   RailMap map = TwoWays({{"railway", "rail"}}, {{"maxspeed", "DE:rural"}});
   map.ways[0].tags["maxspeed"] = "120;100";
   map.ways[0].tags["maxspeed:forward"] = "90";
+  map.ways[0].tags["maxspeed:backward"] = "signals";
+  map.ways[0].tags["maxspeed:conditional"] = "60 @ (22:00-06:00; SH off); 50 @ wet; 110";
+  map.ways[0].tags["maxspeed:hgv"] = "70";
   map.ways[0].tags["maxspeed:source"] = "sign";
   map.ways[0].place = "way 1";
   TellSpeeds(map);
-  EXPECT_EQ(map.remarks, (std::vector<Remark>{
-                             {RemarkKind::kSpeedsChosen, "way 1", 1, "\"120;100\""},
-                             {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:forward=90"},
-                             {RemarkKind::kSpeedsUnread, "", 1, "\"DE:rural\""},
-                         }));
-}
-
-std::vector<double> SpeedsOf_kmph(const RailMap& map) {
-  std::vector<double> speeds_kmph;
-  for (const StepSpeed& speed : SpeedsAlong(map, FindLines(map, 0.0).front(), 60.0)) {
-    speeds_kmph.push_back(speed.speed_kmph);
-  }
-  return speeds_kmph;
+  EXPECT_EQ(
+      map.remarks,
+      (std::vector<Remark>{
+          {RemarkKind::kSpeedsChosen, "way 1", 1, "\"120;100\""},
+          {RemarkKind::kSpeedsUnread, "way 1", 1, "maxspeed:backward=signals"},
+          {RemarkKind::kSpeedsChosen, "way 1", 1, "maxspeed:forward=90"},
+          {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:conditional=60 @ (22:00-06:00; SH off)"},
+          {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:conditional=50 @ wet"},
+          {RemarkKind::kSpeedsChosen, "way 1", 1, "maxspeed:conditional=110"},
+          {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:hgv=70"},
+          {RemarkKind::kSpeedsUnread, "", 1, "\"DE:rural\""},
+      }));
 }
 
 TEST(SpeedLimits, AreThoseOfTheNearestWayWhereAWayHasNone) {
