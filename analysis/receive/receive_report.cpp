@@ -48,12 +48,15 @@ double QuantileMs(const DurationHistogram& times, double fraction) {
 void PutTimes(std::string_view head, const DurationHistogram& times, std::ostream& text) {
   if (times.count() == 0) return;
   text << head << ": p50 " << std::fixed << std::setprecision(3) << QuantileMs(times, 0.5)
-       << " ms, p99 " << QuantileMs(times, 0.99) << " ms\n";
+       << " ms, p99 " << QuantileMs(times, 0.99) << " ms, most " << QuantileMs(times, 1.0)
+       << " ms\n";
 }
 
 Json TimesJson(const DurationHistogram& times) {
   if (times.count() == 0) return {};
-  return {{"p50", QuantileMs(times, 0.5)}, {"p99", QuantileMs(times, 0.99)}};
+  return {{"p50", QuantileMs(times, 0.5)},
+          {"p99", QuantileMs(times, 0.99)},
+          {"max", QuantileMs(times, 1.0)}};
 }
 
 std::string RateText(const ReceivedTotals& totals) {
@@ -118,7 +121,9 @@ void ReceivedTotals::Add(const ReceivedFrame& frame) {
   points += frame.num_points();
   if (last_arrival_ns) between.Add(frame.last_arrival_ns - *last_arrival_ns);
   last_arrival_ns = frame.last_arrival_ns;
-  if (const auto latency_ns = LatencyOf(frame)) latency.Add(*latency_ns);
+  const auto latency_ns = LatencyOf(frame);
+  if (latency_ns) latency.Add(*latency_ns);
+  if (latency_ns.value_or(0) < 0) ++frames_ahead;
 }
 
 double ReceivedTotals::rate_hz() const {
@@ -158,6 +163,15 @@ std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::C
   text << "points: " << totals.points << ", " << PointsEach(totals) << " a frame\n";
   PutTimes("from frame to frame", totals.between, text);
   PutTimes("latency since the last firing", totals.latency, text);
+  if (totals.frames > 0 && totals.latency.count() == 0) {
+    text
+        << "latency: unknown, stamps are not of this machine's clock, as --clock utc of the sender "
+           "states it\n";
+  }
+  if (totals.frames_ahead > 0) {
+    text << "latency: counted as 0 for " << totals.frames_ahead
+         << " frames that came before their last firing, since the sender's clock is ahead\n";
+  }
   if (stream.other_sender) {
     text << "packets of other senders: " << stream.other_sender_packets
          << ", dropped; the last from " << EndpointText(*stream.other_sender) << "\n";
@@ -198,6 +212,7 @@ std::string ReceiveSummaryJson(const ReceivedTotals& totals, const StreamReceive
                         {"points", totals.points},
                         {"from_frame_to_frame_ms", TimesJson(totals.between)},
                         {"latency_ms", TimesJson(totals.latency)},
+                        {"frames_ahead", totals.frames_ahead},
                         {"restarts_of_the_sender", stream.restarts}};
   return summary.dump() + "\n";
 }

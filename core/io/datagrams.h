@@ -46,8 +46,9 @@ class FrameEncoder {
  public:
   virtual ~FrameEncoder() = default;
 
-  /// Sets how far the clock of the sensors whose packets these are is ahead of simulation time,
-  /// which begins at 2000-01-01 00:00:00 UTC. It is not ahead unless set.
+  /// Sets how far the clock whose time is stated is ahead of simulation time, which begins with 0
+  /// in the railcast protocol, in packets of sensors at 2000-01-01 00:00:00 UTC. It is not ahead
+  /// unless set.
   void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
 
   /// Appends the datagrams that this frame completes, by rising `due_ns`. Frames must come in

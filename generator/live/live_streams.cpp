@@ -55,8 +55,10 @@ void CameraStream::Make(Simulator& simulator, std::uint32_t image, Datagrams& da
   camera_.Render(simulator, frame, image_);
   // Spread over a period of the sensor, as its own datagrams are.
   const std::int64_t period_ns = simulator.pattern().PeriodNs();
-  EncodeImageDatagrams(image_, camera_.spec(),
-                       {.run = run_, .frame = frame, .spread_ns = period_ns}, datagrams);
+  EncodeImageDatagrams(
+      image_, camera_.spec(),
+      {.run = run_, .frame = frame, .spread_ns = period_ns, .clock_ahead_ns = clock_ahead_ns_},
+      datagrams);
 }
 
 SensorStream::SensorStream(SensorStreamSpec spec,
@@ -103,7 +105,9 @@ void SensorStream::Restart(std::uint32_t run) {
 
 void SensorStream::SetUtcAhead(std::int64_t ahead_ns) {
   if (spec_.clock == StampClock::kSimulated) return;
-  encoder_->SetClockAhead(ahead_ns + (spec_.clock == StampClock::kTai ? kTaiAhead_ns : 0));
+  const bool is_ours = spec_.protocol == Protocol::kRailcast;  // Whose stamps begin in 1970.
+  encoder_->SetClockAhead(ahead_ns + (spec_.clock == StampClock::kTai ? kTaiAhead_ns : 0) +
+                          (is_ours ? kSimulationEpoch_s * kNsPerS : 0));
   // Later, another thread may be writing.
   if (!has_capture_clock_)
     UseCapture([&](PcapWriter& capture) { capture.SetClockAhead(ahead_ns); });
@@ -252,6 +256,7 @@ void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
   // Packets count microseconds.
   const std::int64_t time_0_ns = (now_ns + lead_ns - first_ns) / kNsPerUs * kNsPerUs;
   for (const auto& stream : streams_) stream->SetUtcAhead(time_0_ns - kSimulationEpoch_s * kNsPerS);
+  if (camera_) camera_->SetClockAhead(time_0_ns);
   if (ros_ != nullptr) ros_->SetClockAhead(time_0_ns);
 }
 

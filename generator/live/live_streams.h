@@ -44,6 +44,8 @@ class CameraStream {
   void Make(Simulator& simulator, std::uint32_t image, Datagrams& datagrams);
   /// Restarts with image 0.
   void Restart(std::uint32_t run) { run_ = run; }
+  /// Sets how far the stamps of images are ahead of simulation time, also after a restart.
+  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
 
   /// May be called from another thread than the other functions.
   void Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
@@ -55,6 +57,7 @@ class CameraStream {
   Camera camera_;
   std::uint32_t num_frames_;
   std::uint32_t run_;
+  std::int64_t clock_ahead_ns_{};
   CameraImage image_;
   UdpSender sender_;
 };
@@ -70,8 +73,7 @@ struct SensorStreamSpec {
   Protocol protocol = Protocol::kRailcast;
   std::vector<Endpoint> to;
   SendOptions sending;
-  StampClock clock =
-      StampClock::kSimulated;  ///< Of packets and messages; not of protocol railcast.
+  StampClock clock = StampClock::kSimulated;
   std::optional<std::filesystem::path> pcap;
   FieldSelection fields;  ///< For protocol railcast only, as is the next member.
   bool has_all_slots{};

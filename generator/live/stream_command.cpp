@@ -118,10 +118,6 @@ StampClock ClockOf(const StreamOptions& options, Protocol protocol) {
 void CheckClock(const StreamOptions& options, const std::vector<SensorStreamSpec>& streams) {
   if (!StatesTimeOfDay(options)) return;
   const std::string got = " (got " + std::string(NameOf(streams.front().protocol)) + ")";
-  const auto has_stamps = [](const auto& stream) { return stream.protocol != Protocol::kRailcast; };
-  if (std::ranges::none_of(streams, has_stamps)) {
-    throw InputError("--clock: is for packets of real sensors and messages of ROS 2" + got);
-  }
   const auto follows_ptp = [](const auto& stream) { return FollowsPtp(stream.protocol); };
   const bool is_tai = options.clock == NameOf(StampClock::kTai);
   if (is_tai && std::ranges::none_of(streams, follows_ptp)) {

@@ -55,11 +55,11 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
       .Check(Whole({1, 255}))
       .ShowDefault();
   stream
-      .AddOption("--clock", options.clock,
-                 "What packets of real sensors and messages of ROS 2 state. simulated: simulation "
-                 "time, which begins with the year 2000 in packets, with 0 in messages; utc: the "
-                 "time of day; tai: the same, but of sensors that PTP synchronises atomic time, "
-                 "which is 37 s ahead")
+      .AddOption(
+          "--clock", options.clock,
+          "What stamps state. simulated: simulation time, which begins with the year 2000 "
+          "in packets of real sensors, else with 0; utc: the time of day; tai: the same, but "
+          "of sensors that PTP synchronises atomic time, which is 37 s ahead")
       .Check(Named(NamesOf<StampClock>()))
       .ShowDefault();
   stream

@@ -1,9 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 #include "core/io/net/udp.h"
 #include "core/io/stream/stream_clouds.h"
@@ -36,8 +40,40 @@ TEST(ReceiveCommand, CountsFramesAndPackets) {
                            "packets: 99 received, 1 lost, 0 duplicate, 0 reordered, 0 late, "
                            "0 stray, 0 refused\n"
                            "points: 3801, 950 a frame\n"
-                           "from frame to frame: p50 [0-9.]+ ms, p99 [0-9.]+ ms\n"));
+                           "from frame to frame: p50 [0-9.]+ ms, p99 [0-9.]+ ms, most [0-9.]+ ms\n"
+                           "latency: unknown, .*\n"));
   EXPECT_EQ(program.ExitStatus(), 0);
+}
+
+/// What is received of a stream with these options: its text, and its summary.
+std::pair<std::string, nlohmann::json> ReceivedOf(const std::string& options) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "summary.json";
+  ListeningProgram program(Receive() + "--frames 2 --summary " + file.string());
+  const Ended sent = RunCommand(RAILCAST_GENERATE " stream " RAILCAST_SOURCE_DIR
+                                                  "/scenarios/minimal.json --duration 0.3 --to " +
+                                EndpointText(program.at()) + options);
+  EXPECT_EQ(sent.status, 0) << sent.said;
+  const std::string text = program.Rest();
+  return {text, nlohmann::json::parse(ReadFileWhole(file))};
+}
+
+// Datagrams leave a period after their last firing, and a busy machine may send or take them late.
+TEST(ReceiveCommand, KnowsTheLatencyOfAStreamThatStatesTheTimeOfDay) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto [text, summary] = ReceivedOf(" --clock utc");
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - begin;
+  EXPECT_THAT(text, HasSubstr("\nlatency since the last firing: p50 "));
+  EXPECT_EQ(summary.at("frames_ahead"), 0);
+  const nlohmann::json& latency_ms = summary.at("latency_ms");
+  EXPECT_GT(latency_ms.at("p50"), 0.0);
+  EXPECT_GE(latency_ms.at("p99"), latency_ms.at("p50"));
+  EXPECT_GE(latency_ms.at("max"), latency_ms.at("p99"));
+  EXPECT_LT(latency_ms.at("max"), elapsed.count());
+  const auto [unknown, other] = ReceivedOf("");
+  EXPECT_THAT(unknown, HasSubstr("\nlatency: unknown, stamps are not of this machine's clock"));
+  EXPECT_TRUE(other.at("latency_ms").is_null());
 }
 
 TEST(ReceiveCommand, WritesItsSummaryAsJson) {

@@ -16,7 +16,8 @@ ReceivedTotals Totals() {
           .last_s = 102.5,
           .last_arrival_ns = {},
           .between = {},
-          .latency = {}};
+          .latency = {},
+          .frames_ahead = {}};
 }
 
 constexpr std::int64_t kMs_ns = 1'000'000;
@@ -56,13 +57,27 @@ TEST(ReceiveReport, TellsTimesOfArrival) {
   EXPECT_EQ(totals.frames, 4U);
   EXPECT_EQ(totals.points, 40U);
   const std::string text = ReceiveSummary(totals, {});
-  EXPECT_THAT(text, testing::HasSubstr("\nlatency since the last firing: p50 4.000 ms, p99 "));
+  EXPECT_THAT(text,
+              testing::EndsWith("\nlatency since the last firing: p50 4.000 ms, p99 4.000 ms, "
+                                "most 4.000 ms\n"));
   EXPECT_THAT(text, testing::HasSubstr("\nfrom frame to frame: p50 100."));
   const auto json = nlohmann::json::parse(ReceiveSummaryJson(totals, {}));
   // Quantiles are exact to 1 %.
   EXPECT_NEAR(json.at("from_frame_to_frame_ms").at("p50"), 100.0, 1.0);
   EXPECT_NEAR(json.at("from_frame_to_frame_ms").at("p99"), 150.0, 1.5);
   EXPECT_NEAR(json.at("latency_ms").at("p99"), 4.0, 0.04);
+  EXPECT_EQ(json.at("latency_ms").at("max"), 4.0);
+  EXPECT_EQ(json.at("frames_ahead"), 0);
+}
+
+TEST(ReceiveReport, SaysHowManyFramesCameBeforeTheirLastFiring) {
+  ReceivedTotals totals;
+  totals.Add(FrameAt(kNow_ns, kNow_ns + 104 * kMs_ns));
+  totals.Add(FrameAt(kNow_ns, kNow_ns + 98 * kMs_ns));
+  EXPECT_THAT(ReceiveSummary(totals, {}),
+              testing::EndsWith("\nlatency: counted as 0 for 1 frames that came before their last "
+                                "firing, since the sender's clock is ahead\n"));
+  EXPECT_THAT(ReceiveSummaryJson(totals, {}), testing::HasSubstr(R"("frames_ahead":1)"));
 }
 
 StreamReceiver::Counts Counts() {
@@ -84,7 +99,9 @@ TEST(ReceiveReport, SumsUpWhatCameAndWhatDidNot) {
   EXPECT_EQ(ReceiveSummary(Totals(), Counts()),
             "frames: 20 complete, 1 incomplete, 2 missing, 8 dropped here; 8.00 Hz\n"
             "packets: 8620 received, 3 lost, 4 duplicate, 5 reordered, 6 late, 7 stray, 0 refused\n"
-            "points: 336000, 16000 a frame\n");
+            "points: 336000, 16000 a frame\n"
+            "latency: unknown, stamps are not of this machine's clock, as --clock utc of the "
+            "sender states it\n");
 }
 
 TEST(ReceiveReport, KnowsItsShareOnlyOfARunThatHasAnEnd) {
@@ -127,7 +144,7 @@ TEST(ReceiveReport, IsJsonInOneLine) {
             R"("dropped_here":8},"rate_hz":8.0,"packets":{"received":8620,"lost":3,"duplicate":4,)"
             R"("reordered":5,"late":6,"stray":7,"of_other_senders":0,"refused":2},)"
             R"("refused_for":{"magic":2},"points":336000,"from_frame_to_frame_ms":null,)"
-            R"("latency_ms":null,"restarts_of_the_sender":0})"
+            R"("latency_ms":null,"frames_ahead":0,"restarts_of_the_sender":0})"
             "\n");
   EXPECT_NE(ReceiveSummaryJson({}, {}).find(R"("rate_hz":null)"), std::string::npos);
 }

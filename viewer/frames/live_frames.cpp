@@ -10,8 +10,10 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/image/jpeg.h"
 #include "core/io/recording/live_frame.h"
+#include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 
@@ -113,6 +115,13 @@ bool LiveFrames::Poll() {
   if (!received) return false;
   fault_.clear();
   try {
+    // Simulation time does not come that far.
+    if (info_.scenario && received->header.stamp_ns >= kSimulationEpoch_s * kNsPerS) {
+      throw InputError(
+          ShownPath(info_.source) +
+          ": stamps must be simulation time where a scenario is drawn (got the time of "
+          "day)");
+    }
     kept_.Put(num_taken_, Shown(MakeLiveFrame(*received, ShownPath(info_.source))));
   } catch (const InputError& error) {
     fault_ = error.what();

@@ -38,7 +38,7 @@ ImageHead HeadOf(const CameraImage& image, const CameraSpec& spec, const ImageSe
   ImageHead head;
   head.run = sending.run;
   head.frame = sending.frame;
-  head.stamp_ns = image.stamp_ns;
+  head.stamp_ns = image.stamp_ns + sending.clock_ahead_ns;
   head.width_px = image.width_px;
   head.height_px = image.height_px;
   head.pose = WirePoseOf(image.world_from_camera);
@@ -164,7 +164,7 @@ void StreamEncoder::ChooseSlots(const Frame& frame) {
 
 void StreamEncoder::BeginFrame(const Frame& frame) {
   head_.frame = frame.index;
-  head_.stamp_ns = frame.stamp_ns;
+  head_.stamp_ns = frame.stamp_ns + clock_ahead_ns();
   head_.duration_ns = frame.duration_ns;
   head_.frame_points = static_cast<std::uint32_t>(slots_.size());
   head_.rows = frame.rows;

@@ -80,9 +80,10 @@ class StreamEncoder final : public FrameEncoder {
 
 /// What the datagrams of an image say beside the image.
 struct ImageSending {
-  std::uint32_t run{};       ///< Distinguishes this start from others, as in StreamSpec.
-  std::uint32_t frame{};     ///< Number of the sensor's frame that has the image's stamp.
-  std::int64_t spread_ns{};  ///< Time from the stamp over which the datagrams are spread.
+  std::uint32_t run{};            ///< Distinguishes this start from others, as in StreamSpec.
+  std::uint32_t frame{};          ///< Number of the sensor's frame that has the image's stamp.
+  std::int64_t spread_ns{};       ///< Time from the stamp over which the datagrams are spread.
+  std::int64_t clock_ahead_ns{};  ///< Of the stamp that is stated, ahead of the image's.
 };
 
 /// Appends the datagrams that carry an image as JPEG, in the railcast protocol for images

@@ -172,7 +172,7 @@ TEST(StreamClock, StatesTheTimeOfDayOrAtomicTime) {
               60.0);
 }
 
-TEST(StreamClock, IsForWhatStatesTime) {
+TEST(StreamClock, IsForLiveStreamsAndAtomicTimeForWhatFollowsPtp) {
   const TemporaryDirectory folder;
   const std::string scenario = CoarseScenario(folder.path());
   const auto fault = [](const std::string& arguments) {
@@ -182,8 +182,6 @@ TEST(StreamClock, IsForWhatStatesTime) {
   };
   EXPECT_EQ(fault(scenario + " --clock utc --pcap a --duration 1"),
             "--clock: must be left out where nothing is sent, as with --pcap without --to\n");
-  EXPECT_EQ(fault(scenario + " --clock utc --to :1000"),
-            "--clock: is for packets of real sensors and messages of ROS 2 (got railcast)\n");
   EXPECT_EQ(
       fault(ScenarioOfSensors(folder.path(), {{"vlp16", "\"127.0.0.1:9\""}}) + " --clock tai"),
       "--clock: tai is for packets of sensors that PTP synchronises, Hesai's and Ouster's "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/live_stream.h"
 
@@ -128,6 +129,18 @@ TEST(LiveFrames, SayWhyAFrameCannotBeShownUntilOneCan) {
   ASSERT_TRUE(EventuallyPolls(frames));
   EXPECT_EQ(frames.fault(), "");
   EXPECT_EQ(frames.Get(1)->frame().index, 5U);
+}
+
+TEST(LiveFrames, AreNotDrawnInAScenarioByTheTimeOfDay) {
+  LiveFrames frames("udp://here", kAnyLoopbackPort);
+  frames.UseScenario(ReadScenario(RAILCAST_SOURCE_DIR "/scenarios/minimal.json"));
+  LiveStream stream(frames.at());
+  stream.SetClockAhead(1'795'000'000'000'000'000);
+  stream.Send(0);
+  ASSERT_TRUE(Eventually([&] { return frames.Poll() || !frames.fault().empty(); }));
+  EXPECT_EQ(frames.fault(),
+            "udp://here: stamps must be simulation time where a scenario is drawn (got the time of "
+            "day)");
 }
 
 TEST(LiveFrames, AreOfOneSensorIfTwoSendToThePort) {

@@ -21,6 +21,8 @@ class LiveStream {
 
   /// Begins anew with the same socket.
   void Restart(const StreamSpec& spec) { encoder_ = StreamEncoder(StreamPattern(), spec); }
+  /// As FrameEncoder::SetClockAhead().
+  void SetClockAhead(std::int64_t ahead_ns) { encoder_.SetClockAhead(ahead_ns); }
 
   void Send(std::uint32_t index) {
     datagrams_.Clear();
