@@ -157,6 +157,34 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
   EXPECT_NE(ended.said.find("HTTP at [::1]:" + port), std::string::npos) << ended.said;
 }
 
+// In a network of its own, whose MTU the packets exceed; the kernel counts the fragments.
+TEST(StreamOuster, SendsPacketsAboveTheMtuInIpFragments) {
+  const std::string alone = "unshare --map-root-user --net ";
+  if (RunCommand(alone + "ip link set lo mtu 576 up").status != 0) {
+    GTEST_SKIP() << "no network of its own can be made here";
+  }
+  const TemporaryDirectory folder;
+  const std::string scenario = OusterScenario(folder.path(), "RNG19_RFL8_SIG16_NIR16");
+  const auto script = folder.path() / "receive.py";
+  WriteFileWhole(script, R"(import socket, subprocess
+subprocess.run(["ip", "link", "set", "lo", "mtu", "576", "up"], check=True)
+receiver = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+receiver.bind(("127.0.0.1", 7502))
+receiver.settimeout(20)
+stream = subprocess.Popen([")" RAILCAST_GENERATE R"(", "stream", ")" +
+                             scenario +
+                             R"(", "--duration", "0.2", "--to", "127.0.0.1:7502"],
+                          stdout=subprocess.DEVNULL)
+print({len(receiver.recv(65536)) for _ in range(20)}, stream.wait())
+names, counts = (line.split() for line in open("/proc/net/snmp") if line.startswith("Ip:"))
+print(int(counts[names.index("FragCreates")]) >= 40)
+)");
+  const Ended received = RunCommand(alone + "python3 " + script.string());
+  const std::size_t size = OusterPacketSize(ParseOusterMetadata(MadeOusterMetadataText()));
+  EXPECT_GT(size, 576U);
+  EXPECT_EQ(received.said, "{" + std::to_string(size) + "} 0\nTrue\n");
+}
+
 TEST(StreamOuster, SaysWhatDoesNotGoTogether) {
   const TemporaryDirectory folder;
   const std::string scenario = OusterScenario(folder.path(), "LEGACY");
