@@ -66,9 +66,9 @@ class CaptureRecording : public Recording {
  private:
   void TakeDatagram() {
     if (const auto datagram = datagrams_->Next()) {
-      reader_.Take(*datagram, turns_);
+      reader_.Take(*datagram, &turns_);
     } else {
-      reader_.End(turns_);
+      reader_.End(&turns_);
       is_at_end_ = true;
     }
     if (is_at_end_) AddRemarks();

@@ -71,7 +71,7 @@ void PacketRecording::Take(const CapturedDatagram& datagram, std::size_t packet_
     datagrams_.push_back({{one.begin(), one.end()}, port, datagram.time_ns});
     CapturedDatagram captured = datagram;
     captured.payload = one;
-    turn_reader_.Take(captured, turns_);
+    turn_reader_.Take(captured, &turns_);
   }
 }
 
@@ -100,7 +100,7 @@ std::deque<RecordedDatagram> PacketRecording::NextTurn() {
     const auto datagram = NextDatagram();
     if (!datagram) {
       is_at_end_ = true;
-      turn_reader_.End(turns_);
+      turn_reader_.End(&turns_);
       PublishRemarks();
       break;
     }

@@ -47,7 +47,7 @@ void TurnReader::CountRefused(const CapturedDatagram& datagram, const std::strin
 }
 
 void TurnReader::Take(const CapturedDatagram& datagram,
-                      std::deque<SensorTurn>& turns,
+                      std::deque<SensorTurn>* turns,
                       std::deque<OrderedPacket>* decoded) {
   const std::uint64_t number = num_datagrams_++;
   const auto& streams = sensor_.streams;
@@ -81,13 +81,14 @@ void TurnReader::Take(const CapturedDatagram& datagram,
   Decode(turns, decoded);
 }
 
-void TurnReader::Decode(std::deque<SensorTurn>& turns, std::deque<OrderedPacket>* decoded) {
+void TurnReader::Decode(std::deque<SensorTurn>* turns, std::deque<OrderedPacket>* decoded) {
   while (auto packet = order_.Next()) {
+    if (turns == nullptr) continue;
     std::vector<SensorTurn> completed;
     std::visit([&](auto& decoder) { decoder.TakePacket(packet->bytes, completed); },
                sensor_.decoder);
     for (SensorTurn& turn : completed) turn.end_datagram = packet->places.front().datagram;
-    MoveTurns(completed, turns);
+    MoveTurns(completed, *turns);
     if (const auto* const spinning = std::get_if<SpinningDecoder>(&sensor_.decoder)) {
       empty_blocks_.Count(packet->number, spinning->NumEmptyBlocks(packet->bytes));
     }
@@ -95,13 +96,14 @@ void TurnReader::Decode(std::deque<SensorTurn>& turns, std::deque<OrderedPacket>
   }
 }
 
-void TurnReader::End(std::deque<SensorTurn>& turns, std::deque<OrderedPacket>* decoded) {
+void TurnReader::End(std::deque<SensorTurn>* turns, std::deque<OrderedPacket>* decoded) {
   order_.End();
   Decode(turns, decoded);
+  if (turns == nullptr) return;
   std::vector<SensorTurn> last;
   std::visit([&](auto& decoder) { last.push_back(decoder.TakeUnfinished()); }, sensor_.decoder);
   last.front().end_datagram = num_datagrams_;
-  MoveTurns(last, turns);
+  MoveTurns(last, *turns);
 }
 
 PacketTally TurnReader::lost() const {
@@ -137,12 +139,10 @@ std::vector<TurnReader> CountPackets(const DatagramPlace& place) {
     readers.emplace_back(std::move(sensor), ShownPath(place.source));
   }
   const auto datagrams = place.open();
-  std::deque<SensorTurn> turns;
   while (const auto datagram = datagrams->Next()) {
-    for (TurnReader& reader : readers) reader.Take(*datagram, turns);
-    turns.clear();
+    for (TurnReader& reader : readers) reader.Take(*datagram, nullptr);
   }
-  for (TurnReader& reader : readers) reader.End(turns);
+  for (TurnReader& reader : readers) reader.End(nullptr);
   return readers;
 }
 

@@ -22,12 +22,13 @@ class TurnReader {
 
   /// Takes the next datagram, which holds one packet, several that were captured as one, or what is
   /// none of the sensor's, and appends the turns that are complete.
+  /// @param turns Null where packets are but counted: they are put in order, and not decoded.
   /// @param decoded Receives the packets that the decoder was given, if that is wanted.
   void Take(const CapturedDatagram& datagram,
-            std::deque<SensorTurn>& turns,
+            std::deque<SensorTurn>* turns,
             std::deque<OrderedPacket>* decoded = nullptr);
   /// Appends the turns that are left, the last of which no packet has completed.
-  void End(std::deque<SensorTurn>& turns, std::deque<OrderedPacket>* decoded = nullptr);
+  void End(std::deque<SensorTurn>* turns, std::deque<OrderedPacket>* decoded = nullptr);
 
   [[nodiscard]] const CaptureSensor& sensor() const { return sensor_; }
   /// Number of datagrams so far.
@@ -49,7 +50,7 @@ class TurnReader {
   void CountOther(const CapturedDatagram& datagram);
   void CountUnknown(const CapturedDatagram& datagram);
   void CountRefused(const CapturedDatagram& datagram, const std::string& why);
-  void Decode(std::deque<SensorTurn>& turns, std::deque<OrderedPacket>* decoded);
+  void Decode(std::deque<SensorTurn>* turns, std::deque<OrderedPacket>* decoded);
 
   CaptureSensor sensor_;
   std::string source_;

@@ -47,13 +47,13 @@ TurnEditor::TurnEditor(const CaptureSensor& sensor, const std::string& source)
 
 void TurnEditor::Take(const CapturedDatagram& datagram) {
   std::deque<OrderedPacket> decoded;
-  reader_.Take(datagram, turns_, &decoded);
+  reader_.Take(datagram, &turns_, &decoded);
   Hold(std::move(decoded));
 }
 
 void TurnEditor::End() {
   std::deque<OrderedPacket> decoded;
-  reader_.End(turns_, &decoded);
+  reader_.End(&turns_, &decoded);
   Hold(std::move(decoded));
 }
 
