@@ -114,6 +114,14 @@ bool CanBePositions(const std::vector<Number>& numbers, std::size_t num_columns)
   return true;
 }
 
+/// Whether 99 % of the last of four numbers a point are not below 0.
+bool CanBeIntensities(const std::vector<float>& numbers) {
+  constexpr std::size_t kMostWrong = 100;
+  std::size_t num_below = 0;
+  for (std::size_t i = 3; i < numbers.size(); i += 4) num_below += numbers[i] < 0.0F ? 1 : 0;
+  return num_below * kMostWrong <= numbers.size() / 4;
+}
+
 /// Whether a column is one of rings: whole numbers from 0 on.
 bool IsRing(const std::vector<float>& numbers, std::size_t column, std::size_t num_columns) {
   for (std::size_t i = column; i < numbers.size(); i += num_columns) {
@@ -131,7 +139,8 @@ std::string FittingColumns(std::string_view bytes) {
   const auto numbers = SomeNumbers<float>(bytes);
   const std::size_t num_floats = bytes.size() / sizeof(float);
   if (numbers.size() < kLeastNumbers) return "4";
-  const bool is_four = bytes.size() % (4 * sizeof(float)) == 0 && CanBePositions(numbers, 4);
+  const bool is_four = bytes.size() % (4 * sizeof(float)) == 0 && CanBePositions(numbers, 4) &&
+                       CanBeIntensities(numbers);
   std::size_t best = 4;
   double least = DifferenceAt(numbers, best);
   for (const std::size_t num : kOthers) {
@@ -139,10 +148,11 @@ std::string FittingColumns(std::string_view bytes) {
     // Points in pairs differ less from the one after the next.
     const double clear = num % best == 0 ? 0.5 * kClear : kClear;
     const double difference = DifferenceAt(numbers, num);
-    if (!is_possible || !(difference < clear * least) || !CanBePositions(numbers, num)) continue;
+    if (!is_possible || !(difference < clear * least)) continue;
     best = num;
     least = difference;
   }
+  if (best != 4 && !CanBePositions(numbers, best)) return "";
   if (best == 5 && IsRing(numbers, 4, 5)) return "nuscenes";
   if (best == 6 && !IsRing(numbers, 4, 6)) return "waymo";
   if (best != 4 || is_four) return NumberText(best);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +75,7 @@ struct LasHeader {
   std::uint64_t num_points{};
   std::array<double, 3> scale{};
   std::array<double, 3> offset_m{};
+  std::array<std::array<double, 2>, 3> bounds_m{};  ///< Least and most; all 0 = not stated.
 };
 
 LasHeader ReadLasHeader(const Bytes& file) {
@@ -108,6 +110,7 @@ LasHeader ReadLasHeader(const Bytes& file) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     header.scale.at(axis) = file.At<double>(131 + 8 * axis);
     header.offset_m.at(axis) = file.At<double>(155 + 8 * axis);
+    header.bounds_m.at(axis) = {file.At<double>(187 + 16 * axis), file.At<double>(179 + 16 * axis)};
     if (!(std::abs(header.scale.at(axis)) > 0.0) || !std::isfinite(header.scale.at(axis)) ||
         !std::isfinite(header.offset_m.at(axis))) {
       throw InputError("scale and offset: must be finite, the scale not 0");
@@ -132,7 +135,6 @@ LasHeader ReadLasHeader(const Bytes& file) {
                    "); pdal translate with filters.reprojection makes them such");
 }
 
-/// Throws if a GeoTIFF directory says that coordinates are no metres.
 /// Throws if the keys say that coordinates are no metres.
 /// @return The codes of coordinate systems whose units stand in EPSG's register alone.
 std::string CheckGeoKeys(const Bytes& keys) {
@@ -145,6 +147,7 @@ std::string CheckGeoKeys(const Bytes& keys) {
     const int value = keys.At<std::uint16_t>(8 * i + 6);
     if (keys.At<std::uint16_t>(8 * i + 2) != 0) continue;  // It stands elsewhere.
     if (key == 1024 && value == 2) RefuseUnit("degrees");
+    if (key == 1024 && value == 3) RefuseUnit("places from the earth's centre");
     const bool is_unit = key == 3076 || key == 4099;  // Of projected and of vertical coordinates.
     if (is_unit && value != 0 && value != 9001) RefuseUnit("unit EPSG:" + NumberText(value));
     values[key] = value;
@@ -159,10 +162,22 @@ std::string CheckGeoKeys(const Bytes& keys) {
   return codes;
 }
 
+/// Throws if the text of a coordinate system, of either version, states that coordinates are no
+/// metres.
 void CheckWkt(std::string_view text) {
+  static const std::regex kUnit(
+      R"re((?:^|[^A-Z])(?:LENGTH)?UNIT\s*[[(]\s*"([^"]*)"\s*,\s*([0-9.eE+-]+))re",
+      std::regex::icase);
   const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
   if ((has("GEOGCS[") || has("GEOGCRS[")) && !has("PROJC")) RefuseUnit("degrees");
-  if (has("foot") || has("Foot") || has("FOOT") || has("feet")) RefuseUnit("feet");
+  if (has("GEOCCS[")) RefuseUnit("places from the earth's centre");
+  using Matches = std::regex_iterator<std::string_view::const_iterator>;
+  for (Matches unit(text.begin(), text.end(), kUnit); unit != Matches(); ++unit) {
+    const auto size = ParseSignedNumber<double>((*unit)[2].str());
+    // An angle, of the geographic system below the plan.
+    const bool is_angle = size && *size > 0.015 && *size < 0.018;
+    if (!is_angle && size != 1.0) RefuseUnit((*unit)[1].str());
+  }
 }
 
 /// Throws if a record says that coordinates are no metres.
@@ -258,6 +273,29 @@ bool Append(const Bytes& point, const LasHeader& header, Cloud& cloud) {
   return true;
 }
 
+/// Throws if more than 1 % of the points are outside the bounds that the header states: its scale
+/// or offset is wrong, or the bounds are.
+void CheckBounds(const LasHeader& header, const Cloud& cloud) {
+  constexpr double kNear_m = 0.02;
+  constexpr std::size_t kMostWrong = 100;
+  if (header.bounds_m == decltype(header.bounds_m){}) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = header.bounds_m.at(axis);
+    std::size_t num_outside = 0;
+    double outside_m = 0.0;
+    VisitField(cloud, cloud.fields.at(axis), [&](std::size_t, auto value) {
+      const auto value_m = static_cast<double>(value);
+      if (value_m >= least - kNear_m && value_m <= most + kNear_m) return;
+      ++num_outside;
+      outside_m = value_m;
+    });
+    if (num_outside * kMostWrong <= cloud.num_points()) continue;
+    throw InputError(cloud.fields.at(axis).name + ": must be within the bounds of the header, " +
+                     NumberText(least) + " to " + NumberText(most) + Got(outside_m) +
+                     "; pdal translate writes the header anew, if scale and offset are right");
+  }
+}
+
 /// The fields that ReadLas() does not give.
 std::vector<std::string> FieldsLeftOut(const LasHeader& header) {
   std::vector<std::string> names;
@@ -281,6 +319,7 @@ Cloud CloudOfLas(const std::string& name, std::string_view bytes) {
     const Bytes point(file.Text(header.points_begin + i * header.point_bytes, header.point_bytes));
     if (!Append(point, header, cloud)) ++num_withheld;
   }
+  CheckBounds(header, cloud);
   const std::uint64_t end = header.points_begin + header.num_points * header.point_bytes;
   const std::uint64_t rest = std::max(EndOfPoints(file, header), end) - end;
   const std::vector<std::string> left_out = FieldsLeftOut(header);

@@ -69,10 +69,23 @@ std::optional<PointTimes> FindTimes(const Cloud& cloud) {
   return std::nullopt;
 }
 
+/// Says that a column that is called a time is none of the points', for its unit is not certain.
+/// Surveys have GPS times, which need not be those of a scan.
+void RemarkUnknownTime(const Cloud& cloud, RecordedFrame& recorded) {
+  for (const std::string_view name : kTimeNames) {
+    const CloudField* const column = cloud.Find(name);
+    if (column == nullptr || name == "gps_time") continue;
+    AddRemark({.kind = RemarkKind::kFieldsLeftOut,
+               .place = recorded.name,
+               .detail = column->name + " as times of points, for its unit is not certain"},
+              recorded.remarks);
+  }
+}
+
 // Takes the time from a foreign column, for files that have no time_ns.
 void FillForeignTime(const Cloud& cloud, const SlotPlan& plan, RecordedFrame& recorded) {
   const auto times = FindTimes(cloud);
-  if (!times) return;
+  if (!times) return RemarkUnknownTime(cloud, recorded);
   for (std::size_t i = 0; i < times->since_first_ns.size(); ++i) {
     const auto slot = plan.slots.empty() ? static_cast<std::uint32_t>(i) : plan.slots[i];
     if (slot == kNoSlot) continue;
@@ -147,8 +160,12 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   RecordedFrame recorded;
   recorded.name = name;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
-  const std::string fault = FaultOfPositions(cloud);
-  if (!fault.empty()) throw InputError(name + ": " + fault);
+  Remark far;
+  for (const std::string& fault : {FaultOfPositions(cloud, far), FaultOfIntensities(cloud)}) {
+    if (!fault.empty()) throw InputError(name + ": " + fault);
+  }
+  far.place = name;
+  AddRemark(far, recorded.remarks);
   const SlotPlan plan = PlanOfCloud(cloud, name);
   FillFrame(cloud, plan, recorded);
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);

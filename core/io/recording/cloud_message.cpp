@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <set>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -89,18 +88,27 @@ void PackRows(const ros::PointCloud2& message, std::size_t row_step, Cloud& clou
   data.resize(row_size * message.height);
 }
 
+/// Throws if fields share bytes: an offset or a type is wrong. Colours have two names for theirs.
+void CheckOverlaps(const Cloud& cloud) {
+  std::vector<const CloudField*> by_place;
+  for (const CloudField& field : cloud.fields) {
+    if (field.name != "rgba") by_place.push_back(&field);
+  }
+  std::ranges::sort(by_place, {}, &CloudField::offset);
+  for (std::size_t i = 1; i < by_place.size(); ++i) {
+    const CloudField& before = *by_place[i - 1];
+    if (before.offset + before.num_bytes() <= by_place[i]->offset) continue;
+    throw InputError("fields: must not share bytes (got " + Quoted(before.name) + " and " +
+                     Quoted(by_place[i]->name) + ")");
+  }
+}
+
 /// Turns big-endian numbers into little-endian ones.
 void SwapBytes(Cloud& cloud) {
   if (cloud.num_points() == 0) return;  // The size of a point is not limited by the data.
-  std::set<std::size_t> swapped;
   for (const CloudField& field : cloud.fields) {
+    if (field.name == "rgba" && cloud.Find("rgb") != nullptr) continue;
     const std::size_t size = SizeOf(field.type);
-    for (std::size_t at = field.offset; at < field.offset + field.num_bytes(); ++at) {
-      if (!swapped.insert(at).second) {
-        throw InputError("fields: must not share bytes of a big-endian cloud (got " +
-                         Quoted(field.name) + ")");
-      }
-    }
     for (std::size_t point = 0; point < cloud.num_points(); ++point) {
       std::uint8_t* const begin = cloud.data.data() + point * cloud.point_step + field.offset;
       for (auto* at = begin; at < begin + field.num_bytes(); at += size) {
@@ -166,6 +174,7 @@ Cloud MakeCloud(ros::PointCloud2 message) {
   for (const ros::PointField& field : message.fields) {
     cloud.fields.push_back(FieldOf(field, cloud.point_step));
   }
+  CheckOverlaps(cloud);
   PackRows(message, row_step, cloud);
   if (cloud.num_points() == 0 && cloud.Find("x") == nullptr) {
     // Of a message without points not all drivers fill in what points have.

@@ -68,17 +68,50 @@ bool AreFarTogether(const Positions& positions) {
 
 }  // namespace
 
-std::string FaultOfPositions(const Cloud& cloud) {
+std::string FaultOfPositions(const Cloud& cloud, Remark& far) {
   const Positions positions = StoredPositions(cloud);
+  far = {.kind = RemarkKind::kFarReturns, .place = {}, .number = 0, .detail = {}};
+  if (positions.empty()) return {};
+  for (const char* axis : {"x", "y", "z"}) {
+    if (SizeOf(FindFieldOf(cloud, axis)->type) > 1) continue;
+    return std::string(axis) + ": must have 16 bits or more (got 8)";
+  }
+  // No sensor has all of its returns so near, but a file of kilometres has.
+  constexpr double kNearest_m = 0.1;
+  constexpr std::size_t kSurePoints = 100;
+  if (positions.size() >= kSurePoints && AreTogether(positions, Vector3::Zero(), kNearest_m)) {
+    return "x, y, z: 99 % of the points must not be less than 0.1 m from 0: another unit?";
+  }
   const auto num_likely = std::ranges::count_if(positions, [](const Vector3& position) {
     return std::ranges::all_of(position, &IsLikelyPosition);
   });
   const double share = static_cast<double>(num_likely) / static_cast<double>(positions.size());
-  if (positions.empty() || share >= 1.0 - kMostWrong || AreFarTogether(positions)) return {};
+  if (share >= 1.0 - kMostWrong) {
+    far.number = positions.size() - static_cast<std::size_t>(num_likely);
+    far.detail = "no coordinates in metres within 10 km";
+    return {};
+  }
+  if (AreFarTogether(positions)) return {};
   return "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a "
          "grid "
          "(got " +
          ShortText(100.0 * share) + " %): other columns, another byte order or unit?";
+}
+
+std::string FaultOfIntensities(const Cloud& cloud) {
+  const CloudField* const field = FindFieldOf(cloud, "intensity");
+  if (field == nullptr) return {};
+  constexpr double kMost = 1e7;
+  constexpr double kLeast = 1e-20;
+  std::size_t num_wrong = 0;
+  VisitField(cloud, *field, [&](std::size_t, auto value) {
+    const double size = std::abs(static_cast<double>(value));
+    num_wrong += std::isfinite(size) && size != 0.0 && (size < kLeast || size > kMost) ? 1 : 0;
+  });
+  const double share = static_cast<double>(num_wrong) / static_cast<double>(cloud.num_points());
+  if (num_wrong == 0 || share <= kMostWrong) return {};
+  return field->name + ": 99 % must be 0 or from 1e-20 to 1e7 (got " +
+         ShortText(100.0 * (1.0 - share)) + " %): another type or byte order?";
 }
 
 std::optional<Remark> CheckRanges(const RecordedFrame& recorded,

@@ -11,14 +11,20 @@ namespace railcast {
 // Whether values can be what they are said to be. A wrong layout, byte order or unit shows in them.
 
 /// What is wrong with the positions of a cloud; empty if they can be metres: 99 % of the points are
-/// finite and less than 10 km from 0, or all of them lie together farther away, as in a national
-/// grid. Points that are not finite, or 0, are none.
+/// less than 10 km from 0, or all of them lie together farther away, as in a national grid. Of 100
+/// points or more, not all may be within 0.1 m. Points that are not finite, or 0, are none.
+/// @param far Becomes a remark of those few that are farther than 10 km away; its number may be 0.
 /// @pre The cloud has x, y and z (FindFieldOf()).
-[[nodiscard]] std::string FaultOfPositions(const Cloud& cloud);
+[[nodiscard]] std::string FaultOfPositions(const Cloud& cloud, Remark& far);
 
-/// A remark (RemarkKind::kFarReturns) if the frame has returns beyond the sensor's range. Of captures,
-/// whose packets state the unit, and of railcast's own sequences there is nothing to doubt.
-/// @throws InputError "NAME: range_m: rule (got value)" if more than 1 % of the returns of others are.
+/// What is wrong with the intensities of a cloud, if it has any; empty if 99 % of them can be such.
+[[nodiscard]] std::string FaultOfIntensities(const Cloud& cloud);
+
+/// A remark (RemarkKind::kFarReturns) if the frame has returns beyond the sensor's range. Of
+/// captures, whose packets state the unit, and of railcast's own sequences there is nothing to
+/// doubt.
+/// @throws InputError "NAME: range_m: rule (got value)" if more than 1 % of the returns of others
+/// are.
 [[nodiscard]] std::optional<Remark> CheckRanges(const RecordedFrame& recorded,
                                                 const RecordingInfo& info,
                                                 double range_max_m);

@@ -121,6 +121,23 @@ std::optional<std::string> RefuseBlock(const SpinningModel& model,
   return std::nullopt;
 }
 
+/// A window of the sensor is one gap within a packet; a wrong azimuth makes two.
+std::optional<std::string> RefuseAzimuths(const SpinningModel& model,
+                                          std::span<const char> payload,
+                                          const std::vector<std::size_t>& loops) {
+  constexpr std::int64_t kMostUneven = 50;
+  const std::int64_t usual = UsualStep(model, payload, loops);
+  int num_gaps = 0;
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    const std::int64_t step =
+        StepTo(AzimuthOf(model, payload, loops[i]), AzimuthOf(model, payload, loops[i - 1]));
+    const std::int64_t off = std::abs(step - usual);
+    if (std::min(off, kAzimuthUnitsPerTurn - off) <= kMostUneven + 4 * usual) continue;
+    if (++num_gaps == 2) return "azimuths of blocks must go on evenly" + Got(step);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::uint8_t PercentByte(float intensity) {
@@ -164,7 +181,7 @@ std::optional<std::string> RefusePacket(const SpinningModel& model, std::span<co
       if (refusal) return "block " + NumberText(i) + ": " + *refusal;
     }
   }
-  return std::nullopt;
+  return RefuseAzimuths(model, payload, loops);
 }
 
 std::uint8_t ModeOf(const SpinningModel& model, std::span<const char> packet) {

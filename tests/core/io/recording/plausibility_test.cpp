@@ -35,11 +35,16 @@ void SetX(double value, std::size_t num, Cloud& cloud) {
   }
 }
 
+std::string PositionFault(const Cloud& cloud) {
+  Remark far;
+  return FaultOfPositions(cloud, far);
+}
+
 TEST(FaultOfPositions, IsNoneOfMetresAboutTheSensorOrInAGrid) {
-  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0)), "");
-  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0, {691234.0, 5334567.0, 520.0})), "");
-  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1.0, {12'000.0, 30'000.0, 520.0})), "");
-  EXPECT_EQ(FaultOfPositions(RoomOf(0, 1.0)), "");
+  EXPECT_EQ(PositionFault(RoomOf(200, 1.0)), "");
+  EXPECT_EQ(PositionFault(RoomOf(200, 1.0, {691234.0, 5334567.0, 520.0})), "");
+  EXPECT_EQ(PositionFault(RoomOf(200, 1.0, {12'000.0, 30'000.0, 520.0})), "");
+  EXPECT_EQ(PositionFault(RoomOf(0, 1.0)), "");
 }
 
 TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
@@ -47,14 +52,21 @@ TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
       "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a grid "
       "(got ";
   const std::string end = " %): other columns, another byte order or unit?";
-  EXPECT_EQ(FaultOfPositions(RoomOf(200, 1000.0)), rule + "0" + end);
+  EXPECT_EQ(PositionFault(RoomOf(200, 1000.0)), rule + "0" + end);
   for (const double wrong : {1e19, 1e-30}) {
     Cloud cloud = RoomOf(200, 1.0);
     SetX(wrong, 2, cloud);
-    EXPECT_EQ(FaultOfPositions(cloud), "");
+    Remark far;
+    EXPECT_EQ(FaultOfPositions(cloud, far), "");
+    EXPECT_EQ(far.number, 2U);
     SetX(wrong, 50, cloud);
-    EXPECT_EQ(FaultOfPositions(cloud), rule + "75" + end) << wrong;
+    EXPECT_EQ(PositionFault(cloud), rule + "75" + end) << wrong;
   }
+}
+
+TEST(FaultOfPositions, SaysThatAllPointsAreTooNear) {
+  EXPECT_EQ(PositionFault(RoomOf(200, 0.001)),
+            "x, y, z: 99 % of the points must not be less than 0.1 m from 0: another unit?");
 }
 
 TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
@@ -63,7 +75,7 @@ TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Cloud cloud = RoomOf(200, 1.0);
     SetX(none, 150, cloud);
-    EXPECT_EQ(FaultOfPositions(cloud), "");
+    EXPECT_EQ(PositionFault(cloud), "");
   }
 }
 
