@@ -354,6 +354,20 @@ void CheckGlb(const std::string& bytes, const std::string& shown) {
   }
 }
 
+/// Throws if assimp has left out triangles, as it does with those of vertices that are not there.
+void CheckTriangles(const aiScene& scene, const SceneSource& source, const std::string& shown) {
+  if (source.format != MeshFormat::kGltf && source.format != MeshFormat::kGlb) return;
+  const auto numbers = TrianglesOfGltf(source.bytes);
+  if (numbers.size() != scene.mNumMeshes) return;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::size_t got = scene.mMeshes[i]->mNumFaces;
+    if (!numbers[i] || got == *numbers[i]) continue;
+    throw InputError(shown + ": primitive " + std::to_string(i) + " must have " +
+                     std::to_string(*numbers[i]) + " triangles of vertices that are there" +
+                     Got(got));
+  }
+}
+
 /// What assimp makes of a scene, in this process.
 SceneMesh ImportScene(const SceneSource& source,
                       SceneGathering gathering,
@@ -372,6 +386,7 @@ SceneMesh ImportScene(const SceneSource& source,
     if (said.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     throw InputError(gathering.shown + ": cannot be read as " + extension + ": " + ShownText(said));
   }
+  CheckTriangles(*scene, source, gathering.shown);
   if (source.format == MeshFormat::k3ds) {
     // assimp turns all of them from z up to y up, but their unit and upward axis are not known.
     gathering.file_from_scene.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -71,20 +73,83 @@ const nlohmann::json& ValueIn(const nlohmann::json& json, const nlohmann::json& 
   return index < json.size() ? json[index] : none;
 }
 
-/// Positions that are whole numbers have another scale, which assimp does not know.
-void CheckPositions(const nlohmann::json& json, const std::string& shown) {
-  constexpr int kFloat = 5126;
+/// Throws unless a member of an accessor, if it is there, is one of these.
+void CheckMember(const std::string& place,
+                 const nlohmann::json& object,
+                 const char* member,
+                 const std::vector<nlohmann::json>& allowed,
+                 const std::string& rule) {
+  const nlohmann::json& value = ValueIn(object, member);
+  if (value.is_null() || std::ranges::find(allowed, value) != allowed.end()) return;
+  throw InputError(place + "/" + member + ": " + rule + " (got " + ShownText(value.dump()) + ")");
+}
+
+/// Throws if positions and indices are not as the format has them, which assimp does not ask.
+/// Positions that are whole numbers have another scale, which it does not know.
+void CheckPrimitive(const nlohmann::json& json,
+                    const nlohmann::json& primitive,
+                    const std::string& shown) {
+  constexpr int kTriangles = 4;
   const nlohmann::json& accessors = ValueIn(json, "accessors");
-  for (const auto& mesh : ValueIn(json, "meshes")) {
-    for (const auto& primitive : ValueIn(mesh, "primitives")) {
-      const nlohmann::json& key = ValueIn(ValueIn(primitive, "attributes"), "POSITION");
-      const nlohmann::json& type = ValueIn(ValueIn(accessors, key), "componentType");
-      if (!type.is_number() || type == kFloat) continue;
-      throw InputError(shown + ": accessors/" + key.dump() +
-                       "/componentType: of POSITION must be " + std::to_string(kFloat) +
-                       ", float; KHR_mesh_quantization is not read (" + kWithGltfpack + ") (got " +
-                       type.dump() + ")");
-    }
+  const nlohmann::json& key = ValueIn(ValueIn(primitive, "attributes"), "POSITION");
+  const nlohmann::json& index_key = ValueIn(primitive, "indices");
+  const nlohmann::json& positions = ValueIn(accessors, key);
+  const nlohmann::json& indices = ValueIn(accessors, index_key);
+  const std::string place = shown + ": accessors/" + key.dump();
+  const std::string index_place = shown + ": accessors/" + index_key.dump();
+  CheckMember(place, positions, "componentType", {5126},
+              std::string("of POSITION must be 5126, float; KHR_mesh_quantization is not read (") +
+                  kWithGltfpack + ")");
+  CheckMember(place, positions, "type", {"VEC3"}, "of POSITION must be VEC3");
+  CheckMember(index_place, indices, "componentType", {5121, 5123, 5125},
+              "of indices must be 5121, 5123 or 5125");
+  const nlohmann::json& view =
+      ValueIn(ValueIn(json, "bufferViews"), ValueIn(positions, "bufferView"));
+  const nlohmann::json& stride = ValueIn(view, "byteStride");
+  if (stride.is_number() &&
+      (stride < 12 || stride.get<double>() != std::floor(stride.get<double>()) ||
+       stride.get<int>() % 4 != 0)) {
+    throw InputError(place + "/byteStride: of POSITION must be a multiple of 4 from 12 on (got " +
+                     stride.dump() + ")");
+  }
+  const nlohmann::json& mode = ValueIn(primitive, "mode");
+  const nlohmann::json& count = ValueIn(index_key.is_null() ? positions : indices, "count");
+  const bool is_whole = !count.is_number_unsigned() || count.get<std::uint64_t>() % 3 == 0;
+  if (is_whole || !(mode.is_null() || mode == kTriangles)) return;
+  throw InputError((index_key.is_null() ? place : index_place) +
+                   "/count: of triangles must be a multiple of 3 (got " + count.dump() + ")");
+}
+
+/// Throws if a node's place is no list of as many numbers as the format has.
+void CheckNode(const nlohmann::json& node, const std::string& place) {
+  const std::map<std::string, std::size_t> sizes = {
+      {"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}};
+  for (const auto& [member, size] : sizes) {
+    const nlohmann::json& value = ValueIn(node, member);
+    if (value.is_null()) continue;
+    const bool is_right =
+        value.is_array() && value.size() == size &&
+        std::ranges::all_of(value, [](const auto& one) { return one.is_number(); });
+    if (is_right) continue;
+    throw InputError(place + "/" + member + ": must be " + std::to_string(size) + " numbers (got " +
+                     ShownText(value.dump()) + ")");
+  }
+}
+
+/// Throws if data within the file have other letters than base64.
+void CheckLetters(const nlohmann::json& json, const std::string& shown) {
+  constexpr std::string_view kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=";
+  constexpr std::string_view kBegin = ";base64,";
+  for (const auto& buffer : ValueIn(json, "buffers")) {
+    const nlohmann::json& uri = ValueIn(buffer, "uri");
+    const std::string text = uri.is_string() ? uri.get<std::string>() : "";
+    const std::size_t begin = text.starts_with("data:") ? text.find(kBegin) : std::string::npos;
+    if (begin == std::string::npos) continue;
+    const std::size_t wrong = text.find_first_not_of(kLetters, begin + kBegin.size());
+    if (wrong == std::string::npos) continue;
+    throw InputError(shown + ": buffers/uri: must be base64 (got " + Quoted(text.substr(wrong, 1)) +
+                     ")");
   }
 }
 
@@ -111,10 +176,30 @@ std::vector<std::string> CheckGltf(const std::string& bytes, const std::string& 
     throw InputError(shown + ": extensionsRequired: must be extensions that are read; " +
                      WithoutExtension(name) + " (got " + Quoted(name) + ")");
   }
-  CheckPositions(json, shown);
+  for (const auto& mesh : ValueIn(json, "meshes")) {
+    for (const auto& primitive : ValueIn(mesh, "primitives"))
+      CheckPrimitive(json, primitive, shown);
+  }
+  for (const auto& node : ValueIn(json, "nodes")) CheckNode(node, shown + ": nodes");
+  CheckLetters(json, shown);
   std::vector<std::string> unread = StringsIn(json, "extensionsUsed");
   std::erase_if(unread, IsHarmless);
   return unread;
+}
+
+std::vector<std::optional<std::size_t>> TrianglesOfGltf(const std::string& bytes) {
+  const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
+  std::vector<std::optional<std::size_t>> numbers;
+  for (const auto& mesh : ValueIn(json, "meshes")) {
+    for (const auto& primitive : ValueIn(mesh, "primitives")) {
+      const nlohmann::json& indices = ValueIn(primitive, "indices");
+      const nlohmann::json& count = ValueIn(ValueIn(ValueIn(json, "accessors"), indices), "count");
+      const bool has_triangles = ValueIn(primitive, "mode").is_null() || primitive["mode"] == 4;
+      const bool is_known = has_triangles && count.is_number_unsigned();
+      numbers.push_back(is_known ? std::optional(count.get<std::size_t>() / 3) : std::nullopt);
+    }
+  }
+  return numbers;
 }
 
 std::string FileOfUri(const std::string& uri) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,5 +23,8 @@ namespace railcast {
 
 /// The name of a file as glTF writes it, without its percent signs: "wagon a.bin".
 [[nodiscard]] std::string FileOfUri(const std::string& uri);
+
+/// How many triangles each primitive states that has indices, mesh after mesh; nothing of others.
+[[nodiscard]] std::vector<std::optional<std::size_t>> TrianglesOfGltf(const std::string& bytes);
 
 }  // namespace railcast

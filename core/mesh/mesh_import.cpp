@@ -1,5 +1,6 @@
 #include "core/mesh/mesh_import.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +48,18 @@ void CheckPrecision(const std::string& shown, const PolygonSoup& soup, double un
                      "for they have single precision" + Got(largest * unit_m) +
                      "; OBJ, PLY and OFF files keep all their digits");
   }
+}
+
+/// Other types of numbers, or units, show in a size that nothing has.
+void CheckMeshSize(const std::string& shown, const PolygonSoup& soup, double unit_m) {
+  constexpr double kLargest_m = 1e6;
+  if (soup.points.empty()) return;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : soup.points) box.extend(point);
+  const double size_m = unit_m * box.sizes().maxCoeff();
+  if (size_m <= kLargest_m) return;
+  throw InputError(shown + ": must be at most 1000 km large" + Got(size_m) +
+                   ": another unit or type?");
 }
 
 /// Cutting a face into triangles takes time as the square of its corners.
@@ -136,6 +149,7 @@ ImportedMesh ParseSource(MeshSource source, const MeshUnits& given) {
   const bool is_single =
       IsScene(*format) || *format == MeshFormat::kAsciiStl || *format == MeshFormat::kBinaryStl;
   if (is_single) CheckPrecision(shown, soup, unit_m);
+  CheckMeshSize(shown, soup, unit_m);
   CheckCorners(shown, soup);
   ImportedMesh mesh = MakeTriangles(soup, unit_m, units.y_up.value_or(false));
   mesh.has_own_up = IsScene(*format) && *format != MeshFormat::k3ds;

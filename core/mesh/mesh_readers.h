@@ -65,8 +65,8 @@ void ReadMtl(const std::string& shown,
 
 /// Reads a Wavefront OBJ file: `v` and `f` lines, with negative indices and continued lines; the
 /// names of `usemtl`, and of `g` or else `o`. Normals, texture coordinates, lines and points are
-/// passed over, as are faces of fewer than three different corners in a row (which occur in
-/// well-known files).
+/// passed over, as are faces of which fewer than three corners in a row are different (which occur
+/// in well-known files). Other lines are remarks.
 ///
 /// It is railcast's own because OpenMesh gives coordinates of OBJ files in single precision, leaves
 /// out corners that a face names twice, and passes over what it does not understand.

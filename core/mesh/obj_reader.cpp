@@ -149,6 +149,15 @@ void ObjReader::ReadKeyword(std::string_view keyword, std::string_view rest) {
   if (keyword == "f") ReadFace(rest);
   if (keyword == "usemtl") material_ = materials_.Of(Name(rest));
   if (keyword == "g" || keyword == "o") group_ = groups_.Of(Name(rest));
+  if (keyword.empty() || keyword.starts_with('#')) return;
+  // Free-form surfaces and misspelt words are none of these.
+  constexpr auto kKnown = std::to_array<std::string_view>(
+      {"v",     "f",        "usemtl",   "g",   "o",  "mtllib",     "vt",
+       "vn",    "vp",       "s",        "l",   "p",  "usemap",     "maplib",
+       "bevel", "c_interp", "d_interp", "lod", "mg", "shadow_obj", "trace_obj"});
+  if (std::ranges::find(kKnown, keyword) != kKnown.end()) return;
+  AddRemark({.kind = RemarkKind::kExtensionUnread, .place = {}, .detail = ShownText(keyword)},
+            soup_.remarks);
 }
 
 /// Reads a line, joined with the next if it ends with a backslash.
@@ -189,6 +198,8 @@ void ObjReader::ReadFace(std::string_view rest) {
   for (std::string_view token = NextToken(rest); !token.empty(); token = NextToken(rest)) {
     corners.push_back(static_cast<std::uint32_t>(VertexOf(token)) - 1);
   }
+  if (corners.size() < 3)
+    Fail("a face must have three corners or more", NumberText(corners.size()));
   soup_.AddFace(std::move(corners), material_, group_);
 }
 

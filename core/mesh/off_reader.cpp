@@ -56,6 +56,7 @@ class OffReader {
       NextLine();
       faults_.Try([&] { ReadFace(); });
     }
+    if (lines_.Next()) faults_.Try([&] { Fail("must end behind its faces", lines_.words()[0]); });
     faults_.ThrowIfAny();
     return std::move(soup_);
   }
@@ -99,6 +100,11 @@ class OffReader {
 
   void ReadVertex() {
     constexpr const char* kRule = "a vertex must have three finite coordinates";
+    // Behind the coordinates may be a normal or a colour.
+    if (words_of_vertex_ == 0) words_of_vertex_ = lines_.words().size();
+    if (lines_.words().size() != words_of_vertex_) {
+      Fail("a vertex must have as many numbers as the first", NumberText(lines_.words().size()));
+    }
     Vector3 point;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
@@ -110,6 +116,7 @@ class OffReader {
 
   void ReadFace() {
     const auto num = NumberAt<std::uint32_t>(0, "a face must begin with its number of corners");
+    if (num < 3) Fail("a face must have three corners or more", lines_.words()[0]);
     if (num >= lines_.words().size()) Fail("a face must name its corners", lines_.words()[0]);
     std::vector<std::uint32_t> corners;
     const std::string rule = "a face must name one of the " + std::to_string(num_vertices_) +
@@ -128,6 +135,7 @@ class OffReader {
   LineFaults faults_;
   std::size_t num_vertices_ = 0;
   std::size_t num_faces_ = 0;
+  std::size_t words_of_vertex_ = 0;
   PolygonSoup soup_;
 };
 

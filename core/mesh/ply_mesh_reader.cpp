@@ -151,6 +151,7 @@ class Reader {
     if (num_color_parts == 3) colors_.resize(element.count);
     std::array<bool, 3> found{};
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      BeginLine();
       Vector3 point = Vector3::Zero();
       for (const Property& property : element.properties) {
         const std::size_t num = property.length ? Length(element, *property.length) : 1;
@@ -171,6 +172,7 @@ class Reader {
         }
       }
       soup_.points.push_back(point);
+      EndLine(element);
     }
     if (element.count > 0 && !(found[0] && found[1] && found[2])) {
       Fail("element vertex: must have the properties x, y and z");
@@ -193,6 +195,7 @@ class Reader {
     }
     const bool has_corners = std::ranges::find(uses, FaceUse::kCorners) != uses.end();
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      BeginLine();
       std::vector<std::uint32_t> corners;
       std::uint32_t material = PolygonSoup::kUnnamed;
       for (std::size_t p = 0; p < uses.size(); ++p) {
@@ -205,7 +208,13 @@ class Reader {
           if (uses[p] == FaceUse::kMaterial) material = MaterialOfFace(i, value);
         }
       }
-      if (has_corners) soup_.AddFace(std::move(corners), material);
+      EndLine(element);
+      if (!has_corners) continue;
+      if (corners.size() < 3) {
+        Fail("face " + std::to_string(i) + " must have three corners or more" +
+             Got(corners.size()));
+      }
+      soup_.AddFace(std::move(corners), material);
     }
   }
 
@@ -261,11 +270,26 @@ class Reader {
         type, [&](auto zero) { return static_cast<double>(NextBytes<decltype(zero)>(element)); });
   }
 
-  double NextWord(const Element& element) {
-    constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  /// Text has a line for each element; others may be empty.
+  void BeginLine() {
+    if (header_.encoding != Encoding::kAscii) return;
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kAllBlanks), rest_.size()));
+  }
+  void EndLine(const Element& element) {
+    if (header_.encoding != Encoding::kAscii) return;
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
-    if (word.empty()) FailShort(element);
+    if (rest_.empty() || rest_.starts_with('\n')) return;
+    Fail("element " + ShownText(element.name) + ": must be a line (got \"" +
+         ShownText(rest_.substr(0, rest_.find('\n'))) + "\" behind its numbers)");
+  }
+
+  double NextWord(const Element& element) {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kAllBlanks));
+    if (rest_.empty()) FailShort(element);
+    if (word.empty()) {
+      Fail("element " + ShownText(element.name) + ": must have all of its numbers in its line");
+    }
     rest_.remove_prefix(word.size());
     const auto number = ParseSignedNumber<double>(word);
     if (!number) {
@@ -286,6 +310,8 @@ class Reader {
   }
 
   static constexpr double kMaxIndex = 4294967295.0;
+  static constexpr std::string_view kBlanks = " \t\r\v\f";
+  static constexpr std::string_view kAllBlanks = " \t\r\v\f\n";
 
   const std::string& shown_;
   std::string_view rest_;

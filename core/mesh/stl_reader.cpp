@@ -33,14 +33,16 @@ class AsciiStlReader {
     for (; const auto line = TakeLine(rest_); ++line_) {
       const auto words = Words(*line);
       // What follows is a name, which may be anything.
-      if (words.empty() || IsStlWord(words[0], "solid") || IsStlWord(words[0], "endsolid"))
-        continue;
+      if (words.empty()) continue;
+      has_end_ = IsStlWord(words[0], "endsolid");
+      if (has_end_ || IsStlWord(words[0], "solid")) continue;
       for (std::size_t i = 0; i < words.size(); ++i) {
         if (IsStlWord(words[i], "vertex")) ReadVertex(std::span(words).subspan(i + 1), *line);
         if (IsStlWord(words[i], "endloop")) EndLoop();
       }
     }
     if (!loop_.empty()) throw InputError(shown_ + ": ends within a facet");
+    if (!has_end_) throw InputError(shown_ + ": must end with endsolid: some of it is missing");
     return std::move(soup_);
   }
 
@@ -72,6 +74,7 @@ class AsciiStlReader {
   const std::string& shown_;
   std::string_view rest_;
   std::size_t line_ = 1;
+  bool has_end_ = false;
   PolygonSoup soup_;
   std::vector<std::uint32_t> loop_;
 };

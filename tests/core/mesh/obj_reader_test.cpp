@@ -188,9 +188,22 @@ TEST_F(ReadObjTest, PassesOverAByteOrderMark) {
 
 TEST_F(ReadObjTest, DropsTrianglesWithoutArea) {
   const Mesh mesh = ReadMerged(
-      Write(std::string(kThreeVertices) + "v 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\nf 1 2\nf\n"), 1.0,
-      false);
+      Write(std::string(kThreeVertices) + "v 2 0 0\nf 1 2 3\nf 1 2 4\nf 1 1 2\n"), 1.0, false);
   EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
+TEST_F(ReadObjTest, RefusesFacesThatLackCorners) {
+  EXPECT_EQ(MessageOf([&] { (void)ReadMesh(Write(std::string(kThreeVertices) + "f 1 2\n")); }),
+            Path() + ": line 4: a face must have three corners or more (got \"2\")");
+}
+
+TEST_F(ReadObjTest, TellsOfWordsThatAreNotRead) {
+  const ImportedMesh mesh =
+      ReadMesh(Write(std::string(kThreeVertices) + "f 1 2 3\nF 1 2 3\nsurf 0 1 0 1 1 2 3\n"));
+  ASSERT_EQ(mesh.remarks.size(), 1U);
+  EXPECT_EQ(mesh.remarks[0].kind, RemarkKind::kExtensionUnread);
+  EXPECT_EQ(mesh.remarks[0].number, 2U);
+  EXPECT_EQ(mesh.remarks[0].detail, "F");
 }
 
 TEST_F(ReadObjTest, RefusesAFileThatIsNotThere) {
