@@ -175,6 +175,7 @@ void GeoJsonReader::ReadObject(const Json& object,
   }
   CheckSystem(object, pointer);
   MapTags own = tags;
+  const std::size_t num_before = lines_.size();
   if (object.contains("properties")) AddTagsIn(object["properties"], own);
   for (const char* key : {"features", "geometries"}) {
     if (!object.contains(key) || !object[key].is_array()) continue;
@@ -182,12 +183,18 @@ void GeoJsonReader::ReadObject(const Json& object,
       ReadObject(object[key][i], pointer + "/" + key + "/" + std::to_string(i), own, depth + 1);
     }
   }
-  if (object.contains("geometry") && object["geometry"].is_null()) {
-    remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no geometry"});
-  } else if (object.contains("geometry")) {
+  if (object.contains("geometry")) {
     ReadObject(object["geometry"], pointer + "/geometry", own, depth + 1);
   }
   if (object.contains("coordinates")) ReadCoordinates(object, pointer, own);
+  const bool is_drawn =
+      std::any_of(lines_.begin() + static_cast<std::ptrdiff_t>(num_before), lines_.end(),
+                  [](const MapLine& line) { return !line.is_point; });
+  const std::string_view railway = TagOf(own, "railway");
+  const bool is_empty = object.contains("geometry") && object["geometry"].is_null();
+  const bool may_be_track = IsTrack(railway) || (railway.empty() && is_empty);
+  if (!object.contains("properties") || is_drawn || !may_be_track) return;
+  remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no line"});
 }
 
 /// Whether a line has what GDAL, Overpass Turbo and osmtogeojson write for those of OpenStreetMap.

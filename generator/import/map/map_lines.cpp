@@ -77,8 +77,9 @@ void EraseOthers(std::vector<MapLine>& lines, RailMap& map) {
   std::erase_if(lines, [&](const MapLine& line) {
     const std::string_view railway = TagOf(line.tags, "railway");
     if (IsTrack(railway)) return false;
-    if (IsUnreadTrack(railway)) TellLeftOut(line, "railway=" + ShownText(railway), map);
-    if (!railway.empty()) return true;
+    const std::string unread = UnreadTrackTag(line.tags);
+    if (!unread.empty()) TellLeftOut(line, unread, map);
+    if (!railway.empty() || !unread.empty()) return true;
     const std::string_view kind = OtherKind(line.tags);
     if (kind.empty() && !has_railways) return false;
     TellLeftOut(line,
@@ -244,6 +245,20 @@ std::size_t ThinFixes(MapLine& line) {
     line = std::move(thin);
   }
   return num_before - line.points_deg.size();
+}
+
+std::string UnreadTrackTag(const MapTags& tags) {
+  constexpr std::string_view kOthers =
+      " platform platform_edge station halt tram_stop stop signal_box crossing level_crossing "
+      "crossing_box yard depot workshop wash roundhouse engine_shed site facility museum fuel "
+      "loading_ramp service_station abandoned razed dismantled historic proposed planned ";
+  for (const auto& [key, value] : tags) {
+    const bool is_other = kOthers.find(" " + LowerCase(value) + " ") != std::string_view::npos;
+    if (LowerCase(key) == "railway" && !value.empty() && !is_other) {
+      return ShownText(key) + "=" + ShownText(value);
+    }
+  }
+  return {};
 }
 
 RailMap MapOfLines(std::vector<MapLine> lines, std::vector<Remark> remarks) {

@@ -82,10 +82,9 @@ std::optional<Fault> OsmMapMaker::AddWay(OsmWay way) {
   if (has_other_tags) return Fault{"", kOneTime, "other tags than before"};
   if (!IsKept(way.tags)) {
     ++num_others_;
-    const std::string_view railway = TagOf(way.tags, "railway");
-    if (IsUnreadTrack(railway) && other_tracks_.insert(way.id).second) {
-      Tell(RemarkKind::kLinesLeftOut, NameOfElement("way", way.id), 1,
-           "railway=" + ShownText(railway));
+    const std::string unread = UnreadTrackTag(way.tags);
+    if (!unread.empty() && other_tracks_.insert(way.id).second) {
+      Tell(RemarkKind::kLinesLeftOut, NameOfElement("way", way.id), 1, unread);
     }
     return std::nullopt;
   }

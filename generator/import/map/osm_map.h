@@ -47,6 +47,9 @@ class OsmMapMaker {
                                                 std::int64_t id,
                                                 const MapTags& tags);
 
+  /// Says what of the source is not taken as it stands.
+  void Tell(RemarkKind kind, std::string place, std::uint64_t number = 1, std::string detail = {});
+
   /// Whether a way that was added needs the place of a node.
   [[nodiscard]] bool Needs(std::int64_t node) const { return needed_.contains(node); }
 
@@ -62,7 +65,6 @@ class OsmMapMaker {
   [[nodiscard]] std::optional<Eigen::Vector2d> PlaceOf_deg(const OsmWay& way, std::size_t i) const;
   void MakeTrack(const OsmWay& way);
   void MakeThing(OsmWay& way);
-  void Tell(RemarkKind kind, std::string place, std::uint64_t number = 1, std::string detail = {});
 
   RailMap map_;
   std::vector<OsmWay> ways_;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -100,6 +101,11 @@ bool IsOsmElement(std::string_view name) {
   return name == "node" || name == "way" || name == "relation";
 }
 
+/// What else OpenStreetMap's programs write, of which nothing is taken.
+constexpr auto kOthers =
+    std::to_array<std::string_view>({"osm", "bounds", "bound", "note", "meta", "nd", "tag",
+                                     "member", "center", "remark", "changeset", "user", "gpx"});
+
 void OsmXmlReader::Begin(const XmlElement& element) {
   if (IsOsmElement(element.name)) {
     BeginElement(element);
@@ -112,6 +118,9 @@ void OsmXmlReader::Begin(const XmlElement& element) {
     const char* key = element.ValueOf("k");
     const char* value = element.ValueOf("v");
     if (key != nullptr && value != nullptr) tags_.emplace(key, value);
+  } else if (std::ranges::find(kOthers, element.name) == kOthers.end()) {
+    maker_.Tell(RemarkKind::kTagsUnread, "line " + std::to_string(element.line), 1,
+                "<" + ShownText(element.name) + ">");
   }
 }
 

@@ -157,7 +157,15 @@ void OverpassReader::ReadElement(const Json& element, const std::string& pointer
     return;
   }
   const auto type = element["type"].get<std::string>();
-  if (type != "node" && type != "way" && type != "relation") return;
+  if (type == "area" || type == "count" || type == "timeline") return;
+  if (type != "node" && type != "way" && type != "relation") {
+    errors_.Add({pointer + "/type", "must be node, way or relation", Quoted(type)});
+    return;
+  }
+  if (element.contains("tags") && !element["tags"].is_object()) {
+    errors_.Add({pointer + "/tags", "must be an object", element["tags"].type_name()});
+    return;
+  }
   const auto id = IdOf(element, pointer);
   if (!id) return;
   const auto word = [&](const char* key) {

@@ -31,16 +31,9 @@ using MapTags = std::map<std::string, std::string, std::less<>>;
   return std::ranges::find(kTracks, railway) != kTracks.end();
 }
 
-/// Whether a line with a value of OpenStreetMap's key `railway` may be of rails, but is no track as
-/// of IsTrack(): all but what stands beside tracks, or is not there.
-[[nodiscard]] inline bool IsUnreadTrack(std::string_view railway) {
-  constexpr std::string_view kOthers =
-      " platform platform_edge station halt tram_stop stop signal_box crossing level_crossing "
-      "crossing_box yard depot workshop wash roundhouse engine_shed site facility museum fuel "
-      "loading_ramp service_station abandoned razed dismantled historic proposed planned ";
-  return !railway.empty() && !IsTrack(railway) &&
-         kOthers.find(" " + std::string(railway) + " ") == std::string_view::npos;
-}
+/// The tag of what may be rails, but is no track as of IsTrack(): any `railway`, as "Railway=rail"
+/// or "railway=disused", but what stands beside tracks or is not there. Empty if there is none.
+[[nodiscard]] std::string UnreadTrackTag(const MapTags& tags);
 
 /// What the licence of OpenStreetMap asks for.
 inline constexpr const char* kOpenStreetMapAttribution =

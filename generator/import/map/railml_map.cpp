@@ -90,7 +90,10 @@ class RailMlReader {
                                                double otherwise);
 
   ErrorList errors_;
+  std::vector<Remark> remarks_;
   std::map<std::string, ToDegrees> systems_;  ///< By id.
+  std::set<std::string> in_metres_;           ///< Ids of systems.
+  std::set<std::string> all_nets_;            ///< Also those without coordinates.
   std::vector<NetElement> nets_;
   std::map<std::string, std::size_t> net_ids_;
 };
@@ -125,6 +128,7 @@ void RailMlReader::ReadSystem(const CPLXMLNode& element) {
   // x is longitude or easting, whatever the system says (RTM:geometricCoordinate).
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (from.IsProjected() != 0) in_metres_.insert(id);
   systems_[id] = ToDegrees(OGRCreateCoordinateTransformation(&from, &to));
 }
 
@@ -147,6 +151,13 @@ void RailMlReader::ReadPoint(const CPLXMLNode& intrinsic,
     return;
   }
   if (!system->second) return;  // Its fault is known.
+  const bool is_like_degrees =
+      std::abs(*x) <= kMostLongitude_deg && std::abs(*y) <= kMostLatitude_deg;
+  if (in_metres_.contains(id) && is_like_degrees) {
+    errors_.Add({place, "must be metres in its coordinate system, and no degrees",
+                 NumberText(*x) + ", " + NumberText(*y)});
+    return;
+  }
   RailMlPoint point{*at, {*x, *y}, {}};
   if (system->second->Transform(1, &point.geographic_deg.x(), &point.geographic_deg.y()) == 0 ||
       !(std::abs(point.geographic_deg.x()) <= kMostLongitude_deg &&
@@ -170,6 +181,7 @@ void RailMlReader::ReadPoint(const CPLXMLNode& intrinsic,
 void RailMlReader::ReadNetElement(const CPLXMLNode& element) {
   NetElement net{Attribute(element, "id"), CPLGetXMLValue(&element, "name.name", ""), {}, {}, {}};
   const std::string place = "netElement " + ShownText(net.id);
+  all_nets_.insert(net.id);
   const std::size_t num_faults = errors_.size();
   VisitElements(element.psChild, "intrinsicCoordinate",
                 [&](const CPLXMLNode& intrinsic) { ReadPoint(intrinsic, place, net); });
@@ -180,6 +192,18 @@ void RailMlReader::ReadNetElement(const CPLXMLNode& element) {
   };
   // clang 14 cannot compile std::ranges::unique.
   net.points.erase(std::unique(net.points.begin(), net.points.end(), is_same), net.points.end());
+  const auto twice = std::ranges::adjacent_find(net.points, {}, &RailMlPoint::intrinsic);
+  if (twice != net.points.end()) {
+    errors_.Add({place, "must have one point at each intrinsicCoord",
+                 "two at " + NumberText(twice->intrinsic)});
+    return;
+  }
+  const auto num_without = std::ranges::count_if(
+      net.points, [](const RailMlPoint& point) { return !point.height_m.has_value(); });
+  if (num_without > 0 && static_cast<std::size_t>(num_without) < net.points.size()) {
+    remarks_.push_back(
+        {RemarkKind::kHeightsMissing, place, static_cast<std::uint64_t>(num_without)});
+  }
   if (net.points.size() < 2) {
     errors_.Add(
         {place, "must have two different points or more", std::to_string(net.points.size())});
@@ -197,7 +221,11 @@ void RailMlReader::VisitStretches(
     const std::string& place,
     const std::function<void(NetElement&, double begin, double end)>& visit) {
   VisitElements(element.psChild, "associatedNetElement", [&](const CPLXMLNode& associated) {
-    const auto net = net_ids_.find(Attribute(associated, "netElementRef"));
+    const std::string id = Attribute(associated, "netElementRef");
+    const auto net = net_ids_.find(id);
+    if (!all_nets_.contains(id)) {
+      errors_.Add({place + "/netElementRef", "must be a netElement of this file", ShownText(id)});
+    }
     // Those of upper levels have no coordinates.
     if (net == net_ids_.end()) return;
     const auto begin = NumberOf(associated, place, "intrinsicCoordBegin", 0.0);
@@ -217,7 +245,11 @@ void RailMlReader::ReadSpeedSection(const CPLXMLNode& element) {
   const std::string speed = Attribute(element, "maxSpeed");
   const std::optional<double> value_kmph = NumberIn(speed);
   // Some say "end of track section" or refer to a profile.
-  if (!value_kmph) return;
+  if (!value_kmph) {
+    remarks_.push_back({RemarkKind::kSpeedsUnread, place, 1,
+                        speed.empty() ? "no maxSpeed" : "maxSpeed=" + ShownText(speed)});
+    return;
+  }
   if (!(*value_kmph > 0.0)) {
     errors_.Add({place + "/maxSpeed", "must be > 0", ShownText(speed)});
     return;
@@ -300,6 +332,7 @@ std::vector<RailMlPoint> PointsWithCants(const NetElement& net) {
 
 RailMap RailMlReader::Map() const {
   RailMap map;
+  map.remarks = remarks_;
   std::map<std::pair<double, double>, std::size_t> nodes;
   const auto append = [&](const NetElement& net, const RailMlPoint& point, MapWay& way) {
     const auto [entry, is_new] =

@@ -107,7 +107,7 @@ TEST_F(MapWords, OfGeoJsonNameFeaturesWithoutATrack) {
                             "," + feature("rail", "null") + "," + feature("disused", line) + "]}");
   EXPECT_EQ(map.remarks,
             (std::vector<Remark>{
-                {RemarkKind::kLinesLeftOut, "/features/1", 1, "it has no geometry"},
+                {RemarkKind::kLinesLeftOut, "/features/1", 1, "it has no line"},
                 {RemarkKind::kLinesLeftOut, "/features/2/geometry", 1, "railway=disused"}}));
 }
 
