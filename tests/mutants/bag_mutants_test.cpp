@@ -183,5 +183,68 @@ TEST(BagMutants, OfMcapAreNeverReadWrongWithoutAWord) {
   CheckSection("Bags", {&mutants});
 }
 
+/// The same as a database of rosbag2, in whose tables something is changed.
+std::string DatabaseBytes(const std::string& sql = {}) {
+  const TemporaryDirectory folder;
+  const auto writer = bag::CreateRosbag2(folder.path() / "bag");
+  const std::size_t topic = writer->Add(
+      {.name = "/points", .type = "sensor_msgs/msg/PointCloud2", .definition = {}, .hash = {}});
+  for (std::size_t i = 0; i < kMessages; ++i) {
+    const auto cdr = ros::ToCdr(ScanMessage(i, MakeScanPoints(static_cast<double>(i))));
+    writer->Write({topic, kFirst_ns + static_cast<std::int64_t>(i) * kSecond_ns / 10, cdr});
+  }
+  writer->Close();
+  const auto file = folder.path() / "bag/bag_0.db3";
+  if (!sql.empty()) bag::SqliteDatabase(file, bag::SqliteAccess::kChange, "bag").Run(sql);
+  return ReadFileWhole(file);
+}
+
+TEST(BagMutants, OfDatabasesAreNeverReadWrongWithoutAWord) {
+  Mutants mutants("rosbag2 .db3", "run.db3", DatabaseBytes(), ReadRecordingWhole);
+  const auto with = [&](const std::string& what, const std::string& sql) {
+    mutants.Try(what, sql, DatabaseBytes(sql));
+  };
+  for (const char* id : {"1", "2", "3"}) {
+    const std::string where = std::string(" WHERE id = ") + id;
+    for (const char* size : {"0", "3", "4", "11", "60", "100", "5000", "12600"}) {
+      with("data of a message cut",
+           "UPDATE messages SET data = substr(data, 1, " + std::string(size) + ")" + where);
+    }
+    for (const char* more : {"00", "0102030405", "00000000000000000000"}) {
+      with("bytes behind the data of a message",
+           "UPDATE messages SET data = data || x'" + std::string(more) + "'" + where);
+    }
+    for (const char* head : {"00000000", "00020000", "00030000", "00060000", "ffffffff"}) {
+      with("another encoding of a message",
+           "UPDATE messages SET data = x'" + std::string(head) + "' || substr(data, 5)" + where);
+    }
+    with("a message that is text", "UPDATE messages SET data = 'text'" + where);
+    for (const char* topic : {"0", "7", "'x'"}) {
+      with("the topic of a message changed",
+           "UPDATE messages SET topic_id = " + std::string(topic) + where);
+    }
+    for (const char* time : {"'x'", "1.5", "-5"}) {
+      with("a time that is none", "UPDATE messages SET timestamp = " + std::string(time) + where);
+    }
+  }
+  for (const char* type : {"sensor_msgs/PointCloud2", "sensor_msgs/msg/Image", "my/msg/PointCloud2",
+                           "", "sensor_msgs/msg/PointCloud"}) {
+    with("the type of a topic changed", "UPDATE topics SET type = '" + std::string(type) + "'");
+  }
+  for (const char* format : {"cbor", "CDR", "", "ros1"}) {
+    with("the encoding of a topic changed",
+         "UPDATE topics SET serialization_format = '" + std::string(format) + "'");
+  }
+  for (const char* sql : {"DROP TABLE topics", "DROP TABLE messages", "DELETE FROM topics",
+                          "ALTER TABLE messages RENAME COLUMN data TO bytes",
+                          "ALTER TABLE topics RENAME COLUMN type TO kind"}) {
+    with("tables changed", sql);
+  }
+  for (std::size_t size = 1; size < mutants.good().size(); size += 997) {
+    mutants.Try("cut off", NumberText(size), mutants.good().substr(0, size));
+  }
+  CheckSection("Databases", {&mutants});
+}
+
 }  // namespace
 }  // namespace railcast

@@ -193,6 +193,64 @@ void TryTwo(Mutants& mutants,
   mutants.Try("a second sensor", "both ports the same", mixed('\xC9', 2368, 2368));
 }
 
+/// A block of pcapng, with its length at both ends.
+std::string Block(std::uint32_t type, std::string body) {
+  body.resize((body.size() + 3) / 4 * 4, '\0');
+  const std::string size = Little32(body.size() + 12);
+  return Little32(type) + size + body + size;
+}
+
+std::string SectionBlocks(const std::string& options = {}, char link = 1) {
+  return Block(0x0A0D0D0A, std::string("\x4D\x3C\x2B\x1A\1\0\0\0", 8) + std::string(8, '\xFF')) +
+         Block(1, std::string{link, '\0', '\0', '\0'} + Little32(0x40000) + options);
+}
+
+std::string PacketBlock(const CapturedFrame& frame, std::uint32_t interface = 0) {
+  return Block(6, Little32(interface) + Little32(0) + Little32(frame.time_us) +
+                      Little32(frame.bytes.size()) + Little32(frame.bytes.size()) + frame.bytes);
+}
+
+TEST(CaptureMutants, OfPcapngAreNeverReadWrongWithoutAWord) {
+  Frames frames = FramesOf(SentTurns("vlp16", "vlp16"));
+  frames.resize(90);
+  std::string good = SectionBlocks();
+  const std::size_t begin = good.size();
+  for (const CapturedFrame& frame : frames) good += PacketBlock(frame);
+  const std::size_t size = PacketBlock(frames[0]).size();
+  Mutants mutants("VLP-16 in pcapng", "a.pcapng", good, ReadRecordingWhole);
+  for (std::size_t i = 1; i + 1 < frames.size(); i += 9) {
+    const std::size_t place = begin + i * size;
+    const std::string detail = "packet " + NumberText(i) + " ";
+    const auto change = [&](const std::string& what, std::size_t at, std::uint32_t number) {
+      mutants.Try(what, detail + NumberText(number), With(good, place + at, Little32(number)));
+    };
+    for (const std::uint32_t number : {0U, 1U, 2U, 3U, 5U, 7U, 0xBADU, 0x0A0D0D0AU}) {
+      change("type of a block changed", 0, number);
+      change("interface of a packet changed", 8, number);
+    }
+    for (const std::uint32_t number : {0U, 12U, 100U, 1279U, 1281U, 1284U, 100'000U}) {
+      change("length of a block changed", 4, number);
+      change("last length of a block changed", size - 4, number);
+      change("captured length of a packet changed", 20, number);
+    }
+    mutants.Try("a block lost", detail, std::string(good).erase(place, size));
+    mutants.Try("a block doubled", detail,
+                std::string(good).insert(place, good.substr(place, size)));
+    mutants.Try("an unknown block put in", detail,
+                std::string(good).insert(place, Block(0xBAD, "abcdefgh")));
+    mutants.Try("a section put in", detail, std::string(good).insert(place, SectionBlocks()));
+  }
+  for (const char link : {'\0', '\6', '\x65', '\x69', '\x71', '\x7F'}) {
+    mutants.Try("link type changed", NumberText(int{link}),
+                SectionBlocks({}, link) + good.substr(begin));
+  }
+  for (std::size_t place = 0; place < begin; ++place) {
+    mutants.Try("a byte of the first blocks changed", NumberText(place), With(good, place, "\x55"));
+  }
+  TryCuts(mutants, good.size() / 60);
+  CheckSection("pcapng", {&mutants});
+}
+
 TEST(CaptureMutants, OfVelodyneAreNeverReadWrongWithoutAWord) {
   const auto packets = SentTurns("vlp16", "vlp16");
   const Frames frames = FramesOf(packets);

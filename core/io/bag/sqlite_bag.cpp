@@ -170,6 +170,9 @@ class SqliteBagReader : public BagReader {
   // That of the list's row.
   [[nodiscard]] BagMessage ReadMessage(std::size_t topic) {
     const std::int64_t id = list_->Integer(0);
+    if (list_->Integer(3) == 0 || list_->Integer(2) < 0) {
+      Refuse("timestamp: must be a whole number from 0 on (got " + ShownText(list_->Text(2)) + ")");
+    }
     // Looked up one by one, so that sorting by time need not hold the data.
     if (!data_->With(id).Step() || !data_->IsBlob(0)) Refuse("data: must be a blob");
     return {topic,
@@ -205,7 +208,8 @@ class SqliteBagReader : public BagReader {
 
   void Query() {
     list_.emplace(*database_,
-                  "SELECT id, topic_id, timestamp FROM messages ORDER BY timestamp, id");
+                  "SELECT id, topic_id, timestamp, typeof(timestamp) = 'integer' FROM messages "
+                  "ORDER BY timestamp, id");
     data_.emplace(*database_, "SELECT data FROM messages WHERE id = ?");
     is_at_end_ = false;
   }

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string_view>
 
@@ -97,23 +99,42 @@ GDALRasterBand& BandOf(GDALDataset& dataset, const std::string& name) {
   return band;
 }
 
-/// Checks the number of an ASCII grid's heights. GDAL takes them one after another, whatever the
-/// lines: one too few or too many moves all behind it. Rows behind the file's end cost it 2^n
-/// steps.
-void CheckNumHeights(const std::filesystem::path& file,
-                     GDALDataset& dataset,
-                     const std::string& name) {
-  if (std::string_view(dataset.GetDriverName()) != "AAIGrid") return;
-  std::ifstream stream = OpenInput(file);
-  std::int64_t num = 0;
-  for (std::string word; stream >> word; ++num) {
-    const bool is_key = word.front() >= 'A' && LowerCase(word) != "nan";
-    if (is_key && stream >> word) --num;  // A key and its value.
+/// Checks the text of an ESRI ASCII grid: GDAL takes words that are no numbers for 0, passes over
+/// numbers too many, and looks for those that are missing for 2^n steps, n rows behind the end.
+void CheckAsciiGrid(const std::string& name, std::string_view text) {
+  std::map<std::string, double, std::less<>> head;
+  std::size_t num_heights = 0;
+  for (std::size_t number = 1; const auto line = TakeLine(text); ++number) {
+    const auto words = Words(*line);
+    const bool is_head = num_heights == 0 && words.size() == 2 && std::isalpha(words[0][0]) != 0 &&
+                         LowerCase(words[0]) != "nan";
+    for (std::size_t i = is_head ? 1 : 0; i < words.size(); ++i) {
+      std::string word(words[i]);
+      std::ranges::replace(word, ',', '.');  // As GDAL reads them.
+      const auto value = ParseSignedNumber<double>(word);
+      const bool may_be_nan =
+          is_head || (head.contains("nodata_value") && std::isnan(head["nodata_value"]));
+      if (!value || !(std::isfinite(*value) || may_be_nan)) {
+        throw InputError(name + ": line " + std::to_string(number) + ": must be numbers (got " +
+                         ShownText(words[i]) + ")");
+      }
+      if (is_head) head[LowerCase(words[0])] = *value;
+    }
+    if (!is_head) num_heights += words.size();
   }
-  if (num == std::int64_t{dataset.GetRasterXSize()} * dataset.GetRasterYSize()) return;
-  throw InputError(name + ": must have as many heights as ncols x nrows (got " + NumberText(num) +
-                   " for " + NumberText(dataset.GetRasterXSize()) + " x " +
-                   NumberText(dataset.GetRasterYSize()) + ")");
+  const double num_cells = head["ncols"] * head["nrows"];
+  if (static_cast<double>(num_heights) != num_cells) {
+    throw InputError(name + ": must have ncols x nrows heights, " + NumberText(num_cells) +
+                     Got(num_heights));
+  }
+  const auto has_any = [&](const char* corner, const char* centre) {
+    if (head.contains(corner) || head.contains(centre)) return;
+    throw InputError(name + ": must have " + corner + " or " + centre + " (got neither)");
+  };
+  has_any("xllcorner", "xllcenter");
+  has_any("yllcorner", "yllcenter");
+  const bool has_size = head["cellsize"] > 0.0 || (head["dx"] > 0.0 && head["dy"] > 0.0);
+  if (!has_size) throw InputError(name + ": cellsize: must be > 0" + Got(head["cellsize"]));
 }
 
 }  // namespace
@@ -253,8 +274,10 @@ ElevationMap::ElevationMap(const std::filesystem::path& file,
                      (reason.empty() ? "" : " (" + ShownText(reason) + ")"));
   }
   gdal_errors.Forget();
+  if (std::string_view(dataset->GetDriverName()) == "AAIGrid") {
+    CheckAsciiGrid(name, ReadTextWhole(file));
+  }
   GDALRasterBand& band = BandOf(*dataset, name);
-  CheckNumHeights(file, *dataset, name);
   auto raster = std::make_unique<Raster>();
   raster->places = PlacesOf(*dataset, name);
   raster->system_from_map = TransformationFrom(projection, *dataset, crs, name);
