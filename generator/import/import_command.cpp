@@ -32,7 +32,7 @@
 #include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/map_coverage.h"
+#include "generator/import/structures/map_account.h"
 #include "generator/import/structures/standing_world.h"
 #include "railcast/remark.h"
 
@@ -68,7 +68,7 @@ void LeaveOutLines(const RailMap& map,
                    const std::vector<std::optional<std::string>>& reasons,
                    std::vector<LeftOutLine>& left_out) {
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (reasons[i]) left_out.push_back({tracks[i].name, LengthOf_m(map, tracks[i]), *reasons[i]});
+    if (reasons[i]) left_out.push_back({tracks[i], LengthOf_m(map, tracks[i]), *reasons[i]});
   }
 }
 
@@ -135,13 +135,13 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
         lines.push_back(std::move(fitted[i]));
         continue;
       }
-      left_out.push_back({open[i].name, cut->cut_m, cut->reason});
+      left_out.push_back({open[i], cut->cut_m, cut->reason});
       for (const TrackLine& part : cut->parts) {
         const double length_m = LengthOf_m(map, part);
         if (length_m >= options.min_length_m) {
           parts.push_back(part);
         } else {
-          left_out.push_back({part.name, length_m, "it is shorter than --min-length"});
+          left_out.push_back({part, length_m, "it is shorter than --min-length"});
         }
       }
     }
@@ -161,7 +161,6 @@ struct LinesInWork {
   std::vector<TrackLine> tracks{};
   std::vector<ImportedLine> lines{};
   std::vector<BuiltWorld> worlds{};
-  std::vector<MapCoverage> coverages{};
 };
 
 std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
@@ -188,14 +187,13 @@ std::vector<LineWorld> WorldsOf(const std::vector<BuiltWorld>& built) {
 std::string TracksCsv(const std::vector<ImportedLine>& lines,
                       const std::vector<BuiltWorld>& worlds) {
   std::ostringstream csv;
-  csv << "line,tracks,turnouts,switches,made,median_shift_m,p95_shift_m,length_m,points,median_m,"
-         "p99_m\n";
+  csv << "line,tracks,turnouts,median_shift_m,p95_shift_m,length_m,points,median_m,p99_m\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const SideTrackQuality& q = worlds[i].beside;
-    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ',' << q.num_switches
-        << ',' << q.made.size() << ',' << QuantileOf(q.shifts_m, 0.5) << ','
-        << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m << ',' << q.distances_m.size() << ','
-        << QuantileOf(q.distances_m, 0.5) << ',' << QuantileOf(q.distances_m, 0.99) << '\n';
+    csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ','
+        << QuantileOf(q.shifts_m, 0.5) << ',' << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m
+        << ',' << q.distances_m.size() << ',' << QuantileOf(q.distances_m, 0.5) << ','
+        << QuantileOf(q.distances_m, 0.99) << '\n';
   }
   return csv.str();
 }
@@ -236,7 +234,7 @@ void WriteLine(const std::filesystem::path& out,
 std::string LeftOutLinesText(const std::vector<LeftOutLine>& left_out) {
   std::string text;
   for (const LeftOutLine& line : left_out) {
-    text += "left out line " + line.name + " of " + NumberText(std::round(line.length_m)) +
+    text += "left out line " + line.track.name + " of " + NumberText(std::round(line.length_m)) +
             " m: " + ShownLines(line.reason) + "\n";
   }
   return text;
@@ -269,12 +267,13 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
 
 void WriteTables(const std::filesystem::path& out,
                  const LinesInWork& work,
+                 const std::vector<LineWorld>& worlds,
+                 const std::vector<AccountRow>& account,
                  const LeftOutOfMap& left_out) {
-  const std::vector<LineWorld> worlds = WorldsOf(work.worlds);
   WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, work.lines, worlds));
   WriteFileWhole(out / "moved.csv", MovedCsv(work.lines, worlds));
   WriteFileWhole(out / "tracks.csv", TracksCsv(work.lines, work.worlds));
-  WriteFileWhole(out / "coverage.csv", CoverageCsv(work.lines, work.coverages));
+  WriteFileWhole(out / "account.csv", AccountCsv(account));
   WriteFileWhole(out / "heights.csv", HeightsCsv(work.lines));
   WriteFileWhole(out / "lines.csv", QualityCsv(work.lines));
   WriteFileWhole(out / "contradictions.csv", ContradictionsCsv(work.lines));
@@ -324,8 +323,6 @@ std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& 
       ClearStructures(line.alignment, built.world);
       reasons[i] = MakeStand(line.alignment, elevation_file, built.world);
     }
-    KeepStanding(built.world, built.beside);
-    work.coverages.push_back(CoverageOf(map, built.world, built.beside));
     if (!reasons[i]) {
       WriteLine(options.out, line, projection, built.world, elevation != nullptr);
     } else if (elevation_file) {
@@ -385,19 +382,22 @@ int RunImport(const ImportCommandOptions& options) {
   TellHeights(work.lines, left_out.remarks);
   tell(options.heights.empty() ? options.map : options.heights, num_of_map);
   LeaveOutLines(map, work.tracks, reasons, left_out.lines);
+  EraseWhere(reasons, work.tracks);
   EraseWhere(reasons, work.lines);
   EraseWhere(reasons, work.worlds);
-  EraseWhere(reasons, work.coverages);
-  WriteTables(options.out, work, left_out);
+  const std::vector<LineWorld> worlds = WorldsOf(work.worlds);
+  const std::vector<AccountRow> account = AccountOf(
+      map, {work.tracks, work.lines, worlds, left_out.lines,
+            options.is_main_only ? "--main-only leaves out tracks beside lines" : kNearNoLine});
+  WriteTables(options.out, work, worlds, account, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m; longitudes and latitudes in scenarios are right to "
             << ShortText(projection.geographic_error_m) << " m\n\n"
             << QualityTable(work.lines) << '\n'
-            << CoverageTable(work.lines, work.coverages) << '\n'
-            << SwitchReasonsText(WorldsOf(work.worlds)) << MovedText(WorldsOf(work.worlds))
-            << LeftOutLinesText(left_out.lines) << "Wrote " << work.lines.size() << " lines to "
-            << ShownPath(options.out) << '\n';
+            << AccountTable(account) << '\n'
+            << MovedText(worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
+            << work.lines.size() << " lines to " << ShownPath(options.out) << '\n';
   if (!work.lines.empty()) return kExitSuccess;
   throw InputError(ShownPath(options.map) + ": must have a line that can stand (got " +
                    std::to_string(left_out.lines.size()) + " left out, with the reasons in " +

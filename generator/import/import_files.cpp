@@ -151,7 +151,7 @@ std::string LeftOutCsv(const LeftOutOfMap& left_out,
         << quoted(remark.place + (remark.place.empty() ? "" : ": ") + placeless.Text()) << '\n';
   }
   for (const LeftOutLine& line : left_out.lines)
-    add(line.name, {"line", 0.0, line.length_m, line.reason});
+    add(line.track.name, {"line", 0.0, line.length_m, line.reason});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const LeftOut& thing : worlds[i].left_out) add(lines[i].name, thing);
   }
@@ -162,7 +162,7 @@ std::string MovedCsv(const std::vector<ImportedLine>& lines, const std::vector<L
   std::ostringstream csv;
   csv << "line,track,from_s_m,to_s_m,moved_m\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    for (const MovedTrack& moved : worlds[i].moved) {
+    for (const MovedTrack& moved : MovedTracksOf(worlds[i])) {
       csv << lines[i].name << ',' << moved.name << ',' << RoundedTo(moved.begin_s_m, 100.0) << ','
           << RoundedTo(moved.end_s_m, 100.0) << ',' << RoundedTo(moved.most_m, 100.0) << '\n';
     }

@@ -36,13 +36,6 @@ namespace railcast {
                                         const LineWorld& world,
                                         bool has_elevation);
 
-/// A line that cannot stand.
-struct LeftOutLine {
-  std::string name;
-  double length_m{};
-  std::string reason;
-};
-
 /// What was not taken as it is.
 struct LeftOutOfMap {
   std::vector<Remark> remarks;  ///< About the map and its heights.
@@ -54,7 +47,7 @@ struct LeftOutOfMap {
                                      const std::vector<ImportedLine>& lines,
                                      const std::vector<LineWorld>& worlds);
 
-/// The stretches of tracks that were moved away from others, as CSV.
+/// The stretches of tracks that are not where the map has them (MovedTracksOf), as CSV.
 [[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
                                    const std::vector<LineWorld>& worlds);
 

@@ -183,6 +183,7 @@ ImportedLine ImportLine(const RailMap& map,
   AtPlace("line " + line.name + ": ", [&] { return Alignment(alignment); });
   imported.quality = QualityOf(points, fit, alignment.speed_limits_kmph);
   imported.chainages_m = fit.chainages_m;
+  imported.offsets_m = fit.offsets_m;
   imported.height_sigma_m = options.height_sigma_m;
   for (std::size_t i = 0; i < fit.offsets_m.size(); ++i) {
     if (std::abs(fit.offsets_m[i]) <= kContradiction_m) continue;

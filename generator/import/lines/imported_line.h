@@ -62,6 +62,7 @@ struct ImportedLine {
   LineQuality quality;
   std::vector<Contradiction> contradictions;  ///< Points farther away than 1.5 m.
   std::vector<double> chainages_m;            ///< Of the feet of the TrackLine's nodes.
+  std::vector<double> offsets_m;              ///< Of these nodes, left positive.
   double height_sigma_m{};                    ///< ImportOptions::height_sigma_m.
   std::optional<HeightQuality>
       height_quality;  ///< Absent if the line is level for want of heights.

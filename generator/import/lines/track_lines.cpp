@@ -17,10 +17,8 @@ namespace {
 
 constexpr double kSharpestTurn_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kOtherRef_rad = 6.0 * std::numbers::pi / 180.0;
-/// Mappers put two points a few centimetres apart where two ways were joined, and the line through
-/// these has any direction.
+/// The line through nearer points has any direction.
 constexpr double kForDirection_m = 5.0;
-constexpr double kNearest_m = 0.5;
 
 /// The direction in which a track leaves the first of its nodes: to the first one that is far
 /// enough, or to the last one.
@@ -136,12 +134,12 @@ TrackLine Thinned(const RailMap& map, const TrackLine& line) {
   TrackLine thin;
   for (std::size_t i = 0; i < line.nodes.size(); ++i) {
     const Eigen::Vector2d& place_m = map.nodes[line.nodes[i]].place_m;
-    if (i > 0 && (place_m - map.nodes[thin.nodes.back()].place_m).norm() < kNearest_m) continue;
+    if (i > 0 && (place_m - map.nodes[thin.nodes.back()].place_m).norm() < kNearestNodes_m) {
+      continue;
+    }
     thin.nodes.push_back(line.nodes[i]);
-    // Behind the last one there is none, and behind one whose followers are left out theirs goes.
-    if (i < line.ways.size()) thin.ways.push_back(line.ways[i]);
+    if (i > 0) thin.ways.push_back(line.ways[i - 1]);
   }
-  thin.ways.resize(thin.nodes.size() - 1);
   return thin;
 }
 

@@ -13,9 +13,20 @@ struct TrackLine {
   std::string name;  ///< Unique, and fit for a file name (100 bytes at most): "westbahn-101-01".
   /// Nodes in order, each at least 0.5 m from the one before.
   std::vector<std::size_t> nodes;
-  /// ways[i] leads from nodes[i] on, to nodes[i + 1] or to one that was left out before it.
+  /// ways[i] leads to nodes[i + 1], from nodes[i] or from one that was left out behind it.
   std::vector<std::size_t> ways;
 };
+
+/// A line, or a part of one, that cannot stand.
+struct LeftOutLine {
+  TrackLine track;
+  double length_m{};  ///< Of what cannot stand of it.
+  std::string reason;
+};
+
+/// Nodes of a line are at least so far apart: mappers put two points a few centimetres apart where
+/// two ways were joined.
+inline constexpr double kNearestNodes_m = 0.5;
 
 /// Divides the running tracks of a map (those without `service`) into lines.
 ///

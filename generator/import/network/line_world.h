@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "core/rail/base/chainage_range.h"
 #include "generator/import/lines/imported_line.h"
 #include "generator/import/lines/line_places.h"
 #include "generator/import/lines/track_lines.h"
@@ -16,42 +18,86 @@
 
 namespace railcast {
 
+inline constexpr std::size_t kUnknownSource = std::numeric_limits<std::size_t>::max();
+
 /// Something on the map that a world cannot have as it is.
 struct LeftOut {
   std::string what;
   double begin_s_m{};
   double end_s_m{};  ///< The same for what stands at one place.
   std::string reason;
+  /// Of a track the number of its run, of a switch its node, of what stands there its MapThing.
+  std::size_t source = kUnknownSource;
 };
 
 /// A track of a world and where it comes from.
 struct WorldTrack {
   TrackDraft draft;
-  std::vector<LineStretch> ways;  ///< Of the map, from point to point; they may reach farther.
+  std::vector<LineStretch> ways;     ///< Of the map, from point to point; they may reach farther.
+  std::size_t run = kUnknownSource;  ///< Its number; none of the line's own track.
+  /// Chainages of the map's points beside it, and how far to the left of it they are.
+  std::vector<Eigen::Vector2d> off_m{};
+
+  /// How far to the left of it the map has it: between points linear.
+  [[nodiscard]] double OffAt_m(double s_m) const;
 };
 
-/// A stretch of a track that was moved away from others, to which the map has it too near.
+/// A switch of the map that is a turnout of a world.
+struct MadeSwitch {
+  std::size_t node{};
+  double s_m{};
+  std::string branch;  ///< Name of the track that begins or ends in it.
+};
+
+/// A stretch of a track of which the map's points are more than kFarOff_m from it: it was moved
+/// away from others, to which the map has it too near, or its elements do not fit better.
 struct MovedTrack {
   std::string name;
   double begin_s_m{};
   double end_s_m{};
-  double most_m{};  ///< By which it was moved.
+  double most_m{};  ///< Of the points' distances from it.
+};
+
+/// What a MapThing became, without its name.
+struct MadeThing {
+  std::size_t thing{};
+  StructureSpec structure;
 };
 
 /// What a world has besides its alignment.
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
   std::vector<StructureSpec> structures;
-  /// The tracks of the map beside the line, made or not, and where they were moved to.
-  std::vector<TrackRun> runs;
-  std::vector<MovedTrack> moved;
+  RunsBeside beside;  ///< The tracks of the map beside the line, made or not.
+  std::vector<MadeSwitch> switches;
+  std::vector<MadeThing> placed;  ///< They stand unless they were left out later.
   std::vector<LeftOut> left_out;
 };
+
+inline constexpr double kFarOff_m = 0.5;
+
+/// The stretches of a world's tracks that are kFarOff_m or more from where the map has them.
+[[nodiscard]] std::vector<MovedTrack> MovedTracksOf(const LineWorld& world);
 
 /// Begins a world with the track of its line. AddSideTracks and AddStructures add the rest.
 [[nodiscard]] LineWorld MakeLineWorld(const RailMap& map,
                                       const TrackLine& track,
                                       const ImportedLine& line);
+
+/// The stretch of its run that a track has. One that begins or ends in a turnout, or within 2 m
+/// of an end of its run, reaches to that end.
+/// @pre The track has a run.
+[[nodiscard]] ChainageRange RangeInRun(const LineWorld& world, const WorldTrack& track);
+
+/// Why something is left out at a chainage, or within a metre of it: that which came from a source,
+/// or else one of which nobody knows where from.
+[[nodiscard]] std::string ReasonAt(const LineWorld& world,
+                                   const std::string& what,
+                                   double s_m,
+                                   std::size_t source);
+
+/// What ReasonAt says where nothing was left out; there is no such place.
+inline constexpr const char* kNoReason = "nothing says why";
 
 /// What lies between two chainages of a track.
 struct TaggedStretch {

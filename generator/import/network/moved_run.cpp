@@ -56,20 +56,14 @@ class RunMoving {
     for (const TrackDraft& track : network.tracks()) LimitBy(track);
   }
 
-  [[nodiscard]] std::optional<MovedRun> Move() {
+  [[nodiscard]] std::optional<TrackRun> Move() {
     if (std::ranges::none_of(samples_, &Sample::IsMoved)) return std::nullopt;
     // Where the fit rounds a corner, it comes nearer than its points.
     constexpr int kMostRounds = 3;
     for (int round = 1; round < kMostRounds; ++round) {
       if (!RaiseWhereNear(RunFit(Moved(), kMovedSigma_m))) break;
     }
-    MovedRun moved{Moved(), {}};
-    for (const Sample& sample : samples_) {
-      if (sample.IsMoved()) {
-        moved.places.push_back({sample.s_m, std::abs(sample.Moved_m() - sample.d_m)});
-      }
-    }
-    return moved;
+    return Moved();
   }
 
  private:
@@ -193,7 +187,7 @@ class RunMoving {
 
 }  // namespace
 
-std::optional<MovedRun> MovedApart(const TrackNetwork& network,
+std::optional<TrackRun> MovedApart(const TrackNetwork& network,
                                    const TrackRun& run,
                                    const RunFit& fit) {
   return RunMoving(network, run, SamplesOf(fit)).Move();

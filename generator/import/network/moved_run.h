@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "generator/import/network/track_network.h"
 #include "generator/import/network/track_runs.h"
@@ -20,25 +19,13 @@ inline constexpr double kMostRaised_m = 0.4;
 /// Behind a turnout, tracks are kMovedApart_m from each other after this much at most.
 inline constexpr double kMeeting_m = 50.0;
 
-/// How far a run is moved at a chainage.
-struct MovedPlace {
-  double s_m{};
-  double by_m{};  ///< Positive.
-};
-
-/// A run that was moved away from the tracks to which the map has it too near.
-struct MovedRun {
-  TrackRun run;                    ///< With other points, at most 60 m apart.
-  std::vector<MovedPlace> places;  ///< Every 20 m or less, by chainage, where it was moved.
-};
-
 /// Moves a run to kMovedApart_m from the tracks to which it is nearer than kApart_m, to the side on
 /// which the map has it before and behind. It stays where it is on another side before than behind,
 /// where it is between two tracks without room for a third one, where it would be moved by more
 /// than kMovedApart_m, that is beyond the other track's axis, and for 50 m where it begins or ends
 /// in the other track.
-/// @returns Nothing if it is moved nowhere.
-[[nodiscard]] std::optional<MovedRun> MovedApart(const TrackNetwork& network,
+/// @returns It with other points, at most 60 m apart; nothing if it is moved nowhere.
+[[nodiscard]] std::optional<TrackRun> MovedApart(const TrackNetwork& network,
                                                  const TrackRun& run,
                                                  const RunFit& fit);
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -31,15 +32,27 @@ struct MeetingPoint {
 
 /// A run that is being made, and the tracks that it meets.
 struct OpenRun {
-  TrackRun run;                    ///< Where it is made.
-  const TrackRun& mapped;          ///< Where the map has it.
-  std::vector<MovedPlace> places;  ///< At which the two differ.
-  double sigma_m{};                ///< Of its points.
+  TrackRun run;            ///< Where it is made.
+  const TrackRun& mapped;  ///< Where the map has it.
+  double sigma_m{};        ///< Of its points.
   std::optional<Meeting> begin;
   std::optional<Meeting> end;
 
   [[nodiscard]] std::size_t num_meetings() const { return (begin ? 1U : 0U) + (end ? 1U : 0U); }
 };
+
+/// Whether a track has all of a run, but for ends without a turnout that are too short for a track.
+bool Covers(const TrackDraft& draft, const TrackRun& run) {
+  constexpr double kShortest_m = 30.0;
+  const TrackCourse& course = draft.course;
+  return (draft.spec.begin || course.begin_s_m() - run.points_m.front().x() < kShortest_m) &&
+         (draft.spec.end || run.points_m.back().x() - course.end_s_m() < kShortest_m);
+}
+
+/// Whether it has the turnouts of its run, too.
+bool IsWhole(const OpenRun& open, const TrackDraft& draft) {
+  return draft.turnouts.size() == open.num_meetings() && Covers(draft, open.run);
+}
 
 /// A cut is this far from where a track comes too near to others, and sought in these steps.
 constexpr double kCutMargin_m = 1.0;
@@ -76,8 +89,10 @@ class SideTrackSearch {
         sigma_m_(sigma_m),
         world_(world) {}
 
-  /// @returns The run where it was moved to, if it was.
-  std::optional<TrackRun> Take(const TrackRun& run);
+  /// Makes tracks of a run or of parts of it.
+  /// @param number Of the run.
+  /// @param below Its tunnels below the line.
+  void Take(const TrackRun& run, std::size_t number, const std::vector<ChainageRange>& below);
 
   /// Says which of the map's switches on the world's tracks are no turnouts.
   void CountSwitches(const std::vector<SwitchNode>& switches);
@@ -85,6 +100,7 @@ class SideTrackSearch {
   [[nodiscard]] SideTrackQuality& quality() { return quality_; }
 
  private:
+  void TakePart(const TrackRun& part);
   /// The track on which a point lies.
   [[nodiscard]] std::optional<std::size_t> TrackAt(const Eigen::Vector2d& point_m) const;
   [[nodiscard]] std::optional<Meeting> MeetingAt(const Eigen::Vector2d& point_m,
@@ -110,16 +126,12 @@ class SideTrackSearch {
   /// Makes tracks without turnouts of all stretches of a run that are apart from others.
   void TakeFree(const OpenRun& open);
   /// @param stretch Of the fit.
-  /// @param made_up_to_s_m Chainage up to which it is known what becomes of the run.
-  void TakeStretch(const OpenRun& open,
-                   const RunFit& fit,
-                   const ChainageRange& stretch,
-                   double& made_up_to_s_m);
+  void TakeStretch(const OpenRun& open, const RunFit& fit, const ChainageRange& stretch);
   void Accept(const OpenRun& open, TrackDraft draft);
-  void NoteMoved(const OpenRun& open, const TrackDraft& draft);
-  void LeaveOutBetween(const OpenRun& open, const RunFit& fit, const ChainageRange& stretch);
+  /// The stretches of a run that are in none of its tracks.
+  [[nodiscard]] std::vector<ChainageRange> Gaps(const TrackRun& run) const;
   /// Why the greater part of a stretch of a run is no track.
-  [[nodiscard]] std::string ReasonAgainst(const OpenRun& open,
+  [[nodiscard]] std::string ReasonAgainst(const TrackRun& run,
                                           const RunFit& fit,
                                           const ChainageRange& stretch) const;
 
@@ -128,41 +140,78 @@ class SideTrackSearch {
   bool has_turnouts_;  ///< There are none of other gauges.
   double sigma_m_;
   LineWorld& world_;
+  std::size_t number_{};   ///< Of the run that is being made.
+  const char* why_not_{};  ///< A track of it cannot have all of its turnouts.
   std::map<std::string, int> num_of_kind_;
   std::vector<MeetingPoint> meetings_;
   SideTrackQuality quality_;
 };
 
-std::optional<TrackRun> SideTrackSearch::Take(const TrackRun& run) {
-  OpenRun open{run,
-               run,
-               {},
-               sigma_m_,
-               MeetingAt(run.points_m.front(), true),
+std::vector<ChainageRange> SideTrackSearch::Gaps(const TrackRun& run) const {
+  std::vector<ChainageRange> made{{run.points_m.back().x(), run.points_m.back().x()}};
+  for (const WorldTrack& track : world_.tracks) {
+    if (track.run == number_) made.push_back(RangeInRun(world_, track));
+  }
+  std::ranges::sort(made, {}, &ChainageRange::begin_s_m);
+  std::vector<ChainageRange> gaps;
+  double from_s_m = run.points_m.front().x();
+  for (const ChainageRange& range : made) {
+    if (range.begin_s_m > from_s_m) gaps.push_back({from_s_m, range.begin_s_m});
+    from_s_m = std::max(from_s_m, range.end_s_m);
+  }
+  return gaps;
+}
+
+void SideTrackSearch::Take(const TrackRun& run,
+                           std::size_t number,
+                           const std::vector<ChainageRange>& below) {
+  number_ = number;
+  why_not_ = "no turnout fits";
+  for (const TrackRun& part : PartsBetween(run, below)) TakePart(part);
+  const std::vector<ChainageRange> gaps = Gaps(run);
+  if (gaps.empty()) return;
+  const RunFit fit(run, sigma_m_);
+  const auto leave_out = [&](const ChainageRange& gap, const std::string& reason) {
+    world_.left_out.push_back({run.kind + " track", gap.begin_s_m, gap.end_s_m, reason, number});
+  };
+  for (ChainageRange gap : gaps) {
+    for (const ChainageRange& tunnel : below) {
+      if (tunnel.end_s_m <= gap.begin_s_m || tunnel.begin_s_m >= gap.end_s_m) continue;
+      // Cuts are to a metre or two.
+      constexpr double kLeast_m = 2.0;
+      const ChainageRange before{gap.begin_s_m, tunnel.begin_s_m};
+      const bool begins_there = tunnel.begin_s_m - gap.begin_s_m < kLeast_m;
+      const bool ends_there = gap.end_s_m - tunnel.end_s_m < kLeast_m;
+      if (!begins_there) leave_out(before, ReasonAgainst(run, fit, before));
+      const ChainageRange in_tunnel{begins_there ? gap.begin_s_m : tunnel.begin_s_m,
+                                    ends_there ? gap.end_s_m : tunnel.end_s_m};
+      leave_out(
+          in_tunnel,
+          "it runs below track main, and all tracks of a world have the height of their line");
+      gap.begin_s_m = in_tunnel.end_s_m;
+    }
+    if (gap.begin_s_m < gap.end_s_m) leave_out(gap, ReasonAgainst(run, fit, gap));
+  }
+}
+
+void SideTrackSearch::TakePart(const TrackRun& run) {
+  OpenRun open{run, run, sigma_m_, MeetingAt(run.points_m.front(), true),
                MeetingAt(run.points_m.back(), false)};
   for (const auto& [meeting, point_m] :
        {std::pair(open.begin, run.points_m.front()), std::pair(open.end, run.points_m.back())}) {
     if (meeting) meetings_.push_back({point_m, std::nullopt, ""});
   }
   std::optional<TrackDraft> level = LevelTrackOf(network_, run, open.begin, open.end);
-  if (level && level->turnouts.size() == open.num_meetings()) {
-    Accept(open, std::move(*level));
-    return std::nullopt;
-  }
+  if (level && IsWhole(open, *level)) return Accept(open, std::move(*level));
   const RunFit fit(run, sigma_m_);
-  if (TakeAtOnce(open, fit, level)) return std::nullopt;
-  std::optional<MovedRun> moved = MovedApart(network_, run, fit);
-  if (!moved) {
-    TakeParts(std::move(open), fit, std::move(level));
-    return std::nullopt;
-  }
-  open.run = moved->run;
-  open.places = std::move(moved->places);
+  if (TakeAtOnce(open, fit, level)) return;
+  std::optional<TrackRun> moved = MovedApart(network_, run, fit);
+  if (!moved) return TakeParts(std::move(open), fit, std::move(level));
+  open.run = std::move(*moved);
   open.sigma_m = kMovedSigma_m;
   const RunFit moved_fit(open.run, open.sigma_m);
   level = LevelTrackOf(network_, open.run, open.begin, open.end);
   if (!TakeAtOnce(open, moved_fit, level)) TakeParts(std::move(open), moved_fit, std::move(level));
-  return std::move(moved->run);
 }
 
 std::optional<std::size_t> SideTrackSearch::TrackAt(const Eigen::Vector2d& point_m) const {
@@ -190,10 +239,17 @@ std::optional<Meeting> SideTrackSearch::MeetingAt(const Eigen::Vector2d& point_m
 bool SideTrackSearch::TakeAtOnce(const OpenRun& open,
                                  const RunFit& fit,
                                  std::optional<TrackDraft>& level) {
-  const bool is_complete = level && level->turnouts.size() == open.num_meetings();
-  if (!is_complete && open.num_meetings() > 0 && TakeWhole(open, fit)) return true;
-  if (!level || (level->turnouts.empty() && open.num_meetings() > 0)) return false;
+  const bool is_whole = level && IsWhole(open, *level);
+  if (!is_whole && open.num_meetings() > 0 && TakeWhole(open, fit)) return true;
+  if (!level || (!is_whole && level->turnouts.empty())) return false;
+  const ChainageRange made{level->course.begin_s_m(), level->course.end_s_m()};
   Accept(open, std::move(*level));
+  for (const auto& [from_s_m, to_s_m] : {std::pair(open.run.points_m.front().x(), made.begin_s_m),
+                                         std::pair(made.end_s_m, open.run.points_m.back().x())}) {
+    if (auto rest = PartOfRun(open.run, from_s_m, to_s_m)) {
+      TakeFree({std::move(*rest), open.mapped, open.sigma_m, {}, {}});
+    }
+  }
   return true;
 }
 
@@ -202,14 +258,24 @@ bool SideTrackSearch::TakeWhole(const OpenRun& open, const RunFit& fit) {
   std::vector<TurnoutChoice> ends;
   if (open.begin) begins = TurnoutChoices(network_, open.run, fit, *open.begin);
   if (open.end) ends = TurnoutChoices(network_, open.run, fit, *open.end);
+  why_not_ = "no turnout fits";
   if ((open.begin && begins.empty()) || (open.end && ends.empty())) return false;
+  why_not_ = "no arcs of 120 m radius lead from a turnout to it";
   const double free_end_m = open.begin ? fit.plan.length_m() : 0.0;
   for (const TrackSpec& spec :
        TracksBetween(fit, open.begin ? &begins : nullptr, open.end ? &ends : nullptr, free_end_m)) {
     std::optional<TrackDraft> draft = network_.Make(spec);
-    if (!draft || !Follows(*draft, open.run) || network_.FirstConflict_m(*draft)) continue;
-    Accept(open, std::move(*draft));
-    return true;
+    const bool follows = draft && Follows(*draft, open.run);
+    if (follows && !network_.FirstConflict_m(*draft)) {
+      Accept(open, std::move(*draft));
+      return true;
+    }
+    if (follows) {
+      why_not_ = "from each turnout it would come nearer than 3 m to other tracks";
+    } else if (std::string_view(why_not_).starts_with("no arcs")) {
+      why_not_ = draft ? "no turnout leads to where the map has it"
+                       : "its turnouts would overlap with each other or with others";
+    }
   }
   return false;
 }
@@ -271,10 +337,10 @@ void SideTrackSearch::TakeParts(OpenRun open, const RunFit& fit, std::optional<T
   }
   const bool is_untouched =
       from_s_m == open.run.points_m.front().x() && to_s_m == open.run.points_m.back().x();
-  if (is_untouched && level) return Accept(open, std::move(*level));
+  if (is_untouched && level && Covers(*level, open.run)) return Accept(open, std::move(*level));
   if (!is_untouched) {
     const auto rest = PartOfRun(open.run, from_s_m, to_s_m);
-    if (!rest) return LeaveOutBetween(open, fit, {from_s_m, to_s_m});
+    if (!rest) return;
     open.run = *rest;
   }
   TakeFree(open);
@@ -294,15 +360,12 @@ void SideTrackSearch::TakeFree(const OpenRun& open) {
     if (fits) free.back().end_s_m = at_m;
     goes_on = fits;
   }
-  double made_up_to_s_m = open.run.points_m.front().x();
-  for (const ChainageRange& stretch : free) TakeStretch(open, fit, stretch, made_up_to_s_m);
-  LeaveOutBetween(open, fit, {made_up_to_s_m, open.run.points_m.back().x()});
+  for (const ChainageRange& stretch : free) TakeStretch(open, fit, stretch);
 }
 
 void SideTrackSearch::TakeStretch(const OpenRun& open,
                                   const RunFit& fit,
-                                  const ChainageRange& stretch,
-                                  double& made_up_to_s_m) {
+                                  const ChainageRange& stretch) {
   constexpr double kShortest_m = 30.0;
   const double from_m = fit.OutOfClothoid_m(stretch.begin_s_m, false);
   const double to_m = fit.OutOfClothoid_m(stretch.end_s_m, true);
@@ -310,13 +373,11 @@ void SideTrackSearch::TakeStretch(const OpenRun& open,
   std::optional<TrackDraft> draft = network_.Make(TrackOfPart(fit, from_m, to_m));
   if (!draft) return;
   if (const auto conflict_s_m = network_.FirstConflict_m(*draft)) {
-    TakeStretch(open, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)}, made_up_to_s_m);
+    TakeStretch(open, fit, {from_m, EndBefore_m(fit, to_m, *conflict_s_m)});
     const double behind_m = BeginBehind_m(fit, *conflict_s_m);
-    if (behind_m > from_m) TakeStretch(open, fit, {behind_m, to_m}, made_up_to_s_m);
+    if (behind_m > from_m) TakeStretch(open, fit, {behind_m, to_m});
     return;
   }
-  LeaveOutBetween(open, fit, {made_up_to_s_m, draft->course.begin_s_m()});
-  made_up_to_s_m = draft->course.end_s_m();
   Accept(open, std::move(*draft));
 }
 
@@ -324,11 +385,12 @@ void SideTrackSearch::Accept(const OpenRun& open, TrackDraft draft) {
   const TrackRun& run = open.mapped;
   draft.spec.name = run.kind + "_" + std::to_string(++num_of_kind_[run.kind]);
   draft.spec.electrified = run.is_electrified;
-  NoteMoved(open, draft);
-  world_.tracks.push_back({draft, run.ways});
+  world_.tracks.push_back({draft, run.ways, number_});
   for (const Eigen::Vector2d& point_m : run.points_m) {
     if (!draft.Has(point_m.x())) continue;
-    quality_.distances_m.push_back(std::abs(draft.course.OffsetAt(point_m.x()).d_m - point_m.y()));
+    const double off_m = point_m.y() - draft.course.OffsetAt(point_m.x()).d_m;
+    world_.tracks.back().off_m.emplace_back(point_m.x(), off_m);
+    quality_.distances_m.push_back(std::abs(off_m));
   }
   for (const TurnoutSite& turnout : draft.turnouts) {
     const Eigen::Vector2d& place_m =
@@ -345,30 +407,7 @@ void SideTrackSearch::Accept(const OpenRun& open, TrackDraft draft) {
   network_.Add(std::move(draft));
 }
 
-void SideTrackSearch::NoteMoved(const OpenRun& open, const TrackDraft& draft) {
-  constexpr double kGap_m = 30.0;
-  std::vector<MovedTrack> moved;
-  for (const MovedPlace& place : open.places) {
-    if (!draft.Has(place.s_m)) continue;
-    if (moved.empty() || place.s_m > moved.back().end_s_m + kGap_m) {
-      moved.push_back({draft.spec.name, place.s_m, place.s_m, 0.0});
-    }
-    moved.back().end_s_m = place.s_m;
-    moved.back().most_m = std::max(moved.back().most_m, place.by_m);
-  }
-  world_.moved.insert(world_.moved.end(), moved.begin(), moved.end());
-}
-
-void SideTrackSearch::LeaveOutBetween(const OpenRun& open,
-                                      const RunFit& fit,
-                                      const ChainageRange& stretch) {
-  constexpr double kLeast_m = 2.0;
-  if (stretch.end_s_m - stretch.begin_s_m < kLeast_m) return;
-  world_.left_out.push_back({open.mapped.kind + " track", stretch.begin_s_m, stretch.end_s_m,
-                             ReasonAgainst(open, fit, stretch)});
-}
-
-std::string SideTrackSearch::ReasonAgainst(const OpenRun& open,
+std::string SideTrackSearch::ReasonAgainst(const TrackRun& run,
                                            const RunFit& fit,
                                            const ChainageRange& stretch) const {
   std::map<std::string, int> metres;
@@ -379,10 +418,9 @@ std::string SideTrackSearch::ReasonAgainst(const OpenRun& open,
       const auto meets_at = [&](const Eigen::Vector2d& point_m) {
         return std::abs(at.x_m - point_m.x()) < kMeeting_m && TrackAt(point_m) == near;
       };
-      const bool meets =
-          meets_at(open.mapped.points_m.front()) || meets_at(open.mapped.points_m.back());
+      const bool meets = meets_at(run.points_m.front()) || meets_at(run.points_m.back());
       const std::string& name = network_.tracks()[*near].spec.name;
-      ++metres[meets ? "it leaves track " + name + " there, and no turnout fits"
+      ++metres[meets ? "it leaves track " + name + " there, and " + why_not_
                      : "it is nearer than 3.15 m to track " + name + " and has no room beside it"];
     } else if (!network_.IsOnGround(at.x_m, at.y_m)) {
       ++metres["it leaves the ground of the line"];
@@ -396,17 +434,15 @@ std::string SideTrackSearch::ReasonAgainst(const OpenRun& open,
 }
 
 void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
-  quality_.num_on_map = switches.size();
   constexpr double kSame_m = 0.6;  // Nodes nearer than 0.5 m to the one before are left out.
   for (const SwitchNode& node : switches) {
     const auto leave_out = [&](const std::string& reason) {
-      world_.left_out.push_back({"switch", node.place_m.x(), node.place_m.x(), reason});
+      world_.left_out.push_back({"switch", node.place_m.x(), node.place_m.x(), reason, node.node});
     };
     if (!TrackAt(node.place_m)) {
       leave_out("it lies on no track of the world");
       continue;
     }
-    ++quality_.num_switches;
     if (!has_turnouts_) {
       leave_out("there are turnouts of " + NumberText(kStandardGauge_mm) +
                 " mm gauge only, and the line has " + NumberText(gauge_mm_) + " mm");
@@ -418,7 +454,7 @@ void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
       if (!met || !met->turnout_s_m) met = &meeting;
     }
     if (met && met->turnout_s_m) {
-      quality_.made.push_back(met->branch);
+      world_.switches.push_back({node.node, node.place_m.x(), met->branch});
       quality_.shifts_m.push_back(std::abs(*met->turnout_s_m - node.place_m.x()));
     } else if (node.num_ways < 3) {
       leave_out("the map has no branch there");
@@ -442,32 +478,20 @@ SideTrackQuality AddSideTracks(const RailMap& map,
                                LineWorld& world) {
   const LinePlaces places(map, track, line);
   SideTrackSearch search(TrackNetwork(line.alignment), line, options.sigma_m, world);
-  world.runs = FindRuns(map, track, places, options.otherwise_kmph);
-  for (TrackRun& run : world.runs) {
+  world.beside = FindRuns(map, track, places, options.otherwise_kmph);
+  for (std::size_t i = 0; i < world.beside.runs.size(); ++i) {
+    const TrackRun& run = world.beside.runs[i];
     const auto below = TunnelsBelowLine(map, world.tracks.front().ways, run);
     for (const ChainageRange& tunnel : below) {
-      for (const std::string& what : {run.kind + " track", std::string("tunnel")}) {
-        world.left_out.push_back({what, tunnel.begin_s_m, tunnel.end_s_m,
-                                  "it runs below track main, and all tracks of a world have the "
-                                  "height of their line"});
-      }
+      world.left_out.push_back({"tunnel", tunnel.begin_s_m, tunnel.end_s_m,
+                                "it runs below track main, and all tracks of a world have the "
+                                "height of their line"});
     }
-    if (!below.empty()) {
-      for (const TrackRun& part : PartsBetween(run, below)) static_cast<void>(search.Take(part));
-    } else if (auto moved = search.Take(run)) {
-      run = std::move(*moved);
-    }
+    search.Take(run, i, below);
   }
   search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
   std::ranges::sort(search.quality().distances_m);
   return search.quality();
-}
-
-void KeepStanding(const LineWorld& world, SideTrackQuality& quality) {
-  std::erase_if(quality.made, [&](const std::string& branch) {
-    return std::ranges::none_of(
-        world.tracks, [&](const WorldTrack& track) { return track.draft.spec.name == branch; });
-  });
 }
 
 }  // namespace railcast

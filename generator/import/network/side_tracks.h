@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "generator/import/lines/imported_line.h"
@@ -15,10 +14,6 @@ namespace railcast {
 struct SideTrackQuality {
   std::size_t num_tracks{};
   std::size_t num_turnouts{};
-  std::size_t num_on_map{};    ///< Switches of the map beside the line.
-  std::size_t num_switches{};  ///< Of the map, on tracks of the world.
-  /// Of these, those that are turnouts of the world: the names of their branches.
-  std::vector<std::string> made;
   double length_m{};
   std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
   /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
@@ -37,16 +32,12 @@ struct SideTrackQuality {
 /// - the same moved away from tracks to which the map has it too near (MovedApart);
 /// - two such tracks, one from each end, and ones without turnouts, as far as they are apart from
 ///   all others.
-/// Tunnels of a run in which it crosses below the line are left out with their track. What cannot
-/// be done is left out of the world and says so, and so do switches of the map on its tracks that
-/// are no turnouts.
+/// Tunnels of a run in which it crosses below the line are left out with their track. Whatever of a
+/// run is in no track, and each switch that is no turnout, is a LeftOut with its reason.
 [[nodiscard]] SideTrackQuality AddSideTracks(const RailMap& map,
                                              const TrackLine& track,
                                              const ImportedLine& line,
                                              const ImportOptions& options,
                                              LineWorld& world);
-
-/// Forgets turnouts of tracks that the world no longer has.
-void KeepStanding(const LineWorld& world, SideTrackQuality& quality);
 
 }  // namespace railcast

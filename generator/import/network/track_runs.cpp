@@ -63,13 +63,22 @@ class RunCutter {
         places_(places),
         running_kmph_(running_kmph) {}
 
-  [[nodiscard]] std::vector<TrackRun>& runs() { return runs_; }
+  [[nodiscard]] RunsBeside& beside() { return beside_; }
 
   void Cut(const TrackLine& chain) {
     std::size_t first = 0;
     std::vector<Eigen::Vector2d> points_m;
+    std::vector<std::optional<Eigen::Vector2d>> places_m;
+    for (const std::size_t node : chain.nodes) places_m.push_back(PointOf(node));
+    reasons_.assign(chain.ways.size(), nullptr);
+    for (std::size_t i = 0; i < reasons_.size(); ++i) {
+      if (places_m[i] && places_m[i + 1]) reasons_[i] = "it does not run along the line";
+      if (places_m[i].has_value() != places_m[i + 1].has_value()) {
+        reasons_[i] = "it leaves the 60 m beside the line";
+      }
+    }
     for (std::size_t i = 0; i < chain.nodes.size(); ++i) {
-      const auto point_m = PointOf(chain.nodes[i]);
+      const auto& point_m = places_m[i];
       if (point_m && (points_m.empty() || GoesOn(points_m, *point_m))) {
         if (points_m.empty()) first = i;
         points_m.push_back(*point_m);
@@ -80,12 +89,17 @@ class RunCutter {
       // The run ends here, and the next one may begin with the same point.
       if (i > 0 && point_m) {
         first = i - 1;
-        if (const auto before_m = PointOf(chain.nodes[first])) points_m.push_back(*before_m);
+        if (const auto& before_m = places_m[first]) points_m.push_back(*before_m);
         if (points_m.empty()) first = i;
         if (points_m.empty() || GoesOn(points_m, *point_m)) points_m.push_back(*point_m);
       }
     }
     End(chain, first, points_m);
+    for (std::size_t i = 0; i < reasons_.size(); ++i) {
+      if (!reasons_[i]) continue;
+      beside_.unused.push_back(
+          {ways_[chain.ways[i]], chain.nodes[i], chain.nodes[i + 1], reasons_[i]});
+    }
   }
 
  private:
@@ -109,17 +123,15 @@ class RunCutter {
 
   void End(const TrackLine& chain, std::size_t first, std::vector<Eigen::Vector2d> points_m) {
     constexpr double kShortest_m = 20.0;
-    if (points_m.size() < 2 || std::abs(points_m.back().x() - points_m.front().x()) < kShortest_m) {
-      return;
-    }
+    if (points_m.size() < 2) return;
+    const bool is_short = std::abs(points_m.back().x() - points_m.front().x()) < kShortest_m;
+    std::fill_n(reasons_.begin() + static_cast<std::ptrdiff_t>(first), points_m.size() - 1,
+                is_short ? "it runs along the line for less than 20 m" : nullptr);
+    if (is_short) return;
     const auto begin = chain.ways.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = begin + static_cast<std::ptrdiff_t>(points_m.size()) - 1;
     TrackRun run;
-    const std::string service = CommonTag(map_, begin, end, kServiceKey);
-    run.kind = service.empty() ? "running" : service;
-    const bool is_name = std::ranges::all_of(
-        run.kind, [](char letter) { return letter == '_' || (letter >= 'a' && letter <= 'z'); });
-    if (!is_name) run.kind = "other";
+    run.kind = KindOf(CommonTag(map_, begin, end, kServiceKey));
     const std::string electrified = CommonTag(map_, begin, end, "electrified");
     run.is_electrified = electrified != "no" && electrified != "rail";
     const auto node = chain.nodes.begin() + static_cast<std::ptrdiff_t>(first);
@@ -136,7 +148,7 @@ class RunCutter {
       std::ranges::reverse(run.speeds_kmph);
     }
     run.points_m = std::move(points_m);
-    runs_.push_back(std::move(run));
+    beside_.runs.push_back(std::move(run));
   }
 
   [[nodiscard]] std::vector<double> SpeedsOf_kmph(const TrackRun& run) const {
@@ -171,7 +183,8 @@ class RunCutter {
   const std::vector<std::size_t>& ways_;
   const LinePlaces& places_;
   double running_kmph_;
-  std::vector<TrackRun> runs_;
+  RunsBeside beside_;
+  std::vector<const char*> reasons_;  ///< Why the steps of a chain are in no run.
 };
 
 /// For each run those within which it begins or ends.
@@ -225,6 +238,13 @@ std::vector<TrackRun> InOrderOfMeetings(std::vector<TrackRun> runs) {
 
 }  // namespace
 
+std::string KindOf(std::string_view service) {
+  if (service.empty()) return "running";
+  const bool is_word = std::ranges::all_of(
+      service, [](char letter) { return letter == '_' || (letter >= 'a' && letter <= 'z'); });
+  return is_word ? std::string(service) : "other";
+}
+
 std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double to_s_m) {
   constexpr double kShortest_m = 30.0;
   constexpr double kSame_m = 0.5;
@@ -275,18 +295,19 @@ std::vector<TrackRun> PartsBetween(const TrackRun& run, std::span<const Chainage
   return parts;
 }
 
-std::vector<TrackRun> FindRuns(const RailMap& map,
-                               const TrackLine& line,
-                               const LinePlaces& places,
-                               double running_kmph) {
+RunsBeside FindRuns(const RailMap& map,
+                    const TrackLine& line,
+                    const LinePlaces& places,
+                    double running_kmph) {
   const OtherWays others = OthersThan(map, line);
   RunCutter cutter(map, others, places, running_kmph);
   for (const TrackLine& chain : FindLines(others.map, 0.0)) cutter.Cut(chain);
-  std::vector<TrackRun> runs = std::move(cutter.runs());
-  std::ranges::stable_sort(runs, std::ranges::greater{}, [](const TrackRun& run) {
+  RunsBeside beside = std::move(cutter.beside());
+  std::ranges::stable_sort(beside.runs, std::ranges::greater{}, [](const TrackRun& run) {
     return run.points_m.back().x() - run.points_m.front().x();
   });
-  return InOrderOfMeetings(std::move(runs));
+  beside.runs = InOrderOfMeetings(std::move(beside.runs));
+  return beside;
 }
 
 double SpeedOfRun_kmph(const TrackRun& run, double s_m) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/rail/base/chainage_range.h"
@@ -27,16 +28,34 @@ struct TrackRun {
   bool is_electrified = true;
 };
 
+/// The kind of a track by its key `service`: itself, or "running" without it, or "other" if it is
+/// no word.
+[[nodiscard]] std::string KindOf(std::string_view service);
+
 /// How far from their line runs are looked for.
 inline constexpr double kRunStrip_m = 60.0;
+
+/// A step of a way, from a node to a next one, beside a line but in none of its runs.
+struct UnusedStep {
+  std::size_t way{};
+  std::size_t from{};
+  std::size_t to{};
+  const char* reason{};
+};
+
+/// What of a map's tracks runs beside a line, and what there does not.
+struct RunsBeside {
+  std::vector<TrackRun> runs;
+  std::vector<UnusedStep> unused;
+};
 
 /// All runs beside a line. The longest come first, but none before those within which it begins or
 /// ends; of runs that begin or end in each other, the longest comes first.
 /// @param running_kmph Of running tracks for which the map has no speed.
-[[nodiscard]] std::vector<TrackRun> FindRuns(const RailMap& map,
-                                             const TrackLine& line,
-                                             const LinePlaces& places,
-                                             double running_kmph);
+[[nodiscard]] RunsBeside FindRuns(const RailMap& map,
+                                  const TrackLine& line,
+                                  const LinePlaces& places,
+                                  double running_kmph);
 
 /// The offset of a run at a chainage, along the lines between its points; beyond its ends, along
 /// the first and the last of them.

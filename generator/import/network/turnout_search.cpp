@@ -155,9 +155,7 @@ std::vector<Pairing> Pairings(const std::vector<TurnoutChoice>& begins,
 
 }  // namespace
 
-std::vector<SwitchNode> FindSwitches(const RailMap& map,
-                                     const LinePlaces& places,
-                                     double farthest_m) {
+std::vector<SwitchNode> SwitchesOf(const RailMap& map) {
   std::vector<std::size_t> num_ways(map.nodes.size());
   for (const MapWay& way : map.ways) {
     for (std::size_t i = 0; i < way.nodes.size(); ++i) {
@@ -167,11 +165,21 @@ std::vector<SwitchNode> FindSwitches(const RailMap& map,
   std::vector<SwitchNode> switches;
   for (std::size_t i = 0; i < map.nodes.size(); ++i) {
     const bool is_tagged = num_ways[i] > 0 && TagOf(map.nodes[i].tags, "railway") == "switch";
-    if (num_ways[i] < 3 && !is_tagged) continue;
-    const auto place = places.Of(map.nodes[i].place_m, farthest_m);
+    if (num_ways[i] >= 3 || is_tagged) switches.push_back({i, num_ways[i]});
+  }
+  return switches;
+}
+
+std::vector<SwitchNode> FindSwitches(const RailMap& map,
+                                     const LinePlaces& places,
+                                     double farthest_m) {
+  std::vector<SwitchNode> switches;
+  for (SwitchNode node : SwitchesOf(map)) {
+    const auto place = places.Of(map.nodes[node.node].place_m, farthest_m);
     constexpr double kAtEnd_m = 1.0;
     if (!place || place->s_m < kAtEnd_m || place->s_m > places.length_m() - kAtEnd_m) continue;
-    switches.push_back({{place->s_m, place->d_m}, num_ways[i]});
+    node.place_m = {place->s_m, place->d_m};
+    switches.push_back(node);
   }
   std::ranges::stable_sort(switches, {}, [](const SwitchNode& node) { return node.place_m.x(); });
   return switches;
@@ -204,8 +212,6 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
                                           const TrackRun& run,
                                           const RunFit& fit,
                                           const Meeting& meeting) {
-  constexpr double kUsualBefore_m = 4.0;
-  constexpr double kBefore_m = 5.0;
   constexpr double kOtherType = 0.5;
   constexpr double kLeastAside_m = 0.05;
   constexpr std::size_t kMost = 60;
@@ -219,8 +225,13 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
   if (!track.Has(aside_s_m)) return choices;
   const double aside_m = OffsetOf_m(run, aside_s_m) - track.course.OffsetAt(aside_s_m).d_m;
   if (std::abs(aside_m) < kLeastAside_m) return choices;
+  // The branch of 1:14-760 is 0.52 m aside there.
+  constexpr double kSlender_m = 0.4;
+  const bool is_slender = reach_m > 2.0 * kAside_m && std::abs(aside_m) < kSlender_m;
+  const double usual_before_m = is_slender ? -15.0 : 4.0;
+  const double spread_m = is_slender ? 15.0 : 5.0;
   for (std::size_t type = 0; type < kTurnouts.size(); ++type) {
-    for (double before_m = -6.0; before_m <= 14.0; ++before_m) {
+    for (double before_m = is_slender ? -40.0 : -6.0; before_m <= 14.0; ++before_m) {
       TurnoutSpec spec{.track = track.spec.name,
                        .s_m = RoundedTo(meeting.s_m - forwards * before_m, 1e3),
                        .turnout = kTurnouts[type].type,
@@ -228,7 +239,7 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
                        .position = {}};
       std::optional<TurnoutChoice> choice = ChoiceAt(network, fit, meeting, spec);
       if (!choice) continue;
-      choice->off_cost += Squared((before_m - kUsualBefore_m) / kBefore_m) +
+      choice->off_cost += Squared((before_m - usual_before_m) / spread_m) +
                           kOtherType * Squared(static_cast<double>(type) - wished);
       choices.push_back(std::move(*choice));
     }

@@ -13,14 +13,18 @@
 
 namespace railcast {
 
-/// A node of the map beside a line at which tracks part.
+/// A node of the map at which tracks part.
 struct SwitchNode {
-  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Chainage and offset.
+  std::size_t node{};
   std::size_t num_ways{};  ///< That lead from it: 3 from a switch, 4 from a crossing or slip.
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Chainage and offset, beside a line.
 };
 
 /// The nodes from which three ways lead or more, whether `railway=switch` or not, and those that
-/// are tagged so, by chainage.
+/// are tagged so.
+[[nodiscard]] std::vector<SwitchNode> SwitchesOf(const RailMap& map);
+
+/// Those beside a line, by chainage.
 [[nodiscard]] std::vector<SwitchNode> FindSwitches(const RailMap& map,
                                                    const LinePlaces& places,
                                                    double farthest_m);
@@ -60,7 +64,7 @@ struct TurnoutChoice {
 
 /// Turnouts near the point where a run meets a track, those that agree best with the map first.
 /// They lie from 14 m before to 6 m behind that point, which mappers put anywhere between blades
-/// and frog.
+/// and frog; if the run leaves more slowly than any turnout, up to 40 m behind it.
 [[nodiscard]] std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
                                                         const TrackRun& run,
                                                         const RunFit& fit,

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -45,7 +46,7 @@ class SharedStretches {
   SharedStretches(const LineWorld& world, double gap_m)
       : world_(world), core_(world), gap_m_(gap_m) {}
 
-  [[nodiscard]] std::vector<TaggedStretch> Of(std::vector<TaggedStretch> open) const {
+  [[nodiscard]] std::vector<TaggedStretch> Of(std::vector<TaggedStretch> open) {
     std::vector<TaggedStretch> taken;
     while (!open.empty()) {
       const auto next = std::ranges::max_element(open, {}, [](const TaggedStretch& stretch) {
@@ -63,6 +64,9 @@ class SharedStretches {
     return taken;
   }
 
+  /// What was not worth a structure of its own.
+  [[nodiscard]] const std::vector<TaggedStretch>& short_rests() const { return short_rests_; }
+
   [[nodiscard]] TrackSpread SpreadAt(const TaggedStretch& stretch) const {
     return SpreadOf(core_.tracks(),
                     {.name = "",
@@ -76,7 +80,7 @@ class SharedStretches {
   /// Adds what a structure that was taken has no room for.
   void AddRest(const TaggedStretch& stretch,
                const TaggedStretch& taken,
-               std::vector<TaggedStretch>& rest) const {
+               std::vector<TaggedStretch>& rest) {
     if (stretch.track == taken.track || stretch.begin_s_m >= taken.end_s_m ||
         stretch.end_s_m <= taken.begin_s_m) {
       rest.push_back(stretch);
@@ -92,14 +96,23 @@ class SharedStretches {
       return d_m < spread.right_m - kSlack_m || d_m > spread.left_m + kSlack_m;
     };
     for (const TaggedStretch& part : PartsWhere(stretch, is_apart)) {
-      if (part.length_m() > kSameEnd_m) rest.push_back(part);
+      (part.length_m() > kSameEnd_m ? rest : short_rests_).push_back(part);
     }
   }
 
   const LineWorld& world_;
   TracksOfLine core_;
   double gap_m_;
+  std::vector<TaggedStretch> short_rests_;
 };
+
+/// Where the map does not say, trams and undergrounds in tunnels have none.
+bool IsBallastless(const MapTags& tags) {
+  const std::string_view says = TagOf(tags, "railway:ballastless");
+  if (!says.empty()) return says == "yes";
+  const std::string_view railway = TagOf(tags, "railway");
+  return railway == "tram" || (railway == "subway" && IsTunnel(tags));
+}
 
 template <class Structure>
 void AddAlong(const TaggedStretch& stretch, Structure structure, LineWorld& world) {
@@ -146,27 +159,35 @@ LevelCrossingSpec LevelCrossingOf(const MapThing& thing) {
   return crossing;
 }
 
-void AddBufferStop(const LinePlace& at, const LinePlaces& places, LineWorld& world) {
+void AddBufferStop(const LinePlace& at,
+                   std::size_t number,
+                   const LinePlaces& places,
+                   LineWorld& world) {
   constexpr double kNearEnd_m = 20.0;
   BufferStopSpec stop;
   if (at.s_m < kNearEnd_m) {
     stop.at = TrackTip::kBegin;
   } else if (at.s_m <= places.length_m() - kNearEnd_m) {
-    world.left_out.push_back({"buffer_stop", at.s_m, at.s_m, "the line goes on behind it"});
+    world.left_out.push_back({"buffer_stop", at.s_m, at.s_m, "the line goes on behind it", number});
     return;
   }
+  world.placed.push_back({number, stop});
   world.structures.push_back(std::move(stop));
 }
 
-void AddPoint(const MapThing& thing, const LinePlaces& places, LineWorld& world) {
+void AddPoint(const MapThing& thing,
+              std::size_t number,
+              const LinePlaces& places,
+              LineWorld& world) {
   constexpr double kOnLine_m = 2.0;
   const std::optional<LinePlace> at = places.Of(thing.places_m.front(), kOnLine_m);
   if (!at) return;
   const std::string_view railway = TagOf(thing.tags, "railway");
-  if (railway == "buffer_stop") return AddBufferStop(*at, places, world);
+  if (railway == "buffer_stop") return AddBufferStop(*at, number, places, world);
   if (std::abs(at->beyond_m) > kOnLine_m) return;
   const auto add = [&](auto structure) {
     structure.s_m = RoundedTo(at->s_m, kStepsOfPlaces_per_m);
+    world.placed.push_back({number, structure});
     world.structures.push_back(std::move(structure));
   };
   if (railway == "level_crossing" || railway == "crossing") {
@@ -180,7 +201,8 @@ void AddPoint(const MapThing& thing, const LinePlaces& places, LineWorld& world)
   } else if (railway == "signal") {
     const std::optional<SignalSpec> signal = SignalOf(thing, *at, places);
     if (signal) return add(*signal);
-    world.left_out.push_back({"signal", at->s_m, at->s_m, "the map does not say which kind it is"});
+    world.left_out.push_back(
+        {"signal", at->s_m, at->s_m, "the map does not say which kind it is", number});
   }
 }
 
@@ -188,13 +210,14 @@ void AddPoint(const MapThing& thing, const LinePlaces& places, LineWorld& world)
 
 void AddWayStructures(const RailMap& map, LineWorld& world) {
   AddTunnels(map, world);
-  const std::vector<TaggedStretch> bridges =
-      SharedStretches(world, kSharedBridge_m).Of(StretchesOfAll(map, world, IsBridge));
+  SharedStretches shared(world, kSharedBridge_m);
+  const std::vector<TaggedStretch> bridges = shared.Of(StretchesOfAll(map, world, IsBridge));
   for (const TaggedStretch& bridge : bridges) AddAlong(bridge, BridgeSpec{}, world);
-  const auto is_ballastless = [](const MapTags& tags) {
-    return TagOf(tags, "railway:ballastless") == "yes";
-  };
-  for (const TaggedStretch& slab : StretchesOfAll(map, world, is_ballastless)) {
+  for (const TaggedStretch& rest : shared.short_rests()) {
+    world.left_out.push_back({"bridge", rest.begin_s_m, rest.end_s_m,
+                              "the bridge that it shares ends less than 15 m from its own end"});
+  }
+  for (const TaggedStretch& slab : StretchesOfAll(map, world, IsBallastless)) {
     AddAlong(slab, SlabTrackSpec{}, world);
   }
   const auto has_third_rail = [](const MapTags& tags) {
@@ -247,11 +270,11 @@ void AddStructures(const RailMap& map,
                    LineWorld& world) {
   AddWayStructures(map, world);
   const LinePlaces places(map, track, line);
-  for (const MapThing& thing : map.things) {
-    if (IsPlatform(thing.tags)) AddPlatform(thing, places, world);
-  }
-  for (const MapThing& thing : map.things) {
-    if (!IsPlatform(thing.tags)) AddPoint(thing, places, world);
+  for (const bool is_platform : {true, false}) {
+    for (std::size_t i = 0; i < map.things.size(); ++i) {
+      if (IsPlatform(map.things[i].tags) != is_platform) continue;
+      (is_platform ? AddPlatform : AddPoint)(map.things[i], i, places, world);
+    }
   }
   NameStructures(world.structures);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,14 @@ void AddTunnels(const RailMap& map, LineWorld& world);
 /// platform at the usual distance from the axis: as wide as the outline or, between two tracks,
 /// half as wide as what lies between the edges. Where the width changes by more than 0.5 m, another
 /// one begins, but not within 20 m.
-void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& world);
+/// @param number Of the thing on the map.
+void AddPlatform(const MapThing& thing,
+                 std::size_t number,
+                 const LinePlaces& places,
+                 LineWorld& world);
+
+/// Whether a platform is an outline, not a line.
+[[nodiscard]] bool IsOutline(const MapThing& platform);
 
 /// Numbers things of a kind: platform_1, platform_2.
 void NameStructures(std::vector<StructureSpec>& structures);

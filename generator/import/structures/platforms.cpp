@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "core/base/text.h"
+#include "core/rail/base/chainage_range.h"
 
 namespace railcast {
 namespace {
 
-/// Distances of a platform's side on the map from the axis of its track.
-constexpr double kNearestEdge_m = 1.0;
+/// Distances of a platform's side from the axis of its track, both on the map: nearer, it lies
+/// across the track.
+constexpr double kNearestEdge_m = 0.3;
 constexpr double kFarthestEdge_m = 4.5;
 constexpr double kShortestPlatform_m = 5.0;
 /// Widths that a world can have.
@@ -31,21 +33,19 @@ struct PlatformShape {
   bool is_area{};
 };
 
-/// Absent if not all of it lies beside the line.
+/// Absent if nothing of it lies beside the line.
 std::optional<PlatformShape> ShapeOf(const MapThing& thing, const LinePlaces& places) {
   constexpr double kReach_m = 70.0;
   PlatformShape shape;
   for (const Eigen::Vector2d& place_m : thing.places_m) {
     const std::optional<LinePlace> at = places.Of(place_m, kReach_m);
-    if (!at) return std::nullopt;
+    if (!at) continue;
     shape.points_m.emplace_back(at->s_m, at->d_m);
     shape.begin_s_m = std::min(shape.begin_s_m, at->s_m);
     shape.end_s_m = std::max(shape.end_s_m, at->s_m);
   }
-  constexpr std::size_t kFewest = 4;
-  shape.is_area =
-      thing.places_m.size() >= kFewest && thing.places_m.front() == thing.places_m.back();
-  return shape;
+  shape.is_area = IsOutline(thing);
+  return shape.points_m.size() < 2 ? std::nullopt : std::optional(shape);
 }
 
 /// From where to where a platform reaches across a line at one chainage.
@@ -90,15 +90,14 @@ class PlatformFinder {
   }
 
   [[nodiscard]] const std::map<TrackEdge, std::vector<EdgeMetre>>& edges() const { return edges_; }
-  /// The track across which it lies, and where that begins; absent if it does so nowhere.
-  [[nodiscard]] const std::optional<std::pair<std::size_t, double>>& across() const {
-    return across_;
-  }
+  /// The tracks across which it lies, and where.
+  [[nodiscard]] const std::map<std::size_t, ChainageRange>& across() const { return across_; }
 
  private:
   struct Neighbour {
     std::size_t track{};
     double d_m{};
+    double mapped_d_m{};
   };
 
   void Look(double s_m) {
@@ -110,15 +109,17 @@ class PlatformFinder {
       const TrackDraft& track = world_.tracks[i].draft;
       if (!track.Has(s_m)) continue;
       const double d_m = track.OffsetNear_m(s_m);
-      if (d_m > at.right_m - kNearestEdge_m && d_m < at.left_m + kNearestEdge_m) {
-        if (!across_) across_ = {i, s_m};
+      const double mapped_d_m = d_m + world_.tracks[i].OffAt_m(s_m);
+      if (mapped_d_m > at.right_m - kNearestEdge_m && mapped_d_m < at.left_m + kNearestEdge_m) {
+        across_.try_emplace(i, ChainageRange{s_m, s_m}).first->second.end_s_m = s_m;
         return;
       }
-      if (d_m < at.right_m && (!right || d_m > right->d_m)) right = {i, d_m};
-      if (d_m > at.left_m && (!left || d_m < left->d_m)) left = {i, d_m};
+      const Neighbour one{i, d_m, mapped_d_m};
+      if (mapped_d_m < at.right_m && (!right || d_m > right->d_m)) right = one;
+      if (mapped_d_m > at.left_m && (!left || d_m < left->d_m)) left = one;
     }
-    const bool is_right = right && at.right_m - right->d_m <= kFarthestEdge_m;
-    const bool is_left = left && left->d_m - at.left_m <= kFarthestEdge_m;
+    const bool is_right = right && at.right_m - right->mapped_d_m <= kFarthestEdge_m;
+    const bool is_left = left && left->mapped_d_m - at.left_m <= kFarthestEdge_m;
     const double between_m = right && left ? left->d_m - right->d_m - 2.0 * edge_m_
                                            : std::numeric_limits<double>::infinity();
     std::optional<double> width_m;
@@ -132,7 +133,7 @@ class PlatformFinder {
   const LineWorld& world_;
   double edge_m_ = PlatformSpec{}.edge_distance_m;
   std::map<TrackEdge, std::vector<EdgeMetre>> edges_;
-  std::optional<std::pair<std::size_t, double>> across_;
+  std::map<std::size_t, ChainageRange> across_;
 };
 
 /// Divides the metres of an edge where there is a gap, or the width changes.
@@ -217,13 +218,25 @@ void SetEnds(const std::vector<EdgeMetre>& piece,
 
 }  // namespace
 
-void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& world) {
+bool IsOutline(const MapThing& platform) {
+  constexpr std::size_t kFewest = 4;
+  return platform.places_m.size() >= kFewest &&
+         platform.places_m.front() == platform.places_m.back();
+}
+
+void AddPlatform(const MapThing& thing,
+                 std::size_t number,
+                 const LinePlaces& places,
+                 LineWorld& world) {
   const std::optional<PlatformShape> shape = ShapeOf(thing, places);
-  if (!shape || shape->end_s_m - shape->begin_s_m < kShortestPlatform_m) return;
-  const PlatformFinder found(*shape, world);
+  if (!shape) return;
   const auto leave_out = [&](double begin_s_m, double end_s_m, const std::string& reason) {
-    world.left_out.push_back({"platform", begin_s_m, end_s_m, reason});
+    world.left_out.push_back({"platform", begin_s_m, end_s_m, reason, number});
   };
+  if (shape->end_s_m - shape->begin_s_m < kShortestPlatform_m) {
+    return leave_out(shape->begin_s_m, shape->end_s_m, "it is shorter than 5 m along the line");
+  }
+  const PlatformFinder found(*shape, world);
   bool is_beside = false;
   for (const auto& [edge, metres] : found.edges()) {
     const TrackDraft& track = world.tracks[edge.track].draft;
@@ -232,8 +245,12 @@ void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& wor
       platform.track = track.spec.name;
       platform.side = edge.side;
       SetEnds(piece, *shape, track.course, platform);
-      if (platform.end_s_m - platform.begin_s_m < kShortestPlatform_m) continue;
       is_beside = true;
+      if (platform.end_s_m - platform.begin_s_m < kShortestPlatform_m) {
+        leave_out(platform.begin_s_m, platform.end_s_m,
+                  "it runs along track " + platform.track + " for less than 5 m there");
+        continue;
+      }
       const double room_m = std::ranges::min_element(piece, {}, &EdgeMetre::room_m)->room_m;
       platform.width_m = RoundedTo(std::min({MedianWidth_m(piece), room_m, kWidest_m}), 100.0);
       if (platform.width_m < kNarrowest_m) {
@@ -247,11 +264,11 @@ void AddPlatform(const MapThing& thing, const LinePlaces& places, LineWorld& wor
       }
     }
   }
-  if (found.across()) {
-    const auto& [track, s_m] = *found.across();
-    leave_out(s_m, shape->end_s_m,
+  for (const auto& [track, range] : found.across()) {
+    leave_out(range.begin_s_m, range.end_s_m,
               "it lies across track " + world.tracks[track].draft.spec.name + " on the map");
-  } else if (!is_beside) {
+  }
+  if (!is_beside && found.across().empty()) {
     leave_out(shape->begin_s_m, shape->end_s_m, "no track of the world runs along it");
   }
 }

@@ -38,8 +38,8 @@ constexpr double kClearMargin_m = 1.0;
 
 /// What is left of a structure without some stretches of chainage.
 template <class Structure>
-std::vector<StructureSpec> PartsOutside(const Structure& structure,
-                                        const std::vector<ChainageRange>& stretches) {
+std::vector<Structure> PartsOutside(const Structure& structure,
+                                    const std::vector<ChainageRange>& stretches) {
   std::vector<Structure> parts{structure};
   for (const ChainageRange& stretch : stretches) {
     std::vector<Structure> rest;
@@ -55,7 +55,7 @@ std::vector<StructureSpec> PartsOutside(const Structure& structure,
     }
     parts = std::move(rest);
   }
-  return {parts.begin(), parts.end()};
+  return parts;
 }
 
 class StructureClearing {
@@ -96,19 +96,12 @@ class StructureClearing {
           world_.structures.push_back(open[i]);
           continue;
         }
-        std::vector<ChainageRange> stretches;
-        for (const GaugeEntry& entry : found->second) {
-          for (const ChainageRange& stretch : entry.stretches) {
-            LeaveOut(open[i], "it would stand in the clear space of track " + entry.track);
-            world_.left_out.back().begin_s_m = stretch.begin_s_m;
-            world_.left_out.back().end_s_m = stretch.end_s_m;
-            stretches.push_back(stretch);
-          }
-        }
         std::visit(
             [&]<class Structure>(const Structure& spec) {
               if constexpr (std::is_base_of_v<StretchSpec, Structure>) {
-                std::ranges::move(PartsOutside(spec, stretches), std::back_inserter(parts));
+                CutAtEntries(spec, found->second, parts);
+              } else {
+                LeaveOut(spec, InClearSpaceOf(found->second.front()));
               }
             },
             open[i]);
@@ -135,6 +128,39 @@ class StructureClearing {
   }
 
  private:
+  static std::string InClearSpaceOf(const GaugeEntry& entry) {
+    return "it would stand in the clear space of track " + entry.track;
+  }
+
+  /// Adds what is left of a structure to parts, and leaves out all else of it.
+  template <class Structure>
+  void CutAtEntries(const Structure& structure,
+                    const std::vector<GaugeEntry>& entries,
+                    std::vector<StructureSpec>& parts) {
+    std::vector<ChainageRange> stretches;
+    for (const GaugeEntry& entry : entries) {
+      stretches.insert(stretches.end(), entry.stretches.begin(), entry.stretches.end());
+    }
+    double from_s_m = structure.begin_s_m;
+    const auto leave_out_to = [&](double to_s_m) {
+      if (to_s_m <= from_s_m) return;
+      const auto entry = std::ranges::find_if(entries, [&](const GaugeEntry& one) {
+        return std::ranges::any_of(one.stretches, [&](const ChainageRange& stretch) {
+          return stretch.begin_s_m < to_s_m && stretch.end_s_m > from_s_m;
+        });
+      });
+      LeaveOut(structure, InClearSpaceOf(entry == entries.end() ? entries.front() : *entry));
+      world_.left_out.back().begin_s_m = from_s_m;
+      world_.left_out.back().end_s_m = to_s_m;
+    };
+    for (const Structure& part : PartsOutside(structure, stretches)) {
+      leave_out_to(part.begin_s_m);
+      from_s_m = part.end_s_m;
+      parts.push_back(part);
+    }
+    leave_out_to(structure.end_s_m);
+  }
+
   /// What of some structures is in the clear space of tracks, by their number.
   [[nodiscard]] std::map<std::size_t, std::vector<GaugeEntry>> EntriesOf(
       const std::vector<StructureSpec>& structures, bool has_portals) {
@@ -222,16 +248,25 @@ std::optional<std::string> MakeStand(const AlignmentSpec& alignment,
       if (structure && structures.insert(*structure).second) {
         world.left_out.push_back(LeftOutOf(world.structures[*structure], reason));
       } else if (track && *track > 0 && tracks.insert(*track).second) {
-        const TrackDraft& draft = world.tracks[*track].draft;
+        const WorldTrack& made = world.tracks[*track];
+        const TrackDraft& draft = made.draft;
+        const ChainageRange range =
+            made.run == kUnknownSource
+                ? ChainageRange{draft.course.begin_s_m(), draft.course.end_s_m()}
+                : RangeInRun(world, made);
         world.left_out.push_back(
-            {"track " + draft.spec.name, draft.course.begin_s_m(), draft.course.end_s_m(), reason});
+            {"track " + draft.spec.name, range.begin_s_m, range.end_s_m, reason, made.run});
       } else if (!structure && (!track || *track == 0)) {
         return errors.lines().front();
       }
     }
     for (const std::size_t track : tracks) {
-      std::erase_if(world.moved, [&](const MovedTrack& moved) {
-        return moved.name == world.tracks[track].draft.spec.name;
+      const std::string& name = world.tracks[track].draft.spec.name;
+      std::erase_if(world.switches, [&](const MadeSwitch& made) {
+        if (made.branch != name) return false;
+        world.left_out.push_back(
+            {"switch", made.s_m, made.s_m, "its branch cannot stand", made.node});
+        return true;
       });
     }
     EraseNumbered(tracks, world.tracks);

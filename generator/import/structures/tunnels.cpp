@@ -261,7 +261,11 @@ void AddTunnels(const RailMap& map, LineWorld& world) {
       return std::abs(other.begin_s_m - row.end_s_m) < kSame_m ||
              std::abs(other.end_s_m - row.begin_s_m) < kSame_m;
     });
-    if (row.length_m() < kShortest_m && !goes_on) continue;
+    if (row.length_m() < kShortest_m && !goes_on) {
+      world.left_out.push_back(
+          {"tunnel", row.begin_s_m, row.end_s_m, "it would be shorter than 5 m"});
+      continue;
+    }
     TunnelSpec tunnel;
     tunnel.track = world.tracks[search.OwnerOf(row)].draft.spec.name;
     tunnel.begin_s_m = row.begin_s_m;

@@ -35,8 +35,10 @@ TEST(Import, WritesAnAlignmentAndTheReports) {
   EXPECT_THAT(ReadFileWhole(out / "hill-line.alignment.json"), HasSubstr(R"("type": "elements")"));
   EXPECT_THAT(ReadFileWhole(out / "lines.csv"), HasSubstr("hill-line,22"));
   EXPECT_THAT(ReadFileWhole(out / "contradictions.csv"), HasSubstr("line,s_m,offset_m"));
-  EXPECT_THAT(ReadFileWhole(out / "coverage.csv"), HasSubstr("hill-line,tunnels_km,0.000,0.000"));
-  EXPECT_THAT(run.said, HasSubstr("| hill-line | 0.00 of 0.00 |"));
+  EXPECT_THAT(
+      ReadFileWhole(out / "account.csv"),
+      ::testing::ContainsRegex("\nrunning track,/features/0/geometry,m,(2[0-9]+\\.[0-9]+),"));
+  EXPECT_THAT(run.said, HasSubstr("| running track | 2.23 km | 2.23 km | 100 |"));
 }
 
 /// A tram's straights of 600 m about a street corner of 5 m radius, with a point every 10 m.

@@ -95,8 +95,11 @@ TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
   ExpectStretch("tunnel", 2.0, 3.0);
   ExpectStretch("slab_track", 2.0, 3.0);
   EXPECT_EQ(world_.tracks[0].draft.spec.electrified, true) << "three steps of four";
-  ASSERT_THAT(world_.left_out, SizeIs(1));
+  ASSERT_THAT(world_.left_out, SizeIs(2));
   EXPECT_EQ(world_.left_out[0].reason, "the map has 760 mm, the world 1435 mm");
+  EXPECT_EQ(world_.left_out[1].what, "speed");
+  EXPECT_EQ(world_.left_out[1].reason, "the map has none, the world 80 km/h");
+  EXPECT_NEAR(world_.left_out[1].end_s_m, 4.0 * kStep_m, 1.0);
 }
 
 TEST(GaugeOf, IsTheStandardOneOfSeveralOrTheFirst) {

@@ -11,7 +11,7 @@
 #include "generator/import/network/line_world.h"
 #include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
-#include "generator/import/structures/map_coverage.h"
+#include "generator/import/structures/map_account.h"
 
 namespace railcast {
 
@@ -28,8 +28,7 @@ class MadeMap {
     AddWay({{1200.0, y_m}, {1600.0, y_m}, {2000.0 - inset_m, y_m}}, {});
   }
   void AddWay(const std::vector<Eigen::Vector2d>& points_m, MapTags tags) {
-    tags["railway"] = "rail";
-    tags["maxspeed"] = "80";
+    tags.insert({{"railway", "rail"}, {"maxspeed", "80"}});
     MapWay way{static_cast<std::int64_t>(map_.ways.size()), {}, std::move(tags)};
     for (const Eigen::Vector2d& point_m : points_m) {
       const auto known = std::ranges::find(map_.nodes, point_m, &MapNode::place_m);
@@ -51,17 +50,21 @@ class MadeMap {
   }
 
   void Make() {
-    const TrackLine track = FindLines(map_, 1900.0).front();
-    runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
-    line_ = ImportLine(map_, track, {});
-    world_ = MakeLineWorld(map_, track, line_);
-    beside_ = AddSideTracks(map_, track, line_, {}, world_);
-    AddStructures(map_, track, line_, world_);
+    track_ = FindLines(map_, 1900.0).front();
+    runs_east_ = map_.nodes[track_.nodes.front()].place_m.x() < 1000.0;
+    line_ = ImportLine(map_, track_, {});
+    world_ = MakeLineWorld(map_, track_, line_);
+    static_cast<void>(AddSideTracks(map_, track_, line_, {}, world_));
+    AddStructures(map_, track_, line_, world_);
   }
 
   [[nodiscard]] LineWorld& world() { return world_; }
   /// What of the map the world has.
-  [[nodiscard]] MapCoverage Coverage() const { return CoverageOf(map_, world_, beside_); }
+  [[nodiscard]] std::vector<AccountRow> Account() const {
+    return AccountOf(map_, {{track_}, {line_}, {world_}, {}, kNearNoLine});
+  }
+  [[nodiscard]] AccountRow Sum(const std::string& what) const { return SumOf(Account(), what); }
+  [[nodiscard]] const RailMap& map() const { return map_; }
   [[nodiscard]] const ImportedLine& line() const { return line_; }
   [[nodiscard]] bool runs_east() const { return runs_east_; }
   /// What stands on the northern side of a track.
@@ -99,9 +102,9 @@ class MadeMap {
  private:
   RailMap map_{.nodes = {}, .ways = {}, .things = {}, .attribution = "Test"};
   bool runs_east_ = true;
+  TrackLine track_;
   ImportedLine line_;
   LineWorld world_;
-  SideTrackQuality beside_;
 };
 
 }  // namespace railcast

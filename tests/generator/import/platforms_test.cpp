@@ -67,6 +67,19 @@ TEST(Platforms, OfPublicTransportAreTakenButNotThoseOfBuses) {
   EXPECT_EQ(platforms[0].width_m, PlatformSpec{}.width_m) << "a line does not tell";
 }
 
+TEST(Platforms, StandWhereTheFitIsFarFromTheMapToo) {
+  MadeMap map;
+  map.AddTrack(0.0, {});
+  map.AddWay({{100.0, 2.2}, {500.0, 2.2}, {1900.0, 2.2}}, {});  // Moved to 3.25 m.
+  map.AddPlatformArea(900.0, 1100.0, 3.9, 6.0);
+  map.Make();
+  EXPECT_EQ(Of("running_1", map).side, map.north());
+  const std::vector<MovedTrack> moved = MovedTracksOf(map.world());
+  ASSERT_THAT(moved, SizeIs(1));
+  EXPECT_NEAR(moved[0].end_s_m - moved[0].begin_s_m, 1800.0, 1.0);
+  EXPECT_NEAR(moved[0].most_m, 3.25 - 2.2, kPlatformOff_m);
+}
+
 TEST(Platforms, FollowTheWidthOfTheirOutline) {
   MadeMap map;
   map.AddTrack(0.0, {});

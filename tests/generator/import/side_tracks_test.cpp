@@ -17,7 +17,7 @@
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/moved_run.h"
-#include "generator/import/structures/map_coverage.h"
+#include "generator/import/structures/map_account.h"
 #include "generator/import/structures/standing_world.h"
 
 namespace railcast {
@@ -148,8 +148,8 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
   for (double x_m = 1260.0; x_m <= 1600.0; x_m += 20.0) siding_m.emplace_back(x_m, -4.5);
   Add(siding_m, {{"service", "siding"}});
   Make();
-  EXPECT_EQ(quality_.num_switches, 5U);
-  EXPECT_EQ(quality_.made.size(), 5U);
+  EXPECT_THAT(world_.switches, SizeIs(5));
+  EXPECT_EQ(std::ranges::count(world_.left_out, "switch", &LeftOut::what), 0);
   EXPECT_EQ(quality_.num_turnouts, 5U);
   // Places are sought in steps of 1 m, for 1:9-300 as well, and points are fitted to 0.1 m at 1:9.
   constexpr double kOff_m = 2.0;
@@ -158,6 +158,26 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
                           DoubleNear(1206.5, kOff_m)));
   EXPECT_THAT(TangentsOn_x_m("running_1"),
               ElementsAre(DoubleNear(647.0, kOff_m), DoubleNear(903.0, kOff_m)));
+}
+
+TEST_F(BesideALine, ACrossoverMoreSlenderThanAnyTurnoutBeginsAndEndsWithinItself) {
+  Add({{100.0, 4.7}, {500.0, 4.7}, {1000.0, 4.7}, {1500.0, 4.7}, {1900.0, 4.7}},
+      {{"maxspeed", "100"}});
+  // Arcs of 1200 m radius for 65 m and 1:18.5 between them.
+  const auto y_m = [](double x_m) {
+    return x_m < 65.0 ? x_m * x_m / 2400.0 : 1.76 + (x_m - 65.0) / 18.5;
+  };
+  constexpr double kLength_m = 151.8;
+  std::vector<Eigen::Vector2d> points_m;
+  for (int i = 0; i <= 20; ++i) {
+    const double x_m = kLength_m * i / 20.0;
+    points_m.emplace_back(800.0 + x_m, i <= 10 ? y_m(x_m) : 4.7 - y_m(kLength_m - x_m));
+  }
+  points_m.back().y() = 4.7;
+  Add(points_m, {{"service", "crossover"}, {"maxspeed", "100"}});
+  map_.ways[1].nodes.insert(map_.ways[1].nodes.begin() + 2, map_.ways[2].nodes.back());
+  Make();
+  EXPECT_THAT(world_.switches, SizeIs(2));
 }
 
 TEST_F(BesideALine, ATrackThatLeavesTooSlowlyIsMovedToWhereATurnoutLeads) {
@@ -170,11 +190,11 @@ TEST_F(BesideALine, ATrackThatLeavesTooSlowlyIsMovedToWhereATurnoutLeads) {
   Make();
   ASSERT_THAT(tracks_, SizeIs(2));
   EXPECT_TRUE(tracks_[1].contains("elements"));
-  ASSERT_THAT(world_.moved, SizeIs(1));
-  // Between a turnout with the arcs behind it, 100 m or less, and where the map has 3.15 m.
-  EXPECT_NEAR(world_.moved[0].end_s_m - world_.moved[0].begin_s_m, 350.0, 60.0);
-  EXPECT_NEAR(world_.moved[0].most_m, kMovedApart_m - 2e-5 * kMeeting_m * kMeeting_m,
-              kMostRaised_m);
+  const std::vector<MovedTrack> moved = MovedTracksOf(world_);
+  ASSERT_THAT(moved, SizeIs(1));
+  // Between a turnout with the arcs behind it, 100 m or less, and where the map has 2.75 m.
+  EXPECT_NEAR(moved[0].end_s_m - moved[0].begin_s_m, 300.0, 60.0);
+  EXPECT_NEAR(moved[0].most_m, kMovedApart_m - 2e-5 * kMeeting_m * kMeeting_m, kMostRaised_m);
 }
 
 /// Offsets of a track of the world at every metre of it.
@@ -200,11 +220,11 @@ TEST_F(BesideALine, ATrackThatComesTooNearInPlacesIsMovedAwayThereAndSaysSo) {
   const std::vector<double> offsets_m = OffsetsOf_m(world_.tracks[1].draft);
   EXPECT_GE(std::ranges::min(offsets_m), 3.0);
   EXPECT_LT(std::ranges::max(offsets_m), 4.5 + 0.4);
-  ASSERT_THAT(world_.moved, SizeIs(2));
-  for (const MovedTrack& moved : world_.moved) {
+  ASSERT_THAT(MovedTracksOf(world_), SizeIs(2));
+  for (const MovedTrack& moved : MovedTracksOf(world_)) {
     EXPECT_EQ(moved.name, "running_1");
-    // Drawn at 2 m for 200 m, and nearer than 3.15 m for half of the 25 m on either side.
-    EXPECT_NEAR(moved.end_s_m - moved.begin_s_m, 223.0, 60.0);
+    // Drawn at 2 m for 200 m, and S-curves of 100 m at either end are more than 0.5 m off.
+    EXPECT_NEAR(moved.end_s_m - moved.begin_s_m, 300.0, 101.0);
     // The fit rounds the corners of the map by 0.1 m.
     EXPECT_GT(moved.most_m, kMovedApart_m - 2.0 - 0.1);
     EXPECT_LT(moved.most_m, kMovedApart_m - 2.0 + 0.1 + kMostRaised_m);
@@ -262,27 +282,12 @@ TEST_F(BesideALine, ThereAreNoTurnoutsOfAnotherGaugeWhichEachSwitchSays) {
   for (MapWay& way : map_.ways) way.tags["gauge"] = "1520";
   AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}, {"gauge", "1520"}});
   Make();
-  EXPECT_EQ(quality_.num_switches, 1U);
-  EXPECT_THAT(quality_.made, ::testing::IsEmpty());
+  EXPECT_THAT(world_.switches, ::testing::IsEmpty());
   ASSERT_THAT(tracks_, SizeIs(2));
   const auto of_switch = std::ranges::find(world_.left_out, "switch", &LeftOut::what);
   ASSERT_NE(of_switch, world_.left_out.end());
   EXPECT_EQ(of_switch->reason,
             "there are turnouts of 1435 mm gauge only, and the line has 1520 mm");
-  EXPECT_EQ(SwitchReasonsText({world_, world_}),
-            "switches without a turnout (left_out.csv):\n"
-            "  2: there are turnouts of 1435 mm gauge only, and the line has 1520 mm\n\n");
-}
-
-TEST_F(BesideALine, SwitchesOfTracksThatDoNotStandAreNotCounted) {
-  AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
-  Make();
-  ASSERT_THAT(quality_.made, ElementsAre("siding_1"));
-  KeepStanding(world_, quality_);
-  EXPECT_THAT(quality_.made, ElementsAre("siding_1"));
-  world_.tracks.pop_back();
-  KeepStanding(world_, quality_);
-  EXPECT_THAT(quality_.made, ::testing::IsEmpty());
 }
 
 /// The speeds of a run beside the line, from point to point.
@@ -300,7 +305,7 @@ TEST_F(BesideALine, TracksHaveTheSpeedOfTheirKindAndTheirCurves) {
   const ImportedLine line = ImportLine(map_, track, {});
   const LinePlaces places(map_, track, line);
   std::map<std::string, std::vector<double>> speeds_kmph;
-  for (const TrackRun& run : FindRuns(map_, track, places, 60.0)) {
+  for (const TrackRun& run : FindRuns(map_, track, places, 60.0).runs) {
     const double y_m = map_.nodes[run.nodes.front()].place_m.y();
     const bool is_bend = map_.nodes[run.nodes.front()].place_m.x() > 1100.0;
     speeds_kmph[is_bend ? "bend" : std::to_string(std::lround(y_m))] = run.speeds_kmph;
@@ -358,11 +363,18 @@ TEST(SideTracks, AreMadeOfNearlyAllOfTheSecondTrackOfMonaco) {
   const TrackLine track = FindLines(map, 1000.0).front();
   const ImportedLine line = ImportLine(map, track, {});
   LineWorld world = MakeLineWorld(map, track, line);
-  const SideTrackQuality beside = AddSideTracks(map, track, line, {}, world);
+  static_cast<void>(AddSideTracks(map, track, line, {}, world));
   EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
-  const Covered second_km = CoverageOf(map, world, beside).second_tracks_km;
-  EXPECT_NEAR(second_km.on_map, 5.72, 0.05);
-  EXPECT_GT(second_km.made, 0.95 * second_km.on_map);
+  double run_m = 0.0;
+  double left_out_m = 0.0;
+  for (const TrackRun& run : world.beside.runs) {
+    run_m += run.points_m.back().x() - run.points_m.front().x();
+  }
+  for (const LeftOut& thing : world.left_out) {
+    if (thing.what.ends_with(" track")) left_out_m += thing.end_s_m - thing.begin_s_m;
+  }
+  EXPECT_NEAR(run_m, 5720.0, 50.0);
+  EXPECT_LT(left_out_m, 0.05 * run_m);
 }
 
 }  // namespace

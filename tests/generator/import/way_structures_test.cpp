@@ -67,9 +67,9 @@ TEST(WayStructures, ThereIsNoTunnelInWhichTheLineWouldRunThoughItIsOutside) {
   EXPECT_THAT(map.All<TunnelSpec>(), IsEmpty());
   EXPECT_THAT(map.ReasonsFor("tunnel"),
               ElementsAre("track main, which has none on the map, would run in it"));
-  const MapCoverage coverage = map.Coverage();
-  EXPECT_NEAR(coverage.tunnels_km.on_map, 0.4, 1e-3);
-  EXPECT_EQ(coverage.tunnels_km.made, 0.0);
+  const AccountRow tunnels = map.Sum("tunnel");
+  EXPECT_NEAR(tunnels.on_map, 400.0, 1.0);
+  EXPECT_EQ(tunnels.in_worlds, 0.0);
 }
 
 /// At 7.4 m, tracks in one row become tracks in two. That is within the tunnel here, some
@@ -84,7 +84,7 @@ TEST(WayStructures, TracksThatComeNearerThanTwoLiningsNeedLoseNoTunnel) {
     map.Make();
     ClearStructures(map.line().alignment, map.world());
     EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty()) << end_y_m;
-    EXPECT_NEAR(map.Coverage().tunnels_km.made, 0.7, 0.01) << end_y_m;
+    EXPECT_NEAR(map.Sum("tunnel").in_worlds, 700.0, 10.0) << end_y_m;
   }
 }
 
@@ -98,9 +98,9 @@ TEST(WayStructures, TracksTooNearForTwoLiningsShareOne) {
     map.Make();
     ClearStructures(map.line().alignment, map.world());
     EXPECT_THAT(map.All<TunnelSpec>(), SizeIs(num_tunnels)) << y_m;
-    const MapCoverage coverage = map.Coverage();
-    EXPECT_NEAR(coverage.tunnels_km.on_map, 0.8, 1e-3) << y_m;
-    EXPECT_NEAR(coverage.tunnels_km.made, 0.8, 1e-3) << y_m;
+    const AccountRow tunnels = map.Sum("tunnel");
+    EXPECT_NEAR(tunnels.on_map, 800.0, 1.0) << y_m;
+    EXPECT_NEAR(tunnels.in_worlds, 800.0, 1.0) << y_m;
   }
 }
 
@@ -122,9 +122,9 @@ TEST(WayStructures, NothingOfATunnelIsLostWhereItsTracksPart) {
   map.Make();
   ClearStructures(map.line().alignment, map.world());
   EXPECT_THAT(map.ReasonsFor("tunnel"), IsEmpty());
-  const MapCoverage coverage = map.Coverage();
-  EXPECT_NEAR(coverage.tunnels_km.on_map, 0.8, 2e-3);
-  EXPECT_NEAR(coverage.tunnels_km.made, coverage.tunnels_km.on_map, 2e-3);
+  const AccountRow tunnels = map.Sum("tunnel");
+  EXPECT_NEAR(tunnels.on_map, 800.0, 2.0);
+  EXPECT_NEAR(tunnels.in_worlds, tunnels.on_map, 2.0);
   // One about both, and one about each where they have parted.
   ASSERT_THAT(map.All<TunnelSpec>(), SizeIs(3));
   double shared_end_s_m = 0.0;
@@ -151,7 +151,7 @@ TEST(WayStructures, ATunnelIsWideOnlyWhereItsTracksNeedIt) {
   ASSERT_THAT(tunnels, SizeIs(2));
   EXPECT_EQ(tunnels[0].end_s_m, tunnels[1].begin_s_m);
   EXPECT_NEAR(tunnels[0].end_s_m, map.ChainageAt_m(1000.0), 1.0);
-  EXPECT_NEAR(map.Coverage().tunnels_km.made, 0.6, 1e-3);
+  EXPECT_NEAR(map.Sum("tunnel").in_worlds, 600.0, 1.0);
 }
 
 TEST(WayStructures, ABridgeCarriesTracksBesideEachOtherAndTheRestHaveTheirOwn) {
@@ -180,6 +180,19 @@ TEST(WayStructures, WhatATrackHasBeyondASharedBridgeIsItsOwn) {
   EXPECT_EQ(bridges[1].track, "running_1");
   EXPECT_THAT(map.PlacesOf_x_m(bridges[1]),
               ElementsAre(DoubleNear(500.0, kOff_m), DoubleNear(800.0, 1.0 + kOff_m)));
+}
+
+TEST(WayStructures, TramsAndUndergroundsInTunnelsHaveNoBallast) {
+  for (const auto& [tags, is_slab] : {std::pair<MapTags, bool>{{{"railway", "tram"}}, true},
+                                      {{{"railway", "subway"}, {"tunnel", "yes"}}, true},
+                                      {{{"railway", "subway"}}, false},
+                                      {{{"railway", "tram"}, {"railway:ballastless", "no"}}, false},
+                                      {{{"railway", "rail"}, {"tunnel", "yes"}}, false}}) {
+    MadeMap map;
+    map.AddTrack(0.0, tags);
+    map.Make();
+    EXPECT_THAT(map.All<SlabTrackSpec>(), SizeIs(is_slab ? 1 : 0));
+  }
 }
 
 TEST(WayStructures, SlabTrackAndThirdRailBelongToTheirTrack) {

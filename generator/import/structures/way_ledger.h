@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/import/map/rail_map.h"
+
+namespace railcast {
+
+/// From the weakest to the strongest: of what is said of a stretch of a way, the strongest holds.
+enum class LedgerRank {
+  kOfLine,       ///< Its line cannot stand.
+  kUnused,       ///< It is beside a line, but does not run along it.
+  kOfRun,        ///< It runs along a line, but no track can be there.
+  kOfStructure,  ///< Its track is there, its tunnel or bridge is not.
+  kMade,
+};
+
+/// A step from one node of a way to another one of it.
+struct WayStep {
+  std::size_t way{};
+  std::size_t from{};
+  std::size_t to{};
+};
+
+/// A stretch of a way and what became of it.
+struct LedgerEntry {
+  double from_m{};  ///< Along the way.
+  double to_m{};
+  LedgerRank rank{};
+  std::string reason{};
+
+  [[nodiscard]] double length_m() const { return to_m - from_m; }
+};
+
+/// What became of a map's ways, stretch by stretch.
+class WayLedger {
+ public:
+  explicit WayLedger(const RailMap& map);
+
+  /// Books a step's stretch between two shares of its length. A node that is none of the way counts
+  /// as the nearer end of it: lines leave out nodes that are kNearestNodes_m from others.
+  void Book(const WayStep& step, double from_share, double to_share, LedgerEntry entry);
+
+  /// A whole way in order, every part of it once, with the strongest of its entries, of equal ones
+  /// the last. Gaps of kNearestNodes_m at most belong to what is beside them.
+  /// @param otherwise The reason where there is no entry.
+  [[nodiscard]] std::vector<LedgerEntry> Of(std::size_t way, const std::string& otherwise) const;
+
+ private:
+  [[nodiscard]] double PlaceOn_m(std::size_t way, std::size_t node, std::size_t other) const;
+
+  const RailMap& map_;
+  std::vector<std::vector<double>> along_m_;  ///< Of the nodes of each way.
+  std::vector<std::vector<LedgerEntry>> entries_;
+};
+
+}  // namespace railcast
