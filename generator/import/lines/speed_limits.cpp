@@ -71,6 +71,66 @@ bool IsSlower(const SpeedOfArc& arc, const StepSpeed& speed) {
   return arc.radius_m < kLeastShareOfRadius / SharpestCurvature_per_m(speed.speed_kmph);
 }
 
+constexpr double kShortestLimit_m = 50.0;
+
+/// Takes limits that are the same as those before them out.
+void JoinEqualLimits(std::vector<ChainageValue>& limits) {
+  const auto same =
+      std::ranges::unique(limits, {}, [](const ChainageValue& limit) { return limit.value; });
+  limits.erase(same.begin(), same.end());
+}
+
+/// Lets no limit end within a stretch, and none be above another limit there.
+void LimitWithin(double begin_m,
+                 double end_m,
+                 double most_kmph,
+                 std::vector<ChainageValue>& limits) {
+  for (const double at_m : {begin_m, end_m}) {
+    const auto next = std::ranges::lower_bound(limits, at_m, {}, &ChainageValue::s_m);
+    if (next == limits.begin() || (next != limits.end() && next->s_m == at_m)) continue;
+    limits.insert(next, {at_m, std::prev(next)->value});
+  }
+  for (ChainageValue& limit : limits) {
+    if (limit.s_m >= begin_m && limit.s_m < end_m) limit.value = std::min(limit.value, most_kmph);
+  }
+  JoinEqualLimits(limits);
+}
+
+/// Lets each limit hold for kShortestLimit_m or more, and raises none.
+void LengthenShort(double length_m, std::vector<ChainageValue>& limits) {
+  while (limits.size() > 1) {
+    const auto end_m = [&](std::size_t i) {
+      return i + 1 < limits.size() ? limits[i + 1].s_m : length_m;
+    };
+    std::size_t shortest = 0;
+    for (std::size_t i = 1; i < limits.size(); ++i) {
+      if (end_m(i) - limits[i].s_m < end_m(shortest) - limits[shortest].s_m) shortest = i;
+    }
+    const ChainageValue limit = limits[shortest];
+    const double missing_m = kShortestLimit_m - (end_m(shortest) - limit.s_m);
+    constexpr double kRounding_m = 0.2;
+    if (missing_m <= kRounding_m) return;
+    double slower_kmph = 0.0;
+    if (shortest > 0 && limits[shortest - 1].value < limit.value) {
+      slower_kmph = limits[shortest - 1].value;
+    }
+    if (shortest + 1 < limits.size() && limits[shortest + 1].value < limit.value) {
+      slower_kmph = std::max(slower_kmph, limits[shortest + 1].value);
+    }
+    if (slower_kmph > 0.0) {
+      limits[shortest].value = slower_kmph;
+      JoinEqualLimits(limits);
+      continue;
+    }
+    // In tenths of a metre, as all limits.
+    const double begin_m = std::max(0.0, std::min(RoundedTo(limit.s_m - 0.5 * missing_m, 10.0),
+                                                  RoundedTo(length_m - kShortestLimit_m, 10.0)));
+    const double to_m = std::min(length_m, begin_m + kShortestLimit_m);
+    LimitWithin(begin_m, length_m - to_m < 0.1 ? length_m : to_m, limit.value, limits);
+    std::erase_if(limits, [&](const ChainageValue& one) { return one.s_m >= length_m; });
+  }
+}
+
 }  // namespace
 
 double UsualSpeed_kmph(const MapTags& tags, double running_kmph) {
@@ -191,6 +251,7 @@ std::vector<ChainageValue> SpeedLimitsOf(const std::vector<StepSpeed>& speeds,
       limits.push_back({begin_m, speed_kmph});
     begin_m = end_m;
   }
+  LengthenShort(plan.length_m(), limits);
   return limits;
 }
 

@@ -40,6 +40,7 @@ struct StepSpeed {
 /// The speed limits of a line with their chainages: those of its steps, but in arcs, with their
 /// clothoids, no more than these allow, in steps of 5 km/h. One that the map has gives way only
 /// where its arc has less than 0.8 of the radius that 150 mm of cant and 130 mm of deficiency need.
+/// None holds for less than 50 m: a shorter one falls to a slower neighbour, or else it grows.
 /// @param feet_m Chainages of the line's nodes.
 [[nodiscard]] std::vector<ChainageValue> SpeedLimitsOf(const std::vector<StepSpeed>& speeds,
                                                        const std::vector<double>& feet_m,

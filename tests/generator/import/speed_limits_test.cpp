@@ -55,6 +55,27 @@ TEST(SpeedLimits, AreReadInKilometresAndMilesPerHour) {
   }
 }
 
+/// The limits of a straight of 1000 m with these speeds between these chainages.
+std::vector<ChainageValue> LimitsOf(const std::vector<double>& speeds_kmph,
+                                    const std::vector<double>& feet_m) {
+  std::vector<StepSpeed> speeds;
+  for (const double speed_kmph : speeds_kmph) speeds.push_back({speed_kmph, true});
+  return SpeedLimitsOf(speeds, feet_m, PlanOf({}, {{ElementType::kStraight, 1000.0, {}}}));
+}
+
+TEST(SpeedLimits, HoldForFiftyMetresAndAreNeverRaisedForThat) {
+  // A short fast one and a step fall, a slow one grows, also at the end.
+  EXPECT_THAT(LimitsOf({80.0, 100.0, 80.0, 60.0, 40.0}, {0.0, 300.0, 312.0, 600.0, 620.0, 1000.0}),
+              ElementsAre(ChainageValue{0.0, 80.0}, ChainageValue{600.0, 40.0}));
+  EXPECT_THAT(LimitsOf({80.0, 30.0, 80.0}, {0.0, 500.0, 512.0, 1000.0}),
+              ElementsAre(ChainageValue{0.0, 80.0}, ChainageValue{481.0, 30.0},
+                          ChainageValue{531.0, 80.0}));
+  EXPECT_THAT(LimitsOf({80.0, 30.0}, {0.0, 990.0, 1000.0}),
+              ElementsAre(ChainageValue{0.0, 80.0}, ChainageValue{950.0, 30.0}));
+  EXPECT_THAT(LimitsOf({20.0, 80.0, 30.0, 80.0}, {0.0, 490.0, 500.0, 505.0, 1000.0}),
+              ElementsAre(ChainageValue{0.0, 20.0}, ChainageValue{527.5, 80.0}));
+}
+
 TEST(SpeedLimits, AreTheLeastOfSeveral) {
   EXPECT_EQ(SpeedOf_kmph("120;100"), 100.0);
   EXPECT_EQ(SpeedOf_kmph("100 | 120 | 110"), 100.0);
