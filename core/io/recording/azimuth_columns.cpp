@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <numbers>
 #include <span>
@@ -203,6 +204,30 @@ AzimuthSteps AzimuthStepsOf(const std::vector<TablePoint>& points, std::size_t n
   for (const RowStep& row : rows) steps.firings[row.row] = FiringsWithin(steps.column, row);
   RefineStep(points, steps);
   return steps;
+}
+
+void RemoveParallax(std::vector<TablePoint>& points, const AzimuthSteps& steps, double outwards_m) {
+  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+  constexpr int kParts = 60;
+  ForEachRow(points, [&](std::span<TablePoint> row) {
+    const double step = steps.OfRow(row.front().row);
+    const auto turned = [](const TablePoint& point, double aside_m) {
+      return point.turns + aside_m / (kTurn_rad * point.from_axis_m);
+    };
+    double best_m = 0.0;
+    double most = 0.0;
+    for (int part = -kParts; part <= kParts; ++part) {
+      const double aside_m = outwards_m * part / kParts;
+      std::complex<double> sum;
+      for (std::size_t i = 0; i < row.size(); i += 1 + row.size() / 500) {
+        sum += std::polar(1.0, kTurn_rad * turned(row[i], aside_m) / step);
+      }
+      if (std::abs(sum) <= most) continue;
+      most = std::abs(sum);
+      best_m = aside_m;
+    }
+    for (TablePoint& point : row) point.turns = turned(point, best_m);
+  });
 }
 
 void AssignColumns(std::vector<TablePoint>& points, const AzimuthSteps& steps) {

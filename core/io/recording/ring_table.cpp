@@ -10,64 +10,10 @@
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/base/units.h"
+#include "core/io/recording/elevation_rings.h"
 
 namespace railcast {
 namespace {
-
-constexpr double kMinShare = 0.98;
-constexpr std::size_t kMinClusterPoints = 8;
-/// Clusters with a smaller share of all points than this are strays.
-constexpr double kMinClusterShare = 1e-3;
-
-struct Cluster {
-  double low_rad{};
-  double high_rad{};
-  std::size_t num_points{};
-
-  [[nodiscard]] double middle_rad() const { return 0.5 * (low_rad + high_rad); }
-};
-
-/// Splits the elevations at gaps wider than `gap_rad` and drops the clusters of strays.
-std::vector<Cluster> ClustersOf(std::span<const double> sorted_rad, double gap_rad) {
-  const auto min_points =
-      std::max(kMinClusterPoints,
-               static_cast<std::size_t>(kMinClusterShare * static_cast<double>(sorted_rad.size())));
-  std::vector<Cluster> clusters;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i <= sorted_rad.size(); ++i) {
-    if (i < sorted_rad.size() && sorted_rad[i] - sorted_rad[i - 1] <= gap_rad) continue;
-    if (i - begin >= min_points)
-      clusters.push_back({sorted_rad[begin], sorted_rad[i - 1], i - begin});
-    begin = i;
-  }
-  return clusters;
-}
-
-bool AreRings(const std::vector<Cluster>& clusters, std::size_t num_points) {
-  if (clusters.size() < 2 || clusters.size() > kMaxRings) return false;
-  std::size_t num_inside = 0;
-  for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const Cluster& cluster = clusters[i];
-    num_inside += cluster.num_points;
-    const double width_rad = cluster.high_rad - cluster.low_rad;
-    const auto is_near = [&](const Cluster& other) {
-      return width_rad > 0.5 * std::abs(other.middle_rad() - cluster.middle_rad());
-    };
-    if (i > 0 && is_near(clusters[i - 1])) return false;
-    if (i + 1 < clusters.size() && is_near(clusters[i + 1])) return false;
-  }
-  return static_cast<double>(num_inside) >= kMinShare * static_cast<double>(num_points);
-}
-
-std::uint32_t NearestOf(const std::vector<Cluster>& clusters, double elevation_rad) {
-  const auto above = std::ranges::lower_bound(clusters, elevation_rad, {}, &Cluster::high_rad);
-  if (above == clusters.begin()) return 0;
-  const auto index = static_cast<std::uint32_t>(above - clusters.begin());
-  if (above == clusters.end()) return index - 1;
-  const Cluster& below = *(above - 1);
-  return elevation_rad - below.high_rad < above->low_rad - elevation_rad ? index - 1 : index;
-}
 
 /// Neighbours of a ring farther apart than this, in turns, say nothing about the sense of rotation.
 constexpr double kMaxFollow_turns = 0.02;
@@ -81,28 +27,6 @@ constexpr std::size_t kMaxSlotsPerPoint = 16;
 double WrappedTurns(double turns) {
   const double wrapped = turns - std::floor(turns);
   return wrapped < 1.0 ? wrapped : 0.0;  // A tiny negative number rounds to 1.
-}
-
-/// Numbers the rows by rising median elevation from ring numbers of any kind.
-std::vector<std::uint32_t> RowsOf(std::span<const std::uint32_t> rings,
-                                  std::span<const double> elevations_rad) {
-  std::map<std::uint32_t, std::vector<double>> by_ring;
-  for (std::size_t i = 0; i < rings.size(); ++i) by_ring[rings[i]].push_back(elevations_rad[i]);
-  std::vector<std::pair<double, std::uint32_t>> order;
-  for (auto& [ring, values] : by_ring) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    order.emplace_back(*middle, ring);
-  }
-  std::ranges::sort(order);
-  std::map<std::uint32_t, std::uint32_t> row_of_ring;
-  for (const auto& [elevation_rad, ring] : order) {
-    row_of_ring.emplace(ring, static_cast<std::uint32_t>(row_of_ring.size()));
-  }
-  std::vector<std::uint32_t> rows;
-  rows.reserve(rings.size());
-  for (const std::uint32_t ring : rings) rows.push_back(row_of_ring.at(ring));
-  return rows;
 }
 
 void SortByRow(std::vector<TablePoint>& points) {
@@ -128,7 +52,8 @@ bool IsCounterclockwise(const std::vector<TablePoint>& points, std::size_t num_r
 }
 
 /// Shifts the azimuths so that 0 lies behind the widest gap, or at `first` if no gap is wide.
-void StartBehindGap(std::vector<TablePoint>& points, double first) {
+/// @returns Whether no gap is.
+bool StartBehindGap(std::vector<TablePoint>& points, double first) {
   std::vector<double> sorted;
   sorted.reserve(points.size());
   for (const TablePoint& point : points) sorted.push_back(point.turns);
@@ -142,6 +67,7 @@ void StartBehindGap(std::vector<TablePoint>& points, double first) {
   }
   if (widest < kMinGap_turns) start = first;
   for (TablePoint& point : points) point.turns = WrappedTurns(point.turns - start);
+  return widest < kMinGap_turns;
 }
 
 /// Makes as many rows of each row as it has firings within a column, and counts columns in steps
@@ -217,7 +143,7 @@ SlotPlan PlanOf(const std::vector<TablePoint>& points,
 struct RingCloud {
   std::vector<TablePoint> points;
   std::vector<std::uint32_t> rings;
-  std::vector<double> elevations_rad;
+  std::vector<LevelPoint> level;
 };
 
 RingCloud GatherPoints(const PointPositions& positions, std::span<const std::uint32_t> rings) {
@@ -228,33 +154,40 @@ RingCloud GatherPoints(const PointPositions& positions, std::span<const std::uin
     const auto y = static_cast<double>(positions.y[i]);
     const auto z = static_cast<double>(positions.z[i]);
     const double horizontal_m = std::hypot(x, y);
-    cloud.elevations_rad.push_back(std::atan2(z, horizontal_m));
+    cloud.level.push_back({horizontal_m, z});
     if (!rings.empty()) cloud.rings.push_back(rings[i]);
     cloud.points.push_back({.index = static_cast<std::uint32_t>(i),
                             .turns = WrappedTurns(std::atan2(y, x) / (2.0 * std::numbers::pi)),
-                            .range_m = std::hypot(horizontal_m, z)});
+                            .range_m = std::hypot(horizontal_m, z),
+                            .from_axis_m = horizontal_m});
   }
   return cloud;
 }
 
-}  // namespace
-
-std::optional<std::vector<std::uint32_t>> RingsByElevation(std::span<const double> elevations_rad) {
-  std::vector<double> sorted_rad(elevations_rad.begin(), elevations_rad.end());
-  std::ranges::sort(sorted_rad);
-  // The gaps range from the float32 rounding of exact elevations to that of millimetres at 1 m.
-  for (const double gap_deg : {0.005, 0.02, 0.05, 0.1}) {
-    const std::vector<Cluster> clusters = ClustersOf(sorted_rad, RadFromDeg(gap_deg));
-    if (!AreRings(clusters, sorted_rad.size())) continue;
-    std::vector<std::uint32_t> rings;
-    rings.reserve(elevations_rad.size());
-    for (const double elevation_rad : elevations_rad) {
-      rings.push_back(NearestOf(clusters, elevation_rad));
-    }
-    return rings;
+/// Numbers the rows by rising median elevation from ring numbers of any kind.
+std::vector<std::uint32_t> RowsOf(const RingCloud& cloud) {
+  std::map<std::uint32_t, std::vector<double>> by_ring;
+  for (std::size_t i = 0; i < cloud.rings.size(); ++i) {
+    by_ring[cloud.rings[i]].push_back(cloud.level[i].ElevationFrom_rad({}));
   }
-  return std::nullopt;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (auto& [ring, values] : by_ring) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    order.emplace_back(*middle, ring);
+  }
+  std::ranges::sort(order);
+  std::map<std::uint32_t, std::uint32_t> row_of_ring;
+  for (const auto& [elevation_rad, ring] : order) {
+    row_of_ring.emplace(ring, static_cast<std::uint32_t>(row_of_ring.size()));
+  }
+  std::vector<std::uint32_t> rows;
+  rows.reserve(cloud.rings.size());
+  for (const std::uint32_t ring : cloud.rings) rows.push_back(row_of_ring.at(ring));
+  return rows;
 }
+
+}  // namespace
 
 bool PointPositions::IsPoint(std::size_t i) const {
   const float squared = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
@@ -271,12 +204,14 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
   RingCloud cloud = GatherPoints(positions, rings);
   std::vector<TablePoint>& points = cloud.points;
   if (points.empty()) return refuse("it has no points");
+  double outwards_m = 0.0;
   if (rings.empty()) {
-    auto found = RingsByElevation(cloud.elevations_rad);
+    auto found = FindRings(cloud.level);
     if (!found) return refuse("it has no field ring, and its elevations do not form rings");
-    cloud.rings = std::move(*found);
+    cloud.rings = std::move(found->rings);
+    outwards_m = found->origin_m[0];
   }
-  const std::vector<std::uint32_t> rows = RowsOf(cloud.rings, cloud.elevations_rad);
+  const std::vector<std::uint32_t> rows = rings.empty() ? cloud.rings : RowsOf(cloud);
   const std::uint32_t num_rings = *std::ranges::max_element(rows) + 1;
   if (num_rings > kMaxRings) {
     return refuse("its points have " + NumberText(num_rings) + " rings, more than " +
@@ -290,14 +225,22 @@ std::optional<SlotPlan> MakeRingTable(const PointPositions& positions,
   SortByRow(points);
   const AzimuthSteps steps = AzimuthStepsOf(points, num_rings);
   if (steps.column <= 0.0) return refuse("no ring has two points beside each other");
+  if (outwards_m > 0.0) {
+    RemoveParallax(points, steps, outwards_m);
+    for (TablePoint& point : points) point.turns = WrappedTurns(point.turns);
+  }
   const double shortest = steps.column / *std::ranges::max_element(steps.firings);
-  StartBehindGap(points, WrappedTurns(first - 0.5 * shortest));
+  const bool is_full_turn = StartBehindGap(points, WrappedTurns(first - 0.5 * shortest));
   SortByRow(points);
   AssignColumns(points, steps);
   if (!AreFiringsCertain(points, steps)) {
     return refuse(
         "the azimuths of its rings have no common step, as where several sensors are mixed, the "
         "sensor's motion is undone or points were thinned out");
+  }
+  // A rotor of which the columns are known but for parallax is even.
+  if (shortest == steps.column && outwards_m <= 0.0) {
+    AlignCycles(points, steps.column, is_full_turn);
   }
   const std::uint32_t num_rows = SplitRows(steps, points);
   const std::uint32_t num_columns = CloseColumns(points);

@@ -10,20 +10,13 @@
 
 namespace railcast {
 
-inline constexpr std::size_t kMaxRings = 256;
-
-/// Returns the ring of each point by its elevation, 0 the lowest. Nothing is returned unless the
-/// elevations lie in 2 to kMaxRings clusters that hold 98 % of the points and of which none is
-/// wider than half its distance to the next. The remaining points belong to the nearest cluster.
-[[nodiscard]] std::optional<std::vector<std::uint32_t>> RingsByElevation(
-    std::span<const double> elevations_rad);
-
 /// A point while its table is being made.
 struct TablePoint {
   std::uint32_t index{};  ///< Index in the file.
   std::uint32_t row{};
   double turns{};  ///< Azimuth in the sense of rotation, in turns, in [0, 1).
   double range_m{};
+  double from_axis_m{};
   std::int64_t column{};
 };
 
@@ -51,12 +44,25 @@ struct AzimuthSteps {
 /// @pre Sorted by row and azimuth; steps.column > 0.
 void AssignColumns(std::vector<TablePoint>& points, const AzimuthSteps& steps);
 
+/// Turns each row's points to where its beam goes, if beams leave `outwards_m` from the axis: a
+/// laser that looks aside sees near points at another azimuth than far ones. How far aside each
+/// looks is what makes its azimuths lie at the same part of the step.
+/// @pre Sorted by row; steps.column > 0.
+void RemoveParallax(std::vector<TablePoint>& points, const AzimuthSteps& steps, double outwards_m);
+
 /// Whether places without a point between two others are firings that returned nothing. They are
 /// not if neighbours are often not a whole number of steps apart, nor if most gaps of one place
 /// follow each other: then the row does not fire where it seems to have lost a point.
 /// @pre AssignColumns().
 [[nodiscard]] bool AreFiringsCertain(const std::vector<TablePoint>& points,
                                      const AzimuthSteps& steps);
+
+/// Moves the points of each row from the columns that AssignColumns() gave it to those of the
+/// rotor's turn, so that a column is a firing cycle: lasers look up to 16 deg beside each other,
+/// which shows in what they have in common, the unevenness of the rotor. Rows stay as they are
+/// where the rotor is even, or where two firings would share a column.
+/// @pre AssignColumns(); every row fires once in a column.
+void AlignCycles(std::vector<TablePoint>& points, double step, bool is_full_turn);
 
 /// Positions of points, in arrays of equal length. Entries that are not finite, or all 0, are not
 /// points.
@@ -86,8 +92,8 @@ struct PointPositions {
 ///
 /// A cell with several points has as many returns, the nearest first.
 ///
-/// @param rings Ring of each point, as any numbers. If empty, rings are found from the elevations,
-///   provided that these lie in 2 to 256 narrow clusters that hold 98 % of the points.
+/// @param rings Ring of each point, as any numbers. If empty, rings are found from the elevations
+///   (FindRings()).
 /// @param why_not If there is no table, says why: RecordedFrame::why_no_grid.
 /// @returns Nothing if there are no such clusters, if a cell has more than four points, if the
 /// table

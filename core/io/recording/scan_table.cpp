@@ -189,14 +189,38 @@ double ScanTable::SolidAngle_sr(std::size_t row) const {
   return std::cos(elevation_rad[row]) * row_height_rad[row] * column_step_rad;
 }
 
-std::optional<ScanTable> MakeScanTable(const Frame& frame) {
+SeenPoint SeenFromBeam(const std::array<double, 2>& origin_m,
+                       double channel_azimuth_rad,
+                       const Frame& frame,
+                       std::size_t slot) {
+  const auto x = static_cast<double>(frame.x[slot]);
+  const auto y = static_cast<double>(frame.y[slot]);
+  const double up_m = static_cast<double>(frame.z[slot]) - origin_m[1];
+  const double from_axis_m = std::hypot(x, y);
+  const double along_m = origin_m[0] * std::cos(channel_azimuth_rad);
+  const double aside_m = origin_m[0] * std::sin(channel_azimuth_rad);
+  const double level_m =
+      std::sqrt(std::max(0.0, from_axis_m * from_axis_m - aside_m * aside_m)) - along_m;
+  const double rotor_rad =
+      std::atan2(y, x) - std::atan2(level_m * std::sin(channel_azimuth_rad),
+                                    origin_m[0] + level_m * std::cos(channel_azimuth_rad));
+  return {.azimuth_rad = rotor_rad + channel_azimuth_rad,
+          .rotor_rad = rotor_rad,
+          .elevation_rad = std::atan2(up_m, level_m)};
+}
+
+std::optional<ScanTable> MakeScanTable(const Frame& frame,
+                                       const std::array<double, 2>& origin_m,
+                                       std::span<const double> aside_rad) {
   if (frame.rows < 2 || frame.columns < 2) return std::nullopt;
   DirectionGrid grid(frame.rows, frame.columns);
   for (std::size_t place = 0; place < grid.azimuth_rad.size(); ++place) {
     const std::size_t slot = place * frame.returns;
     if (!std::isfinite(frame.range_m[slot])) continue;
-    grid.Set(place, static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
-             static_cast<double>(frame.z[slot]));
+    const double beam_rad = aside_rad.empty() ? 0.0 : aside_rad[place / frame.columns];
+    const SeenPoint seen = SeenFromBeam(origin_m, beam_rad, frame, slot);
+    grid.azimuth_rad[place] = seen.azimuth_rad;
+    grid.elevation_rad[place] = seen.elevation_rad;
   }
   return TableOf(grid);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "railcast/frame.h"
@@ -52,11 +53,31 @@ struct ScanTable {
   [[nodiscard]] double SolidAngle_sr(std::size_t row) const;
 };
 
+/// A point as its beam sees it, from where it leaves.
+struct SeenPoint {
+  double azimuth_rad{};  ///< Of the beam.
+  double rotor_rad{};
+  double elevation_rad{};
+};
+
+/// Returns the point of a slot as its beam sees it. Beams leave `origin_m[0]` outwards of the axis,
+/// at the rotor's azimuth, and `origin_m[1]` above the origin.
+/// @param channel_azimuth_rad Of the beam, added to the rotor's; positive to the left.
+[[nodiscard]] SeenPoint SeenFromBeam(const std::array<double, 2>& origin_m,
+                                     double channel_azimuth_rad,
+                                     const Frame& frame,
+                                     std::size_t slot);
+
 /// Makes the table from the points' directions: medians over rows and columns, with linear
 /// interpolation across gaps. Returns nothing if the frame is not a grid of at least 2 x 2 with
 /// points: the elevations within the rows of a grid differ by less than two steps between rows.
+/// @param origin_m Where beams leave, as SpinningSpec::beam_origin_m; directions count from there.
+/// @param aside_rad For each row, the azimuth of its beams beside the rotor's, positive to the
+///   left, as far as it matters for where they leave; empty = 0.
 /// @pre The slots of `frame` are firings.
-[[nodiscard]] std::optional<ScanTable> MakeScanTable(const Frame& frame);
+[[nodiscard]] std::optional<ScanTable> MakeScanTable(const Frame& frame,
+                                                     const std::array<double, 2>& origin_m = {},
+                                                     std::span<const double> aside_rad = {});
 
 /// Makes the table from the firings of a pattern; returns nothing if that is not a grid, or differs
 /// from frame to frame.

@@ -20,55 +20,6 @@
 namespace railcast {
 namespace {
 
-/// A point as its beam sees it, from where it leaves.
-struct SeenPoint {
-  double azimuth_rad{};  ///< Of the beam.
-  double rotor_rad{};
-  double elevation_rad{};
-  double range_m{};
-};
-
-/// Returns the point of a slot as its beam sees it. Beams leave `origin_m[0]` outwards of the axis,
-/// at the rotor's azimuth, and `origin_m[1]` above the origin.
-/// @param channel_azimuth_rad Of the beam, added to the rotor's.
-SeenPoint SeenFromBeam(const std::array<double, 2>& origin_m,
-                       double channel_azimuth_rad,
-                       const Frame& frame,
-                       std::size_t slot) {
-  const auto x = static_cast<double>(frame.x[slot]);
-  const auto y = static_cast<double>(frame.y[slot]);
-  const double up_m = static_cast<double>(frame.z[slot]) - origin_m[1];
-  const double from_axis_m = std::hypot(x, y);
-  const double along_m = origin_m[0] * std::cos(channel_azimuth_rad);
-  const double aside_m = origin_m[0] * std::sin(channel_azimuth_rad);
-  const double level_m =
-      std::sqrt(std::max(0.0, from_axis_m * from_axis_m - aside_m * aside_m)) - along_m;
-  const double rotor_rad =
-      std::atan2(y, x) - std::atan2(level_m * std::sin(channel_azimuth_rad),
-                                    origin_m[0] + level_m * std::cos(channel_azimuth_rad));
-  return {.azimuth_rad = rotor_rad + channel_azimuth_rad,
-          .rotor_rad = rotor_rad,
-          .elevation_rad = std::atan2(up_m, level_m),
-          .range_m = std::hypot(up_m, level_m)};
-}
-
-/// Returns the frame's points as beams see them whose channels are not known yet.
-Frame SeenFromBeams(const std::array<double, 2>& origin_m, const Frame& frame) {
-  Frame seen;
-  seen.Resize(frame.rows, frame.columns, frame.returns);
-  std::ranges::fill(seen.range_m, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
-    if (std::isnan(frame.x[slot])) continue;
-    const SeenPoint point = SeenFromBeam(origin_m, 0.0, frame, slot);
-    const double level_m = point.range_m * std::cos(point.elevation_rad);
-    seen.x[slot] = static_cast<float>(level_m * std::cos(point.azimuth_rad));
-    seen.y[slot] = static_cast<float>(level_m * std::sin(point.azimuth_rad));
-    seen.z[slot] = static_cast<float>(point.range_m * std::sin(point.elevation_rad));
-    seen.range_m[slot] = static_cast<float>(point.range_m);
-  }
-  return seen;
-}
-
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// How much a step may differ from the sensor's at its rate: rotors keep theirs to a few percent.
@@ -102,13 +53,6 @@ Channels ChannelsOf(const SpinningSpec& sensor) {
     channels.time_us[rows[i]] = sensor.channels[i].time_us;
   }
   return channels;
-}
-
-ScanTable TableOfPoints(const std::array<double, 2>& origin_m, const Frame& frame) {
-  const bool is_centred = origin_m == std::array{0.0, 0.0};
-  auto table = MakeScanTable(is_centred ? frame : SeenFromBeams(origin_m, frame));
-  if (!table) throw InputError("its points are too few, or its rings are not level");
-  return std::move(*table);
 }
 
 std::vector<RecordedRow> RowsOfTable(const ScanTable& table, const Frame& frame) {
@@ -384,7 +328,9 @@ std::vector<GivenFiring> FindRingFirings(const SpinningSpec& sensor,
                                          double rate_hz,
                                          RecordedFrame& recorded) {
   const Channels channels = ChannelsOf(sensor);
-  const ScanTable table = TableOfPoints(channels.origin_m, recorded.frame);
+  const auto found = MakeScanTable(recorded.frame, channels.origin_m);
+  if (!found) throw InputError("its points are too few, or its rings are not level");
+  const ScanTable& table = *found;
   const std::vector<RecordedRow> old_rows = RowsOfTable(table, recorded.frame);
   std::vector<std::uint32_t> row_channels = ChannelsOfRows(old_rows, channels.elevation_rad);
   const TurnColumns columns = ColumnsOfTurn(sensor, channels.left, table);

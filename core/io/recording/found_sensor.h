@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "core/io/recording/scan_table.h"
+#include "railcast/io/recording.h"
+#include "railcast/lidar.h"
+
+namespace railcast {
+
+/// A spinning sensor as the points of a turn show it.
+///
+/// Without times of points, azimuths of channels are known but for multiples of the step between
+/// columns: the beams are the same, but not the order in which they fire. All times of channels are
+/// then 0, the sense of rotation is that in which columns are stored, and the rate is 10 turns per
+/// second.
+struct FoundSensor {
+  SpinningSpec pattern;  ///< Channels by rising elevation. Rings without any point are not in it.
+  double rate_hz = 10.0;
+  bool has_times{};               ///< Whether rate, sense and times come from times of points.
+  double step_deg{};              ///< From column to column.
+  double elevation_error_deg{};   ///< Of the points, from their channel: root mean square.
+  double azimuth_error_deg{};     ///< Of the points, from their column and channel.
+  double share_without_return{};  ///< Of the firings of these channels.
+  ScanTable beams;                ///< Those of the turn, from where they leave.
+  std::size_t num_points{};
+  std::size_t num_lost{};  ///< Points that share the firing of another one without its direction.
+
+  /// "64 rings, step 0.172 deg, ...": one line with all figures.
+  [[nodiscard]] std::string Text() const;
+  /// The sensor as a file that scenarios and plans take as `lidar`.
+  [[nodiscard]] std::string FileText() const;
+};
+
+/// Finds the sensor of a turn.
+/// @throws InputError with the reason in one line if the frame is no grid of a spinning sensor.
+[[nodiscard]] FoundSensor FindSensor(const RecordedFrame& recorded);
+
+/// Finds the sensor of a recording, by that of its first frames which has the most rings, and of
+/// these the most points.
+/// @throws InputError as above, or as OpenRecording() and its readers do.
+[[nodiscard]] FoundSensor FindSensor(Recording& recording);
+
+}  // namespace railcast
