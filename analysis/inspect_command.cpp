@@ -9,7 +9,9 @@
 #include "analysis/report/output.h"
 #include "analysis/report/provenance.h"
 #include "analysis/stats/statistics.h"
+#include "core/io/recording/found_sensor.h"
 #include "core/io/recording/source_choice.h"
+#include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "railcast/io/recording.h"
 
@@ -21,6 +23,7 @@ struct InspectOptions {
   SourceChoice choice;
   std::string job;  // Empty = none.
   std::size_t num_frames = 100;
+  std::filesystem::path sensor_file;  // Empty = none.
   ReportOutput output;
 };
 
@@ -31,6 +34,10 @@ int RunInspect(const InspectOptions& options, const std::string& command_line) {
   const RecordingInfo& info = recording->info();
   if (inspection.num_frames == 0) {
     throw InputError(ShownPath(options.source) + ": must hold a frame");
+  }
+  if (!options.sensor_file.empty()) {
+    const auto find = [&] { return FindSensor(*OpenRecording(source)); };
+    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", find).FileText());
   }
   Report report = MakeInspectionReport(inspection, info, command_line);
   if (auto section = CaptureSection({source})) report.sections.push_back(*section);
@@ -62,6 +69,9 @@ void AddInspect(ProgramOptions& app, ProgramCommand& command) {
   inspect.AddOption("--frames", options->num_frames, "Frames to look at, from the first on")
       .Check(Whole({1, 1'000'000}))
       .ShowDefault();
+  inspect.AddOption("--sensor-file", options->sensor_file,
+                    "Write the sensor that the points of the first ten frames show, as a file that "
+                    "scenarios and plans take as lidar");
   AddReportOptions(inspect, options->output);
   inspect.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunInspect(*options, line); };

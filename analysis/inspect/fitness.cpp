@@ -16,14 +16,16 @@ constexpr const char* kMapCoordinates =
 JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
   if (!seen.origin_m.isZero()) return {"", kNo, kMapCoordinates};
   if (info.origin || seen.num_with_beams == seen.num_frames) return {"", kYes, ""};
-  if (seen.num_grids == seen.num_frames) {
+  if (seen.num_grids == seen.num_frames && seen.found) {
     const auto guesses = GuessSensor(seen.rings);
     const bool is_known = !guesses.empty() && guesses.front().error_deg < kLikelyGuess_deg;
     return {"", kWithOption,
-            "the plan must name its sensor as lidar" +
-                (is_known ? ", by its rings a " + guesses.front().name : std::string())};
+            "the plan should name its sensor as lidar" +
+                (is_known ? ", by its rings a " + guesses.front().name : std::string()) +
+                "; without it, that of its points is taken, with default range and power"};
   }
-  return {"", kNo, "its firings are not known: " + seen.why_no_grid};
+  return {"", kNo,
+          "its firings are not known: " + (seen.found ? seen.why_no_grid : seen.why_not_found)};
 }
 
 std::string WithPoses(const RecordingLook& seen, std::string needs) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/points/point_alignment.h"
 
@@ -79,6 +80,14 @@ class MotionCheck {
   std::optional<Place> before_;
 };
 
+void LookForSensor(const RecordedFrame& recorded, RecordingLook& inspection) {
+  try {
+    inspection.found = FindSensor(recorded);
+  } catch (const InputError& error) {
+    inspection.why_not_found = error.what();
+  }
+}
+
 void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   const Frame& frame = recorded.frame;
   ++inspection.num_frames;
@@ -90,6 +99,7 @@ void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   for (const std::string& field : recorded.fields) ++inspection.fields[field];
   if (inspection.num_frames == 1) {
     inspection.origin_m = recorded.origin_m;
+    LookForSensor(recorded, inspection);
     for (const ForeignField& field : recorded.foreign) inspection.foreign.push_back(field.name);
   }
   inspection.stamps_ns.push_back(frame.stamp_ns);

@@ -11,6 +11,7 @@
 
 #include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
+#include "core/io/recording/found_sensor.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"
 #include "railcast/transform.h"
@@ -66,6 +67,8 @@ struct RecordingLook {
   std::vector<MotionBetween> motions;        ///< Of some pairs of frames with poses.
 
   std::vector<InspectedRing> rings;
+  std::optional<FoundSensor> found;  ///< What the points of the first frame show.
+  std::string why_not_found;         ///< If they show none.
   InspectedValues intensity;
   LogHistogram range_m;
   std::uint64_t num_near{};  ///< Points nearer than kNear_m.

@@ -116,9 +116,14 @@ std::vector<double> AsideOfRows(const Frame& frame,
   }
   std::vector<double> aside_rad;
   for (const Line& line : lines) {
-    const double spread = line.num * line.xx - line.x * line.x;
-    const double slope_m = spread > 0.0 ? (line.num * line.xy - line.x * line.y) / spread : 0.0;
-    aside_rad.push_back(std::asin(std::clamp(-slope_m / origin_m[0], -1.0, 1.0)));
+    // A row that sees everything equally far away shows nothing: its slope becomes 0.
+    constexpr double kLeastSpread_per_m = 0.001;
+    const double num = std::max(line.num, 1.0);
+    const double spread = line.xx / num - line.x * line.x / (num * num);
+    const double slope_m = (line.xy / num - line.x * line.y / (num * num)) /
+                           (spread + kLeastSpread_per_m * kLeastSpread_per_m);
+    constexpr double kMostAside = 0.35;  // The sine of 20 deg.
+    aside_rad.push_back(std::asin(std::clamp(-slope_m / origin_m[0], -kMostAside, kMostAside)));
   }
   return aside_rad;
 }

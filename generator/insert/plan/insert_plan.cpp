@@ -15,6 +15,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/recording/found_sensor.h"
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/scenario_identity.h"
@@ -210,23 +211,42 @@ std::optional<LidarSpec> SensorOfCapture(const RecordingInfo& info, const Scenar
   return lidar;
 }
 
+/// Gives a plan without a sensor the one that the points of the recording show.
+/// @throws InputError "plan.json: /lidar: rule (got value)" if they show none.
+void UseSensorOfPoints(const std::filesystem::path& recording,
+                       const RecordingInfo& info,
+                       ScenarioSpec& plan,
+                       std::vector<std::string>& remarks) {
+  try {
+    const FoundSensor found = FindSensor(*OpenRecording(recording));
+    plan.lidar = ReadSensorFile(found.FileText(), plan);
+    remarks.push_back("the sensor is what the points show, with default range and power: the " +
+                      std::string("plan's lidar may say otherwise: ") + found.Text());
+  } catch (const InputError& error) {
+    throw InputError(
+        {{plan.sources.Place("/lidar"),
+          "missing: this recording does not say which sensor made it, and " +
+              std::string(error.what()) + "; name a sensor's file, such as \"sensors/vlp16.json\"",
+          info.kind}});
+  }
+}
+
 /// Gives a plan without a sensor the one that made the recording: of a sequence that of its
-/// scenario, of a capture railcast's own preset, or what an Ouster sensor's metadata say.
+/// scenario, of a capture railcast's own preset, or what an Ouster sensor's metadata say, and else
+/// what its points show.
 /// @param remarks Receives which one it is.
-/// @throws InputError "plan.json: /lidar: rule (got value)" if the recording does not say it.
-void UseSensorOf(const RecordingInfo& info, ScenarioSpec& plan, std::vector<std::string>& remarks) {
+/// @throws InputError as UseSensorOfPoints() does.
+void UseSensorOf(const std::filesystem::path& recording,
+                 ScenarioSpec& plan,
+                 std::vector<std::string>& remarks) {
   // A constant, for GCC 12 fears that a temporary one is destroyed unset.
   static const LidarSpec kUnset;
   if (plan.lidar != kUnset) return;
+  const RecordingInfo info = OpenRecording(recording)->info();
   std::optional<LidarSpec> lidar = SensorOfSequence(info);
   const bool is_own = lidar.has_value();
   if (!lidar) lidar = SensorOfCapture(info, plan);
-  if (!lidar) {
-    throw InputError({{plan.sources.Place("/lidar"),
-                       "missing: this recording does not say which sensor made it; name a sensor's "
-                       "file, such as \"sensors/vlp16.json\"",
-                       info.kind}});
-  }
+  if (!lidar) return UseSensorOfPoints(recording, info, plan, remarks);
   plan.lidar = std::move(*lidar);
   std::string remark = "the sensor is " + (plan.lidar.name.empty() ? "that" : plan.lidar.name) +
                        (is_own ? " of the recording's scenario" : ", as the packets say");
@@ -306,7 +326,8 @@ void UseIntensities(const std::filesystem::path& recording, InsertPlan& plan) {
     const auto read = opened->Next();
     if (!read) break;
     const RecordedFrame recorded = (*read)();
-    (void)CheckRanges(recorded, opened->info(), plan.scenario.lidar.range_max_m);  // Before anything is written.
+    (void)CheckRanges(recorded, opened->info(),
+                      plan.scenario.lidar.range_max_m);  // Before anything is written.
     finder.Add(recorded);
   }
   plan.intensity_scale = finder.Found();
@@ -331,7 +352,7 @@ RecordedRun ReadRecordedRun(const std::filesystem::path& plan_file,
                             const std::filesystem::path& recording) {
   RecordedRun run{.recording = recording, .plan = ReadScenario(plan_file)};
   CheckSections(run.plan);
-  UseSensorOf(OpenRecording(recording)->info(), run.plan, run.remarks);
+  UseSensorOf(recording, run.plan, run.remarks);
   const RecordingWorldSpec& world = *run.plan.world.recording;
   run.way = ReadRecordedWay(recording, world, run.plan.lidar, run.remarks);
   const std::string source = ShownPath(recording);

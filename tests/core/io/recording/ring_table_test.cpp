@@ -11,6 +11,7 @@
 #include "core/base/random.h"
 #include "core/base/units.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/recording/elevation_rings.h"
 #include "core/io/recording/slot_plans.h"
 #include "railcast/transform.h"
 
