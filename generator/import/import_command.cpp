@@ -1,7 +1,9 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -344,6 +346,21 @@ void TellHeights(const std::vector<ImportedLine>& lines, std::vector<Remark>& re
   }
 }
 
+/// Points of the map that are far from the lines that were fitted to them.
+void TellFarPlaces(const std::vector<ImportedLine>& lines, std::vector<Remark>& remarks) {
+  constexpr double kFar_m = 5.0;
+  for (const ImportedLine& line : lines) {
+    const auto is_far = [](const Contradiction& it) { return std::abs(it.offset_m) > kFar_m; };
+    const auto first = std::ranges::find_if(line.contradictions, is_far);
+    if (first == line.contradictions.end()) continue;
+    remarks.push_back(
+        {RemarkKind::kPlacesFar,
+         "line " + line.name + " at " + NumberText(std::round(first->s_m)) + " m",
+         static_cast<std::uint64_t>(std::ranges::count_if(line.contradictions, is_far)),
+         "contradictions.csv has them"});
+  }
+}
+
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMapWithin(options);
   TellSpeeds(map);
@@ -381,6 +398,9 @@ int RunImport(const ImportCommandOptions& options) {
   const auto reasons = FinishLines(options, map, projection, elevation.get(), work);
   TellHeights(work.lines, left_out.remarks);
   tell(options.heights.empty() ? options.map : options.heights, num_of_map);
+  const std::size_t num_before_places = left_out.remarks.size();
+  TellFarPlaces(work.lines, left_out.remarks);
+  tell(options.map, num_before_places);
   LeaveOutLines(map, work.tracks, reasons, left_out.lines);
   EraseWhere(reasons, work.tracks);
   EraseWhere(reasons, work.lines);

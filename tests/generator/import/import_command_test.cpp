@@ -195,6 +195,28 @@ TEST_F(ImportWithHeights, TellsHeightsThatAreFarFromTheGradients) {
   EXPECT_THAT(ReadFileWhole(out_ / "left_out.csv"), HasSubstr("line hill-line at "));
 }
 
+/// A point 30 m beside a straight of 3 km that has one every 50 m.
+TEST(Import, TellsPointsOfTheMapThatAreFarFromTheLine) {
+  const TemporaryDirectory directory;
+  const fs::path map = directory.path() / "map.geojson";
+  std::string points;
+  for (int i = 0; i <= 60; ++i) {
+    points += (i == 0 ? "[" : ", [") + std::to_string(15.6 + i * 50.0 / 74e3) + ", " +
+              (i == 20 ? "48.20027" : "48.2") + "]";
+  }
+  WriteFileWhole(map, R"({"type": "Feature", "properties": {"railway": "rail"},
+    "geometry": {"type": "LineString", "coordinates": [)" +
+                          points + "]}}");
+  const fs::path out = directory.path() / "out";
+  const Ended run = Generate("import " + map.string() + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  EXPECT_THAT(run.said,
+              ::testing::ContainsRegex(
+                  "remark places-far: 1 point of a track more than 5 m from the fitted "
+                  "line: contradictions.csv has them \\(in .*map.geojson: line line at "));
+  EXPECT_THAT(ReadFileWhole(out / "left_out.csv"), HasSubstr("places-far"));
+}
+
 TEST(Import, ListsWhatOfTheMapWasNotTakenAsItStands) {
   const TemporaryDirectory directory;
   const fs::path map = directory.path() / "map.geojson";
