@@ -248,8 +248,10 @@ void SetTurn(const ScanTable& table, double step_rad, double left, FoundSensor& 
   pattern.rotation = left > 0.0 ? Rotation::kCounterclockwise : Rotation::kClockwise;
   constexpr double kUnit_us = 1e-5;
   pattern.cycle_us = std::floor(1e6 / (found.rate_hz * pattern.columns) / kUnit_us) * kUnit_us;
-  const double begin_deg = left * DegFromRad(table.column_azimuth_rad.front());
-  const double end_deg = left * DegFromRad(table.column_azimuth_rad.back());
+  std::vector<double> known_rad = table.column_azimuth_rad;
+  std::erase_if(known_rad, [](double azimuth_rad) { return std::isnan(azimuth_rad); });
+  const double begin_deg = left * DegFromRad(known_rad.front());
+  const double end_deg = left * DegFromRad(known_rad.back());
   const double first_deg = std::min(begin_deg, end_deg) - 0.5 * found.step_deg;
   const double last_deg = std::max(begin_deg, end_deg) + 0.5 * found.step_deg;
   const auto in_turn_deg = [](double deg) {
@@ -297,6 +299,7 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
   if (!recorded.is_grid) throw InputError(recorded.why_no_grid);
   const Frame& frame = recorded.frame;
   const std::vector<GridPoint> points = PointsOfGrid(frame);
+  if (points.empty()) throw InputError("it has no points");
   FoundSensor found;
   const std::array<double, 2> origin_m = OriginOf(frame, points);
   if (origin_m != std::array{0.0, 0.0}) found.pattern.beam_origin_m = origin_m;

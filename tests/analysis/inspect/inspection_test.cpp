@@ -72,7 +72,8 @@ TEST(GuessSensor, IsNotSureOfRingsThatNoPresetHas) {
     ring.elevation_deg.Add(turned_deg);
   }
   EXPECT_GT(GuessSensor(look.rings).front().error_deg, kLikelyGuess_deg);
-  EXPECT_THAT(TextOf(look), HasSubstr("its rings are no preset's"));
+  EXPECT_THAT(TextOf(look), HasSubstr("no preset"));
+  EXPECT_THAT(TextOf(look), HasSubstr("16 rings from -15 to 15 deg, step 0."));
 }
 
 TEST(Inspect, CountsFramesAndLooksAtNoMoreThanAskedFor) {
