@@ -35,13 +35,13 @@ double MedianIn(std::vector<double>& values) {
 }
 
 /// A point of a turn in its grid.
-struct GridPoint {
+struct CellPoint {
   std::size_t slot{};
   std::uint32_t row{}, column{};
 };
 
-std::vector<GridPoint> PointsOfGrid(const Frame& frame) {
-  std::vector<GridPoint> points;
+std::vector<CellPoint> PointsOfGrid(const Frame& frame) {
+  std::vector<CellPoint> points;
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     if (std::isnan(frame.x[slot])) continue;
     const std::size_t cell = slot / frame.returns;
@@ -51,10 +51,10 @@ std::vector<GridPoint> PointsOfGrid(const Frame& frame) {
   return points;
 }
 
-std::array<double, 2> OriginOf(const Frame& frame, const std::vector<GridPoint>& points) {
+std::array<double, 2> OriginOf(const Frame& frame, const std::vector<CellPoint>& points) {
   std::vector<LevelPoint> level;
   std::vector<std::uint32_t> rings;
-  for (const GridPoint& point : points) {
+  for (const CellPoint& point : points) {
     const auto x = static_cast<double>(frame.x[point.slot]);
     const auto y = static_cast<double>(frame.y[point.slot]);
     level.push_back({std::hypot(x, y), static_cast<double>(frame.z[point.slot])});
@@ -81,7 +81,7 @@ double StepOfColumns(const ScanTable& table) {
 /// Finds how far aside of the rotor's azimuth the beams of each row look, where they leave
 /// `origin_m[0]` outwards of the axis: near points are seen at another azimuth than far ones.
 std::vector<double> AsideOfRows(const Frame& frame,
-                                const std::vector<GridPoint>& points,
+                                const std::vector<CellPoint>& points,
                                 const std::array<double, 2>& origin_m,
                                 const ScanTable& table,
                                 double step_rad) {
@@ -99,7 +99,7 @@ std::vector<double> AsideOfRows(const Frame& frame,
     double num{}, x{}, y{}, xx{}, xy{};
   };
   std::vector<Line> lines(table.rows);
-  for (const GridPoint& point : points) {
+  for (const CellPoint& point : points) {
     const double azimuth_rad = std::atan2(static_cast<double>(frame.y[point.slot]),
                                           static_cast<double>(frame.x[point.slot]));
     const double y =
@@ -135,22 +135,22 @@ struct TurnTimes {
 };
 
 TurnTimes TimesOfTurn(const RecordedFrame& recorded,
-                      const std::vector<GridPoint>& points,
+                      const std::vector<CellPoint>& points,
                       const ScanTable& table) {
   TurnTimes times{0.0, std::vector(table.rows, 0.0)};
   if (!recorded.Has("time_ns")) return times;
   std::vector<double> column_us(table.columns, kNoValue);
-  const auto time_us = [&](const GridPoint& point) {
+  const auto time_us = [&](const CellPoint& point) {
     return 1e-3 * recorded.frame.time_ns[point.slot];
   };
   constexpr int kPasses = 3;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::vector<std::vector<double>> of_columns(table.columns), of_rows(table.rows);
-    for (const GridPoint& point : points) {
+    for (const CellPoint& point : points) {
       of_columns[point.column].push_back(time_us(point) - times.late_us[point.row]);
     }
     for (std::size_t i = 0; i < column_us.size(); ++i) column_us[i] = MedianIn(of_columns[i]);
-    for (const GridPoint& point : points) {
+    for (const CellPoint& point : points) {
       of_rows[point.row].push_back(time_us(point) - column_us[point.column]);
     }
     for (std::size_t i = 0; i < times.late_us.size(); ++i) {
@@ -172,11 +172,11 @@ TurnTimes TimesOfTurn(const RecordedFrame& recorded,
 
 /// The most firings of any row, from its first point to its last: rows of a part of a turn begin
 /// and end at other columns where they have azimuths of their own.
-double FiringsOfFullestRow(const std::vector<GridPoint>& points,
+double FiringsOfFullestRow(const std::vector<CellPoint>& points,
                            const ScanTable& table,
                            double step_rad) {
   std::vector<double> first_rad(table.rows, kNoValue), last_rad(table.rows, kNoValue);
-  for (const GridPoint& point : points) {
+  for (const CellPoint& point : points) {
     const double turned_rad = table.column_azimuth_rad[point.column] * (step_rad < 0.0 ? -1 : 1);
     first_rad[point.row] = std::fmin(first_rad[point.row], turned_rad);
     last_rad[point.row] = std::fmax(last_rad[point.row], turned_rad);
@@ -190,7 +190,7 @@ double FiringsOfFullestRow(const std::vector<GridPoint>& points,
 
 /// Measures how far points lie beside the beams of the table.
 void MeasureErrors(const Frame& frame,
-                   const std::vector<GridPoint>& points,
+                   const std::vector<CellPoint>& points,
                    const ScanTable& table,
                    const std::vector<double>& aside_rad,
                    FoundSensor& found) {
@@ -199,9 +199,9 @@ void MeasureErrors(const Frame& frame,
   const std::array<double, 2> origin_m = found.pattern.beam_origin_m.value_or(std::array{0.0, 0.0});
   double first_off_rad = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const GridPoint& point = points[i];
+    const CellPoint& point = points[i];
     const double beam_rad = aside_rad.empty() ? 0.0 : aside_rad[point.row];
-    const SeenPoint seen = SeenFromBeam(origin_m, beam_rad, frame, point.slot);
+    const AimedPoint seen = SeenFromBeam(origin_m, beam_rad, frame, point.slot);
     const double up_rad = seen.elevation_rad - table.elevation_rad[point.row];
     const double off_rad =
         WrappedAngle_rad(seen.azimuth_rad - table.column_azimuth_rad[point.column] -
@@ -298,7 +298,7 @@ std::string FoundSensor::FileText() const {
 FoundSensor FindSensor(const RecordedFrame& recorded) {
   if (!recorded.is_grid) throw InputError(recorded.why_no_grid);
   const Frame& frame = recorded.frame;
-  const std::vector<GridPoint> points = PointsOfGrid(frame);
+  const std::vector<CellPoint> points = PointsOfGrid(frame);
   if (points.empty()) throw InputError("it has no points");
   FoundSensor found;
   const std::array<double, 2> origin_m = OriginOf(frame, points);

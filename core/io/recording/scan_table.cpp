@@ -189,10 +189,10 @@ double ScanTable::SolidAngle_sr(std::size_t row) const {
   return std::cos(elevation_rad[row]) * row_height_rad[row] * column_step_rad;
 }
 
-SeenPoint SeenFromBeam(const std::array<double, 2>& origin_m,
-                       double channel_azimuth_rad,
-                       const Frame& frame,
-                       std::size_t slot) {
+AimedPoint SeenFromBeam(const std::array<double, 2>& origin_m,
+                        double channel_azimuth_rad,
+                        const Frame& frame,
+                        std::size_t slot) {
   const auto x = static_cast<double>(frame.x[slot]);
   const auto y = static_cast<double>(frame.y[slot]);
   const double up_m = static_cast<double>(frame.z[slot]) - origin_m[1];
@@ -218,7 +218,7 @@ std::optional<ScanTable> MakeScanTable(const Frame& frame,
     const std::size_t slot = place * frame.returns;
     if (!std::isfinite(frame.range_m[slot])) continue;
     const double beam_rad = aside_rad.empty() ? 0.0 : aside_rad[place / frame.columns];
-    const SeenPoint seen = SeenFromBeam(origin_m, beam_rad, frame, slot);
+    const AimedPoint seen = SeenFromBeam(origin_m, beam_rad, frame, slot);
     grid.azimuth_rad[place] = seen.azimuth_rad;
     grid.elevation_rad[place] = seen.elevation_rad;
   }

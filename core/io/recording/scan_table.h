@@ -54,7 +54,7 @@ struct ScanTable {
 };
 
 /// A point as its beam sees it, from where it leaves.
-struct SeenPoint {
+struct AimedPoint {
   double azimuth_rad{};  ///< Of the beam.
   double rotor_rad{};
   double elevation_rad{};
@@ -63,10 +63,10 @@ struct SeenPoint {
 /// Returns the point of a slot as its beam sees it. Beams leave `origin_m[0]` outwards of the axis,
 /// at the rotor's azimuth, and `origin_m[1]` above the origin.
 /// @param channel_azimuth_rad Of the beam, added to the rotor's; positive to the left.
-[[nodiscard]] SeenPoint SeenFromBeam(const std::array<double, 2>& origin_m,
-                                     double channel_azimuth_rad,
-                                     const Frame& frame,
-                                     std::size_t slot);
+[[nodiscard]] AimedPoint SeenFromBeam(const std::array<double, 2>& origin_m,
+                                      double channel_azimuth_rad,
+                                      const Frame& frame,
+                                      std::size_t slot);
 
 /// Makes the table from the points' directions: medians over rows and columns, with linear
 /// interpolation across gaps. Returns nothing if the frame is not a grid of at least 2 x 2 with

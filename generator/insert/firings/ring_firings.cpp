@@ -203,7 +203,7 @@ class TurnFirings {
     const std::size_t first = (std::size_t{row} * frame.columns + column) * frame.returns;
     for (std::size_t slot = first; slot < first + frame.returns; ++slot) {
       if (std::isnan(frame.x[slot])) continue;
-      const SeenPoint seen =
+      const AimedPoint seen =
           SeenFromBeam(channels_.origin_m, channels_.azimuth_rad[row], frame, slot);
       aim.azimuth_rad += WrappedAngle_rad(seen.azimuth_rad - aim.azimuth_rad);
       aim.elevation_rad = seen.elevation_rad;

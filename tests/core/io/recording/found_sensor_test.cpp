@@ -226,7 +226,7 @@ TEST(FoundSensor, IsThatOfEveryCaptureAsThePageSays) {
 }
 
 /// Firings of a sensor in a room without end: ground 1.73 m below, and walls 8 to 60 m away.
-std::vector<KnownFiring> MadeTurn(const SpinningSpec& sensor, const Vector3& origin_m) {
+std::vector<KnownFiring> MadeFirings(const SpinningSpec& sensor, const Vector3& origin_m) {
   std::vector<KnownFiring> firings;
   for (std::uint32_t column = 0; column < sensor.columns; ++column) {
     for (std::uint32_t row = 0; row < sensor.channels.size(); ++row) {
@@ -254,7 +254,7 @@ std::vector<KnownFiring> MadeTurn(const SpinningSpec& sensor, const Vector3& ori
 
 TEST(FoundSensor, IsTheHdl64EOfACloudLikeKittis) {
   const auto sensor = std::get<SpinningSpec>(ReadSensor("hdl64e").pattern);
-  const FoundAgain again = FindAgain(MadeTurn(sensor, Vector3::Zero()));
+  const FoundAgain again = FindAgain(MadeFirings(sensor, Vector3::Zero()));
   EXPECT_EQ(again.sensor.pattern.channels.size(), 64U);
   EXPECT_FALSE(again.sensor.pattern.beam_origin_m.has_value());
   EXPECT_NEAR(again.sensor.step_deg, 360.0 / sensor.columns, 1e-4);
@@ -268,7 +268,7 @@ TEST(FoundSensor, IsTheHdl64EOfACloudLikeKittis) {
 
 TEST(FoundSensor, HasTheOriginOfItsBeams) {
   const auto sensor = std::get<SpinningSpec>(ReadSensor("hdl64e").pattern);
-  const FoundAgain again = FindAgain(MadeTurn(sensor, {0.03, 0.0, 0.12}));
+  const FoundAgain again = FindAgain(MadeFirings(sensor, {0.03, 0.0, 0.12}));
   EXPECT_EQ(again.sensor.pattern.channels.size(), 64U);
   ASSERT_TRUE(again.sensor.pattern.beam_origin_m.has_value());
   EXPECT_NEAR((*again.sensor.pattern.beam_origin_m)[0], 0.03, 1e-3);
@@ -299,7 +299,7 @@ TEST(FoundSensor, HasTheRateAndTheFiringTimesOfTimedPoints) {
 
 TEST(FoundSensor, IsWrittenAsAFileThatScenariosTake) {
   const auto sensor = std::get<SpinningSpec>(ReadSensor("vlp16").pattern);
-  const FoundSensor found = FindAgain(MadeTurn(sensor, {0.03, 0.0, 0.12})).sensor;
+  const FoundSensor found = FindAgain(MadeFirings(sensor, {0.03, 0.0, 0.12})).sensor;
   const TemporaryDirectory directory;
   WriteFileWhole(directory.path() / "found.json", found.FileText());
   const ScenarioSpec scenario = ReadScenarioText(
