@@ -122,90 +122,6 @@ void AddAlong(const TaggedStretch& stretch, Structure structure, LineWorld& worl
   world.structures.push_back(std::move(structure));
 }
 
-constexpr double kStepsOfPlaces_per_m = 100.0;
-
-/// A signal; absent if the map does not say what it is.
-std::optional<SignalSpec> SignalOf(const MapThing& thing,
-                                   const LinePlace& at,
-                                   const LinePlaces& places) {
-  const auto has = [&](std::string_view key) { return !TagOf(thing.tags, key).empty(); };
-  SignalSpec signal;
-  if (has("railway:signal:main") || has("railway:signal:combined")) {
-    signal.kind = SignalKind::kMain;
-  } else if (has("railway:signal:distant")) {
-    signal.kind = SignalKind::kDistant;
-  } else if (has("railway:signal:shunting") || has("railway:signal:minor")) {
-    signal.kind = SignalKind::kShunting;
-  } else {
-    return std::nullopt;
-  }
-  const bool is_backward = TagOf(thing.tags, "railway:signal:direction") == "backward";
-  const bool is_rising = places.IsForward(at.node) != is_backward;
-  signal.direction = is_rising ? RunningDirection::kRising : RunningDirection::kFalling;
-  if (TagOf(thing.tags, "railway:signal:position") == "left") {
-    signal.side = is_rising ? TrackSide::kLeft : TrackSide::kRight;
-  }
-  return signal;
-}
-
-LevelCrossingSpec LevelCrossingOf(const MapThing& thing) {
-  LevelCrossingSpec crossing;
-  if (TagOf(thing.tags, "railway") == "crossing") {
-    crossing.road_width_m = 2.0;
-    crossing.barriers = BarrierState::kNone;
-  } else if (TagOf(thing.tags, "crossing:barrier") == "no") {
-    crossing.barriers = BarrierState::kNone;
-  }
-  return crossing;
-}
-
-void AddBufferStop(const LinePlace& at,
-                   std::size_t number,
-                   const LinePlaces& places,
-                   LineWorld& world) {
-  constexpr double kNearEnd_m = 20.0;
-  BufferStopSpec stop;
-  if (at.s_m < kNearEnd_m) {
-    stop.at = TrackTip::kBegin;
-  } else if (at.s_m <= places.length_m() - kNearEnd_m) {
-    world.left_out.push_back({"buffer_stop", at.s_m, at.s_m, "the line goes on behind it", number});
-    return;
-  }
-  world.placed.push_back({number, stop});
-  world.structures.push_back(std::move(stop));
-}
-
-void AddPoint(const MapThing& thing,
-              std::size_t number,
-              const LinePlaces& places,
-              LineWorld& world) {
-  constexpr double kOnLine_m = 2.0;
-  const std::optional<LinePlace> at = places.Of(thing.places_m.front(), kOnLine_m);
-  if (!at) return;
-  const std::string_view railway = TagOf(thing.tags, "railway");
-  if (railway == "buffer_stop") return AddBufferStop(*at, number, places, world);
-  if (std::abs(at->beyond_m) > kOnLine_m) return;
-  const auto add = [&](auto structure) {
-    structure.s_m = RoundedTo(at->s_m, kStepsOfPlaces_per_m);
-    world.placed.push_back({number, structure});
-    world.structures.push_back(std::move(structure));
-  };
-  if (railway == "level_crossing" || railway == "crossing") {
-    add(LevelCrossingOf(thing));
-  } else if (railway == "milestone") {
-    BoardSpec board;
-    board.kind = BoardKind::kKilometre;
-    add(board);
-  } else if (railway == "derail") {
-    add(DerailerSpec{});
-  } else if (railway == "signal") {
-    const std::optional<SignalSpec> signal = SignalOf(thing, *at, places);
-    if (signal) return add(*signal);
-    world.left_out.push_back(
-        {"signal", at->s_m, at->s_m, "the map does not say which kind it is", number});
-  }
-}
-
 }  // namespace
 
 void AddWayStructures(const RailMap& map, LineWorld& world) {
@@ -270,11 +186,11 @@ void AddStructures(const RailMap& map,
                    LineWorld& world) {
   AddWayStructures(map, world);
   const LinePlaces places(map, track, line);
-  for (const bool is_platform : {true, false}) {
-    for (std::size_t i = 0; i < map.things.size(); ++i) {
-      if (IsPlatform(map.things[i].tags) != is_platform) continue;
-      (is_platform ? AddPlatform : AddPoint)(map.things[i], i, places, world);
-    }
+  for (std::size_t i = 0; i < map.things.size(); ++i) {
+    if (IsPlatform(map.things[i].tags)) AddPlatform(map.things[i], i, places, world);
+  }
+  for (std::size_t i = 0; i < map.things.size(); ++i) {
+    if (!IsPlatform(map.things[i].tags)) AddPoint(map, i, places, world);
   }
   NameStructures(world.structures);
 }

@@ -18,9 +18,9 @@ namespace railcast {
 /// Adds what the map has on and beside the tracks of a world.
 ///
 /// Bridges, tunnels, slab track and conductor rails come from the tags of all tracks' ways
-/// (AddWayStructures), platforms from outlines and lines (AddPlatform). Things that stand on the
-/// line, within 2 m of its axis, become level crossings, signals, kilometre boards, derailers and,
-/// at its ends, buffer stops.
+/// (AddWayStructures), platforms from outlines and lines (AddPlatform). Points on tracks become
+/// level crossings, signals, kilometre boards, derailers and, at their ends, buffer stops
+/// (AddPoint).
 void AddStructures(const RailMap& map,
                    const TrackLine& track,
                    const ImportedLine& line,
@@ -59,6 +59,11 @@ void AddPlatform(const MapThing& thing,
                  std::size_t number,
                  const LinePlaces& places,
                  LineWorld& world);
+
+/// Adds a point of the map that is a thing to the world, if it is on one of its tracks: within 2 m
+/// of where the map has that. Level crossings within 10 m of each other are on one road.
+/// @param number Of the thing.
+void AddPoint(const RailMap& map, std::size_t number, const LinePlaces& places, LineWorld& world);
 
 /// Whether a platform is an outline, not a line.
 [[nodiscard]] bool IsOutline(const MapThing& platform);

@@ -237,7 +237,7 @@ bool HasStructure(const LineWorld& world, StructureSpec structure) {
 
 void AddThing(std::size_t thing, const WorldsOfMap& made, AccountRow& row) {
   bool is_made = false;
-  std::string reason = "it is within 2 m of no line's own track";
+  std::string reason = "it is within 2 m of no track of a world";
   for (const LineWorld& world : made.worlds) {
     for (const LeftOut& one : world.left_out) {
       if (one.what == row.what && one.source == thing) reason = one.reason;

@@ -80,21 +80,31 @@ TEST(MapAccount, HasThePlatformEdgesThatTracksOfTheMapPass) {
   EXPECT_NEAR(platforms.in_worlds, 400.0, 1.0);
 }
 
-TEST(MapAccount, CountsCrossingsSignalsAndSwitches) {
+TEST(MapAccount, CountsCrossingsSignalsAndBufferStops) {
   MadeMap map;
   map.AddTrack(0.0, {});
+  map.AddTrack(4.5, {});
+  map.AddThing({{1900.0, 4.5}}, {{"railway", "buffer_stop"}});
   map.AddThing({{500.0, 0.0}}, {{"railway", "level_crossing"}});
+  map.AddThing({{501.0, 4.5}}, {{"railway", "crossing"}});
   map.AddThing({{600.0, 9.0}}, {{"railway", "crossing"}});
+  map.AddThing({{800.0, 4.5}}, {{"railway", "signal"}, {"railway:signal:main", "DE-ESO:ks"}});
   map.AddThing({{700.0, 0.0}}, {{"railway", "signal"}});
   map.AddThing({{1500.0, 0.0}}, {{"railway", "buffer_stop"}});
   map.Make();
   for (const AccountRow& row : map.Account()) ExpectWhole(row);
-  EXPECT_EQ(map.Sum("level_crossing").on_map, 2.0);
-  EXPECT_EQ(map.Sum("level_crossing").in_worlds, 1.0);
+  EXPECT_EQ(map.Sum("level_crossing").on_map, 3.0);
+  EXPECT_EQ(map.Sum("level_crossing").in_worlds, 2.0) << "on one road";
+  EXPECT_THAT(map.All<LevelCrossingSpec>(), ::testing::SizeIs(1));
+  ASSERT_THAT(map.All<SignalSpec>(), ::testing::SizeIs(1));
+  EXPECT_EQ(map.All<SignalSpec>()[0].track, "running_1");
+  // The way is drawn to the east.
+  EXPECT_EQ(map.All<SignalSpec>()[0].direction,
+            map.runs_east() ? RunningDirection::kRising : RunningDirection::kFalling);
   EXPECT_THAT(map.Sum("signal").left_out,
               ElementsAre(Pair("the map does not say which kind it is", 1.0)));
   EXPECT_THAT(map.Sum("buffer_stop").left_out,
-              ElementsAre(Pair("the line goes on behind it", 1.0)));
+              ElementsAre(Pair("its track goes on behind it", 1.0)));
   map.world().structures.clear();
   EXPECT_THAT(map.Sum("level_crossing").left_out, ::testing::SizeIs(2));
 }
