@@ -159,8 +159,9 @@ std::vector<std::string> BuffersOfGltf(const std::string& bytes) {
   std::vector<std::string> names;
   const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
   if (!json.is_object() || !json.contains("buffers")) return names;
-  // A list, or in glTF 1 an object.
-  for (const auto& buffer : json.at("buffers")) {
+  // A list, or in glTF 1 an object, in which this one is the file itself, whatever its uri.
+  for (const auto& [key, buffer] : json.at("buffers").items()) {
+    if (key == "binary_glTF") continue;
     if (!buffer.is_object() || !buffer.contains("uri") || !buffer.at("uri").is_string()) continue;
     const std::string name = buffer.at("uri");
     const bool is_known = std::ranges::find(names, name) != names.end();

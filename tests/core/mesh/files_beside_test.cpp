@@ -55,6 +55,13 @@ TEST_F(FilesBeside, AreTheBuffersOfAGltf) {
   }
 }
 
+TEST_F(FilesBeside, AreNotTheBufferThatABinaryGltf1Holds) {
+  Write("rock.bin", triangle_);
+  const fs::path file = Write("rock.gltf", R"({"asset": {"version": "1.0"}, "buffers": {
+    "binary_glTF": {"byteLength": 36, "uri": ""}, "other": {"byteLength": 36, "uri": "rock.bin"}}})");
+  EXPECT_EQ(NamesBeside(file), std::vector<std::string>{"rock.bin"});
+}
+
 TEST_F(FilesBeside, MustLieInTheFolderOfTheGltf) {
   Write("rock.bin", triangle_);
   Write("below/rock.bin", triangle_);
