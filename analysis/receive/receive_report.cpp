@@ -169,8 +169,8 @@ std::string ReceiveSummary(const ReceivedTotals& totals, const StreamReceiver::C
            "states it\n";
   }
   if (totals.frames_ahead > 0) {
-    text << "latency: counted as 0 for " << totals.frames_ahead
-         << " frames that came before their last firing, since the sender's clock is ahead\n";
+    text << "frames before their last firing: " << totals.frames_ahead
+         << ", whose latency counts as 0; the sender's clock is ahead\n";
   }
   if (stream.other_sender) {
     text << "packets of other senders: " << stream.other_sender_packets

@@ -74,9 +74,10 @@ TEST(ReceiveReport, SaysHowManyFramesCameBeforeTheirLastFiring) {
   ReceivedTotals totals;
   totals.Add(FrameAt(kNow_ns, kNow_ns + 104 * kMs_ns));
   totals.Add(FrameAt(kNow_ns, kNow_ns + 98 * kMs_ns));
-  EXPECT_THAT(ReceiveSummary(totals, {}),
-              testing::EndsWith("\nlatency: counted as 0 for 1 frames that came before their last "
-                                "firing, since the sender's clock is ahead\n"));
+  EXPECT_THAT(
+      ReceiveSummary(totals, {}),
+      testing::EndsWith("\nframes before their last firing: 1, whose latency counts as 0; the "
+                        "sender's clock is ahead\n"));
   EXPECT_THAT(ReceiveSummaryJson(totals, {}), testing::HasSubstr(R"("frames_ahead":1)"));
 }
 
