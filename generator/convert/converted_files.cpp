@@ -186,7 +186,8 @@ class ConvertedKitti final : public ConvertOutput {
     const CloudField* const x = source.cloud.Find("x");
     const bool is_double = x != nullptr && x->type == NumberType::kDouble;
     AddLoss("positions in double precision, rounded", is_double ? num_points : 0, lost);
-    AddLoss("places without a point", frame.num_slots() - num_points, lost);
+    const std::uint64_t num_places = std::max<std::uint64_t>(source.cloud.num_points(), num_points);
+    AddLoss("places without a point", num_places - num_points, lost);
     AddLoss("labels without a number in SemanticKITTI, now 0", num_unknown, lost);
     AddLoss("intensities that are not known, now 0", recorded.Has("intensity") ? 0 : num_points,
             lost);

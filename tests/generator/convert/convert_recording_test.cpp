@@ -154,7 +154,7 @@ TEST_F(ConvertRecording, KeepsPosesAndPointsOfSequencesInBags) {
 TEST_F(ConvertRecording, KeepsStampsAndPosesOfForeignBags) {
   MadeBag made;
   for (int i = 0; i < 3; ++i) {
-    made.Add("/points", i * kSecond_ns, CloudOf(kBagPoints, i * kSecond_ns + 5));
+    made.Add("/points", i * kSecond_ns, CloudOf(kBagPoints, i * kSecond_ns + kSecond_ns / 2));
     made.Link("/tf", "map", "lidar", i * kSecond_ns, {{1.0 * i, 2.0, 3.0}, {0.0, 0.0, 0.6, 0.8}});
   }
   made.Commit();
