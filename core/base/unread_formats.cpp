@@ -45,6 +45,18 @@ constexpr auto kFormats = std::to_array<UnreadFormat>({
     {".pts", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
     {".ptx", "", "a cloud as text", "pdal translate -r readers.text %f %n.las (or CloudCompare)"},
     {".tum", "", "poses", "name the clouds, and these with --poses"},
+    {".shp", "", "a shapefile", "ogr2ogr %n.geojson %f"},
+    {".gpkg", "", "a GeoPackage", "ogr2ogr %n.geojson %f"},
+    {".geojsonl", "", "GeoJSON by lines", "ogr2ogr %n.geojson %f"},
+    {".o5m", "", "a map in o5m", "osmconvert %f -o=%n.osm.pbf"},
+    {".nmea", "$GP", "a log of a GPS receiver", "gpsbabel -i nmea -f %f -o gpx -F %n.gpx"},
+    {".fit", "", "a log of Garmin's", "gpsbabel -i garmin_fit -f %f -o gpx -F %n.gpx"},
+    {".kmz", "", "packed KML", "unzip %f doc.kml"},
+    {".zip", "PK\x03\x04", "a zip archive", "unzip %f"},
+    {".gz", "\x1F\x8B\x08", "a file that gzip packed", "gunzip %f"},
+    {".bz2", "BZh", "a file that bzip2 packed", "bunzip2 %f"},
+    {".7z", "7z\xBC\xAF", "an archive of 7-Zip", "7z x %f"},
+    {"", "version https://git-lfs", "a pointer of Git LFS to the file", "git lfs pull fetches it"},
 });
 
 constexpr auto kTextEndings = std::to_array<std::string_view>({".txt", ".csv"});
@@ -83,7 +95,8 @@ std::string AdviceOnFile(const std::filesystem::path& file) {
   const std::string ending = LowerCase(file.extension().string());
   if (std::ranges::find(kTextEndings, ending) != kTextEndings.end()) return AdviceOnText(begin);
   const auto format = std::ranges::find_if(kFormats, [&](const UnreadFormat& known) {
-    return known.ending == ending || (!known.begin.empty() && begin.starts_with(known.begin));
+    return (!ending.empty() && known.ending == ending) ||
+           (!known.begin.empty() && begin.starts_with(known.begin));
   });
   if (format == kFormats.end()) return {};
   std::string advice(format->advice);

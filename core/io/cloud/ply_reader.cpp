@@ -188,13 +188,20 @@ std::size_t ReadVertexFields(const std::string& file, const PlyHeader& header, C
   return static_cast<std::size_t>(vertex - header.elements.begin());
 }
 
-/// Takes those elements off the tail that are behind the points, and refuses what is left.
+/// Takes those elements off the tail that are behind the points, tells if they are cut, and refuses
+/// what is left.
 void CheckTail(const std::string& file,
                const PlyHeader& header,
                std::size_t vertex,
-               std::string_view tail) {
+               std::string_view tail,
+               std::vector<Remark>& remarks) {
   for (std::size_t i = vertex + 1; i < header.elements.size(); ++i) {
-    if (!TakeElement(header, header.elements[i], tail)) return;  // What is cut is not read.
+    const PlyElement& element = header.elements[i];
+    if (TakeElement(header, element, tail)) continue;
+    return AddRemark({.kind = RemarkKind::kRecordingCut,
+                      .place = file,
+                      .detail = "it lacks elements " + ShownText(element.name)},
+                     remarks);
   }
   using std::string_view_literals::operator""sv;
   if (tail.find_first_not_of(" \t\r\n\0"sv) == std::string_view::npos) return;
@@ -242,7 +249,7 @@ CloudFile ParsePlyFile(const std::string& file,
     if (header.is_big_endian) SwapBytes(cloud, cloud.data);
   }
   read.points.remove_suffix(read.tail.size());
-  CheckTail(file, header, vertex, read.tail);
+  CheckTail(file, header, vertex, read.tail, cloud.remarks);
   return read;
 }
 

@@ -108,13 +108,14 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
     throw FileError(source, error ? error.value() : ENOENT);
   }
   if (is_directory(status)) return OpenDirectory(source);
+  // Packed files and pointers may have the names of what they stand for.
+  if (const std::string advice = AdviceOnFile(source); !advice.empty()) {
+    throw InputError(ShownPath(source) + ": " + advice);
+  }
   const std::string extension = LowerCase(source.extension().string());
   if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
   if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
-  if (const std::string advice = AdviceOnFile(source); !advice.empty()) {
-    throw InputError(ShownPath(source) + ": " + advice);
-  }
   throw InputError(ShownPath(source) + ": must be a directory or a " +
                    ReadableExtensions(true, {".las", ".pcap", ".pcapng", ".mcap", ".db3"}) +
                    " file");

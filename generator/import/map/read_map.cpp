@@ -13,6 +13,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
+#include "core/base/unread_formats.h"
 #include "generator/import/map/map_formats.h"
 
 namespace railcast {
@@ -65,26 +66,18 @@ bool NamesOpenStreetMap(std::string begin) {
   return begin.find("openstreetmap") != std::string::npos;
 }
 
-/// How to come from a file that is packed to the map in it; empty if it is no such file.
-std::string HowToUnpack(std::string_view begin) {
-  if (begin.starts_with("PK"))
-    return "unpack it first: unzip; of KMZ it is doc.kml (got a zip file)";
-  if (begin.starts_with("\x1F\x8B")) return "unpack it first: gunzip (got a gzip file)";
-  if (begin.starts_with("BZh")) return "unpack it first: bunzip2 (got a bzip2 file)";
-  return "";
-}
-
 RailMap ReadAnyMap(const std::filesystem::path& file) {
   const std::string bytes = BytesAtBegin(file);
   if (IsOsmPbf(bytes)) return ReadOsmPbf(file);
+  if (const std::string advice = AdviceOnFile(file); !advice.empty()) {
+    throw InputError(ShownPath(file) + ": " + advice);
+  }
   const std::string begin = AsUtf8(bytes);
   if (IsOverpass(begin)) return ReadOverpassJson(file);
   if (IsRailMl(begin)) return ReadRailMl(file);
   if (FirstOf(begin) != '<' && FirstOf(begin) != '{') {
-    const std::string how = HowToUnpack(bytes);
-    throw InputError(
-        ShownPath(file) + ": must be a map: " +
-        (how.empty() ? "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3" : how));
+    throw InputError(ShownPath(file) +
+                     ": must be a map: Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3");
   }
   RailMap map = FirstOf(begin) == '<' ? ReadXmlMap(file) : ReadGeoJson(file);
   if (NamesOpenStreetMap(begin)) map.attribution = kOpenStreetMapAttribution;

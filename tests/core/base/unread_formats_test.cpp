@@ -63,6 +63,8 @@ TEST_F(UnreadFormats, AreKnownByTheirFirstBytes) {
   EXPECT_TRUE(AdviceOn("drive", "#ROSBAG V2.0\n").starts_with("is a bag of ROS 1"));
   EXPECT_TRUE(AdviceOn("site", "ASTM-E57").starts_with("is a survey in E57"));
   EXPECT_TRUE(AdviceOn("points", "\x93NUMPY").starts_with("is an array of NumPy"));
+  EXPECT_EQ(AdviceOn("drive.pcap", "version https://git-lfs.github.com/spec/v1\n"),
+            "is a pointer of Git LFS to the file, which is not read: git lfs pull fetches it");
 }
 
 TEST_F(UnreadFormats, TellTextOfPosesFromTextOfPoints) {

@@ -469,11 +469,15 @@ TEST_F(MapWords, AreReadInUtf16AndBehindAByteOrderMark) {
   }
 }
 
-TEST_F(MapWords, ThatArePackedAreToBeUnpackedFirst) {
+TEST_F(MapWords, OfFormatsThatAreNotReadAreNamed) {
   EXPECT_EQ(Fault("a.kmz", "PK\3\4"),
-            "a.kmz: must be a map: unpack it first: unzip; of KMZ it is doc.kml (got a zip file)");
+            "a.kmz: is packed KML, which is not read: unzip a.kmz doc.kml");
   EXPECT_EQ(Fault("a.osm.gz", "\x1F\x8B\x08"),
-            "a.osm.gz: must be a map: unpack it first: gunzip (got a gzip file)");
+            "a.osm.gz: is a file that gzip packed, which is not read: gunzip a.osm.gz");
+  EXPECT_EQ(Fault("a.json", "\x1F\x8B\x08"),
+            "a.json: is a file that gzip packed, which is not read: gunzip a.json");
+  EXPECT_EQ(Fault("a.shp", "x"),
+            "a.shp: is a shapefile, which is not read: ogr2ogr a.geojson a.shp");
 }
 
 }  // namespace

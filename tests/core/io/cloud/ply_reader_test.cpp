@@ -96,6 +96,17 @@ TEST(PlyReader, RefusesWhatStandsBehindItsElements) {
       "a.ply: element vertex: 2 points, but the file has 2 lines more than its elements need");
 }
 
+TEST(PlyReader, TellsOfElementsBehindThePointsThatAreCut) {
+  const std::string faces = "element face 2\nproperty list uchar uchar vertex_indices\n";
+  const std::string bytes = PlyHeaderOf(false, kPlyVertex + faces) + PlyPoints(false);
+  const std::string face = {'\3', '\0', '\1', '\0'};
+  EXPECT_THAT(ParsePlyFile("a.ply", bytes + face + face, {}).cloud.remarks, testing::IsEmpty());
+  const std::vector<Remark> remarks = ParsePlyFile("a.ply", bytes + face, {}).cloud.remarks;
+  EXPECT_EQ(
+      remarks,
+      (std::vector<Remark>{{RemarkKind::kRecordingCut, "a.ply", 1, "it lacks elements face"}}));
+}
+
 TEST(PlyReader, KeepsAllDigitsOfText) {
   const CloudFile read = ParsePlyFile(
       "a.ply", "ply\nformat ascii 1.0\n" + kPlyVertex + "end_header\n456789.15 2\n456790.12 4\n");
