@@ -172,7 +172,6 @@ class Reader {
         }
       }
       soup_.points.push_back(point);
-      EndLine(element);
     }
     if (element.count > 0 && !(found[0] && found[1] && found[2])) {
       Fail("element vertex: must have the properties x, y and z");
@@ -208,7 +207,6 @@ class Reader {
           if (uses[p] == FaceUse::kMaterial) material = MaterialOfFace(i, value);
         }
       }
-      EndLine(element);
       if (!has_corners) continue;
       if (corners.size() < 3) {
         Fail("face " + std::to_string(i) + " must have three corners or more" +
@@ -270,17 +268,10 @@ class Reader {
         type, [&](auto zero) { return static_cast<double>(NextBytes<decltype(zero)>(element)); });
   }
 
-  /// Text has a line for each element; others may be empty.
+  /// In text, an element does not go on in the next line.
   void BeginLine() {
     if (header_.encoding != Encoding::kAscii) return;
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kAllBlanks), rest_.size()));
-  }
-  void EndLine(const Element& element) {
-    if (header_.encoding != Encoding::kAscii) return;
-    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
-    if (rest_.empty() || rest_.starts_with('\n')) return;
-    Fail("element " + ShownText(element.name) + ": must be a line (got \"" +
-         ShownText(rest_.substr(0, rest_.find('\n'))) + "\" behind its numbers)");
   }
 
   double NextWord(const Element& element) {

@@ -42,7 +42,11 @@ class AsciiStlReader {
       }
     }
     if (!loop_.empty()) throw InputError(shown_ + ": ends within a facet");
-    if (!has_end_) throw InputError(shown_ + ": must end with endsolid: some of it is missing");
+    // Some programs leave it out.
+    if (!has_end_) {
+      AddRemark({.kind = RemarkKind::kRecordingCut, .place = {}, .detail = "it has no endsolid"},
+                soup_.remarks);
+    }
     return std::move(soup_);
   }
 

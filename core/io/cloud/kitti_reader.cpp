@@ -152,10 +152,11 @@ std::string FittingColumns(std::string_view bytes) {
     best = num;
     least = difference;
   }
-  if (best != 4 && !CanBePositions(numbers, best)) return "";
-  if (best == 5 && IsRing(numbers, 4, 5)) return "nuscenes";
-  if (best == 6 && !IsRing(numbers, 4, 6)) return "waymo";
-  if (best != 4 || is_four) return NumberText(best);
+  if (best == 4 ? is_four : CanBePositions(numbers, best)) {
+    if (best == 5 && IsRing(numbers, 4, 5)) return "nuscenes";
+    if (best == 6 && !IsRing(numbers, 4, 6)) return "waymo";
+    return NumberText(best);
+  }
   const bool is_double =
       bytes.size() % (4 * sizeof(double)) == 0 && CanBePositions(SomeNumbers<double>(bytes), 4);
   return is_double ? "float64" : "";

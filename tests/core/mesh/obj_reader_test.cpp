@@ -193,8 +193,8 @@ TEST_F(ReadObjTest, DropsTrianglesWithoutArea) {
 }
 
 TEST_F(ReadObjTest, RefusesFacesThatLackCorners) {
-  EXPECT_EQ(MessageOf([&] { (void)ReadMesh(Write(std::string(kThreeVertices) + "f 1 2\n")); }),
-            Path() + ": line 4: a face must have three corners or more (got \"2\")");
+  EXPECT_EQ(Complaint(std::string(kThreeVertices) + "f 1 2\n"),
+            "line 4: a face must have three corners or more (got \"2\")");
 }
 
 TEST_F(ReadObjTest, TellsOfWordsThatAreNotRead) {

@@ -196,7 +196,7 @@ TEST(BagRecording, RefusesCloudsThatContradictThemselves) {
               cloud = CloudOf(kBagPoints, 0, true);
               cloud.fields[3].offset = 12;
             },
-            "fields: must not share bytes of a big-endian cloud (got \"ring\")"}}) {
+            "fields: must not share bytes (got \"z\" and \"ring\")"}}) {
     ros::PointCloud2 cloud = CloudOf(kBagPoints, 0);
     change(cloud);
     EXPECT_EQ(MessageOf([&] { (void)MakeCloud(cloud); }), message);
