@@ -339,8 +339,10 @@ TEST(InsertPlan, SaysWhatARecordingLacks) {
   const fs::path no_sensor = WritePlan(folder.path(), R"({"poses": "standing"})", "");
   EXPECT_EQ(MessageOf([&] { (void)ReadInsertPlan(no_sensor, clouds); }),
             no_sensor.string() +
-                ": /lidar: missing: this recording does not say which sensor made it; name a "
-                "sensor's file, such as \"sensors/vlp16.json\" (got directory of point clouds)");
+                ": /lidar: missing: this recording does not say which sensor made it, and no "
+                "spinning sensor is found: it has no field ring, and its elevations do not form "
+                "rings; name a sensor's file, such as \"sensors/vlp16.json\" (got directory of "
+                "point clouds)");
 }
 
 TEST(InsertPlan, IsNoScenarioNorTheOtherWayRound) {
