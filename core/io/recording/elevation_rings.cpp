@@ -73,11 +73,14 @@ class Crowding {
       : points_(points), bin_rad_(bin_rad), num_(BinOf(std::numbers::pi) + 1) {}
 
   [[nodiscard]] std::uint64_t From(const std::array<double, 2>& origin_m) {
-    std::ranges::fill(num_, 0U);
     std::uint64_t squares = 0;
     for (const LevelPoint& point : points_) {
-      squares += 2 * std::uint64_t{num_[BinOf(point.ElevationFrom_rad(origin_m))]++} + 1;
+      bins_.push_back(BinOf(point.ElevationFrom_rad(origin_m)));
+      squares += 2 * std::uint64_t{num_[bins_.back()]++} + 1;
     }
+    // There are far more bins than points.
+    for (const std::size_t bin : bins_) num_[bin] = 0;
+    bins_.clear();
     return squares;
   }
 
@@ -89,11 +92,14 @@ class Crowding {
   std::span<const LevelPoint> points_;
   double bin_rad_;
   std::vector<std::uint32_t> num_;
+  std::vector<std::size_t> bins_;
 };
 
 /// Searches origins in ever smaller steps, each with bins as wide as a step shifts a near point.
+/// Where most points are far, they show no origin: as in a map, or far from 0 in a grid.
 std::array<double, 2> MostCrowdedFrom(std::span<const LevelPoint> points) {
   constexpr std::size_t kMostPoints = 12'000;
+  constexpr double kFarthest_m = 100.0;
   std::vector<LevelPoint> far;
   for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / kMostPoints) {
     far.push_back(points[i]);
@@ -101,6 +107,7 @@ std::array<double, 2> MostCrowdedFrom(std::span<const LevelPoint> points) {
   const auto nearest = far.begin() + static_cast<std::ptrdiff_t>(far.size() * 3 / 5);
   std::ranges::nth_element(far, nearest, {}, &LevelPoint::from_axis_m);
   const double nearest_m = std::max(nearest->from_axis_m, 0.5);
+  if (nearest_m > kFarthest_m) return {};
   far.erase(far.begin(), nearest);
   std::array<double, 2> origin_m{};
   std::array<int, 2> num_steps{5, 30};

@@ -34,7 +34,7 @@ struct FoundRings {
 
 /// Finds rings as RingsByElevation() does, seen from the sensor's origin or, where there are none,
 /// from the place within 0.1 m beside and 0.3 m above or below it from which the elevations are
-/// crowded the most.
+/// crowded the most, if two fifths of the points or more are within 100 m.
 [[nodiscard]] std::optional<FoundRings> FindRings(std::span<const LevelPoint> points);
 
 /// Returns the origin from which the points of each ring have the most alike elevations, by least
