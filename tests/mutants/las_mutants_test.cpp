@@ -113,9 +113,14 @@ void TryLas(Mutants& mutants, int minor_version, int format) {
   }
   with_record("in degrees (WKT)",
               ProjectionRecord(2112, "GEOGCS[\"y\",UNIT[\"degree\",0.0174532925]]"));
-  with_record("in degrees (WKT 2)",
-              ProjectionRecord(
-                  2112, "GEOGCRS[\"y\",CS[ellipsoidal,2],ANGLEUNIT[\"degree\",0.0174532925]]"));
+  for (const char* system : {"GEOGCRS", "GEODCRS", "GEODETICCRS", "GEOGRAPHICCRS"}) {
+    const std::string begin = std::string(system) + "[\"y\",CS[";
+    with_record(
+        "in degrees (WKT 2)",
+        ProjectionRecord(2112, begin + "ellipsoidal,2],ANGLEUNIT[\"degree\",0.0174532925]]"));
+    with_record("from the centre of the earth (WKT)",
+                ProjectionRecord(2112, begin + "Cartesian,3],LENGTHUNIT[\"metre\",1]]"));
+  }
   with_record("from the centre of the earth (WKT)",
               ProjectionRecord(2112, "GEOCCS[\"y\",UNIT[\"metre\",1]]"));
   with_record("from the centre of the earth (GeoTIFF)", ProjectionRecord(34735, GeoKeys(1024, 3)));
@@ -123,6 +128,10 @@ void TryLas(Mutants& mutants, int minor_version, int format) {
       "in metres (WKT)",
       ProjectionRecord(
           2112, "PROJCS[\"x\",GEOGCS[\"y\",UNIT[\"degree\",0.0174532925]],UNIT[\"metre\",1]]"));
+  with_record("in metres (WKT 2)",
+              ProjectionRecord(2112,
+                               "PROJECTEDCRS[\"x\",BASEGEODCRS[\"y\"],CS[Cartesian,2],"
+                               "LENGTHUNIT[\"metre\",1.0]]"));
   TryCuts(mutants, 3);
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
-#include <regex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -162,22 +162,45 @@ std::string CheckGeoKeys(const Bytes& keys) {
   return codes;
 }
 
+/// Throws unless a unit is the metre or the degree, of the geographic system below the plan.
+/// @param text Behind its bracket: "metre",1]...
+void CheckWktUnit(std::string_view text) {
+  const auto skip = [&](std::string_view passed) {
+    text.remove_prefix(std::min(text.find_first_not_of(passed), text.size()));
+  };
+  skip(" \t\r\n");
+  if (!text.starts_with('"')) return;
+  const std::string_view name = text.substr(1, text.find('"', 1) - 1);
+  text.remove_prefix(std::min(name.size() + 2, text.size()));
+  skip(" \t\r\n,");
+  const std::string_view number = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
+  if (number.empty()) return;
+  const auto size = ParseSignedNumber<double>(number);
+  const bool is_angle = size && *size > 0.015 && *size < 0.018;
+  if (!is_angle && size != 1.0) RefuseUnit(std::string(name));
+}
+
 /// Throws if the text of a coordinate system, of either version, states that coordinates are no
 /// metres.
 void CheckWkt(std::string_view text) {
-  static const std::regex kUnit(
-      R"re((?:^|[^A-Z])(?:LENGTH)?UNIT\s*[[(]\s*"([^"]*)"\s*,\s*([0-9.eE+-]+))re",
-      std::regex::icase);
-  const auto has = [&](std::string_view part) { return text.find(part) != std::string_view::npos; };
-  if ((has("GEOGCS[") || has("GEOGCRS[")) && !has("PROJC")) RefuseUnit("degrees");
-  if (has("GEOCCS[")) RefuseUnit("places from the earth's centre");
-  using Matches = std::regex_iterator<std::string_view::const_iterator>;
-  for (Matches unit(text.begin(), text.end(), kUnit); unit != Matches(); ++unit) {
-    const auto size = ParseSignedNumber<double>((*unit)[2].str());
-    // An angle, of the geographic system below the plan.
-    const bool is_angle = size && *size > 0.015 && *size < 0.018;
-    if (!is_angle && size != 1.0) RefuseUnit((*unit)[1].str());
+  constexpr auto kGeodetic = std::to_array<std::string_view>(
+      {"GEOGCS", "GEOCCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS"});
+  bool is_geodetic = false, is_projected = false, is_from_centre = false;
+  std::string word;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto letter = static_cast<unsigned char>(text[i]);
+    if (std::isalpha(letter) != 0) word += static_cast<char>(std::toupper(letter));
+    if (std::isalpha(letter) != 0 || std::isspace(letter) != 0) continue;
+    is_from_centre = is_from_centre || word == "GEOCCS" || word == "CARTESIAN";
+    is_geodetic = is_geodetic || std::ranges::find(kGeodetic, word) != kGeodetic.end();
+    is_projected =
+        is_projected || word == "PROJCS" || word == "PROJECTEDCRS" || word.ends_with("PROJCRS");
+    if (word == "UNIT" || word == "LENGTHUNIT") CheckWktUnit(text.substr(i + 1));
+    word.clear();
+    if (letter == '"') i = std::min(text.find('"', i + 1), text.size());
   }
+  if (!is_geodetic || is_projected) return;
+  RefuseUnit(is_from_centre ? "places from the earth's centre" : "degrees");
 }
 
 /// Throws if a record says that coordinates are no metres.

@@ -139,6 +139,7 @@ TEST_F(LasFile, IsRefusedIfItsCoordinatesAreNoMetres) {
   EXPECT_EQ(MessageAbout(with(RecordOf(2112, "GEOGCS[\"WGS 84\"]"))), rule + "degrees" + advice);
   EXPECT_EQ(MessageAbout(with(RecordOf(2112, "PROJCS[\"X\",UNIT[\"US survey foot\",0.3]]"))),
             rule + "US survey foot" + advice);
+  EXPECT_EQ(Read(with(RecordOf(2112, "UNIT[\"" + std::string(60'000, 'u')))).num_points(), 1U);
   EXPECT_EQ(Read(with(RecordOf(34735, GeoKey(3076, 9001)))).num_points(), 1U);
   // The unit of a system of EPSG's stands in its register: feet in New York.
   const auto remarks = Read(with(RecordOf(34735, GeoKey(3072, 2263)))).remarks;
