@@ -357,19 +357,11 @@ void CheckGlb(const std::string& bytes, const std::string& shown) {
 /// Throws if assimp has left out triangles, as it does with those of vertices that are not there.
 void CheckTriangles(const aiScene& scene, const SceneSource& source, const std::string& shown) {
   if (source.format != MeshFormat::kGltf && source.format != MeshFormat::kGlb) return;
-  std::size_t num_stated = 0;
+  const auto num_stated = TrianglesOfGltf(source.bytes, scene.mNumMeshes);
   std::size_t num_read = 0;
-  const auto numbers = TrianglesOfGltf(source.bytes);
-  const bool is_known =
-      std::ranges::all_of(numbers, [](const auto& num) { return num.has_value(); });
-  // Those of no node it does not load.
-  if (!is_known || numbers.size() != scene.mNumMeshes) return;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    num_stated += *numbers[i];
-    num_read += scene.mMeshes[i]->mNumFaces;
-  }
-  if (num_read == num_stated) return;
-  throw InputError(shown + ": must have " + NumberText(num_stated) +
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) num_read += scene.mMeshes[i]->mNumFaces;
+  if (!num_stated || num_read == *num_stated) return;
+  throw InputError(shown + ": must have " + NumberText(*num_stated) +
                    " triangles of vertices that are there" + Got(num_read));
 }
 

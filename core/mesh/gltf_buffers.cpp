@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -103,14 +102,15 @@ void CheckPrimitive(const nlohmann::json& json,
   CheckMember(place, positions, "type", {"VEC3"}, "of POSITION must be VEC3");
   CheckMember(index_place, indices, "componentType", {5121, 5123, 5125},
               "of indices must be 5121, 5123 or 5125");
-  const nlohmann::json& view =
-      ValueIn(ValueIn(json, "bufferViews"), ValueIn(positions, "bufferView"));
-  const nlohmann::json& stride = ValueIn(view, "byteStride");
-  if (stride.is_number() &&
-      (stride < 12 || stride.get<double>() != std::floor(stride.get<double>()) ||
-       stride.get<int>() % 4 != 0)) {
-    throw InputError(place + "/byteStride: of POSITION must be a multiple of 4 from 12 on (got " +
-                     stride.dump() + ")");
+  const nlohmann::json& view_key = ValueIn(positions, "bufferView");
+  const nlohmann::json& stride =
+      ValueIn(ValueIn(ValueIn(json, "bufferViews"), view_key), "byteStride");
+  const bool is_stride = stride.is_number_unsigned() && stride >= 12 && stride <= 252 &&
+                         stride.get<std::uint64_t>() % 4 == 0;
+  if (!stride.is_null() && !is_stride) {
+    throw InputError(shown + ": bufferViews/" + view_key.dump() +
+                     "/byteStride: of POSITION must be a multiple of 4 from 12 to 252 (got " +
+                     ShownText(stride.dump()) + ")");
   }
   const nlohmann::json& mode = ValueIn(primitive, "mode");
   const nlohmann::json& count = ValueIn(index_key.is_null() ? positions : indices, "count");
@@ -181,26 +181,30 @@ std::vector<std::string> CheckGltf(const std::string& bytes, const std::string& 
     for (const auto& primitive : ValueIn(mesh, "primitives"))
       CheckPrimitive(json, primitive, shown);
   }
-  for (const auto& node : ValueIn(json, "nodes")) CheckNode(node, shown + ": nodes");
+  for (const auto& [key, node] : ValueIn(json, "nodes").items()) {
+    CheckNode(node, shown + ": nodes/" + ShownText(key));
+  }
   CheckLetters(json, shown);
   std::vector<std::string> unread = StringsIn(json, "extensionsUsed");
   std::erase_if(unread, IsHarmless);
   return unread;
 }
 
-std::vector<std::optional<std::size_t>> TrianglesOfGltf(const std::string& bytes) {
+std::optional<std::size_t> TrianglesOfGltf(const std::string& bytes, std::size_t num_primitives) {
   const auto json = nlohmann::json::parse(JsonOf(bytes), nullptr, false);
-  std::vector<std::optional<std::size_t>> numbers;
+  std::size_t num_triangles = 0;
+  std::size_t num_found = 0;
   for (const auto& mesh : ValueIn(json, "meshes")) {
     for (const auto& primitive : ValueIn(mesh, "primitives")) {
       const nlohmann::json& indices = ValueIn(primitive, "indices");
       const nlohmann::json& count = ValueIn(ValueIn(ValueIn(json, "accessors"), indices), "count");
       const bool has_triangles = ValueIn(primitive, "mode").is_null() || primitive["mode"] == 4;
-      const bool is_known = has_triangles && count.is_number_unsigned();
-      numbers.push_back(is_known ? std::optional(count.get<std::size_t>() / 3) : std::nullopt);
+      if (!has_triangles || !count.is_number_unsigned()) return std::nullopt;
+      num_triangles += count.get<std::size_t>() / 3;
+      ++num_found;
     }
   }
-  return numbers;
+  return num_found == num_primitives ? std::optional(num_triangles) : std::nullopt;
 }
 
 std::string FileOfUri(const std::string& uri) {

@@ -24,7 +24,9 @@ namespace railcast {
 /// The name of a file as glTF writes it, without its percent signs: "wagon a.bin".
 [[nodiscard]] std::string FileOfUri(const std::string& uri);
 
-/// How many triangles each primitive states that has indices, mesh after mesh; nothing of others.
-[[nodiscard]] std::vector<std::optional<std::size_t>> TrianglesOfGltf(const std::string& bytes);
+/// How many triangles all primitives state together; nothing if one has no indices of triangles, or
+/// there are others than `num_primitives`: those of no node are not loaded.
+[[nodiscard]] std::optional<std::size_t> TrianglesOfGltf(const std::string& bytes,
+                                                         std::size_t num_primitives);
 
 }  // namespace railcast

@@ -198,8 +198,6 @@ void ObjReader::ReadFace(std::string_view rest) {
   for (std::string_view token = NextToken(rest); !token.empty(); token = NextToken(rest)) {
     corners.push_back(static_cast<std::uint32_t>(VertexOf(token)) - 1);
   }
-  if (corners.size() < 3)
-    Fail("a face must have three corners or more", NumberText(corners.size()));
   soup_.AddFace(std::move(corners), material_, group_);
 }
 

@@ -116,7 +116,6 @@ class OffReader {
 
   void ReadFace() {
     const auto num = NumberAt<std::uint32_t>(0, "a face must begin with its number of corners");
-    if (num < 3) Fail("a face must have three corners or more", lines_.words()[0]);
     if (num >= lines_.words().size()) Fail("a face must name its corners", lines_.words()[0]);
     std::vector<std::uint32_t> corners;
     const std::string rule = "a face must name one of the " + std::to_string(num_vertices_) +

@@ -44,6 +44,9 @@ class Reader {
     ReadHeader();
     RefuseSplats();
     for (const Element& element : header_.elements) {
+      const bool is_read = element.name == "vertex" || element.name == "face";
+      // Others have no bytes, and need not have lines.
+      if (element.properties.empty() && !is_read) continue;
       // Each one has at least a byte: a count beyond that would only fill the memory.
       if (element.count > 0 && element.properties.empty()) {
         Fail("element " + ShownText(element.name) + ": has no property");
@@ -207,12 +210,7 @@ class Reader {
           if (uses[p] == FaceUse::kMaterial) material = MaterialOfFace(i, value);
         }
       }
-      if (!has_corners) continue;
-      if (corners.size() < 3) {
-        Fail("face " + std::to_string(i) + " must have three corners or more" +
-             Got(corners.size()));
-      }
-      soup_.AddFace(std::move(corners), material);
+      if (has_corners) soup_.AddFace(std::move(corners), material);
     }
   }
 

@@ -34,8 +34,12 @@ class AsciiStlReader {
       const auto words = Words(*line);
       // What follows is a name, which may be anything.
       if (words.empty()) continue;
-      has_end_ = IsStlWord(words[0], "endsolid");
-      if (has_end_ || IsStlWord(words[0], "solid")) continue;
+      const bool is_end =
+          IsStlWord(words[0], "endsolid") ||
+          (words.size() > 1 && IsStlWord(words[0], "end") && IsStlWord(words[1], "solid"));
+      const bool begins = IsStlWord(words[0], "solid");
+      if (is_end || begins || IsStlWord(words[0], "facet")) has_end_ = is_end;
+      if (is_end || begins) continue;
       for (std::size_t i = 0; i < words.size(); ++i) {
         if (IsStlWord(words[i], "vertex")) ReadVertex(std::span(words).subspan(i + 1), *line);
         if (IsStlWord(words[i], "endloop")) EndLoop();

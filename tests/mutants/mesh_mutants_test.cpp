@@ -15,6 +15,10 @@ namespace {
 Reading ReadMeshWhole(const std::filesystem::path& file) {
   const ImportedMesh mesh = ReadMesh(file);
   Reading reading{.remarks = mesh.remarks};
+  // `check` has their number in a line of its own.
+  if (mesh.num_cornerless > 0) {
+    reading.remarks.push_back({RemarkKind::kExtensionUnread, "", mesh.num_cornerless});
+  }
   std::vector<double>& values = reading.values;
   for (const NamedMesh& part : mesh.parts) {
     values.push_back(static_cast<double>(

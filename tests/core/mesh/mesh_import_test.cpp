@@ -150,6 +150,28 @@ TEST(ParseMesh, RefusesADamagedStl) {
   EXPECT_EQ(Complaint(bytes), "a.mesh: triangle 1 must have finite coordinates (got nan)");
 }
 
+TEST(ParseMesh, TellsWhetherTextOfStlHasAnEnd) {
+  const std::string whole = AsciiStl();
+  const std::string cut = whole.substr(0, whole.find("endsolid"));
+  EXPECT_EQ(ParseMesh(cut, "a.stl").remarks.size(), 1U);
+  for (const char* end : {"endsolid\n", "end solid by hand\n", "ENDSOLID\nthat was all\n"}) {
+    EXPECT_TRUE(ParseMesh(cut + end, "a.stl").remarks.empty()) << end;
+  }
+}
+
+TEST(ParseMesh, LeavesOutFacesOfTwoCorners) {
+  const std::string off = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+      "float z\nelement edge 2\nelement face 2\nproperty list uchar int vertex_index\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n";
+  for (const std::string& text : {off, ply}) {
+    const ImportedMesh mesh = ParseMesh(text, "a");
+    EXPECT_EQ(mesh.num_faces, 1U);
+    EXPECT_EQ(mesh.num_cornerless, 1U);
+  }
+}
+
 TEST(ParseMesh, TellsWhatStandsBehindTheShape) {
   const ImportedMesh mesh = ParseMesh(BinaryStl() + "\r\n", "a.stl");
   EXPECT_EQ(mesh.num_triangles(), 4U);

@@ -192,9 +192,10 @@ TEST_F(ReadObjTest, DropsTrianglesWithoutArea) {
   EXPECT_EQ(mesh.triangles.size(), 1U);
 }
 
-TEST_F(ReadObjTest, RefusesFacesThatLackCorners) {
-  EXPECT_EQ(Complaint(std::string(kThreeVertices) + "f 1 2\n"),
-            "line 4: a face must have three corners or more (got \"2\")");
+TEST_F(ReadObjTest, LeavesOutFacesThatLackCorners) {
+  const ImportedMesh mesh = ReadMesh(Write(std::string(kThreeVertices) + "f 1 2 3\nf 1 2\n"));
+  EXPECT_EQ(mesh.num_faces, 1U);
+  EXPECT_EQ(mesh.num_cornerless, 1U);
 }
 
 TEST_F(ReadObjTest, TellsOfWordsThatAreNotRead) {
