@@ -211,7 +211,9 @@ void RemoveParallax(std::vector<TablePoint>& points, const AzimuthSteps& steps, 
   constexpr int kParts = 60;
   ForEachRow(points, [&](std::span<TablePoint> row) {
     const double step = steps.OfRow(row.front().row);
-    const auto turned = [](const TablePoint& point, double aside_m) {
+    const auto turned = [&](const TablePoint& point, double aside_m) {
+      // No beam that begins beside the axis ends so near to it.
+      if (point.from_axis_m <= outwards_m) return point.turns;
       return point.turns + aside_m / (kTurn_rad * point.from_axis_m);
     };
     double best_m = 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -99,7 +100,8 @@ RecordedFrame ReadReceivedFrame(const std::filesystem::path& directory, const Pl
       has_end ? ParseNumber<std::uint32_t>(words[kNumWords]) : std::optional<std::uint32_t>(0);
   if (!index || !stamp_ns || !duration_ns) fail();
   // Conversions of recordings without poses have none.
-  const bool has_pose = !words[4].empty();
+  const bool has_pose =
+      !std::ranges::all_of(std::span(words).subspan(4, 7), &std::string_view::empty);
   const Transform world_from_sensor = has_pose ? pose_from(4) : Transform::Identity();
   // In the lines of older programs, and of points in other axes, as at the stamp.
   const Transform world_from_sensor_end =

@@ -313,10 +313,12 @@ TEST(CloudRecording, OfAReceivedStreamHasItsPoses) {
     EXPECT_EQ(ReadAll(directory.path()).at(0).frame.duration_ns,
               end.starts_with(',') ? 0U : 99'000'000U);
   }
-  WriteFileWhole(directory.path() / "frames.csv", header + "frames/000000.pcd,7,12,x,5\n");
-  EXPECT_EQ(MessageOf([&] { (void)ReadAll(directory.path()); }),
-            directory.path().string() +
-                "/frames.csv:2: must be a line as railcast-analyze receive writes it");
+  for (const char* line : {"7,12,x,5", "7,12,1200000000,,6,7,0,0,1,0,54,0"}) {
+    WriteFileWhole(directory.path() / "frames.csv", header + "frames/000000.pcd," + line + "\n");
+    EXPECT_EQ(MessageOf([&] { (void)ReadAll(directory.path()); }),
+              directory.path().string() +
+                  "/frames.csv:2: must be a line as railcast-analyze receive writes it");
+  }
 }
 
 TEST(CloudRecording, ReadsAKittiSequence) {
