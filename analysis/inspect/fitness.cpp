@@ -16,7 +16,7 @@ constexpr const char* kMapCoordinates =
 JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
   if (!seen.origin_m.isZero()) return {"", kNo, kMapCoordinates};
   if (info.origin || seen.num_with_beams == seen.num_frames) return {"", kYes, ""};
-  if (seen.num_grids == seen.num_frames && seen.found) {
+  if (seen.num_grids == seen.num_frames && seen.sensor.found) {
     const auto guesses = GuessSensor(seen.rings);
     const bool is_known = !guesses.empty() && guesses.front().error_deg < kLikelyGuess_deg;
     return {"", kWithOption,
@@ -24,8 +24,9 @@ JobFitness FiringsOf(const RecordingLook& seen, const RecordingInfo& info) {
                 (is_known ? ", by its rings a " + guesses.front().name : std::string()) +
                 "; without it, that of its points is taken, with default range and power"};
   }
-  return {"", kNo,
-          "its firings are not known: " + (seen.found ? seen.why_no_grid : seen.why_not_found)};
+  return {
+      "", kNo,
+      "its firings are not known: " + (seen.sensor.found ? seen.why_no_grid : seen.sensor.why_not)};
 }
 
 std::string WithPoses(const RecordingLook& seen, std::string needs) {

@@ -80,14 +80,6 @@ class MotionCheck {
   std::optional<Place> before_;
 };
 
-void LookForSensor(const RecordedFrame& recorded, RecordingLook& inspection) {
-  try {
-    inspection.found = FindSensor(recorded);
-  } catch (const InputError& error) {
-    inspection.why_not_found = error.what();
-  }
-}
-
 void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   const Frame& frame = recorded.frame;
   ++inspection.num_frames;
@@ -99,9 +91,9 @@ void LookAtFrame(const RecordedFrame& recorded, RecordingLook& inspection) {
   for (const std::string& field : recorded.fields) ++inspection.fields[field];
   if (inspection.num_frames == 1) {
     inspection.origin_m = recorded.origin_m;
-    LookForSensor(recorded, inspection);
     for (const ForeignField& field : recorded.foreign) inspection.foreign.push_back(field.name);
   }
+  inspection.sensor.Add(recorded);
   inspection.stamps_ns.push_back(frame.stamp_ns);
   if (recorded.Has("time_ns")) {
     inspection.durations_s.push_back(SecondsFromNs(std::int64_t{frame.duration_ns}));

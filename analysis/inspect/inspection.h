@@ -67,8 +67,7 @@ struct RecordingLook {
   std::vector<MotionBetween> motions;        ///< Of some pairs of frames with poses.
 
   std::vector<InspectedRing> rings;
-  std::optional<FoundSensor> found;  ///< What the points of the first frame show.
-  std::string why_not_found;         ///< If they show none.
+  SensorSearch sensor;  ///< What the points show.
   InspectedValues intensity;
   LogHistogram range_m;
   std::uint64_t num_near{};  ///< Points nearer than kNear_m.

@@ -83,11 +83,11 @@ Section SensorSection(const RecordingLook& seen, const RecordingInfo& info) {
     findings.Add("sensor", info.kind.substr(kOfPackets.size()), "as its packets say");
   } else if (!seen.origin_m.isZero() || guesses.empty() ||
              guesses.front().error_deg > kLikelyGuess_deg) {
-    const bool is_found = seen.found && seen.origin_m.isZero();
+    const bool is_found = seen.sensor.found && seen.origin_m.isZero();
     findings.Add("sensor", is_found ? "no preset" : "unknown",
-                 is_found                  ? seen.found->Text()
+                 is_found                  ? seen.sensor.found->Text()
                  : !seen.origin_m.isZero() ? "its place is not known"
-                                           : seen.why_not_found);
+                                           : seen.sensor.why_not);
   } else {
     const SensorGuess& best = guesses.front();
     findings.Add("sensor", best.name,

@@ -261,7 +261,8 @@ std::array<double, 2> OriginOfRings(std::span<const LevelPoint> points,
     const double away_m = std::abs(origin_m[static_cast<std::size_t>(i)]);
     return away_m > kLeast_m && away_m > kLeast_sigmas * step.sigma_m[i];
   };
-  return is_shown(0) || is_shown(1) ? origin_m : std::array{0.0, 0.0};
+  // What one part shows says nothing of the other.
+  return {is_shown(0) ? origin_m[0] : 0.0, is_shown(1) ? origin_m[1] : 0.0};
 }
 
 }  // namespace railcast

@@ -38,7 +38,8 @@ struct FoundRings {
 [[nodiscard]] std::optional<FoundRings> FindRings(std::span<const LevelPoint> points);
 
 /// Returns the origin from which the points of each ring have the most alike elevations, by least
-/// squares; 0 if it is within a millimetre, or less than five standard deviations away.
+/// squares; each part is 0 if it is within a millimetre, or less than five standard deviations
+/// away.
 [[nodiscard]] std::array<double, 2> OriginOfRings(std::span<const LevelPoint> points,
                                                   std::span<const std::uint32_t> rings);
 

@@ -75,7 +75,10 @@ double StepOfColumns(const ScanTable& table) {
     turned_rad += one_rad;
     num_steps += num;
   }
-  return turned_rad / num_steps;
+  const double step_rad = turned_rad / num_steps;
+  constexpr double kLeast_rad = 1e-5;
+  if (!(std::abs(step_rad) >= kLeast_rad)) throw InputError("its columns have no common step");
+  return step_rad;
 }
 
 /// Finds how far aside of the rotor's azimuth the beams of each row look, where they leave
@@ -263,10 +266,6 @@ void SetTurn(const ScanTable& table, double step_rad, double left, FoundSensor& 
   }
 }
 
-std::string DegreesText(double deg, double unit) {
-  return NumberText(Rounded(deg, unit)).substr(0, 8) + " deg";
-}
-
 }  // namespace
 
 std::string FoundSensor::Text() const {
@@ -306,7 +305,9 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
   auto table = MakeScanTable(frame, origin_m);
   std::vector<double> aside_rad;
   constexpr int kPasses = 4;
-  for (int pass = 0; table && origin_m[0] > 0.0 && pass < kPasses; ++pass) {
+  // Less than this does not show where beams look.
+  constexpr double kLeastOutwards_m = 0.003;
+  for (int pass = 0; table && origin_m[0] > kLeastOutwards_m && pass < kPasses; ++pass) {
     aside_rad = AsideOfRows(frame, points, origin_m, *table, StepOfColumns(*table));
     table = MakeScanTable(frame, origin_m, aside_rad);
   }
@@ -315,6 +316,10 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
   found.has_times = times.left_rad_per_us != 0.0;
   if (found.has_times) {
     found.rate_hz = Rounded(1e6 * std::abs(times.left_rad_per_us) / (2.0 * std::numbers::pi), 1e-4);
+    if (!(found.rate_hz >= 0.1 && found.rate_hz <= 1000.0)) {
+      throw InputError("the times of its points must be those of 0.1 to 1000 turns per s" +
+                       Got(found.rate_hz));
+    }
   }
   const double step_rad = StepOfColumns(*table);
   const double left = (found.has_times ? times.left_rad_per_us : step_rad) < 0.0 ? -1.0 : 1.0;
@@ -341,33 +346,37 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
       (table->is_full_turn ? found.pattern.columns : FiringsOfFullestRow(points, *table, step_rad));
   found.share_without_return = 1.0 - static_cast<double>(num_firings_hit) / num_firings;
   constexpr double kMostOff = 0.25;  // Of a step; points at random azimuths are off by 0.29.
-  if (found.azimuth_error_deg > kMostOff * found.step_deg) {
+  if (!(found.azimuth_error_deg <= kMostOff * found.step_deg)) {
     throw InputError("its points are off the beams of a spinning sensor by " +
-                     DegreesText(found.azimuth_error_deg, 1e-3) + " in azimuth, of steps of " +
-                     DegreesText(found.step_deg, 1e-3));
+                     ShortText(found.azimuth_error_deg) + " deg in azimuth, of steps of " +
+                     ShortText(found.step_deg) + " deg");
   }
   return found;
 }
 
+void SensorSearch::Add(const RecordedFrame& recorded) {
+  if (!goes_on()) return;
+  ++num_frames_;
+  try {
+    FoundSensor now = FindSensor(recorded);
+    const auto size_of = [](const FoundSensor& sensor) {
+      return std::pair(sensor.pattern.channels.size(), sensor.num_points);
+    };
+    if (!found || size_of(now) > size_of(*found)) found = std::move(now);
+  } catch (const InputError& error) {
+    why_not = error.what();
+  }
+}
+
 FoundSensor FindSensor(Recording& recording) {
-  constexpr int kMostFrames = 10;
-  std::optional<FoundSensor> best;
-  std::string why_not = "it has no frame";
-  for (int i = 0; i < kMostFrames; ++i) {
+  SensorSearch search;
+  while (search.goes_on()) {
     const auto read = recording.Next();
     if (!read) break;
-    try {
-      FoundSensor found = FindSensor((*read)());
-      const auto size_of = [](const FoundSensor& sensor) {
-        return std::pair(sensor.pattern.channels.size(), sensor.num_points);
-      };
-      if (!best || size_of(found) > size_of(*best)) best = std::move(found);
-    } catch (const InputError& error) {
-      why_not = error.what();
-    }
+    search.Add((*read)());
   }
-  if (!best) throw InputError("no spinning sensor is found: " + why_not);
-  return *best;
+  if (!search.found) throw InputError("no spinning sensor is found: " + search.why_not);
+  return *std::move(search.found);
 }
 
 }  // namespace railcast

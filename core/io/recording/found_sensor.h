@@ -38,8 +38,22 @@ struct FoundSensor {
 /// @throws InputError with the reason in one line if the frame is no grid of a spinning sensor.
 [[nodiscard]] FoundSensor FindSensor(const RecordedFrame& recorded);
 
-/// Finds the sensor of a recording, by that of its first frames which has the most rings, and of
-/// these the most points.
+/// Finds the sensor of a recording, by that of its first ten frames which has the most rings, and
+/// of these the most points.
+class SensorSearch {
+ public:
+  /// Looks at the next frame, if the search goes on.
+  void Add(const RecordedFrame& recorded);
+  [[nodiscard]] bool goes_on() const { return num_frames_ < 10; }
+
+  std::optional<FoundSensor> found;
+  std::string why_not = "it has no frame";  ///< Of the last frame that shows none.
+
+ private:
+  int num_frames_{};
+};
+
+/// As SensorSearch.
 /// @throws InputError as above, or as OpenRecording() and its readers do.
 [[nodiscard]] FoundSensor FindSensor(Recording& recording);
 

@@ -215,8 +215,10 @@ std::optional<ScanTable> MakeScanTable(const Frame& frame,
   if (frame.rows < 2 || frame.columns < 2) return std::nullopt;
   DirectionGrid grid(frame.rows, frame.columns);
   for (std::size_t place = 0; place < grid.azimuth_rad.size(); ++place) {
-    const std::size_t slot = place * frame.returns;
-    if (!std::isfinite(frame.range_m[slot])) continue;
+    const std::size_t end = (place + 1) * frame.returns;
+    std::size_t slot = place * frame.returns;
+    while (slot < end && !std::isfinite(frame.range_m[slot])) ++slot;
+    if (slot == end) continue;
     const double beam_rad = aside_rad.empty() ? 0.0 : aside_rad[place / frame.columns];
     const AimedPoint seen = SeenFromBeam(origin_m, beam_rad, frame, slot);
     grid.azimuth_rad[place] = seen.azimuth_rad;
