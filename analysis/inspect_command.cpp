@@ -36,8 +36,8 @@ int RunInspect(const InspectOptions& options, const std::string& command_line) {
     throw InputError(ShownPath(options.source) + ": must hold a frame");
   }
   if (!options.sensor_file.empty()) {
-    const auto find = [&] { return FindSensor(*OpenRecording(source)); };
-    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", find).FileText());
+    const auto find = [&] { return FindSensor(*OpenRecording(source)).FileText(); };
+    WriteFileWhole(options.sensor_file, AtPlace(ShownPath(options.source) + ": ", find));
   }
   Report report = MakeInspectionReport(inspection, info, command_line);
   if (auto section = CaptureSection({source})) report.sections.push_back(*section);

@@ -160,12 +160,9 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   RecordedFrame recorded;
   recorded.name = name;
   for (const char* axis : {"x", "y", "z"}) (void)NeedFieldOf(cloud, axis, name);
-  Remark far;
-  for (const std::string& fault : {FaultOfPositions(cloud, far), FaultOfIntensities(cloud)}) {
-    if (!fault.empty()) throw InputError(name + ": " + fault);
-  }
-  far.place = name;
-  AddRemark(far, recorded.remarks);
+  recorded.remarks = CheckPositions(cloud, name);
+  const std::string fault = FaultOfIntensities(cloud);
+  if (!fault.empty()) throw InputError(name + ": " + fault);
   const SlotPlan plan = PlanOfCloud(cloud, name);
   FillFrame(cloud, plan, recorded);
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);

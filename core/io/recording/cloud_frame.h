@@ -23,7 +23,7 @@ namespace railcast {
 ///
 /// @param name Names the frame in messages.
 /// @throws InputError with one line if x, y or z is missing, the positions cannot be metres
-///   (FaultOfPositions()), a value does not fit its field, or two points claim the same slot.
+///   (CheckPositions()), a value does not fit its field, or two points claim the same slot.
 [[nodiscard]] RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name);
 
 /// The column of times of a cloud that has no time_ns.

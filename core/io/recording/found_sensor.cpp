@@ -289,6 +289,8 @@ std::string FoundSensor::FileText() const {
   LidarSpec lidar;
   lidar.name = "found";
   lidar.scan = {.rate_hz = rate_hz, .pattern = pattern};
+  // Says what scenarios would refuse.
+  (void)BuildScanPattern(lidar.scan);
   Json json = {{"version", 1}};
   json.update(JsonWriter::WriteShort(lidar));
   return json.dump(2) + '\n';
@@ -302,6 +304,11 @@ FoundSensor FindSensor(const RecordedFrame& recorded) {
   FoundSensor found;
   const std::array<double, 2> origin_m = OriginOf(frame, points);
   if (origin_m != std::array{0.0, 0.0}) found.pattern.beam_origin_m = origin_m;
+  constexpr double kFarthest_m = 1.0;
+  if (!(std::max(std::abs(origin_m[0]), std::abs(origin_m[1])) <= kFarthest_m)) {
+    throw InputError("its beams must leave within 1 m of its origin (got " +
+                     ShortText(origin_m[0]) + " m outwards, " + ShortText(origin_m[1]) + " m up)");
+  }
   auto table = MakeScanTable(frame, origin_m);
   std::vector<double> aside_rad;
   constexpr int kPasses = 4;

@@ -31,6 +31,7 @@ struct FoundSensor {
   /// "64 rings, step 0.172 deg, ...": one line with all figures.
   [[nodiscard]] std::string Text() const;
   /// The sensor as a file that scenarios and plans take as `lidar`.
+  /// @throws InputError as BuildScanPattern() does.
   [[nodiscard]] std::string FileText() const;
 };
 

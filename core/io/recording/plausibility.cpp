@@ -68,34 +68,40 @@ bool AreFarTogether(const Positions& positions) {
 
 }  // namespace
 
-std::string FaultOfPositions(const Cloud& cloud, Remark& far) {
+std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) {
   const Positions positions = StoredPositions(cloud);
-  far = {.kind = RemarkKind::kFarReturns, .place = {}, .number = 0, .detail = {}};
-  if (positions.empty()) return {};
+  std::vector<Remark> remarks;
+  if (positions.empty()) return remarks;
   for (const char* axis : {"x", "y", "z"}) {
     if (SizeOf(FindFieldOf(cloud, axis)->type) > 1) continue;
-    return std::string(axis) + ": must have 16 bits or more (got 8)";
+    throw InputError(name + ": " + axis + ": must have 16 bits or more (got 8)");
   }
-  // No sensor has all of its returns so near, but a file of kilometres has.
+  // No sensor has all of its returns so near, but a file of kilometres has, or one of a small
+  // thing.
   constexpr double kNearest_m = 0.1;
   constexpr std::size_t kSurePoints = 100;
   if (positions.size() >= kSurePoints && AreTogether(positions, Vector3::Zero(), kNearest_m)) {
-    return "x, y, z: 99 % of the points must not be less than 0.1 m from 0: another unit?";
+    remarks.push_back({.kind = RemarkKind::kUnitsAssumed,
+                       .place = name,
+                       .detail = "99 % of the points are less than 0.1 m from 0"});
   }
   const auto num_likely = std::ranges::count_if(positions, [](const Vector3& position) {
     return std::ranges::all_of(position, &IsLikelyPosition);
   });
   const double share = static_cast<double>(num_likely) / static_cast<double>(positions.size());
   if (share >= 1.0 - kMostWrong) {
-    far.number = positions.size() - static_cast<std::size_t>(num_likely);
-    far.detail = "no coordinates in metres within 10 km";
-    return {};
+    AddRemark({.kind = RemarkKind::kFarReturns,
+               .place = name,
+               .number = positions.size() - static_cast<std::size_t>(num_likely),
+               .detail = "no coordinates in metres within 10 km"},
+              remarks);
+    return remarks;
   }
-  if (AreFarTogether(positions)) return {};
-  return "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a "
-         "grid "
-         "(got " +
-         ShortText(100.0 * share) + " %): other columns, another byte order or unit?";
+  if (AreFarTogether(positions)) return remarks;
+  throw InputError(name +
+                   ": x, y, z: 99 % of the points must be less than 10 km from 0, or all in one "
+                   "place of a grid (got " +
+                   ShortText(100.0 * share) + " %): other columns, another byte order or unit?");
 }
 
 std::string FaultOfIntensities(const Cloud& cloud) {

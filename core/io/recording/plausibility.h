@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/io/cloud/cloud.h"
 #include "railcast/io/recording.h"
@@ -10,12 +11,14 @@ namespace railcast {
 
 // Whether values can be what they are said to be. A wrong layout, byte order or unit shows in them.
 
-/// What is wrong with the positions of a cloud; empty if they can be metres: 99 % of the points are
-/// less than 10 km from 0, or all of them lie together farther away, as in a national grid. Of 100
-/// points or more, not all may be within 0.1 m. Points that are not finite, or 0, are none.
-/// @param far Becomes a remark of those few that are farther than 10 km away; its number may be 0.
+/// Whether the positions of a cloud can be metres: 99 % of the points are less than 10 km from 0,
+/// or all of them lie together farther away, as in a national grid. Points that are not finite, or
+/// 0, are none.
+/// @return Remarks of those few that are farther than 10 km away, and of a cloud of 100 points or
+///   more that is within 0.1 m.
+/// @throws InputError "name: x, y, z: rule (got value)" if they cannot.
 /// @pre The cloud has x, y and z (FindFieldOf()).
-[[nodiscard]] std::string FaultOfPositions(const Cloud& cloud, Remark& far);
+[[nodiscard]] std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name);
 
 /// What is wrong with the intensities of a cloud, if it has any; empty if 99 % of them can be such.
 [[nodiscard]] std::string FaultOfIntensities(const Cloud& cloud);

@@ -36,40 +36,38 @@ void SetX(double value, std::size_t num, Cloud& cloud) {
 }
 
 std::string PositionFault(const Cloud& cloud) {
-  Remark far;
-  return FaultOfPositions(cloud, far);
+  return MessageOf([&] { (void)CheckPositions(cloud, "a.pcd"); });
 }
 
-TEST(FaultOfPositions, IsNoneOfMetresAboutTheSensorOrInAGrid) {
+TEST(CheckPositions, IsNoneOfMetresAboutTheSensorOrInAGrid) {
   EXPECT_EQ(PositionFault(RoomOf(200, 1.0)), "");
   EXPECT_EQ(PositionFault(RoomOf(200, 1.0, {691234.0, 5334567.0, 520.0})), "");
   EXPECT_EQ(PositionFault(RoomOf(200, 1.0, {12'000.0, 30'000.0, 520.0})), "");
   EXPECT_EQ(PositionFault(RoomOf(0, 1.0)), "");
 }
 
-TEST(FaultOfPositions, NamesTheShareThatCanBeMetres) {
+TEST(CheckPositions, NamesTheShareThatCanBeMetres) {
   const std::string rule =
-      "x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a grid "
+      "a.pcd: x, y, z: 99 % of the points must be less than 10 km from 0, or all in one place of a "
+      "grid "
       "(got ";
   const std::string end = " %): other columns, another byte order or unit?";
   EXPECT_EQ(PositionFault(RoomOf(200, 1000.0)), rule + "0" + end);
   for (const double wrong : {1e19, 1e-30}) {
     Cloud cloud = RoomOf(200, 1.0);
     SetX(wrong, 2, cloud);
-    Remark far;
-    EXPECT_EQ(FaultOfPositions(cloud, far), "");
-    EXPECT_EQ(far.number, 2U);
+    EXPECT_EQ(CheckPositions(cloud, "a.pcd").at(0).number, 2U);
     SetX(wrong, 50, cloud);
     EXPECT_EQ(PositionFault(cloud), rule + "75" + end) << wrong;
   }
 }
 
-TEST(FaultOfPositions, SaysThatAllPointsAreTooNear) {
-  EXPECT_EQ(PositionFault(RoomOf(200, 0.001)),
-            "x, y, z: 99 % of the points must not be less than 0.1 m from 0: another unit?");
+TEST(CheckPositions, TellsThatAllPointsAreVeryNear) {
+  EXPECT_EQ(CheckPositions(RoomOf(200, 0.001), "a.pcd").at(0).kind, RemarkKind::kUnitsAssumed);
+  EXPECT_TRUE(CheckPositions(RoomOf(200, 1.0), "a.pcd").empty());
 }
 
-TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
+TEST(CheckPositions, LeavesOutWhatIsNoPoint) {
   // Simulators write infinity for firings without a return.
   for (const double none :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
@@ -79,7 +77,7 @@ TEST(FaultOfPositions, LeavesOutWhatIsNoPoint) {
   }
 }
 
-TEST(FaultOfPositions, IsSaidByWhatMakesFramesOfClouds) {
+TEST(CheckPositions, IsSaidByWhatMakesFramesOfClouds) {
   EXPECT_THAT(MessageOf([] { (void)MakeCloudFrame(RoomOf(200, 1000.0), "mm.pcd"); }),
               testing::StartsWith("mm.pcd: x, y, z: 99 % of the points must be"));
 }
