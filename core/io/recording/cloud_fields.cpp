@@ -15,6 +15,7 @@
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/io/field_layout.h"
+#include "core/io/recording/elevation_rings.h"
 
 namespace railcast {
 namespace {
@@ -34,14 +35,6 @@ void VisitPoints(const Cloud& cloud,
       visit(slot, static_cast<double>(value));
     }
   });
-}
-
-/// Returns the median, which stray points do not move as they would a mean.
-/// @pre Not empty.
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -257,7 +250,7 @@ void TakeFromNearOrigin(const Cloud& cloud, const SlotPlan& plan, RecordedFrame&
     VisitPoints(cloud, *columns.at(static_cast<std::size_t>(axis)), plan, frame,
                 [&](std::uint32_t, double value_m) { values_m.push_back(value_m); });
     if (values_m.empty()) return;
-    middle_m[axis] = Median(values_m);
+    middle_m[axis] = MedianOf(values_m);
   }
   if (!(middle_m.norm() > kFarPosition_m)) return;
   RemarkRounded(columns, middle_m, recorded);

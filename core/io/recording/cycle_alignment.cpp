@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/recording/elevation_rings.h"
 #include "core/io/recording/ring_table.h"
 
 namespace railcast {
@@ -159,11 +160,10 @@ struct TurnCycles {
       const std::int64_t cycle = row.columns[i] + row.shift;
       aside.push_back(row.steps[i] - static_cast<double>(cycle) - PlaceOf(cycle));
     }
-    const auto middle = aside.begin() + static_cast<std::ptrdiff_t>(aside.size() / 2);
-    std::ranges::nth_element(aside, middle);
+    const double middle = MedianOf(aside);
     std::vector<CycleOfPoint> cycles;
     for (std::size_t i = 0; i < row.steps.size(); ++i) {
-      cycles.push_back(Nearest(row.steps[i] - *middle, row.columns[i] + row.shift));
+      cycles.push_back(Nearest(row.steps[i] - middle, row.columns[i] + row.shift));
     }
     return cycles;
   }

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numbers>
 
 #include "core/base/units.h"
@@ -142,17 +142,13 @@ std::vector<double> ElevationsFrom(const std::array<double, 2>& origin_m,
   return elevations_rad;
 }
 
-/// The median of the elevations of each ring.
-std::map<std::uint32_t, double> MiddlesOf(std::span<const double> elevations_rad,
-                                          std::span<const std::uint32_t> rings) {
-  std::map<std::uint32_t, std::vector<double>> by_ring;
+/// The median of the elevations of each ring; NaN of one without points.
+std::vector<double> MiddlesOf(std::span<const double> elevations_rad,
+                              std::span<const std::uint32_t> rings) {
+  std::vector<std::vector<double>> by_ring(std::ranges::max(rings) + std::size_t{1});
   for (std::size_t i = 0; i < rings.size(); ++i) by_ring[rings[i]].push_back(elevations_rad[i]);
-  std::map<std::uint32_t, double> middles;
-  for (auto& [ring, values] : by_ring) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    middles.emplace(ring, *middle);
-  }
+  std::vector<double> middles;
+  for (auto& values : by_ring) middles.push_back(MedianOf(values));
   return middles;
 }
 
@@ -172,13 +168,12 @@ OriginStep StepOf(std::span<const LevelPoint> points,
                   std::span<const std::uint32_t> rings,
                   const std::array<double, 2>& origin_m) {
   const std::vector<double> elevations_rad = ElevationsFrom(origin_m, points);
-  const auto middles = MiddlesOf(elevations_rad, rings);
-  std::vector<double> off_rad;
+  const std::vector<double> middles = MiddlesOf(elevations_rad, rings);
+  std::vector<double> off_rad, sizes_rad;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    off_rad.push_back(elevations_rad[i] - middles.at(rings[i]));
+    off_rad.push_back(elevations_rad[i] - middles[rings[i]]);
+    sizes_rad.push_back(std::abs(off_rad.back()));
   }
-  std::vector<double> sizes_rad;
-  for (const double off : off_rad) sizes_rad.push_back(std::abs(off));
   // Strays, which are up to 2 % of the points, are left out.
   const auto most = sizes_rad.begin() + static_cast<std::ptrdiff_t>(sizes_rad.size() * 95 / 100);
   std::ranges::nth_element(sizes_rad, most);
@@ -187,7 +182,7 @@ OriginStep StepOf(std::span<const LevelPoint> points,
     const double up_m = points[i].up_m - origin_m[1];
     return Eigen::Vector2d(up_m, -out_m) / (out_m * out_m + up_m * up_m);
   };
-  std::map<std::uint32_t, RingSums> sums;
+  std::vector<RingSums> sums(middles.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::abs(off_rad[i]) > *most) continue;
     RingSums& ring = sums[rings[i]];
@@ -201,7 +196,7 @@ OriginStep StepOf(std::span<const LevelPoint> points,
   double num = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::abs(off_rad[i]) > *most) continue;
-    const RingSums& ring = sums.at(rings[i]);
+    const RingSums& ring = sums[rings[i]];
     const Eigen::Vector2d slope = slope_of(i) - ring.slope / ring.num;
     const double off = off_rad[i] - ring.residual / ring.num;
     normal += slope * slope.transpose();
@@ -215,6 +210,13 @@ OriginStep StepOf(std::span<const LevelPoint> points,
 }
 
 }  // namespace
+
+double MedianOf(std::vector<double>& values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
 
 double LevelPoint::ElevationFrom_rad(const std::array<double, 2>& origin_m) const {
   return std::atan2(up_m - origin_m[1], from_axis_m - origin_m[0]);

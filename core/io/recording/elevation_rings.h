@@ -11,6 +11,9 @@ namespace railcast {
 
 inline constexpr std::size_t kMaxRings = 256;
 
+/// The median, or NaN if there are no values. Reorders the values.
+[[nodiscard]] double MedianOf(std::vector<double>& values);
+
 /// Returns the ring of each point by its elevation, 0 the lowest. Nothing is returned unless the
 /// elevations lie in 2 to kMaxRings clusters that hold 98 % of the points and of which none is
 /// wider than half its distance to the next. The remaining points belong to the nearest cluster.
@@ -40,6 +43,7 @@ struct FoundRings {
 /// Returns the origin from which the points of each ring have the most alike elevations, by least
 /// squares; each part is 0 if it is within a millimetre, or less than five standard deviations
 /// away.
+/// @pre There is a point.
 [[nodiscard]] std::array<double, 2> OriginOfRings(std::span<const LevelPoint> points,
                                                   std::span<const std::uint32_t> rings);
 

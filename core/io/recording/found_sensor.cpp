@@ -27,13 +27,6 @@ double Rounded(double value, double unit) {
   return std::round(value / unit) * unit + 0.0;
 }
 
-double MedianIn(std::vector<double>& values) {
-  if (values.empty()) return kNoValue;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// A point of a turn in its grid.
 struct CellPoint {
   std::size_t slot{};
@@ -152,12 +145,12 @@ TurnTimes TimesOfTurn(const RecordedFrame& recorded,
     for (const CellPoint& point : points) {
       of_columns[point.column].push_back(time_us(point) - times.late_us[point.row]);
     }
-    for (std::size_t i = 0; i < column_us.size(); ++i) column_us[i] = MedianIn(of_columns[i]);
+    for (std::size_t i = 0; i < column_us.size(); ++i) column_us[i] = MedianOf(of_columns[i]);
     for (const CellPoint& point : points) {
       of_rows[point.row].push_back(time_us(point) - column_us[point.column]);
     }
     for (std::size_t i = 0; i < times.late_us.size(); ++i) {
-      if (!of_rows[i].empty()) times.late_us[i] = MedianIn(of_rows[i]);
+      if (!of_rows[i].empty()) times.late_us[i] = MedianOf(of_rows[i]);
     }
   }
   // Over an eighth of the turn, so that rounded times matter little.
@@ -168,7 +161,7 @@ TurnTimes TimesOfTurn(const RecordedFrame& recorded,
     const double speed = turned_rad / (column_us[i] - column_us[i - way]);
     if (std::isfinite(speed)) speeds.push_back(speed);
   }
-  const double speed = MedianIn(speeds);
+  const double speed = MedianOf(speeds);
   if (std::isfinite(speed)) times.left_rad_per_us = speed;
   return times;
 }

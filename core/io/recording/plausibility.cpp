@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/recording/cloud_fields.h"
+#include "core/io/recording/elevation_rings.h"
 
 namespace railcast {
 namespace {
@@ -46,9 +47,7 @@ Vector3 MiddleOf(const Positions& positions) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values_m;
     for (const Vector3& position_m : positions) values_m.push_back(position_m[axis]);
-    const auto middle = values_m.begin() + static_cast<std::ptrdiff_t>(values_m.size() / 2);
-    std::ranges::nth_element(values_m, middle);
-    middle_m[axis] = *middle;
+    middle_m[axis] = MedianOf(values_m);
   }
   return middle_m;
 }

@@ -172,9 +172,7 @@ std::vector<std::uint32_t> RowsOf(const RingCloud& cloud) {
   }
   std::vector<std::pair<double, std::uint32_t>> order;
   for (auto& [ring, values] : by_ring) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    order.emplace_back(*middle, ring);
+    order.emplace_back(MedianOf(values), ring);
   }
   std::ranges::sort(order);
   std::map<std::uint32_t, std::uint32_t> row_of_ring;

@@ -5,18 +5,12 @@
 #include <limits>
 #include <numbers>
 
+#include "core/io/recording/elevation_rings.h"
+
 namespace railcast {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-// Returns the median, or NaN if there are no values. Reorders the values.
-double MedianOf(std::vector<double>& values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Interpolates linearly between known values; unknown values at the ends stay unknown.
 void FillGaps(std::vector<double>& values) {
