@@ -127,7 +127,13 @@ std::optional<double> TrackNetwork::FirstConflict_m(const TrackDraft& draft, boo
       const double apart_m = draft.offsets_m[static_cast<std::size_t>(at_m - draft.first_m)] -
                              track.offsets_m[static_cast<std::size_t>(at_m - track.first_m)];
       if (std::abs(apart_m) >= kLeastApart_m) continue;
-      if (AreJoined(joined, tracks_.size(), i, at_m)) continue;
+      const auto is_joined = [&](double s_m) { return AreJoined(joined, tracks_.size(), i, s_m); };
+      if (is_joined(at_m)) continue;
+      // Where a turnout's section ends, tracks are as far apart as they must, but not yet more.
+      if (std::abs(apart_m) >= kLeastTrackDistance_m &&
+          (is_joined(at_m - 1.0) || is_joined(at_m + 1.0))) {
+        continue;
+      }
       first_m = at_m;
       break;
     }
