@@ -75,9 +75,11 @@ constexpr double kShortestLimit_m = 50.0;
 
 /// Takes limits that are the same as those before them out.
 void JoinEqualLimits(std::vector<ChainageValue>& limits) {
-  const auto same =
-      std::ranges::unique(limits, {}, [](const ChainageValue& limit) { return limit.value; });
-  limits.erase(same.begin(), same.end());
+  const auto is_same = [](const ChainageValue& a, const ChainageValue& b) {
+    return a.value == b.value;
+  };
+  // clang 14 cannot compile std::ranges::unique.
+  limits.erase(std::unique(limits.begin(), limits.end(), is_same), limits.end());
 }
 
 /// Lets no limit end within a stretch, and none be above another limit there.
