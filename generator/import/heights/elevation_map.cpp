@@ -108,12 +108,13 @@ void CheckAsciiGrid(const std::string& name, std::string_view text) {
     const auto words = Words(*line);
     const bool is_head = num_heights == 0 && words.size() == 2 && std::isalpha(words[0][0]) != 0 &&
                          LowerCase(words[0]) != "nan";
+    const bool may_be_nan =
+        is_head || (head.contains("nodata_value") && std::isnan(head["nodata_value"]));
+    std::string word;
     for (std::size_t i = is_head ? 1 : 0; i < words.size(); ++i) {
-      std::string word(words[i]);
+      word = words[i];
       std::ranges::replace(word, ',', '.');  // As GDAL reads them.
       const auto value = ParseSignedNumber<double>(word);
-      const bool may_be_nan =
-          is_head || (head.contains("nodata_value") && std::isnan(head["nodata_value"]));
       if (!value || !(std::isfinite(*value) || may_be_nan)) {
         throw InputError(name + ": line " + std::to_string(number) + ": must be numbers (got " +
                          ShownText(words[i]) + ")");

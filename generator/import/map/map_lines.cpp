@@ -253,8 +253,8 @@ std::string UnreadTrackTag(const MapTags& tags) {
       "crossing_box yard depot workshop wash roundhouse engine_shed site facility museum fuel "
       "loading_ramp service_station abandoned razed dismantled historic proposed planned ";
   for (const auto& [key, value] : tags) {
-    const bool is_other = kOthers.find(" " + LowerCase(value) + " ") != std::string_view::npos;
-    if (LowerCase(key) == "railway" && !value.empty() && !is_other) {
+    if (value.empty() || LowerCase(key) != "railway") continue;
+    if (kOthers.find(" " + LowerCase(value) + " ") == std::string_view::npos) {
       return ShownText(key) + "=" + ShownText(value);
     }
   }
