@@ -92,8 +92,9 @@ class RailMlReader {
   ErrorList errors_;
   std::vector<Remark> remarks_;
   std::map<std::string, ToDegrees> systems_;  ///< By id.
-  std::set<std::string> in_metres_;           ///< Ids of systems.
-  std::set<std::string> all_nets_;            ///< Also those without coordinates.
+  /// Of systems in metres whose points may all be degrees, the first one.
+  std::map<std::string, std::string> like_degrees_;
+  std::set<std::string> all_nets_;  ///< Also those without coordinates.
   std::vector<NetElement> nets_;
   std::map<std::string, std::size_t> net_ids_;
 };
@@ -128,7 +129,7 @@ void RailMlReader::ReadSystem(const CPLXMLNode& element) {
   // x is longitude or easting, whatever the system says (RTM:geometricCoordinate).
   from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  if (from.IsProjected() != 0) in_metres_.insert(id);
+  if (from.IsProjected() != 0) like_degrees_[id];
   systems_[id] = ToDegrees(OGRCreateCoordinateTransformation(&from, &to));
 }
 
@@ -151,12 +152,12 @@ void RailMlReader::ReadPoint(const CPLXMLNode& intrinsic,
     return;
   }
   if (!system->second) return;  // Its fault is known.
-  const bool is_like_degrees =
-      std::abs(*x) <= kMostLongitude_deg && std::abs(*y) <= kMostLatitude_deg;
-  if (in_metres_.contains(id) && is_like_degrees) {
-    errors_.Add({place, "must be metres in its coordinate system, and no degrees",
-                 NumberText(*x) + ", " + NumberText(*y)});
-    return;
+  if (const auto first = like_degrees_.find(id); first != like_degrees_.end()) {
+    if (std::abs(*x) > kMostLongitude_deg || std::abs(*y) > kMostLatitude_deg) {
+      like_degrees_.erase(first);
+    } else if (first->second.empty()) {
+      first->second = NumberText(*x) + ", " + NumberText(*y);
+    }
   }
   RailMlPoint point{*at, {*x, *y}, {}};
   if (system->second->Transform(1, &point.geographic_deg.x(), &point.geographic_deg.y()) == 0 ||
@@ -285,6 +286,11 @@ void RailMlReader::Read(const CPLXMLNode* root) {
   VisitElements(root, "geometricPositioningSystem",
                 [&](const CPLXMLNode& element) { ReadSystem(element); });
   VisitElements(root, "netElement", [&](const CPLXMLNode& element) { ReadNetElement(element); });
+  for (const auto& [id, first] : like_degrees_) {
+    if (first.empty()) continue;
+    errors_.Add({"geometricPositioningSystem " + ShownText(id),
+                 "must have a point that is in metres, and no degrees", first});
+  }
   VisitElements(root, "speedSection",
                 [&](const CPLXMLNode& element) { ReadSpeedSection(element); });
   VisitElements(root, "superelevationCurve",

@@ -127,6 +127,17 @@ TEST_F(RailMl, TakesOtherCoordinateSystems) {
   EXPECT_NEAR(map.nodes[0].geographic_deg.y(), 48.2, 0.05);
 }
 
+TEST_F(RailMl, IsRefusedWhereAllPointsOfASystemInMetresMayBeDegrees) {
+  EXPECT_EQ(Fault(Track(), "EPSG:31256"),
+            "net.xml: geometricPositioningSystem gps: must have a point that is in metres, and no "
+            "degrees (got 15.6, 48.2)");
+  const RailMap map =
+      Read(Net("ne1", Point("0", R"(x="50" y="20")") + Point("1", R"(x="950" y="20")")),
+           "+proj=tmerc +lat_0=48.2 +lon_0=15.6 +ellps=WGS84 +units=m");
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_NEAR(map.nodes[0].geographic_deg.y(), 48.2, 0.001) << "20 m from the origin";
+}
+
 TEST_F(RailMl, IsRefusedByNameInItsOlderVersion) {
   EXPECT_EQ(FaultOf(R"(<railml xmlns="https://www.railml.org/schemas/2018" version="2.4">
 <infrastructure><tracks/></infrastructure></railml>)"),
