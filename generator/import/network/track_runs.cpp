@@ -86,13 +86,12 @@ class RunCutter {
       }
       End(chain, first, points_m);
       points_m.clear();
-      // The run ends here, and the next one may begin with the same point.
-      if (i > 0 && point_m) {
-        first = i - 1;
-        if (const auto& before_m = places_m[first]) points_m.push_back(*before_m);
-        if (points_m.empty()) first = i;
-        if (points_m.empty() || GoesOn(points_m, *point_m)) points_m.push_back(*point_m);
-      }
+      if (!point_m) continue;
+      // The run ends here, and the next one may begin with its last point.
+      const auto& before_m = places_m[i - 1];
+      if (before_m && GoesOn({*before_m}, *point_m)) points_m = {*before_m};
+      first = i - points_m.size();
+      points_m.push_back(*point_m);
     }
     End(chain, first, points_m);
     for (std::size_t i = 0; i < reasons_.size(); ++i) {

@@ -101,6 +101,20 @@ TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
   EXPECT_EQ(track["electrified"], false);
   EXPECT_EQ(quality_.num_turnouts, 0U);
 }
+TEST_F(BesideALine, ARunHasItsNodesWhereItsPointsAreAlsoBehindASteepStep) {
+  Add({{400.0, 4.5}, {600.0, 4.5}, {601.0, 6.5}, {700.0, 6.5}, {900.0, 6.5}},
+      {{"railway", "rail"}});
+  Make();
+  ASSERT_THAT(world_.beside.runs, SizeIs(2));
+  for (const TrackRun& run : world_.beside.runs) {
+    ASSERT_EQ(run.nodes.size(), run.points_m.size());
+    for (std::size_t i = 0; i < run.nodes.size(); ++i) {
+      const double x_m = map_.nodes[run.nodes[i]].place_m.x();
+      EXPECT_NEAR(run.points_m[i].x(), runs_east_ ? x_m : 2000.0 - x_m, 0.1);
+    }
+  }
+}
+
 
 TEST_F(BesideALine, ASidingBeginsInATurnout) {
   AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
