@@ -28,7 +28,7 @@ TrackDraft MainTrack(const RailMap& map, const TrackLine& track, const ImportedL
 /// Says where the line's speed is not that of the map.
 void TellLineSpeeds(const RailMap& map, const ImportedLine& line, LineWorld& world) {
   for (const LineStretch& way : world.tracks[0].ways) {
-    const auto mapped_kmph = SpeedOf_kmph(TagOf(map.ways[way.way].tags, "maxspeed"));
+    const auto mapped_kmph = SpeedOf_kmph(map.ways[way.way].tags);
     const double speed_kmph =
         SpeedAt_kmph(line.alignment.speed_limits_kmph, 0.5 * (way.begin_s_m + way.end_s_m));
     if (mapped_kmph == speed_kmph) continue;

@@ -102,6 +102,15 @@ TEST_F(OfOneLine, HasBridgesTunnelsAndSlabTrackFromItsWays) {
   EXPECT_NEAR(world_.left_out[1].end_s_m, 4.0 * kStep_m, 1.0);
 }
 
+TEST_F(OfOneLine, TellsNoOtherSpeedWhereTheMapHasOneForEachDirection) {
+  MakeMap(R"(
+  {"type": "node", "id": 1, "lon": 15.60, "lat": 48.20},
+  {"type": "node", "id": 2, "lon": 15.61, "lat": 48.20},
+  {"type": "way", "id": 11, "nodes": [1, 2],
+   "tags": {"railway": "rail", "maxspeed:forward": "60", "maxspeed:backward": "70"}})");
+  EXPECT_THAT(world_.left_out, SizeIs(0));
+}
+
 TEST(GaugeOf, IsTheStandardOneOfSeveralOrTheFirst) {
   EXPECT_EQ(GaugeOf_mm("760"), 760.0);
   EXPECT_EQ(GaugeOf_mm("1000;1435"), 1435.0);
