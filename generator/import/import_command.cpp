@@ -32,7 +32,6 @@
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/network/line_world.h"
-#include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_account.h"
 #include "generator/import/structures/standing_world.h"

@@ -136,19 +136,16 @@ std::string LeftOutCsv(const LeftOutOfMap& left_out,
                        const std::vector<LineWorld>& worlds) {
   std::ostringstream csv;
   csv << "line,what,from_s_m,to_s_m,reason\n";
-  const auto quoted = [](std::string reason) {
-    std::ranges::replace(reason, '"', '\'');
-    return '"' + reason + '"';
-  };
   const auto add = [&](const std::string& line, const LeftOut& thing) {
     csv << line << ',' << thing.what << ',' << RoundedTo(thing.begin_s_m, 100.0) << ','
-        << RoundedTo(thing.end_s_m, 100.0) << ',' << quoted(thing.reason) << '\n';
+        << RoundedTo(thing.end_s_m, 100.0) << ',' << QuotedField(thing.reason) << '\n';
   };
   for (const Remark& remark : left_out.remarks) {
     Remark placeless = remark;
     placeless.place.clear();
     csv << ',' << remark.type().name << ",,,"
-        << quoted(remark.place + (remark.place.empty() ? "" : ": ") + placeless.Text()) << '\n';
+        << QuotedField(remark.place + (remark.place.empty() ? "" : ": ") + placeless.Text())
+        << '\n';
   }
   for (const LeftOutLine& line : left_out.lines)
     add(line.track.name, {"line", 0.0, line.length_m, line.reason});
@@ -168,6 +165,25 @@ std::string MovedCsv(const std::vector<ImportedLine>& lines, const std::vector<L
     }
   }
   return csv.str();
+}
+
+std::string MovedText(const std::vector<LineWorld>& worlds) {
+  double length_m = 0.0;
+  double most_m = 0.0;
+  std::size_t num_stretches = 0;
+  for (const LineWorld& world : worlds) {
+    for (const MovedTrack& moved : MovedTracksOf(world)) {
+      ++num_stretches;
+      length_m += moved.end_s_m - moved.begin_s_m;
+      most_m = std::max(most_m, moved.most_m);
+    }
+  }
+  if (num_stretches == 0) return "";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2)
+       << "more than 0.5 m from where the map has it (moved.csv): " << 1e-3 * length_m << " km in "
+       << num_stretches << " stretches, by " << most_m << " m at most\n\n";
+  return text.str();
 }
 
 }  // namespace railcast

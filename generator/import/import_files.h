@@ -50,5 +50,7 @@ struct LeftOutOfMap {
 /// The stretches of tracks that are not where the map has them (MovedTracksOf), as CSV.
 [[nodiscard]] std::string MovedCsv(const std::vector<ImportedLine>& lines,
                                    const std::vector<LineWorld>& worlds);
+/// How much that is, as text; empty if all is.
+[[nodiscard]] std::string MovedText(const std::vector<LineWorld>& worlds);
 
 }  // namespace railcast

@@ -11,13 +11,6 @@
 namespace railcast {
 namespace {
 
-/// Without what would end a field of CSV.
-std::string CsvText(std::string_view text) {
-  std::string shown = ShownText(text);
-  std::ranges::replace(shown, '"', '\'');
-  return shown;
-}
-
 /// The line as a track.
 TrackDraft MainTrack(const RailMap& map, const TrackLine& track, const ImportedLine& line) {
   TrackDraft main = TrackNetwork(line.alignment).tracks().front();
@@ -94,7 +87,8 @@ LineWorld MakeLineWorld(const RailMap& map, const TrackLine& track, const Import
   };
   for (const LineStretch& stretch : StretchesWhere(map, world.tracks[0].ways, has_other_gauge)) {
     world.left_out.push_back({"gauge", stretch.begin_s_m, stretch.end_s_m,
-                              "the map has " + CsvText(TagOf(map.ways[stretch.way].tags, "gauge")) +
+                              "the map has " +
+                                  ShownText(TagOf(map.ways[stretch.way].tags, "gauge")) +
                                   " mm, the world " + NumberText(gauge_mm) + " mm"});
   }
   TellLineSpeeds(map, line, world);
@@ -108,6 +102,11 @@ ChainageRange RangeInRun(const LineWorld& world, const WorldTrack& track) {
   if (track.draft.spec.begin || range.begin_s_m < points_m.front().x() + kSame_m) {
     range.begin_s_m = points_m.front().x();
   }
+std::string QuotedField(std::string text) {
+  std::ranges::replace(text, '"', '\'');
+  return '"' + text + '"';
+}
+
   if (track.draft.spec.end || range.end_s_m > points_m.back().x() - kSame_m) {
     range.end_s_m = points_m.back().x();
   }

@@ -1,5 +1,3 @@
-#include "generator/import/network/side_tracks.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +13,7 @@
 #include "generator/import/lines/line_places.h"
 #include "generator/import/lines/line_tags.h"
 #include "generator/import/network/level_tracks.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/network/moved_run.h"
 #include "generator/import/network/track_network.h"
 #include "generator/import/network/track_runs.h"

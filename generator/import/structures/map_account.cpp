@@ -370,23 +370,4 @@ std::string AccountTable(const std::vector<AccountRow>& rows) {
   return table.str() + "\ngreatest losses:\n" + losses.str();
 }
 
-std::string MovedText(const std::vector<LineWorld>& worlds) {
-  double length_m = 0.0;
-  double most_m = 0.0;
-  std::size_t num_stretches = 0;
-  for (const LineWorld& world : worlds) {
-    for (const MovedTrack& moved : MovedTracksOf(world)) {
-      ++num_stretches;
-      length_m += moved.end_s_m - moved.begin_s_m;
-      most_m = std::max(most_m, moved.most_m);
-    }
-  }
-  if (num_stretches == 0) return "";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2)
-       << "more than 0.5 m from where the map has it (moved.csv): " << 1e-3 * length_m << " km in "
-       << num_stretches << " stretches, by " << most_m << " m at most\n\n";
-  return text.str();
-}
-
 }  // namespace railcast

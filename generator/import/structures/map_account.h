@@ -58,7 +58,4 @@ inline constexpr const char* kNearNoLine =
 /// The sums of all kinds as a table to be read, and the greatest losses.
 [[nodiscard]] std::string AccountTable(const std::vector<AccountRow>& rows);
 
-/// How much of the worlds' tracks is not where the map has it; empty if all is.
-[[nodiscard]] std::string MovedText(const std::vector<LineWorld>& worlds);
-
 }  // namespace railcast

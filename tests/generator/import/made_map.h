@@ -9,7 +9,6 @@
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/rail_map.h"
 #include "generator/import/network/line_world.h"
-#include "generator/import/network/side_tracks.h"
 #include "generator/import/structures/line_structures.h"
 #include "generator/import/structures/map_account.h"
 

@@ -1,5 +1,3 @@
-#include "generator/import/network/side_tracks.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "generator/import/network/line_world.h"
 #include "generator/import/network/moved_run.h"
 #include "generator/import/structures/map_account.h"
 #include "generator/import/structures/standing_world.h"
@@ -101,6 +100,7 @@ TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
   EXPECT_EQ(track["electrified"], false);
   EXPECT_EQ(quality_.num_turnouts, 0U);
 }
+
 TEST_F(BesideALine, ARunHasItsNodesWhereItsPointsAreAlsoBehindASteepStep) {
   Add({{400.0, 4.5}, {600.0, 4.5}, {601.0, 6.5}, {700.0, 6.5}, {900.0, 6.5}},
       {{"railway", "rail"}});
@@ -114,7 +114,6 @@ TEST_F(BesideALine, ARunHasItsNodesWhereItsPointsAreAlsoBehindASteepStep) {
     }
   }
 }
-
 
 TEST_F(BesideALine, ASidingBeginsInATurnout) {
   AddSiding(600.0, 4.5, 1200.0, {{"service", "siding"}});
