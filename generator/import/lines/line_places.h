@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -45,6 +46,34 @@ struct LineStretch {
     std::span<const double> chainages_m,
     const std::function<bool(const MapTags&)>& has);
 
+/// A step from one node of a way to another one of it.
+struct WayStep {
+  std::size_t way{};
+  std::size_t from{};
+  std::size_t to{};
+};
+
+/// How far along its way each node is.
+class WayPlaces {
+ public:
+  WayPlaces(const RailMap& map, const MapWay& way);
+
+  [[nodiscard]] double length_m() const { return length_m_; }
+  /// The place of a node: of several, the one next to another node of the way. A node that is none
+  /// of the way counts as the nearer end of it: lines leave out nodes that are kNearestNodes_m from
+  /// others.
+  [[nodiscard]] double Of_m(std::size_t node, std::size_t other) const;
+
+ private:
+  const RailMap& map_;
+  const MapWay& way_;
+  std::multimap<std::size_t, double> along_m_;  ///< By node.
+  double length_m_ = 0.0;
+};
+
+/// Whether a step leads to where its way is drawn.
+[[nodiscard]] bool IsDrawnForward(const RailMap& map, const WayStep& step);
+
 /// Whether a value of OpenStreetMap says that a thing is there: anything but "" and "no", of which
 /// GeoJSON makes `false`, and Geofabrik "F" and 0.
 [[nodiscard]] inline bool IsThere(std::string_view value) {
@@ -79,6 +108,7 @@ class LinePlaces {
   PlanModel plan_;
   PlanCourse course_;
   Eigen::AlignedBox2d bounds_m_;
+  std::vector<Eigen::AlignedBox2d> blocks_m_;  ///< Of kBlock steps each.
 };
 
 }  // namespace railcast

@@ -42,14 +42,8 @@ void TellLineSpeeds(const RailMap& map, const ImportedLine& line, LineWorld& wor
 }  // namespace
 
 double WorldTrack::OffAt_m(double s_m) const {
-  const auto behind = std::ranges::find_if(
-      off_m, [&](const Eigen::Vector2d& point_m) { return point_m.x() >= s_m; });
-  if (off_m.empty()) return 0.0;
-  if (behind == off_m.begin()) return behind->y();
-  const Eigen::Vector2d& before_m = *std::prev(behind);
-  if (behind == off_m.end()) return before_m.y();
-  return std::lerp(before_m.y(), behind->y(),
-                   (s_m - before_m.x()) / std::max(1e-9, behind->x() - before_m.x()));
+  if (off_m.size() < 2) return off_m.empty() ? 0.0 : off_m.front().y();
+  return OffsetOf_m(off_m, std::max(off_m.front().x(), std::min(off_m.back().x(), s_m)));
 }
 
 std::vector<MovedTrack> MovedTracksOf(const LineWorld& world) {
@@ -102,15 +96,15 @@ ChainageRange RangeInRun(const LineWorld& world, const WorldTrack& track) {
   if (track.draft.spec.begin || range.begin_s_m < points_m.front().x() + kSame_m) {
     range.begin_s_m = points_m.front().x();
   }
-std::string QuotedField(std::string text) {
-  std::ranges::replace(text, '"', '\'');
-  return '"' + text + '"';
-}
-
   if (track.draft.spec.end || range.end_s_m > points_m.back().x() - kSame_m) {
     range.end_s_m = points_m.back().x();
   }
   return range;
+}
+
+std::string QuotedField(std::string text) {
+  std::ranges::replace(text, '"', '\'');
+  return '"' + text + '"';
 }
 
 std::string ReasonAt(const LineWorld& world,

@@ -129,6 +129,9 @@ struct SideTrackQuality {
                                    double s_m,
                                    std::size_t source);
 
+/// Why a switch is no turnout that is on none of a world's tracks.
+inline constexpr const char* kOnNoTrack = "it lies on no track of the world";
+
 /// What ReasonAt says where nothing was left out; there is no such place.
 inline constexpr const char* kNoReason = "nothing says why";
 

@@ -439,7 +439,7 @@ void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
       world_.left_out.push_back({"switch", node.place_m.x(), node.place_m.x(), reason, node.node});
     };
     if (!TrackAt(node.place_m)) {
-      leave_out("it lies on no track of the world");
+      leave_out(kOnNoTrack);
       continue;
     }
     if (!has_turnouts_) {

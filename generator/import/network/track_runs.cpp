@@ -97,7 +97,7 @@ class RunCutter {
     for (std::size_t i = 0; i < reasons_.size(); ++i) {
       if (!reasons_[i]) continue;
       beside_.unused.push_back(
-          {ways_[chain.ways[i]], chain.nodes[i], chain.nodes[i + 1], reasons_[i]});
+          {{ways_[chain.ways[i]], chain.nodes[i], chain.nodes[i + 1]}, reasons_[i]});
     }
   }
 
@@ -249,13 +249,13 @@ std::optional<TrackRun> PartOfRun(const TrackRun& run, double from_s_m, double t
   constexpr double kSame_m = 0.5;
   if (to_s_m - from_s_m < kShortest_m) return std::nullopt;
   TrackRun part = run;
-  part.points_m = {{from_s_m, OffsetOf_m(run, from_s_m)}};
+  part.points_m = {{from_s_m, OffsetOf_m(run.points_m, from_s_m)}};
   for (const Eigen::Vector2d& point_m : run.points_m) {
     if (point_m.x() > from_s_m + kSame_m && point_m.x() < to_s_m - kSame_m) {
       part.points_m.push_back(point_m);
     }
   }
-  part.points_m.emplace_back(to_s_m, OffsetOf_m(run, to_s_m));
+  part.points_m.emplace_back(to_s_m, OffsetOf_m(run.points_m, to_s_m));
   return part;
 }
 
@@ -269,7 +269,9 @@ std::vector<ChainageRange> TunnelsBelowLine(const RailMap& map,
       return s_m > tunnel.begin_s_m - kSameEnd_m && s_m < tunnel.end_s_m + kSameEnd_m;
     });
   };
-  const auto is_on_axis = [&](double s_m) { return std::abs(OffsetOf_m(run, s_m)) < kOnAxis_m; };
+  const auto is_on_axis = [&](double s_m) {
+    return std::abs(OffsetOf_m(run.points_m, s_m)) < kOnAxis_m;
+  };
   std::vector<ChainageRange> below;
   for (const LineStretch& tunnel : StretchesWhere(map, run.ways, IsTunnel)) {
     if (is_on_axis(tunnel.begin_s_m) || is_on_axis(tunnel.end_s_m)) continue;
@@ -316,12 +318,12 @@ double SpeedOfRun_kmph(const TrackRun& run, double s_m) {
   return run.speeds_kmph[std::min(i, run.speeds_kmph.size() - 1)];
 }
 
-double OffsetOf_m(const TrackRun& run, double s_m) {
-  const auto& points_m = run.points_m;
+double OffsetOf_m(std::span<const Eigen::Vector2d> points_m, double s_m) {
   std::size_t i = 1;
   while (i + 1 < points_m.size() && points_m[i].x() < s_m) ++i;
   const Eigen::Vector2d step_m = points_m[i] - points_m[i - 1];
-  return points_m[i - 1].y() + step_m.y() / step_m.x() * (s_m - points_m[i - 1].x());
+  return points_m[i - 1].y() +
+         step_m.y() / std::max(1e-9, step_m.x()) * (s_m - points_m[i - 1].x());
 }
 
 PlanModel PartOf(const PlanModel& plan, double begin_m, double end_m) {

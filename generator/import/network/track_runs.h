@@ -35,11 +35,9 @@ struct TrackRun {
 /// How far from their line runs are looked for.
 inline constexpr double kRunStrip_m = 60.0;
 
-/// A step of a way, from a node to a next one, beside a line but in none of its runs.
+/// A step beside a line but in none of its runs.
 struct UnusedStep {
-  std::size_t way{};
-  std::size_t from{};
-  std::size_t to{};
+  WayStep step;
   const char* reason{};
 };
 
@@ -57,9 +55,9 @@ struct RunsBeside {
                                   const LinePlaces& places,
                                   double running_kmph);
 
-/// The offset of a run at a chainage, along the lines between its points; beyond its ends, along
-/// the first and the last of them.
-[[nodiscard]] double OffsetOf_m(const TrackRun& run, double s_m);
+/// The offset at a chainage, along the lines between two points or more of chainage and offset;
+/// beyond their ends, along the first and the last of them.
+[[nodiscard]] double OffsetOf_m(std::span<const Eigen::Vector2d> points_m, double s_m);
 
 /// The speed of a run at a chainage; beyond its ends, as at these.
 [[nodiscard]] double SpeedOfRun_kmph(const TrackRun& run, double s_m);

@@ -223,7 +223,7 @@ std::vector<TurnoutChoice> TurnoutChoices(const TrackNetwork& network,
   const double reach_m = run.points_m.back().x() - run.points_m.front().x();
   const double aside_s_m = meeting.s_m + forwards * std::min(kAside_m, 0.5 * reach_m);
   if (!track.Has(aside_s_m)) return choices;
-  const double aside_m = OffsetOf_m(run, aside_s_m) - track.course.OffsetAt(aside_s_m).d_m;
+  const double aside_m = OffsetOf_m(run.points_m, aside_s_m) - track.course.OffsetAt(aside_s_m).d_m;
   if (std::abs(aside_m) < kLeastAside_m) return choices;
   // The branch of 1:14-760 is 0.52 m aside there.
   constexpr double kSlender_m = 0.4;

@@ -96,8 +96,8 @@ class WaysAccount {
  private:
   void BookWorld(const TrackLine& track, const ImportedLine& line, const LineWorld& world) {
     const Covers covers(world);
-    for (const UnusedStep& step : world.beside.unused) {
-      LeaveOut({step.way, step.from, step.to}, {0.0, 1.0}, LedgerRank::kUnused, step.reason);
+    for (const UnusedStep& unused : world.beside.unused) {
+      LeaveOut(unused.step, {0.0, 1.0}, LedgerRank::kUnused, unused.reason);
     }
     for (std::size_t i = 0; i < track.ways.size(); ++i) {
       const WayStep step{track.ways[i], track.nodes[i], track.nodes[i + 1]};
@@ -108,24 +108,30 @@ class WaysAccount {
 
   void BookRun(std::size_t number, const LineWorld& world, const Covers& covers) {
     const TrackRun& run = world.beside.runs[number];
-    for (std::size_t k = 0; k < run.ways.size(); ++k) {
-      const WayStep step{run.ways[k].way, run.nodes[k], run.nodes[k + 1]};
-      const ChainageRange s{run.points_m[k].x(), run.points_m[k + 1].x()};
-      // As shares of the step; empty if they do not meet.
-      const auto shares = [&](const ChainageRange& range) -> ChainageRange {
+    // The shares are those of a step; they are empty if it does not meet the range.
+    const auto book = [&](const ChainageRange& range, const auto& as) {
+      for (std::size_t k = 0; k < run.ways.size(); ++k) {
+        const ChainageRange s{run.points_m[k].x(), run.points_m[k + 1].x()};
         const auto share = [&](double s_m) {
           return std::clamp((s_m - s.begin_s_m) / (s.end_s_m - s.begin_s_m), 0.0, 1.0);
         };
-        return {share(range.begin_s_m), share(range.end_s_m)};
-      };
-      for (const LeftOut& thing : world.left_out) {
-        if (thing.source != number || thing.what.find("track") == std::string::npos) continue;
-        LeaveOut(step, shares({thing.begin_s_m, thing.end_s_m}), LedgerRank::kOfRun, thing.reason);
+        as(WayStep{run.ways[k].way, run.nodes[k], run.nodes[k + 1]}, s,
+           ChainageRange{share(range.begin_s_m), share(range.end_s_m)});
       }
-      for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-        if (world.tracks[i].run != number) continue;
-        Make(step, s, shares(RangeInRun(world, world.tracks[i])), i, world, covers);
-      }
+    };
+    for (const LeftOut& thing : world.left_out) {
+      if (thing.source != number || thing.what.find("track") == std::string::npos) continue;
+      book({thing.begin_s_m, thing.end_s_m},
+           [&](const WayStep& step, const ChainageRange& /*s*/, const ChainageRange& shares) {
+             LeaveOut(step, shares, LedgerRank::kOfRun, thing.reason);
+           });
+    }
+    for (std::size_t i = 0; i < world.tracks.size(); ++i) {
+      if (world.tracks[i].run != number) continue;
+      book(RangeInRun(world, world.tracks[i]),
+           [&](const WayStep& step, const ChainageRange& s, const ChainageRange& shares) {
+             Make(step, s, shares, i, world, covers);
+           });
     }
   }
 
@@ -182,37 +188,74 @@ class WaysAccount {
   WayLedger bridges_;
 };
 
-AccountRow RowOf(const WayLedger& ledger,
+/// @param parts Of the whole way.
+AccountRow RowOf(const std::vector<LedgerEntry>& parts,
                  const RailMap& map,
                  std::size_t way,
-                 const std::string& what,
-                 const std::string& otherwise) {
+                 const std::string& what) {
   AccountRow row{what, map.ways[way].place, LengthOf_m(map, map.ways[way])};
-  for (const LedgerEntry& entry : ledger.Of(way, otherwise)) {
-    (entry.rank == LedgerRank::kMade ? row.in_worlds : row.left_out[entry.reason]) +=
-        entry.length_m();
+  for (const LedgerEntry& part : parts) {
+    (part.rank == LedgerRank::kMade ? row.in_worlds : row.left_out[part.reason]) += part.length_m();
   }
   return row;
 }
 
-/// Adds a piece to a row of pieces.
-void AddPiece(bool is_made, const std::string& reason, AccountRow& row) {
-  ++row.on_map;
-  ++(is_made ? row.in_worlds : row.left_out[reason]);
+/// Whether a world has a structure, whatever its name.
+bool HasStructure(const LineWorld& world, StructureSpec structure) {
+  return std::ranges::any_of(world.structures, [&](const StructureSpec& other) {
+    if (other.index() != structure.index()) return false;
+    const std::string name = std::visit([](const auto& spec) { return spec.name; }, other);
+    std::visit([&](auto& spec) { spec.name = name; }, structure);
+    return structure == other;
+  });
 }
 
-AccountRow SwitchesRow(const RailMap& map, const WorldsOfMap& made) {
-  AccountRow row{"switch", ""};
-  for (const SwitchNode& node : SwitchesOf(map)) {
-    bool is_made = false;
-    std::string reason = "it lies on no track of a world";
-    for (const LineWorld& world : made.worlds) {
-      is_made = is_made || std::ranges::count(world.switches, node.node, &MadeSwitch::node) > 0;
-      for (const LeftOut& thing : world.left_out) {
-        if (thing.what == "switch" && thing.source == node.node) reason = thing.reason;
+/// What became of the pieces of a map: the strongest of what its worlds say, as of ways.
+class PiecesAccount {
+ public:
+  explicit PiecesAccount(const std::vector<LineWorld>& worlds) {
+    for (const LineWorld& world : worlds) {
+      for (const LeftOut& one : world.left_out) {
+        const bool is_beside = one.reason == kOnNoTrack;
+        Note({one.what, one.source}, is_beside ? LedgerRank::kUnused : LedgerRank::kOfRun,
+             one.reason);
+      }
+      for (const MadeSwitch& one : world.switches) {
+        Note({"switch", one.node}, LedgerRank::kMade, "");
+      }
+      for (const MadeThing& one : world.placed) {
+        const LeftOut at = LeftOutOf(one.structure, "");
+        const bool is_made = HasStructure(world, one.structure);
+        Note({at.what, one.thing}, is_made ? LedgerRank::kMade : LedgerRank::kOfStructure,
+             is_made ? "" : ReasonAt(world, at.what, at.begin_s_m, one.thing));
       }
     }
-    AddPiece(is_made, reason, row);
+  }
+
+  /// Adds a piece to the row of its kind.
+  /// @param otherwise The reason where no world says anything of it.
+  void Add(std::size_t source, const char* otherwise, AccountRow& row) const {
+    ++row.on_map;
+    const auto found = pieces_.find({row.what, source});
+    const bool is_known = found != pieces_.end();
+    const bool is_made = is_known && found->second.rank == LedgerRank::kMade;
+    ++(is_made ? row.in_worlds : row.left_out[is_known ? found->second.reason : otherwise]);
+  }
+
+ private:
+  using Piece = std::pair<std::string, std::size_t>;  // Its kind and its source, as of LeftOut.
+  void Note(const Piece& piece, LedgerRank rank, const std::string& reason) {
+    LedgerEntry& known = pieces_[piece];
+    if (rank >= known.rank) known = {0.0, 0.0, rank, reason};
+  }
+
+  std::map<Piece, LedgerEntry> pieces_;
+};
+
+AccountRow SwitchesRow(const RailMap& map, const PiecesAccount& pieces) {
+  AccountRow row{"switch", ""};
+  for (const SwitchNode& node : SwitchesOf(map)) {
+    pieces.Add(node.node, "it lies on no track of a world", row);
   }
   return row;
 }
@@ -226,33 +269,7 @@ constexpr auto kPieces =
                                                              {"derail", "derailer"},
                                                              {"buffer_stop", "buffer_stop"}});
 
-/// Whether a world has a structure, whatever its name.
-bool HasStructure(const LineWorld& world, StructureSpec structure) {
-  return std::ranges::any_of(world.structures, [&](const StructureSpec& other) {
-    const std::string name = std::visit([](const auto& spec) { return spec.name; }, other);
-    std::visit([&](auto& spec) { spec.name = name; }, structure);
-    return structure == other;
-  });
-}
-
-void AddThing(std::size_t thing, const WorldsOfMap& made, AccountRow& row) {
-  bool is_made = false;
-  std::string reason = "it is within 2 m of no track of a world";
-  for (const LineWorld& world : made.worlds) {
-    for (const LeftOut& one : world.left_out) {
-      if (one.what == row.what && one.source == thing) reason = one.reason;
-    }
-    for (const MadeThing& placed : world.placed) {
-      if (placed.thing != thing) continue;
-      is_made = is_made || HasStructure(world, placed.structure);
-      const LeftOut at = LeftOutOf(placed.structure, "");
-      reason = ReasonAt(world, at.what, at.begin_s_m, thing);
-    }
-  }
-  AddPiece(is_made, reason, row);
-}
-
-std::vector<AccountRow> PieceRows(const RailMap& map, const WorldsOfMap& made) {
+std::vector<AccountRow> PieceRows(const RailMap& map, const PiecesAccount& pieces) {
   std::map<std::string, AccountRow> rows;
   for (std::size_t i = 0; i < map.things.size(); ++i) {
     if (IsPlatform(map.things[i].tags)) continue;
@@ -260,7 +277,7 @@ std::vector<AccountRow> PieceRows(const RailMap& map, const WorldsOfMap& made) {
                                           &std::pair<std::string_view, const char*>::first);
     if (piece == kPieces.end()) continue;
     AccountRow& row = rows.try_emplace(piece->second, AccountRow{piece->second, ""}).first->second;
-    AddThing(i, made, row);
+    pieces.Add(i, "it is within 2 m of no track of a world", row);
   }
   std::vector<AccountRow> all;
   for (auto& [what, row] : rows) all.push_back(std::move(row));
@@ -297,17 +314,20 @@ double AccountRow::out() const {
 
 std::vector<AccountRow> AccountOf(const RailMap& map, const WorldsOfMap& made) {
   const WaysAccount ways(map, made);
+  const PiecesAccount pieces(made.worlds);
   std::vector<AccountRow> rows;
+  std::vector<std::vector<LedgerEntry>> tracks;
   for (std::size_t i = 0; i < map.ways.size(); ++i) {
     const MapTags& tags = map.ways[i].tags;
-    rows.push_back(
-        RowOf(ways.tracks(), map, i, KindOf(TagOf(tags, "service")) + " track", made.otherwise));
-    if (IsTunnel(tags)) rows.push_back(RowOf(ways.tunnels(), map, i, "tunnel", made.otherwise));
-    if (IsBridge(tags)) rows.push_back(RowOf(ways.bridges(), map, i, "bridge", made.otherwise));
+    const auto parts = [&](const WayLedger& ledger) { return ledger.Of(i, made.otherwise); };
+    tracks.push_back(parts(ways.tracks()));
+    rows.push_back(RowOf(tracks.back(), map, i, KindOf(TagOf(tags, "service")) + " track"));
+    if (IsTunnel(tags)) rows.push_back(RowOf(parts(ways.tunnels()), map, i, "tunnel"));
+    if (IsBridge(tags)) rows.push_back(RowOf(parts(ways.bridges()), map, i, "bridge"));
   }
-  for (AccountRow& row : PlatformRows(map, made, ways.tracks())) rows.push_back(std::move(row));
-  rows.push_back(SwitchesRow(map, made));
-  for (AccountRow& row : PieceRows(map, made)) rows.push_back(std::move(row));
+  for (AccountRow& row : PlatformRows(map, made, tracks)) rows.push_back(std::move(row));
+  rows.push_back(SwitchesRow(map, pieces));
+  for (AccountRow& row : PieceRows(map, pieces)) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -327,16 +347,16 @@ std::string AccountCsv(const std::vector<AccountRow>& rows) {
   csv << "what,place,unit,on_map,in_worlds,left_out,reasons\n" << std::fixed;
   for (const AccountRow& row : rows) {
     const bool is_pieces = IsInPieces(row.what);
-    csv << std::setprecision(is_pieces ? 0 : 2) << row.what << ',' << row.place << ','
+    csv << std::setprecision(is_pieces ? 0 : 2) << row.what << ',' << QuotedField(row.place) << ','
         << (is_pieces ? "pieces" : "m") << ',' << row.on_map << ',' << row.in_worlds << ','
-        << row.out() << ",\"";
+        << row.out() << ',';
+    std::ostringstream reasons;
+    reasons << std::fixed << std::setprecision(is_pieces ? 0 : 2);
     const char* separator = "";
     for (const auto& [reason, amount] : row.left_out) {
-      std::string shown = reason;
-      std::ranges::replace(shown, '"', '\'');
-      csv << std::exchange(separator, "; ") << amount << ": " << shown;
+      reasons << std::exchange(separator, "; ") << amount << ": " << reason;
     }
-    csv << "\"\n";
+    csv << QuotedField(reasons.str()) << '\n';
   }
   return csv.str();
 }

@@ -46,9 +46,11 @@ inline constexpr const char* kNearNoLine =
 [[nodiscard]] std::vector<AccountRow> AccountOf(const RailMap& map, const WorldsOfMap& made);
 
 /// The rows of all platforms.
-[[nodiscard]] std::vector<AccountRow> PlatformRows(const RailMap& map,
-                                                   const WorldsOfMap& made,
-                                                   const WayLedger& tracks);
+/// @param tracks What became of each way (WayLedger::Of).
+[[nodiscard]] std::vector<AccountRow> PlatformRows(
+    const RailMap& map,
+    const WorldsOfMap& made,
+    const std::vector<std::vector<LedgerEntry>>& tracks);
 
 /// All rows of a kind as one; its reasons are without the names of tracks.
 [[nodiscard]] AccountRow SumOf(const std::vector<AccountRow>& rows, const std::string& what);

@@ -1,9 +1,10 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -20,7 +21,7 @@ namespace {
 /// A segment of a way.
 struct Segment {
   std::size_t way{};
-  std::size_t node{};  ///< Of the way: the first of its two.
+  double along_m{};  ///< Of its beginning.
   Eigen::Vector2d from_m;
   Eigen::Vector2d step_m;
 };
@@ -33,12 +34,65 @@ struct Passing {
   double distance_m{};
 };
 
+constexpr double kFarthest_m = 4.5;
+
+/// The segments of all ways, by the squares in which the middles of their parts lie.
+class SegmentGrid {
+ public:
+  explicit SegmentGrid(const RailMap& map) {
+    for (std::size_t way = 0; way < map.ways.size(); ++way) {
+      const std::vector<std::size_t>& nodes = map.ways[way].nodes;
+      double along_m = 0.0;
+      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+        const Eigen::Vector2d& from_m = map.nodes[nodes[k]].place_m;
+        const Eigen::Vector2d step_m = map.nodes[nodes[k + 1]].place_m - from_m;
+        const double num_parts = std::ceil(step_m.norm() / kSquare_m);
+        for (double part = 0.5; part < num_parts; ++part) {
+          const Eigen::Vector2d middle_m = from_m + part / num_parts * step_m;
+          squares_[SquareOf(middle_m)].push_back({way, along_m, from_m, step_m});
+        }
+        along_m += step_m.norm();
+      }
+    }
+  }
+
+  /// Those within kFarthest_m of a place, and others; long ones several times.
+  [[nodiscard]] std::vector<Segment> About(const Eigen::Vector2d& place_m) const {
+    static_assert(0.5 * kSquare_m + kFarthest_m <= kSquare_m);
+    std::vector<Segment> segments;
+    const auto [column, row] = SquareOf(place_m);
+    for (int i = column - 1; i <= column + 1; ++i) {
+      for (int k = row - 1; k <= row + 1; ++k) {
+        const auto square = squares_.find({i, k});
+        if (square == squares_.end()) continue;
+        segments.insert(segments.end(), square->second.begin(), square->second.end());
+      }
+    }
+    return segments;
+  }
+
+ private:
+  static constexpr double kSquare_m = 20.0;
+
+  static std::pair<int, int> SquareOf(const Eigen::Vector2d& place_m) {
+    const Eigen::Vector2d square = (place_m / kSquare_m).array().floor();
+    return {static_cast<int>(square.x()), static_cast<int>(square.y())};
+  }
+
+  std::map<std::pair<int, int>, std::vector<Segment>> squares_;
+};
+
 class PlatformAccount {
  public:
-  PlatformAccount(const RailMap& map, const WorldsOfMap& made, const WayLedger& tracks)
-      : map_(map), made_(made), tracks_(tracks) {
+  PlatformAccount(const RailMap& map,
+                  const WorldsOfMap& made,
+                  const std::vector<std::vector<LedgerEntry>>& tracks)
+      : map_(map), made_(made), tracks_(tracks), segments_(map), worlds_of_(map.ways.size()) {
     for (std::size_t i = 0; i < made.worlds.size(); ++i) {
       places_.emplace_back(map, made.tracks[i], made.lines[i]);
+      for (const WorldTrack& track : made.worlds[i].tracks) {
+        for (const LineStretch& stretch : track.ways) worlds_of_[stretch.way].insert(i);
+      }
     }
   }
 
@@ -49,7 +103,6 @@ class PlatformAccount {
       row.place = NumberText(RoundedTo(thing.geographic_deg.front().x(), 1e6)) + " " +
                   NumberText(RoundedTo(thing.geographic_deg.front().y(), 1e6));
     }
-    const std::vector<Segment> segments = SegmentsAbout(thing);
     const std::vector<Eigen::Vector2d>& points_m = thing.places_m;
     double twice_area_m2 = 0.0;
     for (std::size_t i = 0; i + 1 < points_m.size(); ++i) {
@@ -61,6 +114,7 @@ class PlatformAccount {
       const double num_steps = std::ceil(step_m.norm());
       for (double k = 0.0; k < num_steps; ++k) {
         const Eigen::Vector2d at_m = points_m[i] + (k + 0.5) / num_steps * step_m;
+        const std::vector<Segment> segments = segments_.About(at_m);
         // An outline has tracks on its outer side only, a line on both.
         for (const double side : {1.0, -1.0}) {
           if (IsOutline(thing) && side * twice_area_m2 > 0.0) continue;
@@ -77,25 +131,7 @@ class PlatformAccount {
   }
 
  private:
-  static constexpr double kFarthest_m = 4.5;
-
-  [[nodiscard]] std::vector<Segment> SegmentsAbout(const MapThing& thing) const {
-    Eigen::AlignedBox2d bounds_m;
-    for (const Eigen::Vector2d& place_m : thing.places_m) bounds_m.extend(place_m);
-    std::vector<Segment> segments;
-    for (std::size_t way = 0; way < map_.ways.size(); ++way) {
-      const std::vector<std::size_t>& nodes = map_.ways[way].nodes;
-      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const Eigen::Vector2d& from_m = map_.nodes[nodes[k]].place_m;
-        const Eigen::Vector2d& to_m = map_.nodes[nodes[k + 1]].place_m;
-        Eigen::AlignedBox2d of_segment_m(from_m);
-        of_segment_m.extend(to_m);
-        if (of_segment_m.exteriorDistance(bounds_m) > kFarthest_m || from_m == to_m) continue;
-        segments.push_back({way, k, from_m, to_m - from_m});
-      }
-    }
-    return segments;
-  }
+  static constexpr const char* kNoTrackNear = "no track of the world is 0.3 to 4.5 m from it there";
 
   /// The nearest track on one side of a platform's edge that runs along it.
   /// @param side 1 on the left of the edge, -1 on its right.
@@ -126,7 +162,7 @@ class PlatformAccount {
                                                          const Passing& passing) const {
     constexpr double kReach_m = 65.0;
     std::optional<std::string> reason;
-    for (std::size_t i = 0; i < made_.worlds.size(); ++i) {
+    for (const std::size_t i : worlds_of_[passing.segment.way]) {
       const auto edge = places_[i].Of(at_m, kReach_m);
       const auto foot = places_[i].Of(passing.foot_m, kReach_m);
       if (!edge || !foot) continue;
@@ -134,24 +170,18 @@ class PlatformAccount {
       const WorldTrack* track = TrackOf(world, passing.segment.way, foot->s_m);
       if (track == nullptr) continue;
       if (HasPlatform(world, *track, foot->s_m, edge->d_m > foot->d_m)) return std::nullopt;
+      // What a world says of the platform itself counts more.
+      if (reason && *reason != kNoTrackNear) continue;
       reason = ReasonAt(world, "platform", foot->s_m, number);
-      if (*reason == kNoReason) reason = "no track of the world is 0.3 to 4.5 m from it there";
+      if (*reason == kNoReason) reason = kNoTrackNear;
     }
     if (reason) return reason;
-    const double along_m = LengthUpTo_m(passing);
-    for (const LedgerEntry& entry : tracks_.Of(passing.segment.way, made_.otherwise)) {
-      if (along_m <= entry.to_m) return "its track is in no world: " + entry.reason;
-    }
-    return "its track is in no world: " + made_.otherwise;
-  }
-
-  [[nodiscard]] double LengthUpTo_m(const Passing& passing) const {
-    const std::vector<std::size_t>& nodes = map_.ways[passing.segment.way].nodes;
-    double along_m = passing.share * passing.segment.step_m.norm();
-    for (std::size_t k = 0; k < passing.segment.node; ++k) {
-      along_m += (map_.nodes[nodes[k + 1]].place_m - map_.nodes[nodes[k]].place_m).norm();
-    }
-    return along_m;
+    const std::vector<LedgerEntry>& parts = tracks_[passing.segment.way];
+    const double along_m = passing.segment.along_m + passing.share * passing.segment.step_m.norm();
+    const auto part = std::ranges::lower_bound(parts, along_m, {}, &LedgerEntry::to_m);
+    if (part == parts.end()) return "its track is in no world: " + made_.otherwise;
+    return part->rank == LedgerRank::kMade ? kNoTrackNear
+                                           : "its track is in no world: " + part->reason;
   }
 
   /// The track of a world that is made of a way; null if there is none at a chainage.
@@ -185,7 +215,9 @@ class PlatformAccount {
 
   const RailMap& map_;
   const WorldsOfMap& made_;
-  const WayLedger& tracks_;
+  const std::vector<std::vector<LedgerEntry>>& tracks_;  ///< What became of each way.
+  SegmentGrid segments_;
+  std::vector<std::set<std::size_t>> worlds_of_;  ///< Of each way, those with tracks of it.
   std::deque<LinePlaces> places_;
 };
 
@@ -193,7 +225,7 @@ class PlatformAccount {
 
 std::vector<AccountRow> PlatformRows(const RailMap& map,
                                      const WorldsOfMap& made,
-                                     const WayLedger& tracks) {
+                                     const std::vector<std::vector<LedgerEntry>>& tracks) {
   const PlatformAccount account(map, made, tracks);
   std::vector<AccountRow> rows;
   for (std::size_t i = 0; i < map.things.size(); ++i) {

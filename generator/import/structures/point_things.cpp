@@ -32,9 +32,7 @@ bool IsForward(const RailMap& map,
   const TrackRun& run = world.beside.runs[world.tracks[track].run];
   std::size_t step = 0;
   while (step + 1 < run.ways.size() && run.ways[step].end_s_m < at.s_m) ++step;
-  const std::vector<std::size_t>& nodes = map.ways[run.ways[step].way].nodes;
-  const auto first = std::ranges::find(nodes, run.nodes[step]);
-  return std::find(first, nodes.end(), run.nodes[step + 1]) != nodes.end();
+  return IsDrawnForward(map, {run.ways[step].way, run.nodes[step], run.nodes[step + 1]});
 }
 
 std::optional<PlaceOnTrack> PlaceOf(const Eigen::Vector2d& place_m,

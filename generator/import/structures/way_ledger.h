@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "generator/import/lines/line_places.h"
 #include "generator/import/map/rail_map.h"
 
 namespace railcast {
@@ -14,13 +15,6 @@ enum class LedgerRank {
   kOfRun,        ///< It runs along a line, but no track can be there.
   kOfStructure,  ///< Its track is there, its tunnel or bridge is not.
   kMade,
-};
-
-/// A step from one node of a way to another one of it.
-struct WayStep {
-  std::size_t way{};
-  std::size_t from{};
-  std::size_t to{};
 };
 
 /// A stretch of a way and what became of it.
@@ -38,8 +32,7 @@ class WayLedger {
  public:
   explicit WayLedger(const RailMap& map);
 
-  /// Books a step's stretch between two shares of its length. A node that is none of the way counts
-  /// as the nearer end of it: lines leave out nodes that are kNearestNodes_m from others.
+  /// Books a step's stretch between two shares of its length.
   void Book(const WayStep& step, double from_share, double to_share, LedgerEntry entry);
 
   /// A whole way in order, every part of it once, with the strongest of its entries, of equal ones
@@ -48,10 +41,7 @@ class WayLedger {
   [[nodiscard]] std::vector<LedgerEntry> Of(std::size_t way, const std::string& otherwise) const;
 
  private:
-  [[nodiscard]] double PlaceOn_m(std::size_t way, std::size_t node, std::size_t other) const;
-
-  const RailMap& map_;
-  std::vector<std::vector<double>> along_m_;  ///< Of the nodes of each way.
+  std::vector<WayPlaces> places_;  ///< Of each way.
   std::vector<std::vector<LedgerEntry>> entries_;
 };
 

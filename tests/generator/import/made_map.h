@@ -59,8 +59,12 @@ class MadeMap {
 
   [[nodiscard]] LineWorld& world() { return world_; }
   /// What of the map the world has.
-  [[nodiscard]] std::vector<AccountRow> Account() const {
-    return AccountOf(map_, {{track_}, {line_}, {world_}, {}, kNearNoLine});
+  [[nodiscard]] std::vector<AccountRow> Account() const { return AccountWith({world_}); }
+  /// What of the map is in several worlds of its line.
+  [[nodiscard]] std::vector<AccountRow> AccountWith(const std::vector<LineWorld>& worlds) const {
+    const std::vector<TrackLine> tracks(worlds.size(), track_);
+    const std::vector<ImportedLine> lines(worlds.size(), line_);
+    return AccountOf(map_, {tracks, lines, worlds, {}, kNearNoLine});
   }
   [[nodiscard]] AccountRow Sum(const std::string& what) const { return SumOf(Account(), what); }
   [[nodiscard]] const RailMap& map() const { return map_; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/io/write_file.h"
+#include "generator/import/lines/line_places.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
 #include "generator/import/structures/standing_world.h"
@@ -24,10 +25,28 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::Pair;
 
-/// All of it is in worlds or left out, for a reason.
-void ExpectWhole(const AccountRow& row) {
-  EXPECT_NEAR(row.in_worlds + row.out(), row.on_map, 1e-6) << row.what << " " << row.place;
-  EXPECT_EQ(row.left_out.count(kNoReason), 0U) << row.what << " " << row.place;
+/// What is in worlds is what the world has, and all else is left out for a reason.
+void ExpectWhole(MadeMap& map) {
+  double tracks_m = 0.0;
+  for (const AccountRow& row : map.Account()) {
+    EXPECT_EQ(row.left_out.count(kNoReason), 0U) << row.what << " " << row.place;
+    if (row.what.ends_with("track")) tracks_m += row.in_worlds;
+  }
+  for (const WorldTrack& track : map.world().tracks) {
+    tracks_m -= track.draft.course.end_s_m() - track.draft.course.begin_s_m();
+  }
+  // A turnout begins up to 14 m before the point where tracks part on the map.
+  const auto num_switches = static_cast<double>(map.world().switches.size());
+  EXPECT_NEAR(tracks_m, 0.0, 1.0 + 14.0 * num_switches);
+  EXPECT_EQ(map.Sum("switch").in_worlds, num_switches);
+}
+
+/// A siding of 600 m that leaves the track at y = 0 by 1:9.
+void AddSiding(MadeMap& map) {
+  std::vector<Eigen::Vector2d> points_m;
+  for (double x_m = 0.0; x_m < 40.5; x_m += 5.0) points_m.emplace_back(400.0 + x_m, x_m / 9.0);
+  points_m.insert(points_m.end(), {{440.5, 4.5}, {700.0, 4.5}, {1000.0, 4.5}});
+  map.AddWay(points_m, {{"service", "siding"}});
 }
 
 TEST(MapAccount, BooksEachMetreOfATrackAndItsTunnelOnce) {
@@ -36,11 +55,56 @@ TEST(MapAccount, BooksEachMetreOfATrackAndItsTunnelOnce) {
   map.AddTrack(4.5, {{"tunnel", "yes"}});
   map.AddWay({{300.0, 200.0}, {500.0, 200.0}}, {});
   map.Make();
-  for (const AccountRow& row : map.Account()) ExpectWhole(row);
+  ExpectWhole(map);
   EXPECT_DOUBLE_EQ(map.Sum("running track").on_map, 2000.0 + 1800.0 + 200.0);
   EXPECT_NEAR(map.Sum("running track").in_worlds, 3800.0, 1e-6);
   EXPECT_THAT(map.Sum("running track").left_out, ElementsAre(Pair(kNearNoLine, 200.0)));
   EXPECT_NEAR(map.Sum("tunnel").in_worlds, 800.0, 2.0);
+}
+
+TEST(MapAccount, CountsTheSwitchesThatAreTurnouts) {
+  MadeMap map;
+  map.AddTrack(0.0, {});
+  AddSiding(map);
+  map.AddWay({{1600.0, 0.0}, {1610.0, 2.0}}, {});
+  map.Make();
+  ExpectWhole(map);
+  EXPECT_EQ(map.Sum("switch").on_map, 2.0);
+  EXPECT_EQ(map.Sum("switch").in_worlds, 1.0);
+}
+
+TEST(MapAccount, HasTheReasonOfTheWorldThatCameNearest) {
+  MadeMap map;
+  map.AddTrack(0.0, {});
+  map.AddWay({{1600.0, 0.0}, {1610.0, 2.0}}, {});
+  map.Make();
+  LineWorld other = map.world();
+  for (LeftOut& thing : other.left_out) {
+    if (thing.what == "switch") thing.reason = kOnNoTrack;
+  }
+  for (const auto& worlds : {std::vector{map.world(), other}, std::vector{other, map.world()}}) {
+    EXPECT_THAT(SumOf(map.AccountWith(worlds), "switch").left_out,
+                ElementsAre(Pair("no track of 20 m leads from it along the line", 1.0)));
+  }
+}
+
+TEST(MapAccount, TurnsNoSignalRoundWhereTwoWaysMeetInTwoPoints) {
+  MadeMap map;
+  map.AddWay({{0.0, 0.0}, {799.7, 0.0}, {800.0, 0.0}}, {});
+  map.AddWay({{800.0, 0.0}, {2000.0, 0.0}}, {});
+  map.AddThing({{1000.0, 0.0}}, {{"railway", "signal"}, {"railway:signal:main", "DE-ESO:ks"}});
+  map.Make();
+  ASSERT_THAT(map.All<SignalSpec>(), ::testing::SizeIs(1));
+  EXPECT_EQ(map.All<SignalSpec>()[0].direction,
+            map.runs_east() ? RunningDirection::kRising : RunningDirection::kFalling);
+}
+
+TEST(MapAccount, KnowsHowTheLastStepOfAClosedWayIsDrawn) {
+  MadeMap map;
+  map.AddWay({{0.0, 0.0}, {100.0, 0.0}, {0.0, 100.0}, {0.0, 0.0}}, {});
+  EXPECT_TRUE(IsDrawnForward(map.map(), {0, 2, 0}));
+  EXPECT_FALSE(IsDrawnForward(map.map(), {0, 0, 2}));
+  EXPECT_TRUE(IsDrawnForward(map.map(), {0, 0, 1}));
 }
 
 TEST(MapAccount, SaysWhyATrackBesideALineIsNotMade) {
@@ -92,7 +156,7 @@ TEST(MapAccount, CountsCrossingsSignalsAndBufferStops) {
   map.AddThing({{700.0, 0.0}}, {{"railway", "signal"}});
   map.AddThing({{1500.0, 0.0}}, {{"railway", "buffer_stop"}});
   map.Make();
-  for (const AccountRow& row : map.Account()) ExpectWhole(row);
+  ExpectWhole(map);
   EXPECT_EQ(map.Sum("level_crossing").on_map, 3.0);
   EXPECT_EQ(map.Sum("level_crossing").in_worlds, 2.0) << "on one road";
   EXPECT_THAT(map.All<LevelCrossingSpec>(), ::testing::SizeIs(1));
@@ -117,11 +181,46 @@ struct SharedMap {
 
 class AccountOfSharedMap : public ::testing::TestWithParam<SharedMap> {};
 
-std::vector<std::string> RowFields(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
-  return fields;
+/// The rows of a file of CSV without the first one; commas between quotes divide no fields.
+std::vector<std::vector<std::string>> CsvRows(const std::filesystem::path& file) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(ReadFileWhole(file));
+  std::string line;
+  std::getline(text, line);
+  while (std::getline(text, line)) {
+    rows.emplace_back(1);
+    bool is_quoted = false;
+    for (const char letter : line) {
+      if (letter == '"') is_quoted = !is_quoted;
+      if (letter == ',' && !is_quoted) {
+        rows.back().emplace_back();
+      } else if (letter != '"') {
+        rows.back().back() += letter;
+      }
+    }
+  }
+  return rows;
+}
+
+/// Sum of a column of CSV.
+double SumOfColumn(const std::filesystem::path& file, std::size_t column) {
+  double sum = 0.0;
+  for (const std::vector<std::string>& row : CsvRows(file)) sum += std::stod(row.at(column));
+  return sum;
+}
+
+TEST(MapAccount, HasSevenFieldsAlsoOfMapsWhosePlacesHaveCommas) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "ride.gpx";
+  const std::filesystem::path out = directory.path() / "out";
+  WriteFileWhole(file, R"(<gpx><trk><trkseg><trkpt lat="48.2" lon="15.60"/>
+<trkpt lat="48.2" lon="15.61"/><trkpt lat="48.2" lon="15.62"/></trkseg></trk></gpx>)");
+  const Ended run = Generate("import " + file.string() + " --out " + out.string());
+  ASSERT_EQ(run.status, 0) << run.said;
+  const std::vector<std::vector<std::string>> rows = CsvRows(out / "account.csv");
+  ASSERT_FALSE(rows.empty());
+  EXPECT_EQ(rows[0].at(1), "line 1, trkseg");
+  for (const std::vector<std::string>& row : rows) EXPECT_THAT(row, ::testing::SizeIs(7));
 }
 
 TEST_P(AccountOfSharedMap, IsWhole) {
@@ -133,25 +232,33 @@ TEST_P(AccountOfSharedMap, IsWhole) {
   const Ended run =
       Generate("import " + file.string() + " " + GetParam().options + " --out " + out.string());
   ASSERT_EQ(run.status, 0) << run.said;
-  std::istringstream account(ReadFileWhole(out / "account.csv"));
-  std::string line;
-  std::getline(account, line);
-  ASSERT_EQ(line, "what,place,unit,on_map,in_worlds,left_out,reasons");
-  double tracks_m = 0.0;
-  while (std::getline(account, line)) {
-    EXPECT_THAT(line, Not(HasSubstr(kNoReason)));
-    const std::vector<std::string> fields = RowFields(line);
-    ASSERT_GE(fields.size(), 6U) << line;
-    const double on_map = std::stod(fields[3]);
-    EXPECT_NEAR(std::stod(fields[4]) + std::stod(fields[5]), on_map, 0.02) << line;
-    if (fields[0].ends_with("track")) tracks_m += on_map;
+  double on_map_m = 0.0;
+  double in_worlds_m = 0.0;
+  double num_switches = 0.0;
+  for (const std::vector<std::string>& row : CsvRows(out / "account.csv")) {
+    ASSERT_THAT(row, ::testing::SizeIs(7)) << row[0] << " " << row[1];
+    EXPECT_THAT(row[6], Not(HasSubstr(kNoReason))) << row[0] << " " << row[1];
+    if (row[0] == "switch") num_switches = std::stod(row[4]);
+    if (!row[0].ends_with("track")) continue;
+    on_map_m += std::stod(row[3]);
+    in_worlds_m += std::stod(row[4]);
   }
+  // The ways of lines are in one world, those beside them in several; lines are as long as their
+  // ways to 1 %, and a turnout reaches up to 40 m beyond the points of its branch.
+  constexpr double kFit = 0.01;
+  constexpr double kTurnout_m = 40.0;
+  const double lines_m = SumOfColumn(out / "lines.csv", 1);
+  const double num_turnouts = SumOfColumn(out / "tracks.csv", 2);
+  EXPECT_GE(in_worlds_m, (1.0 - kFit) * lines_m);
+  EXPECT_LE(in_worlds_m, (1.0 + kFit) * (lines_m + SumOfColumn(out / "tracks.csv", 5)) +
+                             kTurnout_m * num_turnouts);
+  EXPECT_LE(num_switches, num_turnouts);
   if (std::string(GetParam().options).find("--within") != std::string::npos) return;
   RailMap map = ReadMap(file);
   static_cast<void>(ProjectMap("", map));
   double ways_m = 0.0;
   for (const MapWay& way : map.ways) ways_m += LengthOf_m(map, way);
-  EXPECT_NEAR(tracks_m, ways_m, 0.005 * static_cast<double>(map.ways.size()));
+  EXPECT_NEAR(on_map_m, ways_m, 0.005 * static_cast<double>(map.ways.size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
