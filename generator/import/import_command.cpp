@@ -151,46 +151,32 @@ std::vector<ImportedLine> ImportLines(const RailMap& map,
   return lines;
 }
 
-/// A world and how the tracks beside its line came out.
-struct BuiltWorld {
-  LineWorld world;
-  SideTrackQuality beside;
-};
-
 /// Lines as far as they have come: lists of one order.
 struct LinesInWork {
   std::vector<TrackLine> tracks{};
   std::vector<ImportedLine> lines{};
-  std::vector<BuiltWorld> worlds{};
+  std::vector<LineWorld> worlds{};
 };
 
-std::vector<BuiltWorld> BuildWorlds(const RailMap& map,
-                                    const std::vector<TrackLine>& tracks,
-                                    const std::vector<ImportedLine>& lines,
-                                    const ImportCommandOptions& options) {
-  std::vector<BuiltWorld> worlds(lines.size());
+std::vector<LineWorld> BuildWorlds(const RailMap& map,
+                                   const std::vector<TrackLine>& tracks,
+                                   const std::vector<ImportedLine>& lines,
+                                   const ImportCommandOptions& options) {
+  std::vector<LineWorld> worlds(lines.size());
   WorkOnLines(map, tracks, "tracks and structures", [&](std::size_t i, const TellShare& /*tell*/) {
-    worlds[i].world = MakeLineWorld(map, tracks[i], lines[i]);
-    if (!options.is_main_only) {
-      worlds[i].beside = AddSideTracks(map, tracks[i], lines[i], options.fit, worlds[i].world);
-    }
-    AddStructures(map, tracks[i], lines[i], worlds[i].world);
+    worlds[i] = MakeLineWorld(map, tracks[i], lines[i]);
+    if (!options.is_main_only) AddSideTracks(map, tracks[i], lines[i], options.fit, worlds[i]);
+    AddStructures(map, tracks[i], lines[i], worlds[i]);
   });
   return worlds;
 }
 
-std::vector<LineWorld> WorldsOf(const std::vector<BuiltWorld>& built) {
-  std::vector<LineWorld> worlds;
-  for (const BuiltWorld& one : built) worlds.push_back(one.world);
-  return worlds;
-}
-
 std::string TracksCsv(const std::vector<ImportedLine>& lines,
-                      const std::vector<BuiltWorld>& worlds) {
+                      const std::vector<LineWorld>& worlds) {
   std::ostringstream csv;
   csv << "line,tracks,turnouts,median_shift_m,p95_shift_m,length_m,points,median_m,p99_m\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const SideTrackQuality& q = worlds[i].beside;
+    const SideTrackQuality& q = worlds[i].quality;
     csv << lines[i].name << ',' << q.num_tracks << ',' << q.num_turnouts << ','
         << QuantileOf(q.shifts_m, 0.5) << ',' << QuantileOf(q.shifts_m, 0.95) << ',' << q.length_m
         << ',' << q.distances_m.size() << ',' << QuantileOf(q.distances_m, 0.5) << ','
@@ -268,11 +254,10 @@ RailMap ReadMapWithin(const ImportCommandOptions& options) {
 
 void WriteTables(const std::filesystem::path& out,
                  const LinesInWork& work,
-                 const std::vector<LineWorld>& worlds,
                  const std::vector<AccountRow>& account,
                  const LeftOutOfMap& left_out) {
-  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, work.lines, worlds));
-  WriteFileWhole(out / "moved.csv", MovedCsv(work.lines, worlds));
+  WriteFileWhole(out / "left_out.csv", LeftOutCsv(left_out, work.lines, work.worlds));
+  WriteFileWhole(out / "moved.csv", MovedCsv(work.lines, work.worlds));
   WriteFileWhole(out / "tracks.csv", TracksCsv(work.lines, work.worlds));
   WriteFileWhole(out / "account.csv", AccountCsv(account));
   WriteFileWhole(out / "heights.csv", HeightsCsv(work.lines));
@@ -312,7 +297,7 @@ std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& 
                   static_cast<double>(i) / static_cast<double>(num));
     const TrackLine& track = work.tracks[i];
     ImportedLine& line = work.lines[i];
-    BuiltWorld& built = work.worlds[i];
+    LineWorld& world = work.worlds[i];
     reasons[i] = GiveHeights(options, map, track, elevation, line);
     std::optional<std::filesystem::path> elevation_file;
     if (elevation != nullptr && !reasons[i]) {
@@ -321,11 +306,11 @@ std::vector<std::optional<std::string>> FinishLines(const ImportCommandOptions& 
     }
     if (!reasons[i]) {
       SetCants(map, track, line);
-      ClearStructures(line.alignment, built.world);
-      reasons[i] = MakeStand(line.alignment, elevation_file, built.world);
+      ClearStructures(line.alignment, world);
+      reasons[i] = MakeStand(line.alignment, elevation_file, world);
     }
     if (!reasons[i]) {
-      WriteLine(options.out, line, projection, built.world, elevation != nullptr);
+      WriteLine(options.out, line, projection, world, elevation != nullptr);
     } else if (elevation_file) {
       std::filesystem::remove(*elevation_file);
     }
@@ -404,18 +389,17 @@ int RunImport(const ImportCommandOptions& options) {
   EraseWhere(reasons, work.tracks);
   EraseWhere(reasons, work.lines);
   EraseWhere(reasons, work.worlds);
-  const std::vector<LineWorld> worlds = WorldsOf(work.worlds);
   const std::vector<AccountRow> account = AccountOf(
-      map, {work.tracks, work.lines, worlds, left_out.lines,
+      map, {work.tracks, work.lines, work.worlds, left_out.lines,
             options.is_main_only ? "--main-only leaves out tracks beside lines" : kNearNoLine});
-  WriteTables(options.out, work, worlds, account, left_out);
+  WriteTables(options.out, work, account, left_out);
   std::cout << "projection: " << ShownLines(projection.definition) << ", minus ("
             << NumberText(projection.origin_m.x()) << ", " << NumberText(projection.origin_m.y())
             << ") m; longitudes and latitudes in scenarios are right to "
             << ShortText(projection.geographic_error_m) << " m\n\n"
             << QualityTable(work.lines) << '\n'
             << AccountTable(account) << '\n'
-            << MovedText(worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
+            << MovedText(work.worlds) << LeftOutLinesText(left_out.lines) << "Wrote "
             << work.lines.size() << " lines to " << ShownPath(options.out) << '\n';
   if (!work.lines.empty()) return kExitSuccess;
   throw InputError(ShownPath(options.map) + ": must have a line that can stand (got " +

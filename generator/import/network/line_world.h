@@ -64,6 +64,16 @@ struct MadeThing {
   StructureSpec structure;
 };
 
+/// How the tracks beside a line came out.
+struct SideTrackQuality {
+  std::size_t num_tracks{};
+  std::size_t num_turnouts{};
+  double length_m{};
+  std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
+  /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
+  std::vector<double> shifts_m;
+};
+
 /// What a world has besides its alignment.
 struct LineWorld {
   std::vector<WorldTrack> tracks;  ///< The first is "main".
@@ -72,6 +82,7 @@ struct LineWorld {
   std::vector<MadeSwitch> switches;
   std::vector<MadeThing> placed;  ///< They stand unless they were left out later.
   std::vector<LeftOut> left_out;
+  SideTrackQuality quality;
 };
 
 inline constexpr double kFarOff_m = 0.5;
@@ -83,16 +94,6 @@ inline constexpr double kFarOff_m = 0.5;
 [[nodiscard]] LineWorld MakeLineWorld(const RailMap& map,
                                       const TrackLine& track,
                                       const ImportedLine& line);
-
-/// How the tracks beside a line came out.
-struct SideTrackQuality {
-  std::size_t num_tracks{};
-  std::size_t num_turnouts{};
-  double length_m{};
-  std::vector<double> distances_m;  ///< Of the map's points from their tracks, ascending.
-  /// From the map's switches to the beginnings of their turnouts, along the line, ascending.
-  std::vector<double> shifts_m;
-};
 
 /// Adds the tracks of the map that run along a line, within 60 m of it, to its world.
 ///
@@ -108,11 +109,11 @@ struct SideTrackQuality {
 ///   all others.
 /// Tunnels of a run in which it crosses below the line are left out with their track. Whatever of a
 /// run is in no track, and each switch that is no turnout, is a LeftOut with its reason.
-[[nodiscard]] SideTrackQuality AddSideTracks(const RailMap& map,
-                                             const TrackLine& track,
-                                             const ImportedLine& line,
-                                             const ImportOptions& options,
-                                             LineWorld& world);
+void AddSideTracks(const RailMap& map,
+                   const TrackLine& track,
+                   const ImportedLine& line,
+                   const ImportOptions& options,
+                   LineWorld& world);
 
 /// The stretch of its run that a track has. One that begins or ends in a turnout, or within 2 m
 /// of an end of its run, reaches to that end.

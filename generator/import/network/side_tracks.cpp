@@ -96,8 +96,6 @@ class SideTrackSearch {
   /// Says which of the map's switches on the world's tracks are no turnouts.
   void CountSwitches(const std::vector<SwitchNode>& switches);
 
-  [[nodiscard]] SideTrackQuality& quality() { return quality_; }
-
  private:
   void TakePart(const TrackRun& part);
   /// The track on which a point lies.
@@ -143,7 +141,6 @@ class SideTrackSearch {
   const char* why_not_{};  ///< A track of it cannot have all of its turnouts.
   std::map<std::string, int> num_of_kind_;
   std::vector<MeetingPoint> meetings_;
-  SideTrackQuality quality_;
 };
 
 std::vector<ChainageRange> SideTrackSearch::Gaps(const TrackRun& run) const {
@@ -389,7 +386,7 @@ void SideTrackSearch::Accept(const OpenRun& open, TrackDraft draft) {
     if (!draft.Has(point_m.x())) continue;
     const double off_m = point_m.y() - draft.course.OffsetAt(point_m.x()).d_m;
     world_.tracks.back().off_m.emplace_back(point_m.x(), off_m);
-    quality_.distances_m.push_back(std::abs(off_m));
+    world_.quality.distances_m.push_back(std::abs(off_m));
   }
   for (const TurnoutSite& turnout : draft.turnouts) {
     const Eigen::Vector2d& place_m =
@@ -400,9 +397,9 @@ void SideTrackSearch::Accept(const OpenRun& open, TrackDraft draft) {
       meeting.branch = draft.spec.name;
     }
   }
-  ++quality_.num_tracks;
-  quality_.num_turnouts += draft.turnouts.size();
-  quality_.length_m += draft.course.end_s_m() - draft.course.begin_s_m();
+  ++world_.quality.num_tracks;
+  world_.quality.num_turnouts += draft.turnouts.size();
+  world_.quality.length_m += draft.course.end_s_m() - draft.course.begin_s_m();
   network_.Add(std::move(draft));
 }
 
@@ -454,7 +451,7 @@ void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
     }
     if (met && met->turnout_s_m) {
       world_.switches.push_back({node.node, node.place_m.x(), met->branch});
-      quality_.shifts_m.push_back(std::abs(*met->turnout_s_m - node.place_m.x()));
+      world_.quality.shifts_m.push_back(std::abs(*met->turnout_s_m - node.place_m.x()));
     } else if (node.num_ways < 3) {
       leave_out("the map has no branch there");
     } else if (node.num_ways > 3) {
@@ -465,16 +462,16 @@ void SideTrackSearch::CountSwitches(const std::vector<SwitchNode>& switches) {
       leave_out("no track of 20 m leads from it along the line");
     }
   }
-  std::ranges::sort(quality_.shifts_m);
+  std::ranges::sort(world_.quality.shifts_m);
 }
 
 }  // namespace
 
-SideTrackQuality AddSideTracks(const RailMap& map,
-                               const TrackLine& track,
-                               const ImportedLine& line,
-                               const ImportOptions& options,
-                               LineWorld& world) {
+void AddSideTracks(const RailMap& map,
+                   const TrackLine& track,
+                   const ImportedLine& line,
+                   const ImportOptions& options,
+                   LineWorld& world) {
   const LinePlaces places(map, track, line);
   SideTrackSearch search(TrackNetwork(line.alignment), line, options.sigma_m, world);
   world.beside = FindRuns(map, track, places, options.otherwise_kmph);
@@ -489,8 +486,7 @@ SideTrackQuality AddSideTracks(const RailMap& map,
     search.Take(run, i, below);
   }
   search.CountSwitches(FindSwitches(map, places, kRunStrip_m));
-  std::ranges::sort(search.quality().distances_m);
-  return search.quality();
+  std::ranges::sort(world.quality.distances_m);
 }
 
 }  // namespace railcast

@@ -53,7 +53,7 @@ class MadeMap {
     runs_east_ = map_.nodes[track_.nodes.front()].place_m.x() < 1000.0;
     line_ = ImportLine(map_, track_, {});
     world_ = MakeLineWorld(map_, track_, line_);
-    static_cast<void>(AddSideTracks(map_, track_, line_, {}, world_));
+    AddSideTracks(map_, track_, line_, {}, world_);
     AddStructures(map_, track_, line_, world_);
   }
 

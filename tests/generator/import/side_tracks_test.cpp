@@ -1,3 +1,5 @@
+#include "generator/import/network/line_world.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +16,6 @@
 #include "generator/import/lines/track_lines.h"
 #include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
-#include "generator/import/network/line_world.h"
 #include "generator/import/network/moved_run.h"
 #include "generator/import/structures/map_account.h"
 #include "generator/import/structures/standing_world.h"
@@ -77,7 +78,7 @@ class BesideALine : public ::testing::Test {
     runs_east_ = map_.nodes[track.nodes.front()].place_m.x() < 1000.0;
     const ImportedLine line = ImportLine(map_, track, {});
     world_ = MakeLineWorld(map_, track, line);
-    quality_ = AddSideTracks(map_, track, line, {}, world_);
+    AddSideTracks(map_, track, line, {}, world_);
     for (const WorldTrack& made : world_.tracks) tracks_.push_back(JsonOf(made.draft.spec));
   }
 
@@ -85,7 +86,6 @@ class BesideALine : public ::testing::Test {
   bool runs_east_ = true;
   LineWorld world_;
   std::vector<WorldJson> tracks_;
-  SideTrackQuality quality_;
 };
 
 TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
@@ -98,7 +98,7 @@ TEST_F(BesideALine, ATrackOfItsOwnIsParallel) {
   EXPECT_NEAR(track["start_s_m"], runs_east_ ? 200.0 : 500.0, 0.5);
   EXPECT_NEAR(track["end_s_m"], runs_east_ ? 1500.0 : 1800.0, 0.5);
   EXPECT_EQ(track["electrified"], false);
-  EXPECT_EQ(quality_.num_turnouts, 0U);
+  EXPECT_EQ(world_.quality.num_turnouts, 0U);
 }
 
 TEST_F(BesideALine, ARunHasItsNodesWhereItsPointsAreAlsoBehindASteepStep) {
@@ -128,8 +128,8 @@ TEST_F(BesideALine, ASidingBeginsInATurnout) {
   // were made to 0.1 m, and where the branch crosses half the offset is known to 0.2 m.
   const double begin_x_m = 600.0 - 10.52;
   EXPECT_NEAR(turnout["s_m"], runs_east_ ? begin_x_m : 2000.0 - begin_x_m, 1.0);
-  EXPECT_EQ(quality_.num_turnouts, 1U);
-  EXPECT_LT(quality_.distances_m.back(), 0.5);
+  EXPECT_EQ(world_.quality.num_turnouts, 1U);
+  EXPECT_LT(world_.quality.distances_m.back(), 0.5);
 }
 
 TEST_F(BesideALine, ACrossoverLeadsFromTrackToTrack) {
@@ -144,7 +144,7 @@ TEST_F(BesideALine, ACrossoverLeadsFromTrackToTrack) {
   // Tangents of 10.52 m at either end of 40.5 m at 1:9; tracks were fitted to 0.1 m.
   const double from_s_m = crossover["begin"]["s_m"].get<double>();
   EXPECT_NEAR(crossover["end"]["s_m"].get<double>(), from_s_m + 61.54, 6.0);
-  EXPECT_EQ(quality_.num_turnouts, 2U);
+  EXPECT_EQ(world_.quality.num_turnouts, 2U);
 }
 
 /// Turnouts 1:9-190 whose nodes on the map are 4 m behind the tips of their blades.
@@ -163,7 +163,7 @@ TEST_F(BesideALine, EverySwitchOfADoubleTrackWithASidingIsATurnout) {
   Make();
   EXPECT_THAT(world_.switches, SizeIs(5));
   EXPECT_EQ(std::ranges::count(world_.left_out, "switch", &LeftOut::what), 0);
-  EXPECT_EQ(quality_.num_turnouts, 5U);
+  EXPECT_EQ(world_.quality.num_turnouts, 5U);
   // Places are sought in steps of 1 m, for 1:9-300 as well, and points are fitted to 0.1 m at 1:9.
   constexpr double kOff_m = 2.0;
   EXPECT_THAT(TangentsOn_x_m("main"),
@@ -228,7 +228,7 @@ TEST_F(BesideALine, ATrackThatComesTooNearInPlacesIsMovedAwayThereAndSaysSo) {
   Add(points_m, {{"maxspeed", "80"}});
   Make();
   ASSERT_THAT(world_.tracks, SizeIs(2)) << "one whole track";
-  EXPECT_NEAR(quality_.length_m, 1800.0, 1.0);
+  EXPECT_NEAR(world_.quality.length_m, 1800.0, 1.0);
   EXPECT_THAT(world_.left_out, ::testing::IsEmpty());
   const std::vector<double> offsets_m = OffsetsOf_m(world_.tracks[1].draft);
   EXPECT_GE(std::ranges::min(offsets_m), 3.0);
@@ -357,7 +357,7 @@ TEST(SideTracks, EndBeforeTheMiddleOfACurve) {
   const TrackLine track = FindLines(map, 500.0).front();
   const ImportedLine line = ImportLine(map, track, {});
   LineWorld world = MakeLineWorld(map, track, line);
-  static_cast<void>(AddSideTracks(map, track, line, {}, world));
+  AddSideTracks(map, track, line, {}, world);
   ASSERT_GE(world.tracks.size(), 3U) << "one on either straight";
   EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
   for (const LeftOut& thing : world.left_out) {
@@ -376,7 +376,7 @@ TEST(SideTracks, AreMadeOfNearlyAllOfTheSecondTrackOfMonaco) {
   const TrackLine track = FindLines(map, 1000.0).front();
   const ImportedLine line = ImportLine(map, track, {});
   LineWorld world = MakeLineWorld(map, track, line);
-  static_cast<void>(AddSideTracks(map, track, line, {}, world));
+  AddSideTracks(map, track, line, {}, world);
   EXPECT_EQ(MakeStand(line.alignment, std::nullopt, world), std::nullopt);
   double run_m = 0.0;
   double left_out_m = 0.0;
