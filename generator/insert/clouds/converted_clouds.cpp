@@ -74,7 +74,7 @@ class ConvertedClouds : public RecordingOutput {
                        "--format same (got " +
                        std::string(format_.name) + ")");
     }
-    const std::set<std::uint32_t> moving = MovingInstances(inserted);
+    const std::set<std::uint32_t> moving = MovingInstances(inserted.objects);
     const Frame whole = WholeFrame(inserted, labels_);
     const FrameFileSpec spec = {.format = &format_,
                                 .fields = FieldsFor(inserted.recorded),

@@ -106,7 +106,7 @@ class RowEdit {
         after_(inserted.recorded.frame),
         inserted_(inserted),
         context_(context),
-        moving_(MovingInstances(inserted)),
+        moving_(MovingInstances(inserted.objects)),
         num_rows_(cloud.num_points()),
         slots_(num_rows_, kNoSlot),
         edit_of_slot_(before_.num_slots(), nullptr) {

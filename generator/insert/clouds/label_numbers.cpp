@@ -35,9 +35,9 @@ LabelNumbers LabelNumbersOf(const InsertPlan& plan, const RecordingInfo& info) {
   return {table, info, needed};
 }
 
-std::set<std::uint32_t> MovingInstances(const InsertedFrame& inserted) {
+std::set<std::uint32_t> MovingInstances(const std::vector<RecordedObject>& objects) {
   std::set<std::uint32_t> moving;
-  for (const RecordedObject& object : inserted.objects) {
+  for (const RecordedObject& object : objects) {
     if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
   }
   return moving;
@@ -46,7 +46,7 @@ std::set<std::uint32_t> MovingInstances(const InsertedFrame& inserted) {
 std::vector<std::uint32_t> WrittenLabels(const InsertedFrame& inserted,
                                          const LabelNumbers& labels) {
   const Frame& frame = inserted.recorded.frame;
-  const std::set<std::uint32_t> moving = MovingInstances(inserted);
+  const std::set<std::uint32_t> moving = MovingInstances(inserted.objects);
   std::vector<std::uint32_t> written = frame.label;
   for (const SlotEdit& edit : inserted.edits) {
     if (!edit.is_added || edit.is_merged) continue;

@@ -30,8 +30,8 @@ class LabelNumbers {
   std::map<std::uint32_t, std::uint32_t> numbers_;
 };
 
-/// The instances of the objects that move in a frame.
-[[nodiscard]] std::set<std::uint32_t> MovingInstances(const InsertedFrame& inserted);
+/// The instances of those that move of a frame's objects.
+[[nodiscard]] std::set<std::uint32_t> MovingInstances(const std::vector<RecordedObject>& objects);
 
 /// The label of each slot as it is written: of what was put in by `labels`, else as recorded.
 [[nodiscard]] std::vector<std::uint32_t> WrittenLabels(const InsertedFrame& inserted,
