@@ -25,20 +25,6 @@ struct ConvertOptions {
   SourceChoice choice;
 };
 
-/// What is written is a folder, whatever the name would make one think.
-void CheckIsFolder(const std::filesystem::path& out) {
-  const std::string ending = out.extension().string();
-  for (const char* file : {".pcap", ".pcapng", ".mcap", ".db3", ".pcd", ".ply", ".bin", ".las"}) {
-    if (ending != file || std::filesystem::is_directory(out)) continue;
-    std::string formats;
-    for (const std::string& name : ConvertFormats()) {
-      formats += (formats.empty() ? "" : ", ") + name;
-    }
-    throw InputError("OUT: must be a folder, in which --format is one of " + formats +
-                     "; captures are not written (got " + ShownPath(out) + ")");
-  }
-}
-
 std::string ConversionReport(const ConvertChoices& choices,
                              const ConvertResult& result,
                              bool is_set) {
@@ -52,7 +38,6 @@ std::string ConversionReport(const ConvertChoices& choices,
 
 int RunConvertCommand(ConvertOptions options) {
   ConvertChoices& choices = options.choices;
-  CheckIsFolder(choices.directory);
   if (!options.frames.empty()) {
     std::tie(choices.first_frame, choices.last_frame) = FramesNamed(options.frames);
   }
@@ -100,6 +85,7 @@ void AddConvert(ProgramOptions& app, ProgramCommand& command) {
   AddSourceChoice(convert, options->choice);
   AddCaptureSensor(convert, options->choice.sensor);
   convert.Footer(
+      "OUT becomes a folder, whatever its name ends in; captures are not written.\n"
       "Exit status: 0 success, 1 bad input or failed run, 2 usage, 130 interrupted (the same\n"
       "command continues).");
   convert.WhenParsed([&command, options] {
