@@ -50,6 +50,11 @@ struct ConvertResult : RunResult {
 [[nodiscard]] ConvertResult ConvertSequence(const ConvertChoices& choices, const RunHooks& hooks);
 [[nodiscard]] ConvertResult ConvertDataset(const ConvertChoices& choices, const RunHooks& hooks);
 
+/// The chosen ones of the recording's fields; empty: all.
+/// @throws InputError "--fields: ..." if it lacks one, or if x, y or z is not chosen.
+[[nodiscard]] std::vector<std::string> ChosenFields(const std::string& fields,
+                                                    const std::vector<std::string>& there);
+
 /// What is beside the points of a sequence; nothing of another recording.
 [[nodiscard]] Losses LostBesidePoints(const std::filesystem::path& recording,
                                       const InsertRange& range);

@@ -2,18 +2,64 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/io/bag/bag.h"
+#include "core/io/cloud/cloud.h"
 #include "core/io/ros/frame_topics.h"
+#include "core/io/ros/sensor_messages.h"
 #include "core/io/run/convert_record.h"
 #include "generator/convert/convert.h"
-#include "generator/convert/source_frames.h"
 #include "generator/insert/clouds/recording_output.h"
+#include "generator/insert/plan/pose_file.h"
 #include "generator/run/line_ledger.h"
+#include "railcast/io/recording.h"
 
 namespace railcast {
+
+/// A frame of a recording, and its points as they are stored.
+struct SourceFrame {
+  RecordedFrame recorded;
+  Cloud cloud;  ///< Of packed points.
+  // Of the message, if the cloud is one:
+  std::string topic{};
+  std::optional<ros::Header> header{};
+};
+
+/// Reads the frames of a recording with their clouds. Where these are in files or messages of their
+/// own, they keep their fields, types and order; else they have what is known of the frame. Those
+/// of KITTI have the poses and times that stand beside them.
+class SourceFrames {
+ public:
+  /// @throws InputError as OpenRecording() and ReadKittiPoses() do.
+  explicit SourceFrames(const std::filesystem::path& recording);
+
+  [[nodiscard]] const RecordingInfo& info() const { return recording_->info(); }
+  /// Returns the reader of the next frame, which any thread may call; nothing at the end.
+  /// @throws InputError as Recording::Next() does; so does the reader.
+  [[nodiscard]] std::optional<std::function<SourceFrame()>> Next();
+
+ private:
+  std::unique_ptr<Recording> recording_;
+  std::vector<std::filesystem::path> files_;  ///< Of clouds in files.
+  std::string kitti_columns_;
+  KittiPoses kitti_;
+  std::size_t next_ = 0;
+  std::unique_ptr<bag::BagReader> bag_;  ///< Of clouds in messages.
+};
+
+/// What is known of the frames that are written before the first of them is.
+struct SourceSurvey {
+  InsertRange range;
+  SourceFrame first;  ///< Says what the recording has.
+  // Of a data set's format alone, which needs it:
+  bool has_poses = true;    ///< Whether all frames have one.
+  bool has_stamps = false;  ///< Whether the stamp of any is not 0.
+};
 
 /// What becomes of a frame.
 struct ConvertedFrame {
@@ -51,11 +97,10 @@ class ConvertOutput {
   [[nodiscard]] virtual Losses LostOfAll() const { return {}; }
 };
 
-/// @param first The first frame that is written, which says what the recording has.
 /// @throws InputError if the format has no place for the points, or the recording lacks a field.
 [[nodiscard]] std::unique_ptr<ConvertOutput> MakeConvertOutput(const ConvertChoices& choices,
                                                                const RecordingInfo& info,
-                                                               const SourceFrame& first);
+                                                               const SourceSurvey& survey);
 
 /// The output of a bag.
 /// @param names Of the chosen fields; empty: all, or a layout is chosen.

@@ -25,13 +25,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many as a recording has; of captures it is known once their packets were read.
-std::uint32_t CountFrames(const fs::path& recording, const RecordingInfo& info) {
-  if (info.num_frames) return static_cast<std::uint32_t>(*info.num_frames);
-  const auto again = OpenRecording(recording);
+/// Reads the first frame that is wanted and, for KITTI, others until it is known what all have.
+SourceSurvey SurveyOf(const ConvertChoices& choices) {
+  SourceFrames source(choices.recording);
+  const auto& num_frames = source.info().num_frames;
+  const bool is_dataset = ParseFrameFormat(choices.format).dataset.has_value();
+  SourceSurvey survey;
   std::uint32_t num = 0;
-  while (again->Next()) ++num;
-  return num;
+  while (const auto read = source.Next()) {
+    const std::uint32_t number = num++;
+    const bool is_first = number == choices.first_frame;
+    const bool is_wanted =
+        number > choices.first_frame && number <= choices.last_frame.value_or(number);
+    if (is_wanted && !is_dataset && num_frames) break;
+    const bool is_known = !is_dataset || (!survey.has_poses && survey.has_stamps);
+    if (!is_first && (!is_wanted || is_known)) continue;
+    SourceFrame frame = (*read)();
+    survey.has_poses = survey.has_poses && frame.recorded.has_pose;
+    survey.has_stamps = survey.has_stamps || frame.recorded.frame.stamp_ns != 0;
+    if (is_first) survey.first = std::move(frame);
+  }
+  survey.range = RangeOf(choices.first_frame, choices.last_frame,
+                         static_cast<std::uint32_t>(num_frames.value_or(num)));
+  return survey;
 }
 
 /// A frame on its way from the recording to the folder.
@@ -47,36 +63,33 @@ class RecordingConversion {
   RecordingConversion(const ConvertChoices& choices, const RunHooks& hooks)
       : choices_(choices),
         hooks_(hooks),
+        survey_(SurveyOf(choices)),
         source_(choices.recording),
-        range_(RangeOf(choices.first_frame,
-                       choices.last_frame,
-                       CountFrames(choices.recording, source_.info()))),
-        first_(ReadFirst()),
-        output_(MakeConvertOutput(choices, source_.info(), first_)),
+        output_(MakeConvertOutput(choices, source_.info(), survey_)),
         run_{.version = ProgramVersion(),
              .recording = choices.recording.lexically_normal().generic_string(),
              .recording_hash = ContentHash(RecordingTraits(choices.recording)),
              .kind = source_.info().kind,
              .format = choices.format,
              .fields = choices.fields,
-             .first_frame = range_.first,
-             .num_frames = range_.num},
+             .first_frame = survey_.range.first,
+             .num_frames = survey_.range.num},
         folder_({.directory = choices.directory,
                  .made = "a conversion",
                  .run = RecordFile(run_),
-                 .first_frame = range_.first,
-                 .num_frames = range_.num,
+                 .first_frame = survey_.range.first,
+                 .num_frames = survey_.range.num,
                  .line_files = output_->LineFiles(),
                  .ledger = std::string(kConvertFile)}) {}
 
   ConvertResult Run() {
     ConvertResult result;
-    result.num = range_.num;
+    result.num = survey_.range.num;
     result.was_complete = folder_.is_complete();
     result.changed = folder_.changed();
     result.num_resumed = folder_.num_done();
     if (!folder_.is_complete()) {
-      result.num_resumed = output_->Begin(folder_.num_done(), range_.num);
+      result.num_resumed = output_->Begin(folder_.num_done(), survey_.range.num);
       folder_.Open(result.num_resumed);
       for (const FixedFile& file : output_->FixedFiles()) folder_.WriteFixed(file);
       try {
@@ -88,7 +101,7 @@ class RecordingConversion {
       }
     }
     result.num_done = folder_.num_done();
-    if (result.num_done == range_.num) {
+    if (result.num_done == survey_.range.num) {
       result.lost = LostOfFrames();
       if (!folder_.is_complete()) Finish(result.lost);
     }
@@ -97,27 +110,14 @@ class RecordingConversion {
   }
 
  private:
-  SourceFrame ReadFirst() {
-    for (; next_ < range_.first; ++next_) (void)source_.Next();
-    const auto read = source_.Next();
-    if (!read) throw InputError(ShownPath(choices_.recording) + ": must have a frame");
-    SourceFrame first = (*read)();
-    ahead_ = [first] { return first; };
-    return first;
-  }
-
-  std::optional<std::function<SourceFrame()>> TakeNext() {
-    return ahead_ ? std::exchange(ahead_, std::nullopt) : source_.Next();
-  }
-
   void MakeFrames() {
     std::uint32_t num_done = folder_.num_done();
     WithConvertPipe(choices_.num_threads, [&](FramePipe& pipe) {
       std::vector<ConvertSlot> slots(pipe.num_slots());
-      pipe.begin = [&, first = range_.first + num_done](std::size_t i) {
-        for (; next_ < first; ++next_) (void)TakeNext();
-        if (next_ == range_.first + range_.num || hooks_.is_stopped()) return false;
-        auto read = TakeNext();
+      pipe.begin = [&, first = survey_.range.first + num_done](std::size_t i) {
+        for (; next_ < first; ++next_) (void)source_.Next();
+        if (next_ == survey_.range.first + survey_.range.num || hooks_.is_stopped()) return false;
+        auto read = source_.Next();
         if (!read) return false;
         slots[i].number = next_++;
         slots[i].read = std::move(*read);
@@ -130,15 +130,25 @@ class RecordingConversion {
                         slot.frame.record.frame.frame = slot.number;
                         slot.frame.record.frame.stamp_ns = source.recorded.frame.stamp_ns;
                         output_->Encode(source, slot.number, slot.frame);
+                        AddLostOf(source, slot.frame.record.lost);
                       }}};
       pipe.write = [&](std::size_t i) {
         output_->Write(slots[i].frame);
         folder_.Write(slots[i].frame.files, slots[i].frame.lines, slots[i].frame.record);
       };
-      pipe.on_written = [&] { hooks_.on_progress(++num_done, range_.num); };
-      hooks_.on_progress(num_done, range_.num);
+      pipe.on_written = [&] { hooks_.on_progress(++num_done, survey_.range.num); };
+      hooks_.on_progress(num_done, survey_.range.num);
       RunPipe(pipe);
     });
+  }
+
+  /// What no format has a place for.
+  static void AddLostOf(const SourceFrame& source, Losses& lost) {
+    AddLoss("boxes of objects", source.recorded.objects.size(), lost);
+    for (const Remark& remark : source.cloud.remarks) {
+      const bool is_moved = remark.kind == RemarkKind::kViewpointUnused;
+      AddLoss("viewpoints that are not the origin", is_moved ? 1 : 0, lost);
+    }
   }
 
   [[nodiscard]] Losses LostOfFrames() const {
@@ -150,10 +160,17 @@ class RecordingConversion {
       num_points += record.frame.counts.points;
       for (const auto& [what, number] : record.lost) AddLoss(what, number, lost);
     }
-    for (const auto& [what, number] : LostBesidePoints(choices_.recording, range_)) {
+    for (const auto& [what, number] : LostBesidePoints(choices_.recording, survey_.range)) {
       AddLoss(what, number, lost);
     }
     AddLoss("names of materials", source_.info().materials.size(), lost);
+    const fs::path folder = KittiSourceOf(choices_.recording).clouds;
+    const bool is_received =
+        source_.info().kind == "received stream" && !fs::exists(folder / kConvertFile);
+    AddLoss("runs, lost points and times of arrival", is_received ? survey_.range.num : 0, lost);
+    const auto num_sequences = KittiSequencesIn(folder).size();
+    AddLoss("poses.txt and times.txt of several sequences", num_sequences > 1 ? num_sequences : 0,
+            lost);
     const auto& scenario = source_.info().scenario;
     if (source_.info().origin && scenario && !IsInSensorAxes(scenario->output)) {
       AddLoss("positions turned into the sensor's axes, rounded", num_points, lost);
@@ -168,11 +185,9 @@ class RecordingConversion {
 
   const ConvertChoices& choices_;
   const RunHooks& hooks_;
+  SourceSurvey survey_;
   SourceFrames source_;
-  InsertRange range_;
   std::uint32_t next_ = 0;  ///< The number of the frame that is taken next.
-  std::optional<std::function<SourceFrame()>> ahead_;  ///< Its reader, if it is there already.
-  SourceFrame first_;
   std::unique_ptr<ConvertOutput> output_;
   ConvertRunRecord run_;
   FrameFolder folder_;

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/base/units.h"
 #include "core/io/bag/bag.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/cloud_message.h"
@@ -40,21 +41,25 @@ std::int64_t MessageStamp_ns(const SourceFrame& source, const Cloud& cloud, Loss
   };
   constexpr double kMost_ns = 9e18;
   const std::int64_t back_ns = std::abs(*first_ns) < kMost_ns ? std::llround(*first_ns) : 0;
-  for (const std::int64_t stamp_ns : {source.message_stamp_ns.value_or(frame.stamp_ns),
-                                      frame.stamp_ns, frame.stamp_ns - back_ns}) {
+  std::int64_t message_ns = frame.stamp_ns;
+  if (source.header) {
+    message_ns = source.header->stamp.sec * kNsPerS + source.header->stamp.nanosec;
+  }
+  for (const std::int64_t stamp_ns : {message_ns, frame.stamp_ns, frame.stamp_ns - back_ns}) {
     if (read_back_ns(stamp_ns) == frame.stamp_ns) return stamp_ns;
   }
   AddLoss("stamps that the times of points contradict", 1, lost);
   return frame.stamp_ns;
 }
 
-/// A bag with the clouds of a sensor and, where these are known, its poses in `map`.
+/// A bag with the clouds of a sensor and, where these are known, its poses in `map`. Those of a bag
+/// keep their topic and frame of reference.
 class ConvertedBag final : public ConvertOutput {
  public:
   ConvertedBag(const ConvertChoices& choices,
                const RecordingInfo& info,
                std::vector<std::string> names,
-               std::uint32_t num_returns)
+               const SourceFrame& first)
       : format_(ParseFrameFormat(choices.format)),
         path_(choices.directory / format_.bag),
         is_mcap_(path_.extension() == ".mcap"),
@@ -63,16 +68,19 @@ class ConvertedBag final : public ConvertOutput {
     const auto& scenario = info.scenario;
     const std::string sensor =
         scenario && !scenario->lidar.name.empty() ? scenario->lidar.name : "lidar";
-    frame_id_ = ros::RosName(sensor);
+    frame_id_ = first.header ? first.header->frame_id : ros::RosName(sensor);
     if (const auto layout = ValueNamed<ros::PointLayout>(choices.fields)) {
       layout_ = ros::CloudSpec{*layout, {}};
     }
     topics_.push_back(TopicOf<ros::TfMessage>("/tf"));
     const bool is_vendors = layout_ && layout_->layout != ros::PointLayout::kRailcast;
-    const std::uint32_t num = is_vendors ? ros::NumClouds(layout_->layout, num_returns) : 1;
+    const std::uint32_t num =
+        is_vendors ? ros::NumClouds(layout_->layout, first.recorded.frame.returns) : 1;
     if (!is_vendors) layout_.reset();
     for (std::uint32_t i = 0; i < num; ++i) {
-      topics_.push_back(TopicOf<ros::PointCloud2>(ros::PointsTopic(sensor, i)));
+      const bool keeps_topic = num == 1 && first.header;
+      topics_.push_back(
+          TopicOf<ros::PointCloud2>(keeps_topic ? first.topic : ros::PointsTopic(sensor, i)));
     }
   }
 
@@ -110,11 +118,11 @@ class ConvertedBag final : public ConvertOutput {
       const Cloud cloud = CloudFor(format_, source, names_, lost);
       const std::int64_t stamp_ns = MessageStamp_ns(source, cloud, lost);
       converted.record.frame.counts.points = cloud.num_points();
+      const std::string& frame_id = source.header ? source.header->frame_id : frame_id_;
       converted.messages.push_back(
           {1, frame.stamp_ns,
-           ros::ToCdr(MessageOf(cloud, ros::Header{ros::TimeOf(stamp_ns), frame_id_}))});
+           ros::ToCdr(MessageOf(cloud, ros::Header{ros::TimeOf(stamp_ns), frame_id}))});
     }
-    AddLoss("boxes of objects", source.recorded.objects.size(), lost);
   }
 
   void Write(const ConvertedFrame& frame) override {
@@ -202,7 +210,7 @@ std::unique_ptr<ConvertOutput> MakeConvertedBag(const ConvertChoices& choices,
                                                 const RecordingInfo& info,
                                                 const std::vector<std::string>& names,
                                                 const SourceFrame& first) {
-  return std::make_unique<ConvertedBag>(choices, info, names, first.recorded.frame.returns);
+  return std::make_unique<ConvertedBag>(choices, info, names, first);
 }
 
 }  // namespace railcast

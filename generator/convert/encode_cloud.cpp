@@ -6,9 +6,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/cloud/pcd_encoder.h"
+#include "core/io/recording/cloud_fields.h"
 
 namespace railcast {
 namespace {
@@ -60,7 +60,7 @@ std::string EncodePlyCloud(const Cloud& cloud, bool is_common) {
                       NumberText(cloud.num_points()) + "\n";
   for (const CloudField& field : cloud.fields) {
     const std::string name(field.plain_name());
-    const bool is_position = name == "x" || name == "y" || name == "z";
+    const bool is_position = name.size() == 1 && std::string_view("xyzXYZ").find(name) < 6;
     bytes.append("property ").append(PlyName(is_common ? CommonType(field.type) : field.type));
     bytes.append(is_common && !is_position ? " scalar_" : " ").append(name).append("\n");
   }
@@ -88,15 +88,21 @@ std::string EncodePlyCloud(const Cloud& cloud, bool is_common) {
 bool Holds(const FrameFormat& format, const CloudField& field) {
   const bool is_long = field.type == NumberType::kInt64 || field.type == NumberType::kUint64;
   if (!format.bag.empty()) return !is_long;
+  const std::string_view name = field.plain_name();
+  const auto ends_word = [](unsigned char letter) { return letter <= ' ' || letter == 0x7F; };
+  if (name.empty() || std::ranges::any_of(name, ends_word)) return false;
   return !IsPly(format) || (!is_long && field.count == 1);
+}
+
+std::uint64_t NumRowsAlone(const Cloud& cloud) {
+  const bool is_stored = FindFieldOf(cloud, "ring") != nullptr && cloud.Find("column") != nullptr;
+  return cloud.height > 1 && !is_stored ? cloud.height : 0;
 }
 
 std::uint64_t DropAbsentPoints(Cloud& cloud) {
   std::vector<bool> is_absent(cloud.num_points());
   for (const char* axis : {"x", "y", "z"}) {
-    const CloudField* const field = cloud.Find(axis);
-    Check(field != nullptr, "a cloud that was read has positions");
-    VisitField(cloud, *field, [&](std::size_t point, auto value) {
+    VisitField(cloud, NeedFieldOf(cloud, axis, "cloud"), [&](std::size_t point, auto value) {
       if (!std::isfinite(static_cast<double>(value))) is_absent[point] = true;
     });
   }

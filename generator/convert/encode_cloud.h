@@ -10,10 +10,14 @@
 namespace railcast {
 
 /// Whether files or messages of a format can hold a field: those of PLY and of bags have no
-/// integers of 64 bits, and those of PLY one number a field.
+/// integers of 64 bits, those of PLY one number a field, and files names that are words.
 [[nodiscard]] bool Holds(const FrameFormat& format, const CloudField& field);
 
+/// The rows of an organised cloud that are stored neither in fields nor in files without rows.
+[[nodiscard]] std::uint64_t NumRowsAlone(const Cloud& cloud);
+
 /// Leaves out the points without a position, and with them the rows of an organised cloud.
+/// @pre The cloud has positions.
 /// @return How many there were.
 std::uint64_t DropAbsentPoints(Cloud& cloud);
 

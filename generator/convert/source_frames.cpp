@@ -1,18 +1,14 @@
-#include "generator/convert/source_frames.h"
-
-#include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/base/units.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/field_layout.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/ros/cdr.h"
+#include "generator/convert/convert_output.h"
 
 namespace railcast {
 namespace {
@@ -92,30 +88,6 @@ Cloud CloudOfFrame(const RecordedFrame& recorded) {
 
 }  // namespace
 
-Cloud WithFields(const Cloud& cloud, const std::vector<std::string>& names) {
-  Cloud kept{.height = cloud.height,
-             .width = cloud.width,
-             .fields = {},
-             .point_step = 0,
-             .is_dense = cloud.is_dense,
-             .data = {}};
-  std::vector<std::uint32_t> offsets;
-  for (const CloudField& field : cloud.fields) {
-    const std::string name(field.plain_name());
-    if (std::ranges::find(names, name) == names.end()) continue;
-    kept.AddField(name, field.type, field.count);
-    offsets.push_back(field.offset);
-  }
-  kept.data.resize(cloud.num_points() * kept.point_step);
-  for (std::size_t point = 0; point < cloud.num_points(); ++point) {
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      std::memcpy(&kept.data[point * kept.point_step + kept.fields[i].offset],
-                  &cloud.data[point * cloud.point_step + offsets[i]], kept.fields[i].num_bytes());
-    }
-  }
-  return kept;
-}
-
 SourceFrames::SourceFrames(const fs::path& recording) : recording_(OpenRecording(recording)) {
   const RecordingInfo& info = recording_->info();
   // Sequences and insertions say more of their points than their clouds do.
@@ -127,26 +99,36 @@ SourceFrames::SourceFrames(const fs::path& recording) : recording_(OpenRecording
   const auto [clouds, columns] = KittiSourceOf(recording);
   files_ = CloudsOf(clouds);
   kitti_columns_ = columns;
+  if (info.has_kitti_labels) kitti_ = ReadKittiPoses(clouds, files_.size());
 }
 
 std::optional<std::function<SourceFrame()>> SourceFrames::Next() {
   auto read = recording_->Next();
   if (!read) return std::nullopt;
   if (!files_.empty()) {
-    return [read = std::move(*read), file = files_.at(next_++), columns = kitti_columns_] {
-      return SourceFrame{read(), ReadCloud(file, columns)};
+    std::optional<Transform> pose;
+    std::optional<std::int64_t> stamp_ns;
+    if (!kitti_.world_from_sensor.empty()) pose = kitti_.world_from_sensor.at(next_);
+    if (!kitti_.times_ns.empty()) stamp_ns = kitti_.times_ns.at(next_);
+    return [=, read = std::move(*read), file = files_.at(next_++), columns = kitti_columns_] {
+      SourceFrame source{read(), ReadCloud(file, columns)};
+      Frame& frame = source.recorded.frame;
+      frame.stamp_ns = stamp_ns.value_or(frame.stamp_ns);
+      if (!pose) return source;
+      frame.world_from_sensor = *pose;
+      frame.world_from_sensor_end = *pose;
+      source.recorded.has_pose = true;
+      return source;
     };
   }
   if (bag_ != nullptr) {
     const auto message = bag_->Next();
     Check(message.has_value(), "a bag has a message for each frame");
-    return [read = std::move(*read),
+    return [read = std::move(*read), topic = bag_->topics()[message->topic].name,
             data = std::vector<std::byte>(message->data.begin(), message->data.end())] {
       auto cloud = ros::FromCdr<ros::PointCloud2>(data);
-      const ros::Time stamp = cloud.header.stamp;
-      SourceFrame frame{read(), MakeCloud(std::move(cloud))};
-      frame.message_stamp_ns = stamp.sec * kNsPerS + stamp.nanosec;
-      return frame;
+      const ros::Header header = cloud.header;
+      return SourceFrame{read(), MakeCloud(std::move(cloud)), topic, header};
     };
   }
   return [read = std::move(*read)] {

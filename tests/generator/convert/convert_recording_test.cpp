@@ -1,15 +1,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/pcap/pcap_writer.h"
+#include "core/io/run/table_records.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
+#include "generator/insert/plan/pose_file.h"
 #include "tests/core/io/cloud/made_las.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_bag.h"
@@ -147,6 +151,7 @@ TEST_F(ConvertRecording, KeepsPosesAndPointsOfSequencesInBags) {
   for (const std::string format : {"mcap", "rosbag2"}) {
     const fs::path bag = ConvertTo(format, run, Path(format));
     ExpectSameFrames(ReadAll(bag), expected);
+    ExpectSamePosesBetween(ReadAll(bag), expected);
     ExpectSameFrames(ReadAll(ConvertTo("pcd", bag, Path(format + "_back"))), expected);
   }
 }
@@ -165,6 +170,99 @@ TEST_F(ConvertRecording, KeepsStampsAndPosesOfForeignBags) {
   for (const std::string format : {"pcd", "rosbag2"}) {
     ExpectSameFrames(ReadAll(ConvertTo(format, bag, Path(format))), expected);
   }
+  const auto back = bag::OpenBag(Path("rosbag2/rosbag2"));
+  EXPECT_NE(std::ranges::find(back->topics(), "/points", &bag::BagTopic::name),
+            back->topics().end());
+  // The last frame has no pose.
+  const ConvertResult kitti =
+      ConvertAll({.recording = bag, .directory = Path("kitti"), .format = "kitti"});
+  EXPECT_EQ(kitti.lost.at("poses, which not all frames have"), 2U);
+  EXPECT_FALSE(fs::exists(Path("kitti/sequences/00/poses.txt")));
+  EXPECT_EQ(ReadFileWhole(Path("kitti/sequences/00/times.txt")), "0\n1\n2\n");
+}
+
+/// The text of a cloud of two points in two rows.
+std::string RowsOf(const std::string& fields, const std::string& size, const std::string& type) {
+  return "VERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " + type +
+         "\nWIDTH 1\nHEIGHT 2\nVIEWPOINT 1 0 0 1 0 0 0\nPOINTS 2\nDATA ascii\n" +
+         "1 2 3 4\n5 6 7 8\n";
+}
+
+TEST_F(ConvertRecording, CountsRowsAndViewpointsOfClouds) {
+  WriteFileWhole(Path("rows.pcd"), RowsOf("X Y Z intensity", "4 4 4 4", "F F F F"));
+  const Losses viewpoint = {{"viewpoints that are not the origin", 1}};
+  const Losses both = {{"rows of organised clouds", 2}, {"viewpoints that are not the origin", 1}};
+  for (const std::string format : {"pcd", "mcap", "ply", "ply-cloudcompare", "kitti"}) {
+    const ConvertResult result =
+        ConvertAll({.recording = Path("rows.pcd"), .directory = Path(format), .format = format});
+    EXPECT_EQ(result.lost, format == "pcd" || format == "mcap" ? viewpoint : both) << format;
+    const bool is_mcap = format == "mcap";
+    const auto frames = ReadAll(is_mcap ? Path("mcap/frames.mcap") : Path(format));
+    EXPECT_THAT(frames.at(0).frame.x, testing::ElementsAre(1.0F, 5.0F)) << format;
+  }
+  EXPECT_FALSE(fs::exists(Path("kitti/sequences/00/times.txt")));
+}
+
+TEST_F(ConvertRecording, RefusesPositionsOfTypesThatTheFormatHasNot) {
+  WriteFileWhole(Path("long.pcd"), RowsOf("x y z intensity", "8 8 8 4", "I I I F"));
+  for (const std::string format : {"ply", "mcap"}) {
+    EXPECT_THAT(MessageOf([&] { (void)ConvertTo(format, Path("long.pcd"), Path(format)); }),
+                testing::EndsWith("long.pcd: x: must be a number of a type that " + format +
+                                  " has (got 1 of I8)"));
+  }
+}
+
+TEST_F(ConvertRecording, LeavesOutFieldsThatFilesCannotName) {
+  ros::PointCloud2 cloud = CloudOf(kBagPoints, 0);
+  cloud.fields.push_back({"a b", 15, 4, 1});
+  cloud.fields.push_back({"", 15, 4, 1});
+  cloud.fields.push_back({"scalar_ring", 15, 4, 1});
+  MadeBag made;
+  made.Add("/points", 0, cloud);
+  made.Commit();
+  const fs::path bag = made.Closed();
+  for (const std::string format : {"pcd", "ply"}) {
+    const ConvertResult result =
+        ConvertAll({.recording = bag, .directory = Path(format), .format = format});
+    EXPECT_EQ(result.lost.at("values of a b"), 4U);
+    EXPECT_EQ(result.lost.at("values of "), 4U);
+    EXPECT_EQ(result.lost.at("values of ring"), 4U);
+    EXPECT_EQ(ReadAll(Path(format)).size(), 1U);
+  }
+}
+
+TEST_F(ConvertRecording, TellsWhatOfAReceivedStreamIsLost) {
+  fs::copy(MakeClouds(), Path("stream/frames"), fs::copy_options::recursive);
+  const std::string pose = ",0,0,0,0,0,0,1,";
+  WriteFileWhole(Path("stream/frames.csv"),
+                 "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points\n"
+                 "frames/1700000000.05.pcd,3,17,50" +
+                     pose +
+                     "3,9\n"
+                     "frames/1700000000.15.pcd,3,18,150" +
+                     pose + "3,0\n");
+  const ConvertResult result =
+      ConvertAll({.recording = Path("stream"), .directory = Path("out"), .format = "pcd"});
+  EXPECT_EQ(result.lost, (Losses{{"runs, lost points and times of arrival", 2}}));
+  EXPECT_EQ(ReadAll(Path("out")).at(1).frame.index, 18U);
+  EXPECT_EQ(
+      ConvertAll({.recording = Path("out"), .directory = Path("again"), .format = "pcd"}).lost,
+      Losses());
+}
+
+TEST_F(ConvertRecording, GivesLabelsOfNoTableTheNumber0InKitti) {
+  const fs::path run = MakeRun("pcd");
+  const fs::path out = ConvertTo("pcd", ConvertTo("mcap", run, Path("bag")), Path("out"));
+  WriteFileWhole(out / "labels.json", LabelsJson(LabelTable({Label{.id = 0, .name = "none"}})));
+  std::uint64_t num = 0;
+  for (const RecordedFrame& frame : ReadAll(out)) {
+    for (std::size_t slot = 0; slot < frame.frame.num_slots(); ++slot) {
+      num += frame.frame.label[slot] == 0 || std::isnan(frame.frame.x[slot]) ? 0 : 1;
+    }
+  }
+  const ConvertResult result =
+      ConvertAll({.recording = out, .directory = Path("kitti"), .format = "kitti"});
+  EXPECT_EQ(result.lost.at("labels without a number in SemanticKITTI, now 0"), num);
 }
 
 TEST_F(ConvertRecording, GivesKittisFilesBackByWayOfOthers) {
@@ -179,6 +277,16 @@ TEST_F(ConvertRecording, GivesKittisFilesBackByWayOfOthers) {
                 ReadFileWhole(run / "sequences/00" / name))
           << format << name;
     }
+    const auto poses_of = [](const fs::path& folder) {
+      return ReadKittiPoses(folder / "sequences/00/velodyne", 3).world_from_sensor;
+    };
+    const auto poses = poses_of(Path(format + "_back"));
+    ASSERT_EQ(poses.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_TRUE(poses[i].isApprox(poses_of(run)[i], 1e-12));  // Quaternions round.
+    }
+    EXPECT_EQ(ReadFileWhole(Path(format + "_back") / "sequences/00/times.txt"),
+              ReadFileWhole(run / "sequences/00/times.txt"));
   }
 }
 

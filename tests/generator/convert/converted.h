@@ -31,6 +31,22 @@ inline std::filesystem::path ConvertTo(const std::string& format,
   return bag.empty() ? out : out / bag;
 }
 
+/// Compares the poses within scans, but for their rounding.
+inline void ExpectSamePosesBetween(const std::vector<RecordedFrame>& got,
+                                   const std::vector<RecordedFrame>& expected) {
+  ASSERT_EQ(got.size(), expected.size());
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    const auto& poses = got[i].frame.poses_between;
+    ASSERT_EQ(poses.size(), expected[i].frame.poses_between.size());
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+      const ScanPose& wanted = expected[i].frame.poses_between[p];
+      EXPECT_EQ(poses[p].time_ns, wanted.time_ns);
+      constexpr double kRounding = 1e-12;  // As below.
+      EXPECT_TRUE(poses[p].world_from_sensor.isApprox(wanted.world_from_sensor, kRounding));
+    }
+  }
+}
+
 /// Compares frames bit by bit: shape, values of all fields, stamps, and poses but for their
 /// rounding.
 inline void ExpectSameFrames(const std::vector<RecordedFrame>& got,
