@@ -63,7 +63,6 @@ void TakeConverted(const fs::path& sequence, SequenceRecord& record) {
   record.data_hash = manifest.data_hash;
   record.manifest_hash = HashFile(file).hash;
   record.bag.reset();
-  record.trace.clear();
 }
 
 class DatasetConversion {

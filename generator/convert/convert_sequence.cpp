@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/cloud/kitti.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
@@ -15,6 +13,7 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "generator/convert/convert.h"
+#include "generator/insert/clouds/label_numbers.h"
 #include "generator/insert/clouds/recording_output.h"
 #include "generator/insert/run/insert_run.h"
 #include "generator/run/run_directory.h"
@@ -34,35 +33,24 @@ fs::path SequenceIn(const fs::path& recording) {
   return {};
 }
 
-bool HasAllSlots(const FrameFormat& format) {
+/// Whether the recorded clouds have a place for each firing.
+bool HasAllSlots(const SequenceSummary& summary) {
+  const FrameFormat& format = ParseFrameFormat(summary.run.format);
   return format.has_all_slots || !format.bag.empty();
 }
 
-/// Whether the sequence gets places for firings without a point, of which the recorded one does not
-/// say why.
-bool LacksOutcomes(const SequenceSummary& summary, const FrameFormat& wanted) {
-  return wanted.has_all_slots && !HasAllSlots(ParseFrameFormat(summary.run.format));
-}
-
 /// The fields that both the recorded points and the new ones have.
-/// @throws InputError "--fields: ..." if one is wanted that the recording lacks.
+/// @param has_outcomes Whether the recording says why firings have no point that get a place.
 FieldSelection FieldsOfBoth(const FieldSelection& recorded,
                             const ConvertChoices& choices,
-                            const SequenceSummary& summary) {
+                            bool has_outcomes) {
+  std::vector<std::string> there = recorded.names();
+  if (!has_outcomes) std::erase(there, "outcome");
+  if (!ChosenFields(choices.fields, there).empty())
+    return FieldSelection(choices.fields, true, true);
   std::string list;
-  for (const std::string& name : recorded.names()) {
-    if (name == "outcome" && LacksOutcomes(summary, ParseFrameFormat(choices.format))) continue;
-    list += (list.empty() ? "" : ",") + name;
-  }
-  const FieldSelection there(list, true, true);
-  if (choices.fields == "all") return there;
-  FieldSelection wanted(choices.fields, true, true);
-  for (const std::string& name : wanted.names()) {
-    if (there.Has(name)) continue;
-    throw InputError("--fields: must be among those of the recording, " + list + " (got " + name +
-                     ")");
-  }
-  return wanted;
+  for (const std::string& name : there) list += (list.empty() ? "" : ",") + name;
+  return FieldSelection(list, true, true);
 }
 
 /// The run that writes the sequence.
@@ -85,8 +73,9 @@ SequenceSpec SpecOfConverted(const SequenceSummary& summary,
 
   spec.directory = choices.directory;
   spec.files.format = &wanted;
+  const bool has_outcomes = HasAllSlots(summary) || !wanted.has_all_slots;
   spec.files.fields =
-      wanted.dataset ? FieldSelection() : FieldsOfBoth(spec.files.fields, choices, summary);
+      wanted.dataset ? FieldSelection() : FieldsOfBoth(spec.files.fields, choices, has_outcomes);
   if (spec.files.fields.NeedsTrack()) {
     spec.files.fields.SetTrack(std::make_shared<const FrameTrack>(
         FrameTrack{OwnTrack(*MakeWorld(scenario), scenario.world.catenary), scenario.output,
@@ -105,6 +94,29 @@ struct SequenceSlot {
   EncodedFrame encoded;
 };
 
+/// Reads the images of a frame, each under the name that it gets.
+std::vector<FrameFile> ImagesOf(const fs::path& source,
+                                const SequenceSpec& spec,
+                                const FrameRecord& record,
+                                std::uint32_t number,
+                                const std::string& place) {
+  std::vector<std::string> recorded = CameraFileNames(spec.camera, record.frame);
+  const std::vector<std::string> wanted = CameraFileNames(spec.camera, number);
+  std::vector<FrameFile> images;
+  for (const KnownFile& file : record.files) {
+    if (!IsCameraFile(file.name)) continue;
+    const auto found = std::ranges::find(recorded, file.name);
+    if (found == recorded.end()) {
+      throw InputError(place + ": files: must be images of the frame's camera, each once (got " +
+                       ShownText(file.name) + ")");
+    }
+    images.push_back({wanted.at(static_cast<std::size_t>(found - recorded.begin())),
+                      ReadKnownFile(source, file, kFramesFile)});
+    found->clear();
+  }
+  return images;
+}
+
 /// Writes a frame as the sequence's own run would have done it: all but its clouds are as recorded.
 void EncodeConverted(const fs::path& source, const SequenceSpec& spec, SequenceSlot& slot) {
   const RecordedFrame recorded = std::exchange(slot.read, {})();
@@ -113,17 +125,12 @@ void EncodeConverted(const fs::path& source, const SequenceSpec& spec, SequenceS
   encoded = {};
   encoded.record = ReadFrameLine(lines.frame.text, lines.frame.place);
   const std::uint32_t number = spec.files.format->dataset ? slot.index : encoded.record.frame;
-  std::set<std::uint32_t> moving;
-  for (const RecordedObject& object : recorded.objects) {
-    if (IsMoving(object.velocity_world_mps)) moving.insert(object.instance);
+  EncodeFrameFiles(WithOutcomes(recorded), spec.files, number, encoded.files,
+                   MovingInstances(recorded.objects));
+  for (FrameFile& image : ImagesOf(source, spec, encoded.record, number, lines.frame.place)) {
+    encoded.files.push_back(std::move(image));
   }
-  EncodeFrameFiles(WithOutcomes(recorded), spec.files, number, encoded.files, moving);
-  const std::vector<std::string> images = CameraFileNames(spec.camera, number);
-  auto image = images.begin();
-  for (const KnownFile& file : std::exchange(encoded.record.files, {})) {
-    if (!IsCameraFile(file.name)) continue;
-    encoded.files.push_back({*image++, ReadKnownFile(source, file, kFramesFile)});
-  }
+  encoded.record.files.clear();
   for (const FrameFile& file : encoded.files) {
     encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
   }
@@ -138,18 +145,18 @@ void EncodeConverted(const fs::path& source, const SequenceSpec& spec, SequenceS
 Losses LostOfSequence(const SequenceSummary& summary,
                       const SequenceSpec& spec,
                       const FrameCounts& counts) {
-  const FrameFormat& from = ParseFrameFormat(summary.run.format);
   const FrameFormat& to = *spec.files.format;
   Losses lost;
   std::uint64_t num_absent = 0;
   for (std::size_t i = 0; i < counts.outcomes.size(); ++i) {
     if (!HasPoint(static_cast<Outcome>(i))) num_absent += counts.outcomes[i];
   }
-  AddLoss("firings without a point", HasAllSlots(from) && !to.has_all_slots ? num_absent : 0, lost);
+  const bool has_all_slots = HasAllSlots(summary);
+  AddLoss("firings without a point", has_all_slots && !to.has_all_slots ? num_absent : 0, lost);
   const FieldSelection recorded = summary.run.fields.empty()
                                       ? FieldSelection()
                                       : FieldSelection(summary.run.fields, true, true);
-  if (recorded.Has("outcome") && LacksOutcomes(summary, to)) {
+  if (recorded.Has("outcome") && !has_all_slots && to.has_all_slots) {
     AddLoss("values of outcome, not known without a point", counts.points, lost);
   }
   if (!to.dataset) return lost;

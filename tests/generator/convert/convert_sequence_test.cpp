@@ -5,8 +5,10 @@
 #include <string>
 #include <tuple>
 
+#include "core/io/record/record_text.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/verification.h"
+#include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/convert/converted.h"
@@ -135,7 +137,7 @@ TEST(ConvertSequence, TakesSomeFramesAndFields) {
             "--frames: must be of the recording's 2 frames (got 0..2)");
   choices.last_frame = 1;
   EXPECT_EQ(MessageOf([&] { (void)ConvertAll(choices); }),
-            "--fields: must be among those of the recording, x,y,z,label (got ring)");
+            "--fields: must be among those of the recording, x, y, z, label (got ring)");
 }
 
 TEST(ConvertSequence, RefusesWhatHasNoPointsOrOtherAxes) {
@@ -159,6 +161,26 @@ TEST(ConvertSequence, RefusesWhatHasNoPointsOrOtherAxes) {
             "must have its points in the sensor's axes to become a sequence; --format mcap or "
             "rosbag2 takes them");
   EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(ConvertSequence, RefusesImagesThatAreNotTheFrames) {
+  const TemporaryDirectory folder;
+  const fs::path run = folder.path() / "run";
+  (void)MakeSequence(run, MadeSequenceSpec());
+  fs::remove(run / "manifest.json");
+  const std::string lines = ReadFileWhole(run / "frames.jsonl");
+  const std::size_t end = lines.find('\n');
+  std::string line = lines.substr(0, lines.rfind(",\"line_xxh3\"", end)) + "}";
+  const std::string files = "\"files\":{";
+  line.insert(line.find(files) + files.size(),
+              R"("camera/front/color/000000.png":{"bytes":0,"xxh3":"2d06800538d394c2"},)");
+  WriteFileWhole(run / "frames.jsonl", WithLineHash(line) + lines.substr(end));
+  EXPECT_THAT(
+      MessageOf([&] {
+        (void)ConvertAll({.recording = run, .directory = folder.path() / "out", .format = "ply"});
+      }),
+      testing::EndsWith("frames.jsonl:1: files: must be images of the frame's camera, each "
+                        "once (got camera/front/color/000000.png)"));
 }
 
 TEST(ConvertDataset, IsTheDataSetThatItsRecipeWouldHaveGiven) {
