@@ -253,7 +253,9 @@ TEST_F(ConvertRecording, TellsWhatOfAReceivedStreamIsLost) {
 TEST_F(ConvertRecording, GivesLabelsOfNoTableTheNumber0InKitti) {
   const fs::path run = MakeRun("pcd");
   const fs::path out = ConvertTo("pcd", ConvertTo("mcap", run, Path("bag")), Path("out"));
-  WriteFileWhole(out / "labels.json", LabelsJson(LabelTable({Label{.id = 0, .name = "none"}})));
+  std::vector<Label> labels(1);
+  labels[0].name = "none";
+  WriteFileWhole(out / "labels.json", LabelsJson(LabelTable(labels)));
   std::uint64_t num = 0;
   for (const RecordedFrame& frame : ReadAll(out)) {
     for (std::size_t slot = 0; slot < frame.frame.num_slots(); ++slot) {
