@@ -42,7 +42,7 @@ void ExpectWhole(MadeMap& map) {
 }
 
 /// A siding of 600 m that leaves the track at y = 0 by 1:9.
-void AddSiding(MadeMap& map) {
+void AddAccountedSiding(MadeMap& map) {
   std::vector<Eigen::Vector2d> points_m;
   for (double x_m = 0.0; x_m < 40.5; x_m += 5.0) points_m.emplace_back(400.0 + x_m, x_m / 9.0);
   points_m.insert(points_m.end(), {{440.5, 4.5}, {700.0, 4.5}, {1000.0, 4.5}});
@@ -65,7 +65,7 @@ TEST(MapAccount, BooksEachMetreOfATrackAndItsTunnelOnce) {
 TEST(MapAccount, CountsTheSwitchesThatAreTurnouts) {
   MadeMap map;
   map.AddTrack(0.0, {});
-  AddSiding(map);
+  AddAccountedSiding(map);
   map.AddWay({{1600.0, 0.0}, {1610.0, 2.0}}, {});
   map.Make();
   ExpectWhole(map);
