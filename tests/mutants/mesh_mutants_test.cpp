@@ -135,6 +135,7 @@ TEST(MeshMutants, OfTextAreNeverReadWrongWithoutAWord) {
                             "surf 0 1 0 1 1 2 3 4\n", "call other.obj\n", "# units mm\n"}) {
     of_obj.Try("a line more", words, words + of_obj.good());
   }
+  of_obj.TryHarmless("a face of two corners", of_obj.good() + "f 1 2\n");
   TryCuts(of_obj, 3);
   const std::string counts = NumberText(kPoints.size()) + " " + NumberText(kFaces.size());
   Mutants of_off("OFF", "a.off", "OFF\n" + counts + " 0\n" + PointsText("") + FacesText("3 ", 0),
@@ -148,6 +149,7 @@ TEST(MeshMutants, OfTextAreNeverReadWrongWithoutAWord) {
   for (const char* other : {"NOFF", "COFF", "STOFF", "4OFF", "nOFF", "OFF BINARY", "off"}) {
     of_off.Try("the first word changed", other, Replaced(of_off.good(), "OFF", other));
   }
+  of_off.TryHarmless("a face of two corners", Replaced(of_off.good(), counts, "10 17") + "2 0 1\n");
   TryCuts(of_off, 3);
   std::string stl = "solid box\n";
   for (const auto& face : kFaces) {
@@ -175,10 +177,15 @@ TEST(MeshMutants, OfTextAreNeverReadWrongWithoutAWord) {
                  Replaced(of_stl.good(), part, other, i));
     }
   }
+  of_stl.TryHarmless("another end", Replaced(of_stl.good(), "endsolid", "end solid"));
+  of_stl.TryHarmless("words behind the end", of_stl.good() + "made by hand\n");
   TryCuts(of_stl, 17);
   constexpr const char* kDigits = "digits of a number are lost, and what is left is a number";
   of_obj.Excuse("cut off", "OBJ says nowhere how much it holds");
-  for (Mutants* mutants : {&of_obj, &of_off, &of_stl}) mutants->Excuse("a byte lost", kDigits);
+  for (Mutants* mutants : {&of_obj, &of_off, &of_stl}) {
+    mutants->TryHarmless("line ends of Windows", AllReplaced(mutants->good(), "\n", "\r\n"));
+    mutants->Excuse("a byte lost", kDigits);
+  }
   CheckSection("Meshes in text", {&of_obj, &of_off, &of_stl});
 }
 
@@ -200,6 +207,11 @@ TEST(MeshMutants, OfPlyAndStlAreNeverReadWrongWithoutAWord) {
   Mutants of_text("PLY mesh, ascii", "a.ply", PlyMesh(true), ReadMeshWhole);
   TryMeshLines(of_text, 9,
                [](const std::string& line) { return std::ranges::count(line, ' ') == 3; });
+  of_text.TryHarmless("line ends of Windows", AllReplaced(of_text.good(), "\n", "\r\n"));
+  of_text.TryHarmless("a face of two corners",
+                      Replaced(of_text.good(), "face 16", "face 17") + "2 0 1\n");
+  of_text.TryHarmless("an element without properties",
+                      Replaced(of_text.good(), "element face", "element edge 3\nelement face"));
   TryCuts(of_text, 3);
   Mutants of_binary("PLY mesh, binary", "a.ply", PlyMesh(false), ReadMeshWhole);
   TryCuts(of_binary, 3);
@@ -371,7 +383,21 @@ TEST(MeshMutants, OfGltfAreNeverReadWrongWithoutAWord) {
     mutants.Try("cut off", NumberText(size), mutants.good().substr(0, size));
   mutants.Excuse("count of an accessor changed", "fewer triangles are as good as all");
   mutants.Excuse("type of an accessor changed", "the bytes of two indices are two indices, too");
-  CheckSection("glTF", {&mutants});
+  const std::string first =
+      "{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, "
+      "\"mode\": 4}]}";
+  const std::string second = Replaced(first, "\"indices\": 1", "\"indices\": 2");
+  std::string two = Replaced(mutants.good(), first, first + ", " + second);
+  two = Replaced(two, "\"type\": \"SCALAR\"}",
+                 "\"type\": \"SCALAR\"}, {\"bufferView\": 1, \"componentType\": 5123, \"count\": "
+                 "24, \"type\": \"SCALAR\"}");
+  const std::string nodes = R"("nodes": [{"mesh": 0, "children": [1]}, {"mesh": 1}])";
+  two = Replaced(two, R"("nodes": [{"mesh": 0, "translation": [1, 2, 3]}])", nodes);
+  Mutants of_two("glTF, two meshes", "a.gltf", two, ReadMeshWhole);
+  of_two.TryHarmless("meshes in another order",
+                     Replaced(Replaced(two, first + ", " + second, second + ", " + first), nodes,
+                              R"("nodes": [{"mesh": 1, "children": [1]}, {"mesh": 0}])"));
+  CheckSection("glTF", {&mutants, &of_two});
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace railcast {
 struct Reading {
   std::string fault{};            ///< Why it is refused; empty if it is read.
   std::vector<Remark> remarks{};  ///< What is told.
-  std::vector<double> values{};   ///< All that it means. Times are in seconds.
+  std::vector<double> values{};   ///< All that it means, alike to 1e-4: m, ns.
 };
 
 /// Mutants of one good file: changes of known meaning, as they happen to people's files. A mutant
@@ -38,7 +38,10 @@ class Mutants {
   /// Reads a mutant, unless it is the good file.
   /// @param change What was done, a row of the table.
   /// @param detail To find it by.
-  void Try(const std::string& change, const std::string& detail, const std::string& bytes);
+  /// @return Why it is refused; empty if it is not.
+  std::string Try(const std::string& change, const std::string& detail, const std::string& bytes);
+  /// As Try(), but expects that the mutant is another file than the good one, and is read.
+  void TryHarmless(const std::string& change, const std::string& bytes);
   /// Nobody can tell some mutants of this change, for this reason.
   void Excuse(const std::string& change, const std::string& reason) { excuses_[change] = reason; }
   /// Expects that no mutant was read wrong without a word, but for those with an excuse.
