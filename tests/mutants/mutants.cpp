@@ -123,7 +123,12 @@ std::size_t Mutants::num() const {
 
 std::string Mutants::Rows() const {
   std::string text;
+  std::size_t num_refused = 0, num_told = 0, num_equal = 0, num_silent = 0;
   for (const Row& row : rows_) {
+    num_refused += row.num_refused;
+    num_told += row.num_told;
+    num_equal += row.num_equal;
+    num_silent += row.silent.size();
     const auto excuse = excuses_.find(row.change);
     const bool is_excused = excuse != excuses_.end();
     std::string examples;
@@ -132,13 +137,16 @@ std::string Mutants::Rows() const {
     }
     EXPECT_EQ(!row.silent.empty(), is_excused)
         << reader_ << ": " << row.change << ": " << row.silent.size() << examples;
+    if (row.silent.empty() && row.remarks.empty()) continue;
     std::string told = NumberText(row.num_told);
     for (const std::string& name : row.remarks) told += " `" + name + "`";
     text += "| " + reader_ + " | " + row.change + " | " + NumberText(row.num_refused) + " | " +
             told + " | " + NumberText(row.num_equal) + " | " + NumberText(row.silent.size()) +
             (is_excused ? ": " + excuse->second : "") + " |\n";
   }
-  return text;
+  return text + "| " + reader_ + " | all | " + NumberText(num_refused) + " | " +
+         NumberText(num_told) + " | " + NumberText(num_equal) + " | " + NumberText(num_silent) +
+         " |\n";
 }
 
 Reading ReadRecordingWhole(const std::filesystem::path& source) {
