@@ -32,9 +32,9 @@ struct Cover {
 };
 
 /// The tunnels and bridges of a world.
-class Covers {
+class WorldCovers {
  public:
-  explicit Covers(const LineWorld& world) : world_(world) {
+  explicit WorldCovers(const LineWorld& world) : world_(world) {
     const TracksOfLine core(world);
     for (const StructureSpec& structure : world.structures) {
       if (const auto* tunnel = std::get_if<TunnelSpec>(&structure)) {
@@ -95,7 +95,7 @@ class WaysAccount {
 
  private:
   void BookWorld(const TrackLine& track, const ImportedLine& line, const LineWorld& world) {
-    const Covers covers(world);
+    const WorldCovers covers(world);
     for (const UnusedStep& unused : world.beside.unused) {
       LeaveOut(unused.step, {0.0, 1.0}, LedgerRank::kUnused, unused.reason);
     }
@@ -106,7 +106,7 @@ class WaysAccount {
     for (std::size_t i = 0; i < world.beside.runs.size(); ++i) BookRun(i, world, covers);
   }
 
-  void BookRun(std::size_t number, const LineWorld& world, const Covers& covers) {
+  void BookRun(std::size_t number, const LineWorld& world, const WorldCovers& covers) {
     const TrackRun& run = world.beside.runs[number];
     // The shares are those of a step; they are empty if it does not meet the range.
     const auto book = [&](const ChainageRange& range, const auto& as) {
@@ -151,7 +151,7 @@ class WaysAccount {
             const ChainageRange& shares,
             std::size_t track,
             const LineWorld& world,
-            const Covers& covers) {
+            const WorldCovers& covers) {
     if (shares.begin_s_m >= shares.end_s_m) return;
     tracks_.Book(step, shares.begin_s_m, shares.end_s_m, {0.0, 0.0, LedgerRank::kMade});
     const MapTags& tags = map_.ways[step.way].tags;
