@@ -163,8 +163,8 @@ class ConvertedKitti final : public ConvertOutput {
     converted.record.frame.counts.points = num_points;
 
     // These follow from positions and rows where the cloud has them not.
-    const std::set<std::string, std::less<>> filled_in = {"range_m", "column", "return_index",
-                                                          "return_count"};
+    const std::set<std::string, std::less<>> filled_in = {"range_m", "ring", "column",
+                                                          "return_index", "return_count"};
     for (const std::string& name : recorded.fields) {
       const bool is_stored =
           !filled_in.contains(name) || FindFieldOf(source.cloud, name) != nullptr;

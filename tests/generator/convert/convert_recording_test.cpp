@@ -151,7 +151,7 @@ TEST_F(ConvertRecording, KeepsPosesAndPointsOfSequencesInBags) {
   for (const std::string format : {"mcap", "rosbag2"}) {
     const fs::path bag = ConvertTo(format, run, Path(format));
     ExpectSameFrames(ReadAll(bag), expected);
-    ExpectSamePosesBetween(ReadAll(bag), expected);
+    ExpectSameMotion(ReadAll(bag), expected);
     ExpectSameFrames(ReadAll(ConvertTo("pcd", bag, Path(format + "_back"))), expected);
   }
 }
@@ -198,7 +198,7 @@ TEST_F(ConvertRecording, CountsRowsAndViewpointsOfClouds) {
     EXPECT_EQ(result.lost, format == "pcd" || format == "mcap" ? viewpoint : both) << format;
     const bool is_mcap = format == "mcap";
     const auto frames = ReadAll(is_mcap ? Path("mcap/frames.mcap") : Path(format));
-    EXPECT_THAT(frames.at(0).frame.x, testing::ElementsAre(1.0F, 5.0F)) << format;
+    EXPECT_THAT(frames.at(0).frame.x, testing::UnorderedElementsAre(1.0F, 5.0F)) << format;
   }
   EXPECT_FALSE(fs::exists(Path("kitti/sequences/00/times.txt")));
 }
@@ -214,9 +214,9 @@ TEST_F(ConvertRecording, RefusesPositionsOfTypesThatTheFormatHasNot) {
 
 TEST_F(ConvertRecording, LeavesOutFieldsThatFilesCannotName) {
   ros::PointCloud2 cloud = CloudOf(kBagPoints, 0);
-  cloud.fields.push_back({"a b", 15, 4, 1});
-  cloud.fields.push_back({"", 15, 4, 1});
-  cloud.fields.push_back({"scalar_ring", 15, 4, 1});
+  cloud.fields.push_back({"a b", 0, 2, 1});
+  cloud.fields.push_back({"", 13, 2, 1});
+  cloud.fields.push_back({"scalar_ring", 14, 2, 1});
   MadeBag made;
   made.Add("/points", 0, cloud);
   made.Commit();
@@ -232,6 +232,7 @@ TEST_F(ConvertRecording, LeavesOutFieldsThatFilesCannotName) {
 }
 
 TEST_F(ConvertRecording, TellsWhatOfAReceivedStreamIsLost) {
+  fs::create_directories(Path("stream"));
   fs::copy(MakeClouds(), Path("stream/frames"), fs::copy_options::recursive);
   const std::string pose = ",0,0,0,0,0,0,1,";
   WriteFileWhole(Path("stream/frames.csv"),
