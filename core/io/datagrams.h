@@ -9,6 +9,9 @@
 
 namespace railcast {
 
+/// Simulation time 0 in seconds since 1970: 2000-01-01 00:00:00 UTC.
+inline constexpr std::int64_t kSimulationEpoch_s = 946'684'800;
+
 /// The port of a receiver that a datagram is sent to.
 enum class DatagramPort : std::uint8_t {
   kData,

@@ -11,9 +11,9 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/datagrams.h"
 #include "core/io/image/jpeg.h"
 #include "core/io/recording/live_frame.h"
-#include "core/io/velodyne/velodyne_packet.h"
 
 namespace railcast {
 

@@ -38,9 +38,6 @@ inline constexpr float kIdealRetroreflector = 1000.0F;
   return std::pow(10.0F, 3.0F * (static_cast<float>(reflectivity) - 100.5F) / 154.0F);
 }
 
-/// Simulation time 0 in seconds since 1970: 2000-01-01 00:00:00 UTC.
-inline constexpr std::int64_t kSimulationEpoch_s = 946'684'800;
-
 /// Returns the NMEA sentence, with checksum and line end, for the second in which `time_ns` lies.
 /// It gives time and date. The simulated world has no place on Earth, so the position is 0 N 0 E,
 /// marked as no fix ("V"). If the position were left empty, decoders such as velodyne_decoder would
