@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/io/record/record_text.h"
+#include "core/io/run/frame_record.h"
 #include "core/io/verify/dataset_verification.h"
 #include "core/io/verify/verification.h"
 #include "core/io/write_file.h"
@@ -170,11 +171,9 @@ TEST(ConvertSequence, RefusesImagesThatAreNotTheFrames) {
   fs::remove(run / "manifest.json");
   const std::string lines = ReadFileWhole(run / "frames.jsonl");
   const std::size_t end = lines.find('\n');
-  std::string line = lines.substr(0, lines.rfind(",\"line_xxh3\"", end)) + "}";
-  const std::string files = "\"files\":{";
-  line.insert(line.find(files) + files.size(),
-              R"("camera/front/color/000000.png":{"bytes":0,"xxh3":"2d06800538d394c2"},)");
-  WriteFileWhole(run / "frames.jsonl", WithLineHash(line) + lines.substr(end));
+  FrameRecord record = ReadFrameLine(lines.substr(0, end), "line");
+  record.files.push_back({"camera/front/color/000000.png", "2d06800538d394c2", 0});
+  WriteFileWhole(run / "frames.jsonl", HashedRecordLine(record) + lines.substr(end + 1));
   EXPECT_THAT(
       MessageOf([&] {
         (void)ConvertAll({.recording = run, .directory = folder.path() / "out", .format = "ply"});
