@@ -37,7 +37,7 @@ TEST(Import, WritesAnAlignmentAndTheReports) {
   EXPECT_THAT(ReadFileWhole(out / "contradictions.csv"), HasSubstr("line,s_m,offset_m"));
   EXPECT_THAT(
       ReadFileWhole(out / "account.csv"),
-      ::testing::ContainsRegex("\nrunning track,/features/0/geometry,m,(2[0-9]+\\.[0-9]+),"));
+      ::testing::ContainsRegex("\nrunning track,\"/features/0/geometry\",m,(2[0-9]+\\.[0-9]+),"));
   EXPECT_THAT(run.said, HasSubstr("| running track | 2.23 km | 2.23 km | 100 |"));
 }
 
