@@ -43,9 +43,11 @@ void AppendFrame(const RecordedFrame& recorded, std::vector<double>& values) {
     if (!recorded.Has(name)) return;
     const std::size_t axis = name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : 3;
     const double origin_m = axis == 3 ? 0.0 : recorded.origin_m[static_cast<Eigen::Index>(axis)];
+    // Times that text has in single precision are right to 10 ns.
+    const double scale = name == "time_ns" ? 1e-5 : 1.0;
     for (std::size_t i = 0; i < field.size(); ++i) {
       if (std::isnan(frame.x[i])) continue;
-      values.push_back(static_cast<double>(field[i]) + origin_m);
+      values.push_back(scale * static_cast<double>(field[i]) + origin_m);
     }
   });
   for (const ForeignField& field : recorded.foreign) {

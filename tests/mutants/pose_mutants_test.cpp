@@ -138,7 +138,6 @@ TEST(PoseMutants, AreNeverReadWrongWithoutAWord) {
   Mutants of_tum("poses of TUM", "a.tum", PoseText(false), ReadPosesWhole);
   TryPoses(of_tum, false);
   for (Mutants* mutants : {&of_csv, &of_tum}) {
-    mutants->Excuse("the real part of rotations first", "sensors may hang upside down");
     mutants->Excuse("cut off", "whether there is a pose for each frame is asked later");
   }
   CheckSection("Poses", {&of_csv, &of_tum});

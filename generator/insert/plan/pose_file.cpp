@@ -297,8 +297,14 @@ std::int64_t CheckSteps(const std::vector<std::int64_t>& stamps_ns,
   if (steps_ns.empty()) return 0;
   const auto middle = steps_ns.begin() + static_cast<std::ptrdiff_t>(steps_ns.size() / 2);
   std::ranges::nth_element(steps_ns, middle);
-  const double step_s = SecondsFromNs(*middle);
-  if (IsFrameStep(step_s, most_step_s)) return *middle;
+  const std::int64_t median_ns = *middle;
+  const double step_s = SecondsFromNs(median_ns);
+  if (IsFrameStep(step_s, most_step_s)) {
+    const std::int64_t least_ns = *std::ranges::min_element(steps_ns);
+    if (least_ns > 0) return median_ns;
+    throw InputError(place + ": times: each must be after the one before it (got " +
+                     ShortText(SecondsFromNs(least_ns)) + " s after it)");
+  }
   const std::string steps =
       std::isfinite(most_step_s) ? "0.01 to " + ShortText(most_step_s) : "at least 0.01";
   throw InputError(place + ": times: must be " + steps + " s apart in the median (got " +

@@ -115,6 +115,13 @@ TEST(PoseFile, NamesTheUnitThatItsTimesHave) {
             "a.csv: poses: must not be faster than 150 m/s over the whole way (got 20 m in 0.1 s)");
 }
 
+TEST(PoseFile, MustHaveTimesThatRise) {
+  EXPECT_EQ(FaultOf("a.txt",
+                    "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"
+                    "2 0 0 0 0 0 0 1\n"),
+            "a.txt: times: each must be after the one before it (got 0 s after it)");
+}
+
 TEST(PoseFile, MayBeOfStationsThatAreMinutesApart) {
   const TemporaryDirectory folder;
   const fs::path file = folder.path() / "a.txt";
