@@ -56,7 +56,7 @@ ROWS = (
     ("railcast-import import", "map.geojson --out line_again", ["line_again/line.world.json"], None),
     ("railcast-analyze verify", "drive", "drive: whole", None),
     ("railcast-analyze inspect", "again --for weather --out inspect", ["inspect/report.html", "inspect/inspect.json"], None),
-    ("railcast-analyze inspect", "again --sensor-file found.json", ["found.json"], None),
+    ("railcast-analyze inspect", "again --sensor-file found.json --format text", ["found.json"], None),
     ("railcast-analyze stats", "again --out stats", ["stats/report.html", "stats/stats.json"], None),
     ("railcast-analyze card", "set --out card", ["card/README.md"], None),
     ("railcast-analyze compare", "again again --out compare", ["compare/report.html", "compare/compare.json"], None),
