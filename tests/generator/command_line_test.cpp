@@ -90,20 +90,22 @@ TEST(CommandLine, RefusesFramesWhoseStampsDoNotFitInto64Bits) {
 
 TEST(CommandLine, NamesAMisspeltCommand) {
   ExpectUsageError("chek a.json", "unknown command, the nearest is \"check\" (got chek)");
-  ExpectUsageError("dance",
-                   "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", "
-                   "\"check\", \"world\", "
-                   "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got dance)");
+  ExpectUsageError(
+      "dance",
+      "unknown command, must be \"sequence\", \"insert\", \"convert\", \"stream\", \"replay\", "
+      "\"check\", \"world\", "
+      "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got dance)");
   ExpectUsageError(
       "",
-      "command: must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", "
+      "command: must be \"sequence\", \"insert\", \"convert\", \"stream\", \"replay\", \"check\", "
       "\"world\", \"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got none)");
 }
 
 TEST(CommandLine, PrintsNoArgumentRaw) {
   ExpectUsageError(
       "\"$(printf 'a\\033[2Jb')\"",
-      "unknown command, must be \"sequence\", \"insert\", \"stream\", \"replay\", \"check\", "
+      "unknown command, must be \"sequence\", \"insert\", \"convert\", \"stream\", \"replay\", "
+      "\"check\", "
       "\"world\", "
       "\"trace\", \"dataset\", \"merge\", \"survey\" or \"import\" (got a\\u001b[2Jb)");
   ExpectUsageError("sequence a.json --out b \"--$(printf '\\033[2J')\"",
