@@ -57,18 +57,6 @@ double UsualStepOf(std::span<const TablePoint> row) {
   return usual;
 }
 
-/// Calls `visit` with the points of each row.
-/// @pre Sorted by row.
-template <typename Points, typename Visitor>
-void ForEachRow(Points& points, Visitor&& visit) {
-  for (std::size_t begin = 0; begin < points.size();) {
-    std::size_t end = begin;
-    while (end < points.size() && points[end].row == points[begin].row) ++end;
-    visit(std::span(points).subspan(begin, end - begin));
-    begin = end;
-  }
-}
-
 /// The usual step of a row.
 struct RowStep {
   std::uint32_t row{};

@@ -199,12 +199,7 @@ bool ShareCycles(std::vector<CycleOfPoint> points) {
 
 void AlignCycles(std::vector<TablePoint>& points, double step, bool is_full_turn) {
   std::vector<CycleRow> rows;
-  for (std::size_t begin = 0; begin < points.size();) {
-    std::size_t end = begin;
-    while (end < points.size() && points[end].row == points[begin].row) ++end;
-    rows.push_back(MakeCycleRow(std::span(points).subspan(begin, end - begin), step));
-    begin = end;
-  }
+  ForEachRow(points, [&](std::span<TablePoint> row) { rows.push_back(MakeCycleRow(row, step)); });
   std::ranges::stable_sort(rows, std::greater(),
                            [](const CycleRow& row) { return row.steps.size(); });
   CyclePhases phases(rows.front());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +20,18 @@ struct TablePoint {
   double from_axis_m{};
   std::int64_t column{};
 };
+
+/// Calls `visit` with the points of each row.
+/// @pre Sorted by row.
+template <typename Points, typename Visitor>
+void ForEachRow(Points& points, Visitor&& visit) {
+  for (std::size_t begin = 0; begin < points.size();) {
+    std::size_t end = begin;
+    while (end < points.size() && points[end].row == points[begin].row) ++end;
+    visit(std::span(points).subspan(begin, end - begin));
+    begin = end;
+  }
+}
 
 /// How the rows of a table fire.
 struct AzimuthSteps {

@@ -199,7 +199,6 @@ AimedPoint SeenFromBeam(const std::array<double, 2>& origin_m,
       std::atan2(y, x) - std::atan2(level_m * std::sin(channel_azimuth_rad),
                                     origin_m[0] + level_m * std::cos(channel_azimuth_rad));
   return {.azimuth_rad = rotor_rad + channel_azimuth_rad,
-          .rotor_rad = rotor_rad,
           .elevation_rad = std::atan2(up_m, level_m)};
 }
 

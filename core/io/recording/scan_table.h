@@ -56,7 +56,6 @@ struct ScanTable {
 /// A point as its beam sees it, from where it leaves.
 struct AimedPoint {
   double azimuth_rad{};  ///< Of the beam.
-  double rotor_rad{};
   double elevation_rad{};
 };
 
