@@ -64,6 +64,10 @@ inline constexpr std::size_t kMaxNumFirings = std::size_t{1} << 24U;
 [[nodiscard]] FramesOfFirings TableFirings(const FiringTableSpec& spec,
                                            double rate_hz,
                                            ErrorList& errors);
+/// The firings of a table whose file is an AT128's, each frame the sweep of a mirror.
+[[nodiscard]] FramesOfFirings At128Firings(const FiringTableSpec& spec,
+                                           double rate_hz,
+                                           ErrorList& errors);
 
 /// A stream with a firing table.
 struct FiringTableText {

@@ -10,6 +10,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/scan/at128_correction.h"
 #include "core/scan/firing.h"
 
 namespace railcast {
@@ -204,6 +205,7 @@ FramesOfFirings TableFirings(const FiringTableSpec& spec, double rate_hz, ErrorL
   }
   auto file = Attempt("/pattern/file: ", errors, [&] { return OpenInput(spec.file); });
   if (!file) return {};
+  if (IsAt128File(spec.file)) return At128Firings(spec, rate_hz, errors);
   auto frames = ParseFiringTable({*file, ShownPath(spec.file), spec.frames}, rate_hz, errors);
   if (!errors.empty()) return {};
   if (frames.size() == 1) return {std::move(frames.front())};

@@ -64,7 +64,8 @@ void Describe(Archive& a, RisleySpec& s) {
 
 void Describe(Archive& a, FiringTableSpec& s) {
   a.Required("file", s.file,
-             "CSV with the header azimuth_deg,elevation_deg,time_us, or these and ring.",
+             "CSV with the header azimuth_deg,elevation_deg,time_us, or these and ring; or the "
+             "correction file of an AT128, which lasts 3 frames.",
              ExistingFile());
   a.Optional("frames", s.frames, "Frames that the table lasts before it begins again.",
              Within(1, 100'000));

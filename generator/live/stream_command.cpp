@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/program/stop_signals.h"
+#include "core/scan/at128_correction.h"
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
@@ -175,6 +177,20 @@ void WriteCalibration(const std::filesystem::path& file,
   // The protocol fits only spinning scans, which was checked when its stream was made.
   const ScenarioSpec alone = PickSensor(scenario, streams.front().name);
   WriteFileWhole(file, CalibrationXml(std::get<SpinningSpec>(alone.lidar.scan.pattern)));
+}
+
+/// Writes the correction file of an AT128 beside its capture, which cannot be read without.
+void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lidar) {
+  if (!stream.pcap || stream.protocol != Protocol::kAt128) return;
+  std::filesystem::path file = *stream.pcap;
+  file.replace_extension(".dat");
+  if (std::filesystem::exists(file) && !IsAt128File(file)) {
+    throw InputError(ShownPath(file) +
+                     ": must not be there, or be the correction file of an AT128, which is written "
+                     "beside the capture");
+  }
+  // That the scan is one of these was checked when its stream was made.
+  WriteFileWhole(file, ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file));
 }
 
 /// Returns a number that distinguishes this start from earlier ones. A run that is only captured
@@ -349,7 +365,9 @@ int RunStream(const StreamOptions& options) {
                       HearsCommands(options) ? std::nullopt : spec.duration_ns);
   if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
   for (const SensorStreamSpec& stream : plan) {
-    WriteMetadataBeside(stream, PickSensor(scenario, stream.name).lidar);
+    const LidarSpec lidar = PickSensor(scenario, stream.name).lidar;
+    WriteMetadataBeside(stream, lidar);
+    WriteCorrectionBeside(stream, lidar);
   }
   const auto http = OpenHttp(options, plan, scenario);
   LiveHealth health;

@@ -19,7 +19,7 @@ import lint_architecture
 BUDGET = "scripts/dev/budget.json"
 PRODUCT_TREES = ("core", *lint_architecture.PROGRAMS)
 # Folders of which each is to become a library that the product does not know.
-EXTRAS = ("core/io/bag core/io/dds core/io/hesai core/io/mcap core/io/osi core/io/ouster core/io/pcap core/io/ros "
+EXTRAS = ("core/io/bag core/io/dds core/io/mcap core/io/osi core/io/ouster core/io/pcap core/io/ros "
           "core/io/spinning core/io/velodyne core/recipe "
           "generator/convert generator/dataset generator/import generator/insert generator/replay generator/survey "
           "analysis/card analysis/detectability analysis/detectors analysis/dossier analysis/preset analysis/sight "

@@ -14,6 +14,7 @@ import json
 import math
 import pathlib
 import re
+import shutil
 import sys
 
 # Pandar64: microseconds from the firing of channels 1 to 64 to the end of their block (Hesai,
@@ -231,6 +232,14 @@ QT128 = [
 ]
 
 
+def write_at128(path, correction, detection):
+    """The sensor whose firings are those of a unit's correction file, which lies beside it."""
+    shutil.copyfile(correction, path.with_suffix(".dat"))
+    pattern = {"type": "table", "file": path.with_suffix(".dat").name, "frames": 3}
+    section = {"version": 1, "name": "AT128", "scan": {"rate_hz": 10, "pattern": pattern}}
+    path.write_text(json.dumps({**section, **detection}, indent=2) + "\n")
+
+
 def main():
     data = pathlib.Path(sys.argv[1])
     out = pathlib.Path(sys.argv[2])
@@ -296,6 +305,8 @@ def main():
     write_sensor(out / "xt32m.json", "XT32M", hesai_lasers(hesai / "PandarXT32M.csv"),
                  [2.888 * (i % 16) for i in range(32)], 50.0, 2000,
                  detection(0.5, 300.0, 80.0, 0.005, [3.0, 1.5], *XT32), turned_us=6.0)
+    write_at128(out / "at128.json", hesai / "PandarAT128.dat",
+                detection(1.0, 180.0, 200.0, 0.01, [3.0, 1.5]))
 
 
 if __name__ == "__main__":

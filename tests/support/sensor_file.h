@@ -9,12 +9,17 @@
 
 namespace railcast {
 
-/// Reads the scan of scenarios/sensors/NAME.json as the scenario reader does: of a spinning sensor,
-/// or of one with prisms.
+/// Reads the scan of scenarios/sensors/NAME.json as the scenario reader does, but for a raster.
 [[nodiscard]] inline ScanSpec ReadSensor(const std::string& name) {
-  std::ifstream file(std::string(RAILCAST_SOURCE_DIR "/scenarios/sensors/") + name + ".json");
+  const std::string folder = RAILCAST_SOURCE_DIR "/scenarios/sensors/";
+  std::ifstream file(folder + name + ".json");
   const nlohmann::json scan = nlohmann::json::parse(file).at("scan");
   const nlohmann::json& pattern = scan.at("pattern");
+  if (pattern.at("type") == "table") {
+    return {.rate_hz = scan.at("rate_hz"),
+            .pattern = FiringTableSpec{folder + pattern.at("file").get<std::string>(),
+                                       pattern.value("frames", 1U)}};
+  }
   std::vector<ChannelSpec> channels;
   for (const nlohmann::json& channel : pattern.at("channels")) {
     channels.push_back({.elevation_deg = channel.at("elevation_deg"),

@@ -113,6 +113,9 @@ struct RisleySpec {
 ///
 /// A table of several frames is gone through frame by frame and then begins again. All of its
 /// frames have as many firings, and the same rings at the same times since their stamps, to 1 us.
+///
+/// The file may also be the correction file of a Hesai AT128 (.dat). Its three frames are the
+/// sweeps of the sensor's three mirrors.
 struct FiringTableSpec {
   std::string file;          ///< Relative to the file that refers to it.
   std::uint32_t frames = 1;  ///< Frames that the table lasts, > 0.

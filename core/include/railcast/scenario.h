@@ -126,6 +126,7 @@ enum class Protocol {
   kQt64,
   kXt16,
   kXt32m,
+  kAt128,
   kOuster,
   kRos2,
 };
@@ -147,6 +148,7 @@ inline constexpr auto kEnumNames<Protocol> =
                                        {Protocol::kQt64, "qt64"},
                                        {Protocol::kXt16, "xt16"},
                                        {Protocol::kXt32m, "xt32m"},
+                                       {Protocol::kAt128, "at128"},
                                        {Protocol::kOuster, "ouster"},
                                        {Protocol::kRos2, "ros2"}});
 

@@ -100,9 +100,7 @@ std::FILE* OpenStream(const std::filesystem::path& file) {
 std::shared_ptr<const At128Correction> CorrectionBeside(std::filesystem::path file) {
   file.replace_extension(".dat");
   if (!std::filesystem::exists(file)) return nullptr;
-  const std::string bytes = ReadFileWhole(file);
-  return AtPlace(ShownPath(file) + ": ",
-                 [&] { return std::make_shared<const At128Correction>(bytes); });
+  return std::make_shared<const At128Correction>(ReadAt128Correction(file));
 }
 
 DatagramPlace PlaceOfFile(const std::filesystem::path& file,

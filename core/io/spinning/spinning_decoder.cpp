@@ -1,5 +1,4 @@
 #include "core/io/spinning/spinning_decoder.h"
-#include "core/io/hesai/at128_correction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "core/io/scan_fit.h"
 #include "core/io/spinning/spinning_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/scan/at128_correction.h"
 
 namespace railcast {
 namespace {

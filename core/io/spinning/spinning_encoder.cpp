@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "core/base/error.h"
@@ -14,6 +15,7 @@
 #include "core/io/scan_fit.h"
 #include "core/io/spinning/spinning_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
+#include "core/scan/at128_sweep.h"
 #include "core/scan/spinning_pattern.h"
 #include "core/scenario/json_rules.h"
 
@@ -68,11 +70,21 @@ std::vector<std::vector<GroupFiring>> FiringsOfLoops(const SpinningModel& model,
 struct EncodedGroup {
   std::size_t loop{};
   std::uint16_t azimuth{};                 ///< In the packets' units.
+  std::uint8_t fine{};                     ///< In 1/256 of these, where packets say so.
   std::array<std::uint32_t, 2> columns{};  ///< Of its cycles, as ColumnsOfCycles() has them.
   std::int64_t begin_ns{};                 ///< When it begins, or would, since the frame's stamp.
   std::int64_t last_ns{};                  ///< When its last laser fires, likewise.
 
   [[nodiscard]] bool fires() const { return columns[0] != kNotFired || columns[1] != kNotFired; }
+};
+
+/// What the packets of a sensor take from the scan of its frames.
+struct EncodedScan {
+  std::vector<PacketFiring> firings;  ///< Of a cycle.
+  std::size_t num_columns{};          ///< Of a frame.
+  double turns_hz{};                  ///< Of the rotor.
+  /// The groups of a frame. If there are several, frames have them in turn, as many in each.
+  std::vector<std::vector<EncodedGroup>> frames;
 };
 
 std::vector<EncodedGroup> GroupsOf(const SpinningModel& model,
@@ -107,6 +119,38 @@ std::vector<EncodedGroup> GroupsOf(const SpinningModel& model,
     }
   }
   return groups;
+}
+
+EncodedScan ScanOfRotor(const SpinningModel& model, const SpinningSpec& pattern, double rate_hz) {
+  EncodedScan scan{.firings = FiringsOf(model, pattern.channels),
+                   .num_columns = FiredCycles(pattern, rate_hz).size(),
+                   .turns_hz = rate_hz,
+                   .frames = {}};
+  scan.frames.push_back(GroupsOf(model, pattern, rate_hz, scan.firings));
+  return scan;
+}
+
+EncodedScan ScanOfMirrors(const SpinningModel& model,
+                          const At128Correction& correction,
+                          double rate_hz) {
+  EncodedScan scan{.firings = FiringsOf(model, At128Channels(correction)),
+                   .num_columns = At128Columns(rate_hz),
+                   .turns_hz = rate_hz / At128Correction::kFields,
+                   .frames = {}};
+  const auto last_ns = std::int64_t{std::ranges::max(kAt128Firing_ns)};
+  for (std::uint32_t field = 0; field < At128Correction::kFields; ++field) {
+    auto& groups = scan.frames.emplace_back();
+    for (std::uint32_t column = 0; column < scan.num_columns; ++column) {
+      const std::uint32_t azimuth = At128Azimuth(correction, rate_hz, field, column);
+      const std::int64_t begin_ns = std::llround(1e3 * kAt128Block_us * column);
+      groups.push_back({.azimuth = static_cast<std::uint16_t>(azimuth / 256),
+                        .fine = static_cast<std::uint8_t>(azimuth % 256),
+                        .columns = {column, kNotFired},
+                        .begin_ns = begin_ns,
+                        .last_ns = begin_ns + last_ns});
+    }
+  }
+  return scan;
 }
 
 /// Which packets are sent: those with a block in which lasers fire. Blocks go on through all turns,
@@ -179,35 +223,32 @@ class PacketFill {
 
 class SpinningEncoder final : public FrameEncoder {
  public:
-  SpinningEncoder(const SpinningModel& model,
-                  const SpinningSpec& pattern,
-                  double rate_hz,
-                  ReturnMode return_mode)
+  SpinningEncoder(const SpinningModel& model, EncodedScan scan, ReturnMode return_mode)
       : model_(model),
-        num_rows_(pattern.channels.size()),
-        num_columns_(FiredCycles(pattern, rate_hz).size()),
-        speed_rpm_(static_cast<std::uint16_t>(std::lround(60.0 * rate_hz))),
+        scan_(std::move(scan)),
+        speed_rpm_(static_cast<std::uint16_t>(std::lround(60.0 * scan_.turns_hz))),
         returns_(return_mode == ReturnMode::kDual ? 2 : 1),
         unit_m_(1e-3 * model.unit_mm),
         least_(model.least_distance()),
         byte_of_(model.intensity == IntensityBytes::kVelodyne ? ReflectivityByte : PercentByte),
         other_place_(model.blocks_per_loop() * model.block_size()),
-        loops_(FiringsOfLoops(model, FiringsOf(model, pattern.channels))),
-        groups_(GroupsOf(model, pattern, rate_hz, FiringsOf(model, pattern.channels))),
+        loops_(FiringsOfLoops(model, scan_.firings)),
         blocks_per_group_(model.blocks_per_loop() * returns_),
-        sent_(groups_, model.blocks / blocks_per_group_),
+        sent_(scan_.frames.front(), model.blocks / blocks_per_group_),
         packet_(model, ModeByte(return_mode)),
         fill_(model.blocks) {}
 
   void Encode(const Frame& frame, Datagrams& datagrams) override {
-    Check(frame.rows == num_rows_ && frame.columns == num_columns_, "the frame is the scan's");
+    Check(frame.rows == scan_.firings.size() && frame.columns == scan_.num_columns,
+          "the frame is the scan's");
     Check(frame.returns <= returns_, "frames have the mode's returns");
     if (!next_position_ns_) {
       const std::int64_t clock_ns = frame.stamp_ns + clock_ahead_ns();
       next_position_ns_ = (clock_ns + kNsPerS - 1) / kNsPerS * kNsPerS - clock_ahead_ns();
     }
-    fill_.BeginFrame(frame.index, groups_.size() * blocks_per_group_);
-    for (const EncodedGroup& group : groups_) {
+    const auto& groups = scan_.frames[frame.index % scan_.frames.size()];
+    fill_.BeginFrame(frame.index, groups.size() * blocks_per_group_);
+    for (const EncodedGroup& group : groups) {
       EncodeGroup(frame, group);
       const std::uint64_t packet = fill_.num_packets();
       const bool is_whole = fill_.Add(blocks_per_group_);
@@ -224,7 +265,7 @@ class SpinningEncoder final : public FrameEncoder {
     }
     last_ns_ = frame.stamp_ns + group.last_ns;
     for (std::size_t i = 0; i < blocks_per_group_; ++i) {
-      packet_.BeginBlock(block + i, group.loop, group.azimuth);
+      packet_.BeginBlock(block + i, group.loop, group.azimuth, group.fine);
     }
     if (!group.fires()) return;
     const std::size_t begin = model_.BlockPlace(block);
@@ -302,8 +343,7 @@ class SpinningEncoder final : public FrameEncoder {
   }
 
   const SpinningModel& model_;
-  std::size_t num_rows_;
-  std::size_t num_columns_;  ///< Of a frame.
+  EncodedScan scan_;
   std::uint16_t speed_rpm_;
   std::size_t returns_;
   double unit_m_;
@@ -311,7 +351,6 @@ class SpinningEncoder final : public FrameEncoder {
   std::uint8_t (*byte_of_)(float intensity);
   std::size_t other_place_;  ///< Of the second return, from the first on.
   std::vector<std::vector<GroupFiring>> loops_;
-  std::vector<EncodedGroup> groups_;  ///< Of a turn.
   std::size_t blocks_per_group_;
   SentPackets sent_;
 
@@ -329,17 +368,26 @@ std::unique_ptr<FrameEncoder> MakeSpinningEncoder(const SpinningModel& model,
                                                   const ScanSpec& scan,
                                                   ReturnMode return_mode) {
   const ScanFit fit(model.protocol);
-  fit.CheckPattern(scan, {.name = model.name,
-                          .channels = model.channels,
-                          .cycle_us = model.cycle_us,
-                          .has_own_angles = model.has_own_angles,
-                          .cycles_per_block = model.cycles_per_block()});
+  const bool is_rotor = model.name != kAt128Name;
+  if (is_rotor) {
+    fit.CheckPattern(scan, {.name = model.name,
+                            .channels = model.channels,
+                            .cycle_us = model.cycle_us,
+                            .has_own_angles = model.has_own_angles,
+                            .cycles_per_block = model.cycles_per_block()});
+  }
+  const auto* const table = std::get_if<FiringTableSpec>(&scan.pattern);
+  if (!is_rotor && (table == nullptr || !IsAt128File(table->file))) {
+    fit.Fail("/scan/pattern", "must be a table whose file is the correction file of an AT128");
+  }
   const std::string mode(NameOf(return_mode));
   if (std::ranges::count(model.sends, mode) == 0) {
     fit.Fail("/receiver/return_mode", "must be " + InWords(model.sends), Quoted(mode));
   }
-  return std::make_unique<SpinningEncoder>(model, std::get<SpinningSpec>(scan.pattern),
-                                           scan.rate_hz, return_mode);
+  EncodedScan encoded = is_rotor
+                            ? ScanOfRotor(model, std::get<SpinningSpec>(scan.pattern), scan.rate_hz)
+                            : ScanOfMirrors(model, ReadAt128Correction(table->file), scan.rate_hz);
+  return std::make_unique<SpinningEncoder>(model, std::move(encoded), return_mode);
 }
 
 }  // namespace railcast

@@ -22,8 +22,9 @@ namespace railcast {
 /// one after the other; of others those in which nothing is fired are not sent.
 /// @param model Must outlive the encoder.
 /// @param scan The frames' scan; @param return_mode their ReceiverSpec::return_mode.
-/// @throws InputError with the first rule of ScanFit::CheckPattern() that is broken, or if the
-///   packets cannot say the return mode:
+/// @throws InputError with the first rule of ScanFit::CheckPattern() that is broken, if the scan is
+///   no table of an AT128's file where the model is AT128, or if the packets cannot say the return
+///   mode:
 ///   "--protocol vlp16: /lidar/scan/pattern/rotation: must be ...".
 [[nodiscard]] std::unique_ptr<FrameEncoder> MakeSpinningEncoder(const SpinningModel& model,
                                                                 const ScanSpec& scan,

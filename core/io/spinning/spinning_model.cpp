@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/sensor_tables.h"
+#include "core/scan/at128_sweep.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {
@@ -43,7 +44,8 @@ std::vector<std::uint8_t> LasersIn(const LaserRanges& ranges) {
 
 void ReadFirings(const nlohmann::json& entry, SpinningModel& model) {
   if (model.sensor.empty()) {
-    for (const int time_ns : entry.at("firing_ns")) {
+    model.cycle_us = kAt128Block_us;
+    for (const std::uint16_t time_ns : kAt128Firing_ns) {
       model.channels.push_back({.time_us = 1e-3 * time_ns});
     }
   } else {
@@ -73,7 +75,7 @@ void ReadFirings(const nlohmann::json& entry, SpinningModel& model) {
 std::vector<SpinningModel> ReadModels() {
   nlohmann::json entries = nlohmann::json::parse(PacketTable(), nullptr, true, true);
   nlohmann::json known = SpinningModel();
-  known.update({{"like", ""}, {"loops", {}}, {"firing_ns", {}}});
+  known.update({{"like", ""}, {"loops", {}}});
   std::vector<SpinningModel> models;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     for (const auto& [key, value] : entries[i].items()) {
@@ -132,9 +134,7 @@ const SpinningModel& ModelNamed(std::string_view name) {
 
 SpinningModel At128Model(const std::shared_ptr<const At128Correction>& correction) {
   SpinningModel model = ModelNamed(kAt128Name);
-  for (std::size_t laser = 0; laser < model.channels.size(); ++laser) {
-    model.channels[laser].elevation_deg = correction->elevation_deg(laser);
-  }
+  model.channels = At128Channels(*correction);
   model.correction = correction;
   return model;
 }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/hesai/at128_correction.h"
+#include "core/scan/at128_correction.h"
 #include "railcast/lidar.h"
 
 namespace railcast {
@@ -33,10 +33,11 @@ enum class IntensityBytes {
 /// return mode, the blocks of a loop come twice, with one azimuth, the second time with the other
 /// returns.
 struct SpinningModel {
-  std::string name{};  ///< Of the sensor: "VLP-16". Models of one name stand side by side.
-  /// As command lines and scenarios name it; empty if the packets are but read.
-  std::string protocol{};
-  std::string sensor{};   ///< Its file in scenarios/sensors; empty if all depends on the unit.
+  std::string name{};      ///< Of the sensor: "VLP-16". Models of one name stand side by side.
+  std::string protocol{};  ///< As command lines and scenarios name it.
+  /// Its file in scenarios/sensors, a spinning sensor; empty of AT128, whose angles depend on the
+  /// unit.
+  std::string sensor{};
   bool is_read = true;    ///< Whether packets can be read without knowing more of the unit.
   bool has_own_angles{};  ///< Whether each unit has angles and times of its own.
   std::vector<std::string> sends{};  ///< The return modes in which packets can be sent.
@@ -82,8 +83,9 @@ struct SpinningModel {
   bool has_last_first{};
   IntensityBytes intensity = IntensityBytes::kPercent;  ///< Of what is read.
 
-  int year_zero = 1900;   ///< Year of date byte 0; bytes from 100 on count from 1900 in any case.
-  bool counts_seconds{};  ///< Whether a date of year byte 0 ends in the seconds since 1970 instead.
+  int year_zero = 1900;  ///< Year of date byte 0; bytes from 100 on count from 1900 in any case.
+  /// Whether a date of year byte 0, as all are that are sent, ends in the seconds since 1970.
+  bool counts_seconds{};
   std::int64_t loop_ns{};  ///< From one loop to the next; 0 in packets.json: the sensor's cycle.
   /// Time at which the packet's last loop begins, after the time that the packet states; or its
   /// first loop, if `states_first`.

@@ -1,5 +1,7 @@
 #include "core/io/spinning/spinning_packet.h"
 
+#include <endian.h>
+
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <chrono>
@@ -338,12 +340,16 @@ void SpinningPacket::WriteHeader(std::uint8_t mode) {
   StoreAt<std::uint8_t>(start + 11, model_->header_flags);
 }
 
-void SpinningPacket::BeginBlock(std::size_t block, std::size_t loop, std::uint16_t azimuth) {
+void SpinningPacket::BeginBlock(std::size_t block,
+                                std::size_t loop,
+                                std::uint16_t azimuth,
+                                std::uint8_t fine) {
   char* const start = bytes_.data() + model_->BlockPlace(block);
   std::fill_n(start, model_->block_size(), '\0');
   const auto& flags = model_->block_flags;
   if (!flags.empty()) StoreAt<std::uint16_t>(start, flags[block % flags.size()]);
   StoreAt<std::uint16_t>(start + model_->azimuth_place(), azimuth);
+  if (model_->has_fine_azimuth) StoreAt<std::uint8_t>(start + 2, fine);
   if (model_->loop_place > 0 && block == 0) bytes_[model_->loop_place] = loop == 0 ? 1 : 0;
   if (model_->state_place == 0) return;
   char* const states = bytes_.data() + model_->state_place;
@@ -372,6 +378,11 @@ void SpinningPacket::WriteTime(std::int64_t time_ns) {
   const auto us = floor<std::chrono::microseconds>(time - (model_->date_place > 0 ? second : hour));
   StoreAt<std::uint32_t>(bytes_.data() + model_->time_place, us.count());
   if (model_->date_place == 0) return;
+  if (model_->counts_seconds) {
+    const auto seconds = static_cast<std::uint32_t>(second.time_since_epoch().count());
+    StoreAt<std::uint32_t>(bytes_.data() + model_->date_place + 2, htobe32(seconds));
+    return;
+  }
   const auto midnight = floor<std::chrono::days>(time);
   const std::chrono::year_month_day day(midnight);
   const std::chrono::hh_mm_ss clock(second - midnight);

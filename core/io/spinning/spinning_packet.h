@@ -76,8 +76,11 @@ class SpinningPacket {
 
   /// Begins a block, in which no laser has fired.
   /// @param loop Of the model's.
-  /// @param azimuth In 0.01 deg.
-  void BeginBlock(std::size_t block, std::size_t loop, std::uint16_t azimuth);
+  /// @param azimuth In 0.01 deg. @param fine In 1/256 of that, where packets say so.
+  void BeginBlock(std::size_t block,
+                  std::size_t loop,
+                  std::uint16_t azimuth,
+                  std::uint8_t fine = 0);
   /// @param place As SpinningModel::ReturnPlace().
   void SetReturn(std::size_t place, const CodedReturn& coded) {
     StoreCoded(coded, bytes_.data() + place);

@@ -67,7 +67,7 @@ TEST_P(SentPackets, OfACaptureHaveTheFramesThatSequenceWrites) {
 
 INSTANTIATE_TEST_SUITE_P(Sensors,
                          SentPackets,
-                         testing::Values("xt16", "pandar128e4x", "vls128"),
+                         testing::Values("xt16", "pandar128e4x", "vls128", "at128"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(LivePackets, ArriveAtADecoder) {

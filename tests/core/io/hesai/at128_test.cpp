@@ -189,7 +189,7 @@ TEST(At128Correction, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(said(6, 2), "number of fields must be 3 (got 2)");
   EXPECT_EQ(said(15, 0), "resolution must be > 0 (got 0)");
   EXPECT_EQ(said(19, 1), "a field must start before 360 deg (got 675.36)");
-  EXPECT_EQ(said(18, 0x7F), "fields must start in their order");
+  EXPECT_EQ(said(18, 0x10), "fields must start 120 deg apart, to 5 deg (got 43.04)");
   EXPECT_EQ(said(555, 0x7F), "angles of lasers must be within 90 deg (got 83240.72)");
 }
 

@@ -68,7 +68,7 @@ std::vector<SensorRow> RowsOfPage() {
 bool CanSend(const std::string& protocol, const std::string& preset) {
   const fs::path file = fs::path(RAILCAST_SOURCE_DIR "/scenarios/sensors") / (preset + ".json");
   const auto json = nlohmann::json::parse(ReadFileWhole(file));
-  if (json["scan"]["pattern"]["type"] != "spinning" || protocol == "ouster") return false;
+  if (json["scan"]["pattern"]["type"] == "raster" || protocol == "ouster") return false;
   const ScanSpec scan = ReadSensor(preset);
   const SpinningModel& model = *FindSpinningModel(protocol);
   return std::ranges::any_of(

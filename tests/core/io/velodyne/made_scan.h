@@ -41,7 +41,9 @@ class MadeScan {
  public:
   explicit MadeScan(ScanSpec spec)
       : spec_(std::move(spec)),
-        spinning_(std::get<SpinningSpec>(spec_.pattern)),
+        spinning_(std::holds_alternative<SpinningSpec>(spec_.pattern)
+                      ? std::get<SpinningSpec>(spec_.pattern)
+                      : SpinningSpec()),
         pattern_(BuildScanPattern(spec_)),
         rows_(RowsByElevation(spinning_.channels)) {}
 
@@ -59,31 +61,32 @@ class MadeScan {
   [[nodiscard]] Frame MakeFrame(std::uint32_t index, std::uint32_t returns = 1) const {
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     Frame frame;
-    frame.Resize(pattern_.rows, pattern_.columns, returns);
+    const ScanPattern pattern = PatternOfFrame(pattern_, index);
+    frame.Resize(pattern.rows, pattern.columns, returns);
     frame.index = index;
-    frame.stamp_ns = pattern_.StampNs(index);
-    frame.duration_ns = pattern_.time_ns.back();
-    for (std::size_t i = 0; i < pattern_.num_firings(); ++i) {
+    frame.stamp_ns = pattern.StampNs(index);
+    frame.duration_ns = pattern.time_ns.back();
+    for (std::size_t i = 0; i < pattern.num_firings(); ++i) {
       const std::size_t first =
-          pattern_.row[i] * std::size_t{frame.width()} + std::size_t{pattern_.column[i]} * returns;
+          pattern.row[i] * std::size_t{frame.width()} + std::size_t{pattern.column[i]} * returns;
       for (std::size_t slot = first; slot < first + returns; ++slot) {
         const auto words =
             RandomWords(7, RandomUse::kNoise, index, static_cast<std::uint32_t>(slot));
         const bool has_point = UnitFloat(words[0]) > 0.1F;
         const float range_m = has_point ? 0.5F + 139.5F * UnitFloat(words[1]) : kNaN;
         frame.range_m[slot] = range_m;
-        frame.x[slot] = range_m * pattern_.direction_x[i];
-        frame.y[slot] = range_m * pattern_.direction_y[i];
-        frame.z[slot] = range_m * pattern_.direction_z[i];
-        if (!pattern_.origin_x_m.empty()) {
-          frame.x[slot] += pattern_.origin_x_m[i];
-          frame.y[slot] += pattern_.origin_y_m[i];
-          frame.z[slot] += pattern_.origin_z_m[i];
+        frame.x[slot] = range_m * pattern.direction_x[i];
+        frame.y[slot] = range_m * pattern.direction_y[i];
+        frame.z[slot] = range_m * pattern.direction_z[i];
+        if (!pattern.origin_x_m.empty()) {
+          frame.x[slot] += pattern.origin_x_m[i];
+          frame.y[slot] += pattern.origin_y_m[i];
+          frame.z[slot] += pattern.origin_z_m[i];
         }
         frame.intensity[slot] = UnitFloat(words[2]) * (words[3] % 8 == 0 ? 2000.0F : 1.0F);
-        frame.time_ns[slot] = pattern_.time_ns[i];
-        frame.ring[slot] = pattern_.row[i];
-        frame.column[slot] = pattern_.column[i];
+        frame.time_ns[slot] = pattern.time_ns[i];
+        frame.ring[slot] = pattern.row[i];
+        frame.column[slot] = pattern.column[i];
         frame.outcome[slot] = has_point ? Outcome::kReturned : Outcome::kNoSurface;
       }
     }

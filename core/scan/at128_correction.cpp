@@ -1,12 +1,15 @@
-#include "core/io/hesai/at128_correction.h"
+#include "core/scan/at128_correction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
+#include "core/base/bytes.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/io/field_layout.h"
 
 namespace railcast {
 namespace {
@@ -19,7 +22,6 @@ namespace {
 constexpr std::uint16_t kFileFlag = 0xFFEE;
 constexpr std::size_t kCorrectionHead = 16;
 constexpr std::size_t kFileSize = 47'176;
-constexpr double kStepsPerDeg = 25'600.0;
 constexpr double kShiftsPerDeg = 100.0;
 constexpr double kShiftStep_deg = 2.0;
 
@@ -51,7 +53,7 @@ double InTurn(double angle_deg) {
 At128Correction::At128Correction(std::span<const char> bytes) {
   CheckFile(bytes);
   const auto resolution = LoadAt<std::uint8_t>(bytes.data() + 15);
-  const double step_deg = resolution / kStepsPerDeg;
+  const double step_deg = resolution / At128Correction::kStepsPerDeg;
   resolution_ = resolution;
   const char* place = bytes.data() + kCorrectionHead;
   for (double& start_deg : start_deg_) {
@@ -59,7 +61,7 @@ At128Correction::At128Correction(std::span<const char> bytes) {
     if (start_deg >= 360.0) throw InputError("a field must start before 360 deg" + Got(start_deg));
     place += sizeof(std::uint32_t);
   }
-  if (!std::ranges::is_sorted(start_deg_)) throw InputError("fields must start in their order");
+  CheckStarts();
   place += kFields * sizeof(std::uint32_t);
   for (auto* angles : {&azimuth_deg_, &elevation_deg_}) {
     for (double& angle_deg : *angles) {
@@ -74,6 +76,17 @@ At128Correction::At128Correction(std::span<const char> bytes) {
     shifts->resize(kAt128Lasers * kShifts);
     std::copy_n(place, shifts->size(), shifts->begin());
     place += shifts->size();
+  }
+}
+
+void At128Correction::CheckStarts() {
+  constexpr double kMost_deg = 5.0;
+  std::array<double, kFields> beyond_deg{};
+  for (std::uint32_t i = 0; i < kFields; ++i) beyond_deg[i] = start_deg_[i] - kFieldTurn_deg * i;
+  mean_start_deg_ = std::reduce(beyond_deg.begin(), beyond_deg.end()) / kFields;
+  for (std::size_t i = 0; i < kFields; ++i) {
+    if (std::abs(beyond_deg[i] - mean_start_deg_) <= kMost_deg) continue;
+    throw InputError("fields must start 120 deg apart, to 5 deg" + Got(start_deg_[i]));
   }
 }
 
@@ -101,6 +114,17 @@ At128Correction::Direction At128Correction::At(double block_deg,
   return {.azimuth_deg = InTurn(swept_deg - azimuth_deg_[laser] +
                                 Shift_deg(azimuth_shifts_, block_deg, laser) - 90.0),
           .elevation_deg = elevation_deg_[laser] + Shift_deg(elevation_shifts_, block_deg, laser)};
+}
+
+bool IsAt128File(const std::filesystem::path& file) {
+  std::array<char, sizeof kFileFlag> flag{};
+  OpenInput(file).read(flag.data(), flag.size());
+  return LoadAt<std::uint16_t>(flag.data()) == kFileFlag;
+}
+
+At128Correction ReadAt128Correction(const std::filesystem::path& file) {
+  const std::string bytes = ReadFileWhole(file);
+  return AtPlace(ShownPath(file) + ": ", [&] { return At128Correction(bytes); });
 }
 
 }  // namespace railcast
