@@ -136,6 +136,18 @@ void CheckNode(const nlohmann::json& node, const std::string& place) {
   }
 }
 
+/// Whether morph targets move vertices.
+bool HasMorphs(const nlohmann::json& json) {
+  for (const char* list : {"meshes", "nodes"}) {
+    for (const auto& one : ValueIn(json, list)) {
+      for (const auto& weight : ValueIn(one, "weights")) {
+        if (weight.is_number() && weight != 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Throws if data within the file have other letters than base64.
 void CheckLetters(const nlohmann::json& json, const std::string& shown) {
   constexpr std::string_view kLetters =
@@ -187,6 +199,7 @@ std::vector<std::string> CheckGltf(const std::string& bytes, const std::string& 
   CheckLetters(json, shown);
   std::vector<std::string> unread = StringsIn(json, "extensionsUsed");
   std::erase_if(unread, IsHarmless);
+  if (HasMorphs(json)) unread.emplace_back("weights of morph targets");
   return unread;
 }
 

@@ -13,11 +13,10 @@ namespace railcast {
 [[nodiscard]] std::vector<std::string> BuffersOfGltf(const std::string& bytes);
 
 /// What a glTF file uses and is not read, although it may change its shape or colours: names of
-/// extensions without which it can be read.
+/// extensions without which it can be read, and weights of morph targets.
 /// @param shown Name of the file in error messages.
 /// @throws InputError "shown: place: rule (got value)" if it needs an extension that is not read,
-/// or has positions
-///   that are no floats.
+///   or has positions that are no floats.
 [[nodiscard]] std::vector<std::string> CheckGltf(const std::string& bytes,
                                                  const std::string& shown);
 

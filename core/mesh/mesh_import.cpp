@@ -80,7 +80,7 @@ struct MeshSource {
 };
 
 PolygonSoup ReadObjIn(MeshSource& source, const std::string& shown, double largest) {
-  std::map<std::string, double> luminances;
+  std::map<std::string, std::optional<double>> luminances;
   for (const FileBeside& library : source.beside) {
     ReadMtl(ShownPath(source.file.parent_path() / library.name), AsUtf8(library.bytes), luminances);
   }
@@ -88,8 +88,11 @@ PolygonSoup ReadObjIn(MeshSource& source, const std::string& shown, double large
   PolygonSoup soup = ObjReader(shown, largest).Read(in);
   for (const std::string& material : soup.materials) {
     const auto known = luminances.find(material);
-    soup.luminances.push_back(known == luminances.end() ? std::nullopt
-                                                        : std::optional(known->second));
+    soup.luminances.push_back(known == luminances.end() ? std::nullopt : known->second);
+    // What Blender writes where there is none.
+    const bool is_none = material == "None" || material == "(null)";
+    if (known != luminances.end() || is_none || source.beside.empty()) continue;
+    AddRemark({RemarkKind::kMaterialFileMissing, shown, 1, Quoted(material)}, soup.remarks);
   }
   return soup;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,15 +54,15 @@ class LineFaults {
 [[nodiscard]] std::vector<std::vector<std::string>> MaterialLibrariesOf(const std::string& obj);
 
 /// Reads from a Wavefront MTL file the luminance of each material's diffuse colour (`Kd`), if it
-/// has one and no picture (`map_Kd`) changes it, and adds it to `luminances`. A material that
-/// another file has described already keeps that.
+/// has one and no picture (`map_Kd`) changes it, and adds all of its materials to `luminances`. A
+/// material that another file has described already keeps that.
 ///
 /// The format's description calls Kd a reflectivity, so it is taken to be linear.
 /// @param shown Name of the file in error messages.
 /// @throws InputError "shown: line N: rule (got value)" for each Kd line with a fault.
 void ReadMtl(const std::string& shown,
              const std::string& bytes,
-             std::map<std::string, double>& luminances);
+             std::map<std::string, std::optional<double>>& luminances);
 
 /// Reads a Wavefront OBJ file: `v` and `f` lines, with negative indices and continued lines; the
 /// names of `usemtl`, and of `g` or else `o`. Normals, texture coordinates, lines and points are

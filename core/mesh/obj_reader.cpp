@@ -101,27 +101,30 @@ std::vector<std::vector<std::string>> MaterialLibrariesOf(const std::string& obj
 
 void ReadMtl(const std::string& shown,
              const std::string& bytes,
-             std::map<std::string, double>& luminances) {
+             std::map<std::string, std::optional<double>>& luminances) {
   LineFaults faults(shown);
-  std::map<std::string, double> found;
+  std::map<std::string, std::optional<double>> found;
   std::set<std::string> pictured;
   std::string material;
   std::string_view rest = bytes;
   for (std::size_t number = 1; const auto line = TakeLine(rest); ++number) {
     const auto words = Words(*line);
     if (words.empty()) continue;
-    if (words[0] == "newmtl") material = Name({words[0].end(), line->end()});
+    if (words[0] == "newmtl") {
+      material = Name({words[0].end(), line->end()});
+      found.try_emplace(material);
+    }
     if (words[0] == "map_Kd") pictured.insert(material);
     if (words[0] != "Kd") continue;
     faults.Try([&] {
       const auto luminance =
           LuminanceOfKd(words, *line, shown + ": line " + std::to_string(number));
-      if (luminance) found.try_emplace(material, *luminance);
+      if (!found[material]) found[material] = luminance;
     });
   }
   faults.ThrowIfAny();
   for (const auto& [name, luminance] : found) {
-    if (!pictured.contains(name)) luminances.try_emplace(name, luminance);
+    luminances.try_emplace(name, pictured.contains(name) ? std::nullopt : luminance);
   }
 }
 

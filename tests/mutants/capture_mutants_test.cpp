@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/io/ouster/made_ouster.h"
 #include "tests/core/io/pcap/made_capture.h"
 #include "tests/core/io/velodyne/made_scan.h"
 #include "tests/mutants/mutants.h"
@@ -285,6 +286,53 @@ TEST(CaptureMutants, OfHesaiAreNeverReadWrongWithoutAWord) {
   for (std::size_t place = 0; place < packets[0].size(); place += 97) all.push_back(place);
   TryContent(mutants, packets, "a byte changed", all, false);
   CheckSection("Hesai", {&of_numbered, &mutants});
+}
+
+TEST(CaptureMutants, OfOusterAreNeverReadWrongWithoutAWord) {
+  const std::string metadata = MadeOusterMetadataText();
+  std::vector<std::string> packets;
+  const Datagrams datagrams = MadeOuster(metadata).Encode({0, 1, 2});
+  for (const auto& packet : DataPackets(datagrams))
+    packets.emplace_back(packet.begin(), packet.end());
+  const Frames frames = FramesOf(packets);
+  const std::string capture = CaptureBytes(frames);
+  Mutants mutants("Ouster in pcap", "a.pcap", capture, [&](const std::filesystem::path& file) {
+    WriteFileWhole(file.parent_path() / "a.json", metadata);
+    return ReadRecordingWhole(file);
+  });
+  TryPackets(mutants, frames);
+  TryFrames(mutants, frames, packets);
+  // After Ouster's description of packets: type, frame, initialization and serial number.
+  TryContent(mutants, packets, "type, frame or sensor of a packet changed", {0, 2, 4, 8}, false);
+  TryContent(mutants, packets, "number of a column changed", {40, 41, 32 + 60}, false);
+  TryContent(mutants, packets, "status of a column changed", {42}, false);
+  Mutants of_metadata("Ouster's metadata", "a.json", metadata,
+                      [&](const std::filesystem::path& file) {
+                        WriteFileWhole(file.parent_path() / "a.pcap", capture);
+                        return ReadRecordingWhole(file.parent_path() / "a.pcap");
+                      });
+  TryChanges(
+      of_metadata,
+      {{"mode or format changed", "512x10", "1024x10"},
+       {"mode or format changed", "512x10", "512x20"},
+       {"mode or format changed", "\"columns_per_frame\": 512", "\"columns_per_frame\": 1024"},
+       {"mode or format changed", "\"columns_per_packet\": 16", "\"columns_per_packet\": 8"},
+       {"mode or format changed", "\"pixels_per_column\": 4", "\"pixels_per_column\": 8"},
+       {"mode or format changed", "RNG19_RFL8_SIG16_NIR16", "RNG15_RFL8_NIR8"},
+       {"another sensor", "122201000998", "122201000999"},
+       {"another sensor", "7109750", "7109751"},
+       {"an angle lost", "-3.75,", ""},
+       {"an angle that is none", "-3.75", "\"a\""},
+       {"an angle that is none", "-3.75", "375"},
+       {"a transform that is none", "36.18", "null"},
+       {"a member lost", "beam_altitude_angles", "angles"},
+       {"a member lost", "beam_azimuth_angles", "angles"},
+       {"a member lost", "lidar_to_sensor_transform", "transform"},
+       {"a member lost", "lidar_origin_to_beam_origin_mm", "origin"},
+       {"a member lost", "pixel_shift_by_row", "shift"},
+       {"a member lost", "column_window", "window"},
+       {"a window of columns", "      511", "      255"}});
+  CheckSection("Ouster", {&mutants, &of_metadata});
 }
 
 }  // namespace

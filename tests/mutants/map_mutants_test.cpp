@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/text.h"
-#include "generator/import/heights/elevation_map.h"
-#include "generator/import/map/map_projection.h"
 #include "generator/import/map/read_map.h"
+#include "tests/generator/import/made_pbf.h"
 #include "tests/mutants/mutants.h"
 
 namespace railcast {
@@ -50,24 +48,6 @@ Reading ReadMapWhole(const std::filesystem::path& file) {
 }
 
 constexpr const char* kNoHeights = "a map without heights is one";
-
-struct Word {
-  const char* what;
-  std::string part;
-  std::string other;
-};
-
-/// Each word where it stands for the first, second, ... time, and everywhere.
-void TryWords(Mutants& mutants, const std::vector<Word>& words) {
-  for (const auto& [what, part, other] : words) {
-    for (std::size_t number = 0; number < 40; ++number) {
-      mutants.Try(what, part + " as " + other + ", " + NumberText(number),
-                  Replaced(mutants.good(), part, other, number));
-    }
-    mutants.Try(std::string(what) + " everywhere", part + " as " + other,
-                AllReplaced(mutants.good(), part, other));
-  }
-}
 
 std::string Utf16(const std::string& text, bool has_mark, bool is_big_endian) {
   std::string bytes;
@@ -118,9 +98,9 @@ std::string OsmXml() {
 
 /// Changes that are the same in XML and JSON but for how a member is written.
 /// @param member Writes a name and a value as the format has them.
-std::vector<Word> ElementWords(
+std::vector<TextChange> ElementWords(
     const std::function<std::string(const std::string&, const std::string&)>& member) {
-  std::vector<Word> words;
+  std::vector<TextChange> words;
   for (std::size_t i = 0; i < 5; ++i) {
     const std::string lat = kLats.at(i);
     const std::string lon = kLons.at(i);
@@ -143,10 +123,10 @@ std::vector<Word> ElementWords(
 TEST(MapMutants, OfOsmXmlAreNeverReadWrongWithoutAWord) {
   Mutants mutants("OSM XML", "a.osm", OsmXml(), ReadMapWhole);
   TryTexts(mutants);
-  TryWords(mutants, ElementWords([](const std::string& name, const std::string& value) {
-             return " " + name + "='" + value + "'";
-           }));
-  std::vector<Word> words = {
+  TryChanges(mutants, ElementWords([](const std::string& name, const std::string& value) {
+               return " " + name + "='" + value + "'";
+             }));
+  std::vector<TextChange> words = {
       {"an element marked as deleted", "' lat=", "' visible='false' lat="},
       {"an element marked as deleted", "' lat=", "' action='delete' lat="},
       {"an element marked in an unknown way", "' lat=", "' action='gone' lat="},
@@ -187,7 +167,7 @@ TEST(MapMutants, OfOsmXmlAreNeverReadWrongWithoutAWord) {
     words.push_back({"a node lost", node, ""});
     words.push_back({"a node doubled", node, node + node});
   }
-  TryWords(mutants, words);
+  TryChanges(mutants, words);
   std::string exchanged = AllReplaced(mutants.good(), " lat=", " LAT=");
   exchanged = AllReplaced(AllReplaced(exchanged, " lon=", " lat="), " LAT=", " lon=");
   mutants.Try("latitudes and longitudes exchanged", "", exchanged);
@@ -209,10 +189,10 @@ TEST(MapMutants, OfOverpassAreNeverReadWrongWithoutAWord) {
       "\"tunnel\": \"yes\"}}\n]}\n";
   Mutants mutants("Overpass JSON", "a.json", text, ReadMapWhole);
   TryTexts(mutants);
-  TryWords(mutants, ElementWords([](const std::string& name, const std::string& value) {
-             return ", \"" + name + "\": " + value;
-           }));
-  std::vector<Word> words = {
+  TryChanges(mutants, ElementWords([](const std::string& name, const std::string& value) {
+               return ", \"" + name + "\": " + value;
+             }));
+  std::vector<TextChange> words = {
       {"an element marked as deleted", ", \"lat\"", ", \"visible\": false, \"lat\""},
       {"an element marked as deleted", ", \"nodes\"", ", \"action\": \"delete\", \"nodes\""},
       {"an element marked in an unknown way", ", \"nodes\"", ", \"action\": \"gone\", \"nodes\""},
@@ -244,8 +224,44 @@ TEST(MapMutants, OfOverpassAreNeverReadWrongWithoutAWord) {
       {"the elements lost", "\"elements\"", "\"element\""}};
   for (const char* id : {"1", "2", "3"})
     words.push_back({"an id twice", "\"id\": 5", std::string("\"id\": ") + id});
-  TryWords(mutants, words);
+  TryChanges(mutants, words);
   CheckSection("Overpass", {&mutants});
+}
+
+/// Five nodes, the second of which has a height, and a track of them.
+/// @param more Further fields of the block, as Protocol Buffers have them.
+std::string PbfOf(const std::string& nodes, const std::string& way, const std::string& more = {}) {
+  return FileOfGroups(nodes + way + more);
+}
+
+TEST(MapMutants, OfPbfAreNeverReadWrongWithoutAWord) {
+  const std::string way = Way({1, 2, 3, 4, 5});
+  Mutants mutants("OSM PBF", "a.osm.pbf", PbfOf(DenseNodes(5), way), ReadMapWhole);
+  for (std::size_t size = 1; size < mutants.good().size(); ++size) {
+    mutants.Try("cut off", NumberText(size), mutants.good().substr(0, size));
+    mutants.Try("a byte lost", NumberText(size), std::string(mutants.good()).erase(size, 1));
+  }
+  mutants.Try("a file behind another", "", mutants.good() + mutants.good());
+  for (const std::size_t num : {1U, 3U, 4U, 5U, 100U})
+    mutants.Try("zeros behind the end", NumberText(num), mutants.good() + std::string(num, '\0'));
+  for (const char* type : {"OSMData", "OSMHeader"})
+    mutants.Try("type of a block changed", type, Replaced(mutants.good(), type, "OSMExtra"));
+  mutants.Try("a feature that is needed", "", Replaced(mutants.good(), "-V0.6", "-V0.7"));
+  for (const std::int64_t node : {0, 6, 99, -1})
+    mutants.Try("a reference to no node", NumberText(node),
+                PbfOf(DenseNodes(5), Way({1, 2, node, 4, 5})));
+  mutants.Try("a reference doubled", "", PbfOf(DenseNodes(5), Way({1, 2, 2, 3, 4, 5})));
+  mutants.Try("a node lost", "", PbfOf(DenseNodes(4), way));
+  mutants.Try("nodes doubled", "", PbfOf(DenseNodes(5) + DenseNodes(5), way));
+  mutants.Try("a way doubled", "", PbfOf(DenseNodes(5), way + way));
+  for (const char* text : {"rail", "railway", "ele", "250"})
+    mutants.Try("a word changed", text,
+                Replaced(mutants.good(), text, std::string(text).replace(0, 1, "X")));
+  mutants.TryHarmless("a granularity", PbfOf(DenseNodes(5), way, VarintField(17, Varint(100))));
+  mutants.TryHarmless("a granularity",
+                      PbfOf(DenseNodes(5, {}, 10), way, VarintField(17, Varint(10))));
+  mutants.TryHarmless("an offset of 0", PbfOf(DenseNodes(5), way, VarintField(19, Varint(0))));
+  CheckSection("OSM PBF", {&mutants});
 }
 
 TEST(MapMutants, OfGeoJsonAreNeverReadWrongWithoutAWord) {
@@ -261,7 +277,7 @@ TEST(MapMutants, OfGeoJsonAreNeverReadWrongWithoutAWord) {
       "250.5]]}}\n]}\n";
   Mutants mutants("GeoJSON", "a.geojson", text, ReadMapWhole);
   TryTexts(mutants);
-  std::vector<Word> words = {
+  std::vector<TextChange> words = {
       {"another coordinate system", "\"features\"",
        "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": "
        "\"urn:ogc:def:crs:EPSG::25833\"}}, \"features\""},
@@ -291,7 +307,7 @@ TEST(MapMutants, OfGeoJsonAreNeverReadWrongWithoutAWord) {
       {"a height lost", ", 250.5", ""},
       {"a point exchanged", "[15.621, 48.203", "[48.203, 15.621"},
       {"a track in other letters", "\"rail\"", "\"Rail\""}};
-  TryWords(mutants, words);
+  TryChanges(mutants, words);
   std::string exchanged = mutants.good();
   for (std::size_t i = 0; i < 5; ++i)
     exchanged = AllReplaced(exchanged, std::string(kLons.at(i)) + ", " + kLats.at(i),
@@ -314,18 +330,18 @@ TEST(MapMutants, OfGpxAndKmlAreNeverReadWrongWithoutAWord) {
   }
   Mutants of_gpx("GPX", "a.gpx", gpx + "</trkseg></trk></gpx>\n", ReadMapWhole);
   TryTexts(of_gpx);
-  TryWords(of_gpx, ElementWords([](const std::string& name, const std::string& value) {
-             return " " + name + "=\"" + value + "\"";
-           }));
-  TryWords(of_gpx, {{"a height that is none", "250.5", "x"},
-                    {"a height that is none", "250.5", ""},
-                    {"a height with a comma", "250.5", "250,5"},
-                    {"a height with its unit", "250.5", "250.5 m"},
-                    {"a height that cannot be", "250.5", "25000"},
-                    {"a height lost", "<ele>250.5</ele>", ""},
-                    {"the name of an element changed", "<trkseg>", "<Trkseg>"},
-                    {"the name of an element changed", "trkpt", "point"},
-                    {"another version", "version=\"1.1\"", "version=\"2.0\""}});
+  TryChanges(of_gpx, ElementWords([](const std::string& name, const std::string& value) {
+               return " " + name + "=\"" + value + "\"";
+             }));
+  TryChanges(of_gpx, {{"a height that is none", "250.5", "x"},
+                      {"a height that is none", "250.5", ""},
+                      {"a height with a comma", "250.5", "250,5"},
+                      {"a height with its unit", "250.5", "250.5 m"},
+                      {"a height that cannot be", "250.5", "25000"},
+                      {"a height lost", "<ele>250.5</ele>", ""},
+                      {"the name of an element changed", "<trkseg>", "<Trkseg>"},
+                      {"the name of an element changed", "trkpt", "point"},
+                      {"another version", "version=\"1.1\"", "version=\"2.0\""}});
   const std::string body =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml "
       "xmlns=\"http://www.opengis.net/kml/2.2\"><Document><Placemark><name>B</"
@@ -333,24 +349,24 @@ TEST(MapMutants, OfGpxAndKmlAreNeverReadWrongWithoutAWord) {
       kml + "</coordinates></LineString></Placemark></Document></kml>\n";
   Mutants of_kml("KML", "a.kml", body, ReadMapWhole);
   TryTexts(of_kml);
-  TryWords(of_kml, {{"heights above the ground", "absolute", "relativeToGround"},
-                    {"heights above the ground", "absolute", "clampToGround"},
-                    {"heights above the ground", "<altitudeMode>absolute</altitudeMode>",
-                     "<altitudeMode>relativeToSeaFloor</altitudeMode>"},
-                    {"heights above the ground", "<altitudeMode>absolute</altitudeMode>", ""},
-                    {"an unknown mode of heights", "absolute", "Absolute"},
-                    {"a height lost", ",250.5", ""},
-                    {"a height that is none", "250.5", "x"},
-                    {"a height that cannot be", "250.5", "25000"},
-                    {"a coordinate lost", "15.621,48.203,250.5", "15.621"},
-                    {"a coordinate that is none", "15.621", "15.6.21"},
-                    {"a coordinate that is none", "48.203", "148.203"},
-                    {"blanks behind commas", ",", ", "},
-                    {"a point exchanged", "15.621,48.203", "48.203,15.621"},
-                    {"semicolons for commas", ",", ";"},
-                    {"the name of an element changed", "LineString", "Linestring"},
-                    {"another element", "LineString", "LinearRing"},
-                    {"the name of an element changed", "coordinates", "coords"}});
+  TryChanges(of_kml, {{"heights above the ground", "absolute", "relativeToGround"},
+                      {"heights above the ground", "absolute", "clampToGround"},
+                      {"heights above the ground", "<altitudeMode>absolute</altitudeMode>",
+                       "<altitudeMode>relativeToSeaFloor</altitudeMode>"},
+                      {"heights above the ground", "<altitudeMode>absolute</altitudeMode>", ""},
+                      {"an unknown mode of heights", "absolute", "Absolute"},
+                      {"a height lost", ",250.5", ""},
+                      {"a height that is none", "250.5", "x"},
+                      {"a height that cannot be", "250.5", "25000"},
+                      {"a coordinate lost", "15.621,48.203,250.5", "15.621"},
+                      {"a coordinate that is none", "15.621", "15.6.21"},
+                      {"a coordinate that is none", "48.203", "148.203"},
+                      {"blanks behind commas", ",", ", "},
+                      {"a point exchanged", "15.621,48.203", "48.203,15.621"},
+                      {"semicolons for commas", ",", ";"},
+                      {"the name of an element changed", "LineString", "Linestring"},
+                      {"another element", "LineString", "LinearRing"},
+                      {"the name of an element changed", "coordinates", "coords"}});
   of_gpx.Excuse("a height lost everywhere", kNoHeights);
   of_gpx.Excuse("a height that is none everywhere", kNoHeights);
   of_kml.Excuse("a height lost everywhere", kNoHeights);
@@ -380,7 +396,7 @@ TEST(MapMutants, OfRailmlAreNeverReadWrongWithoutAWord) {
       "functionalInfrastructure></infrastructure></railML>\n";
   Mutants mutants("railML", "a.xml", text, ReadMapWhole);
   TryTexts(mutants);
-  TryWords(
+  TryChanges(
       mutants,
       {{"another coordinate system", "EPSG:4326", "EPSG:99999"},
        {"another coordinate system", "EPSG:4326", "EPSG:31254"},
@@ -411,78 +427,6 @@ TEST(MapMutants, OfRailmlAreNeverReadWrongWithoutAWord) {
         "schemas/2018\" version=\"2.4\""}});
   mutants.Excuse("a height lost everywhere", kNoHeights);
   CheckSection("railML", {&mutants});
-}
-
-/// An ESRI ASCII grid of 12 x 12 cells of 10 m.
-std::string Grid() {
-  std::string text =
-      "ncols 12\nnrows 12\nxllcorner 499940\nyllcorner 5339940\ncellsize 10\nNODATA_value -9999\n";
-  for (int row = 0; row < 12; ++row) {
-    for (int column = 0; column < 12; ++column) {
-      text += (column == 0 ? "" : " ") + NumberText(250.5 + row + 0.1 * column);
-    }
-    text += "\n";
-  }
-  return text;
-}
-
-Reading ReadGrid(const std::filesystem::path& file) {
-  const MapProjection metres{.definition = "EPSG:32633", .origin_m = {500000.0, 5340000.0}};
-  const Eigen::AlignedBox2d bounds_m(Eigen::Vector2d(-50.0, -50.0), Eigen::Vector2d(50.0, 50.0));
-  const ElevationMap elevation(file, "EPSG:32633", metres, bounds_m);
-  Reading reading;
-  if (elevation.num_void() > 0) {
-    reading.remarks.push_back({RemarkKind::kHeightsVoid, "", elevation.num_void()});
-  }
-  std::vector<Eigen::Vector2d> places_m;
-  for (int i = -45; i <= 45; i += 10) {
-    for (int k = -45; k <= 45; k += 10) places_m.emplace_back(i, k);
-  }
-  for (const Eigen::Vector2d& place_m : places_m) {
-    if (!elevation.Covers(place_m)) throw InputError("heights: must cover the map");
-  }
-  for (const auto& height_m : elevation.HeightsAt(places_m)) {
-    reading.values.push_back(height_m.value_or(-9999.0));
-  }
-  return reading;
-}
-
-TEST(MapMutants, OfElevationModelsAreNeverReadWrongWithoutAWord) {
-  Mutants mutants("ESRI ASCII grid", "a.asc", Grid(), ReadGrid);
-  for (const char* height : {"-32768", "32767", "1e38", "x", "nan", "", "25x", "-99999"}) {
-    for (int row = 0; row < 12; row += 3) {
-      const std::string cell = " " + NumberText(250.5 + row + 0.1 * 5) + " ";
-      mutants.Try("a height that is none", cell + height,
-                  Replaced(mutants.good(), cell, " " + std::string(height) + " "));
-    }
-  }
-  for (const auto& [part, other] :
-       std::vector<std::array<const char*, 2>>{{"ncols 12", "ncols 11"},
-                                               {"ncols 12", "ncols 13"},
-                                               {"ncols 12", "ncols -1"},
-                                               {"nrows 12", "nrows 11"},
-                                               {"nrows 12", "nrows 13"},
-                                               {"nrows 12", "nrows 0"},
-                                               {"ncols 12\n", ""},
-                                               {"nrows 12\n", ""},
-                                               {"cellsize 10\n", ""},
-                                               {"xllcorner 499940\n", ""},
-                                               {"yllcorner 5339940\n", ""},
-                                               {"cellsize 10", "cellsize 0"},
-                                               {"cellsize 10", "cellsize -10"},
-                                               {"cellsize 10", "cellsize 1,0"},
-                                               {"xllcorner 499940", "xllcorner 15.6"},
-                                               {"NODATA_value -9999\n", ""}}) {
-    mutants.Try("a line of the header changed", std::string(part) + other,
-                Replaced(mutants.good(), part, other));
-  }
-  mutants.Try("decimal commas", "", AllReplaced(mutants.good(), ".", ","));
-  mutants.Try("commas for blanks", "", AllReplaced(mutants.good(), " ", ","));
-  mutants.Try("line ends of Windows", "", AllReplaced(mutants.good(), "\n", "\r\n"));
-  for (std::size_t size = 1; size + 1 < mutants.good().size(); size += 5) {
-    mutants.Try("cut off", NumberText(size), mutants.good().substr(0, size));
-  }
-  CheckSection("Elevation models", {&mutants});
 }
 
 }  // namespace

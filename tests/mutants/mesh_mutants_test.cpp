@@ -292,20 +292,68 @@ std::string Base64Of(const std::string& bytes) {
   return text;
 }
 
-std::string Gltf() {
+std::string GltfBuffer() {
   std::string buffer;
   for (const Corner& point : kPoints)
     for (const float number : point) buffer += BytesOf(number);
   for (const auto& face : kFaces)
     for (const std::uint32_t corner : face) buffer += BytesOf(static_cast<std::uint16_t>(corner));
+  return buffer;
+}
+
+/// @param source Member of the buffer that says where its bytes are.
+std::string GltfJson(const std::string& source) {
   return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
 "nodes": [{"mesh": 0, "translation": [1, 2, 3]}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "mode": 4}]}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 10, "type": "VEC3", "min": [0, 0, 0], "max": [4, 3, 3.5]},
 {"bufferView": 1, "componentType": 5123, "count": 48, "type": "SCALAR"}],
 "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 120}, {"buffer": 0, "byteOffset": 120, "byteLength": 96}],
-"buffers": [{"byteLength": 216, "uri": "data:application/octet-stream;base64,)" +
-         Base64Of(buffer) + "\"}]}\n";
+"buffers": [{"byteLength": 216)" +
+         source + "}]}\n";
+}
+
+std::string Gltf() {
+  return GltfJson(", \"uri\": \"data:application/octet-stream;base64," + Base64Of(GltfBuffer()) +
+                  "\"");
+}
+
+std::string GlbChunk(const char* type, const std::string& content) {
+  return BytesOf(static_cast<std::uint32_t>(content.size())) + std::string(type, 4) + content;
+}
+
+TEST(MeshMutants, OfGlbAreNeverReadWrongWithoutAWord) {
+  std::string json = GltfJson("");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string chunks = GlbChunk("JSON", json) + GlbChunk("BIN\0", GltfBuffer());
+  const auto head = [&](std::uint32_t version, std::size_t size) {
+    return "glTF" + BytesOf(version) + BytesOf(static_cast<std::uint32_t>(size));
+  };
+  const std::size_t size = 12 + chunks.size();
+  Mutants mutants("GLB", "a.glb", head(2, size) + chunks, ReadMeshWhole);
+  const std::size_t binary = 12 + 8 + json.size();
+  for (const std::size_t num : {0U, 1U, 12U, 20U, 100U, 216U, 5000U, 4'000'000'000U}) {
+    mutants.Try("length of the file changed", NumberText(num), head(2, num) + chunks);
+    for (const std::size_t place : {std::size_t{12}, binary}) {
+      mutants.Try("length of a chunk changed", NumberText(num) + " at " + NumberText(place),
+                  With(mutants.good(), place, BytesOf(static_cast<std::uint32_t>(num))));
+    }
+  }
+  for (const std::uint32_t version : {0U, 1U, 3U})
+    mutants.Try("another version", NumberText(version), head(version, size) + chunks);
+  for (const std::size_t place : {std::size_t{16}, binary + 4})
+    mutants.Try("type of a chunk changed", NumberText(place), With(mutants.good(), place, "ABCD"));
+  mutants.Try("chunks exchanged", "",
+              head(2, size) + GlbChunk("BIN\0", GltfBuffer()) + GlbChunk("JSON", json));
+  mutants.Try("a chunk put in", "",
+              head(2, size + 12) + GlbChunk("JSON", json) + GlbChunk("ABCD", "abcd") +
+                  GlbChunk("BIN\0", GltfBuffer()));
+  mutants.TryHarmless("a chunk behind the others",
+                      head(2, size + 12) + chunks + GlbChunk("ABCD", "abcd"));
+  for (std::size_t num = 1; num < 40; ++num)
+    mutants.Try("bytes behind the end", NumberText(num), mutants.good() + std::string(num, '7'));
+  TryCuts(mutants, 11);
+  CheckSection("GLB", {&mutants});
 }
 
 TEST(MeshMutants, OfGltfAreNeverReadWrongWithoutAWord) {

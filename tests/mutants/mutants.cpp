@@ -199,6 +199,18 @@ std::string AllReplaced(std::string text, const std::string& part, const std::st
   return text;
 }
 
+void TryChanges(Mutants& mutants, const std::vector<TextChange>& changes) {
+  constexpr std::size_t kMostTimes = 40;
+  for (const auto& [what, part, other] : changes) {
+    for (std::size_t number = 0; number < kMostTimes; ++number) {
+      mutants.Try(what, part + " as " + other + ", " + NumberText(number),
+                  Replaced(mutants.good(), part, other, number));
+    }
+    mutants.Try(what + " everywhere", part + " as " + other,
+                AllReplaced(mutants.good(), part, other));
+  }
+}
+
 void TryCuts(Mutants& mutants, std::size_t step) {
   const std::string& good = mutants.good();
   for (std::size_t place = 1; place < good.size(); place += step) {

@@ -105,6 +105,16 @@ template <typename Number>
                                       const std::string& part,
                                       const std::string& other);
 
+/// A part of a text that becomes another.
+struct TextChange {
+  std::string what;
+  std::string part;
+  std::string other;
+};
+
+/// Each of the changes where the part stands for the first, second, ... time, and everywhere.
+void TryChanges(Mutants& mutants, const std::vector<TextChange>& changes);
+
 /// What happens to files of any format while they are copied.
 /// @param step Between places that are tried, bytes.
 void TryCuts(Mutants& mutants, std::size_t step);

@@ -114,9 +114,15 @@ class McapBagReader : public BagReader {
   [[nodiscard]] std::vector<Remark> remarks() const override {
     const auto& cut = reader_.index().cut;
     if (!cut) return {};
+    if (cut->is_surplus) {
+      return {
+          {RemarkKind::kSurplusBytes, name_ + ": byte " + NumberText(cut->offset), cut->num_bytes}};
+    }
     return {{.kind = RemarkKind::kRecordingCut,
              .place = name_ + ": record at " + NumberText(cut->offset),
-             .detail = "the last " + NumberText(cut->num_bytes) + " bytes are no whole record"}};
+             .detail = cut->num_bytes == 0 ? "its footer is missing"
+                                           : "the last " + NumberText(cut->num_bytes) +
+                                                 " bytes are no whole record"}};
   }
 
  private:

@@ -250,6 +250,22 @@ std::optional<CutEnd> CutAt(const ByteFile& file, std::uint64_t offset) {
   return CutEnd{offset, num_bytes};
 }
 
+/// What is wrong behind the data, which are whole: the end is cut off, or something stands behind.
+/// @param offset Of the record that ends the data.
+std::optional<CutEnd> FaultOfEnd(const ByteFile& file, std::uint64_t offset) {
+  bool is_end = false;
+  for (auto place = RecordAt(file, offset); place && !is_end; place = RecordAt(file, offset)) {
+    is_end = place->opcode == McapOpcode::kFooter;
+    offset = place->end();
+  }
+  const std::uint64_t num_bytes = file.size() - offset;
+  const bool is_whole = is_end && num_bytes >= kMagic.size() &&
+                        std::ranges::equal(file.Read(offset, kMagic.size()), kMagic);
+  if (!is_whole) return CutEnd{offset, num_bytes};
+  if (num_bytes == kMagic.size()) return std::nullopt;
+  return CutEnd{offset + kMagic.size(), num_bytes - kMagic.size(), true};
+}
+
 }  // namespace
 
 void McapIndex::Note(const McapSchema& schema) {
@@ -344,7 +360,7 @@ McapIndex ReadIndex(const ByteFile& file) {
   if (!index || !IsComplete(*index)) {
     ScannedFile scanned = ScanWhole(file, file.size());
     index = std::move(scanned.index);
-    if (!scanned.is_whole) index->cut = CutAt(file, scanned.size);
+    index->cut = scanned.is_whole ? FaultOfEnd(file, scanned.size) : CutAt(file, scanned.size);
   }
   index->header = std::move(header);
   return std::move(*index);

@@ -19,10 +19,11 @@ struct LooseMessage {
   std::uint16_t channel_id{};
 };
 
-/// The end of a file that was cut off within a record.
+/// The end of a file that was cut off within a record, or has more behind its end.
 struct CutEnd {
   std::uint64_t offset{};     ///< Where the last whole record ends.
   std::uint64_t num_bytes{};  ///< That follow it.
+  bool is_surplus{};          ///< Whether they stand behind the end.
 };
 
 /// What an MCAP file holds and where, as its summary says it.

@@ -14,6 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/pcap/internet_checksum.h"
 #include "core/io/write_file.h"
 
 namespace railcast {
@@ -220,6 +221,20 @@ std::optional<CapturedDatagram> DatagramIn(std::span<const char> udp) {
                           .destination_port = BigAt(udp, 2)};
 }
 
+/// Whether a datagram agrees with its checksum, or has none (RFC 768; RFC 8200, 8.1).
+bool AgreesWithChecksum(const CapturedDatagram& datagram) {
+  const std::span udp(datagram.payload.data() - kUdpHeaderSize,
+                      datagram.payload.size() + kUdpHeaderSize);
+  if (BigAt(udp, kUdpChecksumPlace) == 0) return true;
+  // What addresses of IPv4 have before them adds nothing.
+  std::uint64_t sum = AddWords(udp, udp.size() + kUdpProtocol);
+  for (const IpAddress& address : {datagram.source_address, datagram.destination_address}) {
+    sum =
+        AddWords({reinterpret_cast<const char*>(address.bytes.data()), address.bytes.size()}, sum);
+  }
+  return ChecksumOf(sum) == 0;
+}
+
 /// "0x88A8"
 std::string TypeText(std::uint16_t type) {
   std::array<char, 8> text{};
@@ -376,6 +391,7 @@ std::optional<CapturedDatagram> PcapReader::Next() {
     datagram->destination_address = fragment->destination;
     datagram->packet = packet;
     datagram->time_ns = time_ns;
+    datagram->has_wrong_checksum = !AgreesWithChecksum(*datagram);
     if (finds_places_) datagram->pieces = IsWhole(*fragment) ? pieces_ : fragments_.pieces();
     return datagram;
   }

@@ -16,6 +16,7 @@
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/io/pcap/internet_checksum.h"
 #include "core/io/pcap/pcap_reader.h"
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
@@ -29,21 +30,6 @@ constexpr std::size_t kMaxDatagramSize = 65507;
 void StoreBigAt(char* place, std::uint16_t number) {
   place[0] = static_cast<char>(number >> 8U);
   place[1] = static_cast<char>(number & 0xFFU);
-}
-
-/// Adds 16-bit words, the last of which may lack its second byte, to the sum of RFC 1071.
-std::uint64_t AddWords(std::span<const char> bytes, std::uint64_t sum) {
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(bytes[i]);
-    sum += i % 2 == 0 ? std::uint64_t{byte} << 8U : byte;
-  }
-  return sum;
-}
-
-/// The checksum of RFC 1071.
-std::uint16_t ChecksumOf(std::uint64_t sum) {
-  while (sum >> 16U != 0) sum = (sum & 0xFFFFU) + (sum >> 16U);
-  return static_cast<std::uint16_t>(~sum);
 }
 
 /// Stores the headers of Ethernet and IPv4 and returns where UDP's begins.

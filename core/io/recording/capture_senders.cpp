@@ -24,6 +24,7 @@ struct FoundStream {
   SenderStream stream;
   std::shared_ptr<const CaptureSensor> sensor{};
   std::size_t num_packets{};
+  std::size_t num_wrong{};   ///< Which do not agree with their checksums.
   std::size_t num_shared{};  ///< Which its address had sent elsewhere shortly before.
   std::size_t first{};       ///< Index among the captured of the first packet.
   std::size_t last{};
@@ -56,6 +57,7 @@ class StreamTable {
     if (!found.sensor || datagram.payload.size() < found.sensor->packet_size) return;
     if (found.num_packets++ == 0) found.first = datagram.packet;
     found.last = datagram.packet;
+    found.num_wrong += datagram.has_wrong_checksum;
     const Sent sent{
         &found, std::hash<std::string_view>{}({datagram.payload.data(), datagram.payload.size()})};
     found.num_shared += std::ranges::any_of(recent_, [&](const Sent& other) {
@@ -84,6 +86,7 @@ class StreamTable {
         sensors.push_back(*found.sensor);
       }
       sensors[place].streams.push_back(found.stream);
+      if (found.num_wrong == found.num_packets) sensors[place].ignores_checksums = true;
     }
     return sensors;
   }

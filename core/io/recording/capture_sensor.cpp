@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/spinning/spinning_packet.h"
 #include "core/io/velodyne/velodyne_packet.h"
@@ -237,6 +238,7 @@ RecordedFrame MakeTurnFrame(const SensorTurn& turn,
   } else {
     std::ranges::fill(frame.time_ns, 0U);
   }
+  LeaveOutUnlikelyTimes(recorded);
   return recorded;
 }
 

@@ -69,6 +69,8 @@ struct CaptureSensor {
   /// Where it sends from, as `--sensor` takes it: "192.168.1.201", with a port where other sensors
   /// have that address, too.
   std::string address{};
+  /// Whether no packet of one of its streams agrees with its checksum of UDP.
+  bool ignores_checksums{};
 };
 
 /// Finds out from datagrams which sensor sent them.

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/io/cloud/cloud_file.h"
@@ -112,6 +114,18 @@ void SortClouds(std::vector<fs::path>& files) {
   std::ranges::sort(files, {}, [](const fs::path& file) { return DecimalNameOf(file)->number(); });
 }
 
+/// Throws if two files differ in their endings alone: they are one frame in two formats.
+void CheckStemsDiffer(const std::vector<fs::path>& files) {
+  std::map<std::string, const fs::path*> by_stem;
+  for (const fs::path& file : files) {
+    const auto [known, is_new] = by_stem.emplace(file.stem().string(), &file);
+    if (is_new) continue;
+    throw InputError(ShownPath(file.parent_path()) + ": must have each frame in one format (got " +
+                     ShownPath(known->second->filename()) + " and " + ShownPath(file.filename()) +
+                     ")");
+  }
+}
+
 }  // namespace
 
 bool IsCloudFile(const fs::path& file) {
@@ -131,6 +145,7 @@ std::vector<fs::path> CloudFilesIn(const fs::path& directory) {
     if (!is_hidden && IsCloudFile(entry.path())) files.push_back(entry.path());
   }
   SortClouds(files);
+  CheckStemsDiffer(files);
   return files;
 }
 

@@ -118,7 +118,11 @@ void PacketOrder::Add(OrderedPacket packet, PacketMark mark) {
 }
 
 void PacketOrder::Place(Held held) {
-  if (!released_.empty() && held.order <= released_.back().order) {
+  // Where a clock stands still, packets come in their order.
+  const auto is_late = [&](std::int64_t last) {
+    return held.mark.is_counted ? held.order <= last : held.order < last;
+  };
+  if (!released_.empty() && is_late(released_.back().order)) {
     behind_.push_back(std::move(held));
     if (behind_.size() == kWindow) BeginAnew();
     return;

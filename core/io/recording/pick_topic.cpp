@@ -34,6 +34,18 @@ std::string Described(const std::vector<bag::BagTopic>& topics) {
   return text.empty() ? "none" : text;
 }
 
+/// Throws if a topic's messages are of several types or encodings, of which one would be read.
+void CheckIsOne(const std::vector<bag::BagTopic>& topics,
+                std::size_t picked,
+                const std::string& place) {
+  for (const bag::BagTopic& other : topics) {
+    if (&other == &topics[picked] || other.name != topics[picked].name) continue;
+    throw InputError(place + ShownText(other.name) + ": must be a topic of one type (got " +
+                     ShownText(topics[picked].type) + " as cdr and " + ShownText(other.type) +
+                     " as " + ShownText(other.encoding) + ")");
+  }
+}
+
 }  // namespace
 
 bool IsOfLivox(const bag::BagTopic& topic) {
@@ -50,6 +62,7 @@ bool HoldsPoints(const bag::BagTopic& topic) {
 std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
                       const std::filesystem::path& bag,
                       const std::string& name) {
+  const std::string place = ShownPath(bag) + ": ";
   std::string names;
   std::vector<std::size_t> candidates;
   for (std::size_t i = 0; i < topics.size(); ++i) {
@@ -57,9 +70,10 @@ std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
     candidates.push_back(i);
     names += (names.empty() ? "" : ", ") + ShownText(topics[i].name);
     // Some recorders leave out the first slash.
-    if (topics[i].name == name || '/' + topics[i].name == name) return i;
+    if (topics[i].name != name && '/' + topics[i].name != name) continue;
+    CheckIsOne(topics, i, place);
+    return i;
   }
-  const std::string place = ShownPath(bag) + ": ";
   if (candidates.empty()) {
     throw InputError(place + "must have a topic of type " + std::string(ros::PointCloud2::kName) +
                      " or of a sensor's packets (got " + Described(topics) + ")");
@@ -72,6 +86,7 @@ std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
   if (candidates.size() > 1) {
     throw InputError(place + "--topic: must be one of " + names + " (got none)");
   }
+  CheckIsOne(topics, candidates.front(), place);
   return candidates.front();
 }
 

@@ -72,8 +72,11 @@ std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) 
   std::vector<Remark> remarks;
   if (positions.empty()) return remarks;
   for (const char* axis : {"x", "y", "z"}) {
-    if (SizeOf(FindFieldOf(cloud, axis)->type) > 1) continue;
-    throw InputError(name + ": " + axis + ": must have 16 bits or more (got 8)");
+    const NumberType type = FindFieldOf(cloud, axis)->type;
+    if (type == NumberType::kFloat || type == NumberType::kDouble) continue;
+    throw InputError(name + ": " + axis +
+                     ": must be floating point, for whole numbers do not state their unit (got " +
+                     NumberText(8 * SizeOf(type)) + " bits)");
   }
   // No sensor has all of its returns so near, but a file of kilometres has, or one of a small
   // thing.
@@ -101,6 +104,36 @@ std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) 
                    ": x, y, z: 99 % of the points must be less than 10 km from 0, or all in one "
                    "place of a grid (got " +
                    ShortText(100.0 * share) + " %): other columns, another byte order or unit?");
+}
+
+void LeaveOutUnlikelyTimes(RecordedFrame& recorded) {
+  constexpr std::uint32_t kShortestTurn_ns = 5'000'000;
+  Frame& frame = recorded.frame;
+  if (!recorded.Has("time_ns")) return;
+  std::array<std::size_t, 4> num_in_quadrant{};
+  std::size_t num = 0;
+  auto first_ns = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t last_ns = 0;
+  for (std::size_t i = 0; i < frame.num_slots(); ++i) {
+    if (std::isnan(frame.x[i])) continue;
+    ++num;
+    ++num_in_quadrant.at((frame.x[i] < 0.0F ? 2U : 0U) + (frame.y[i] < 0.0F ? 1U : 0U));
+    first_ns = std::min(first_ns, frame.time_ns[i]);
+    last_ns = std::max(last_ns, frame.time_ns[i]);
+  }
+  constexpr std::size_t kSurePoints = 100;
+  constexpr std::size_t kLeastShare = 20;
+  const bool is_around = std::ranges::all_of(
+      num_in_quadrant, [&](std::size_t part) { return kLeastShare * part >= num; });
+  if (num < kSurePoints || !is_around || last_ns - first_ns >= kShortestTurn_ns) return;
+  recorded.fields.erase("time_ns");
+  std::ranges::fill(frame.time_ns, 0U);
+  frame.duration_ns = 0;
+  AddRemark({.kind = RemarkKind::kFieldsLeftOut,
+             .place = recorded.name,
+             .detail = "times of points, for no turn is as short as theirs, " +
+                       ShortText(1e-6 * (last_ns - first_ns)) + " ms"},
+            recorded.remarks);
 }
 
 std::string FaultOfIntensities(const Cloud& cloud) {

@@ -20,6 +20,10 @@ namespace railcast {
 /// @pre The cloud has x, y and z (FindFieldOf()).
 [[nodiscard]] std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name);
 
+/// Leaves out the times of points, with a remark, if these are all around the sensor and their
+/// times within less than any turn takes: the unit is another, or the clock stands still.
+void LeaveOutUnlikelyTimes(RecordedFrame& recorded);
+
 /// What is wrong with the intensities of a cloud, if it has any; empty if 99 % of them can be such.
 [[nodiscard]] std::string FaultOfIntensities(const Cloud& cloud);
 

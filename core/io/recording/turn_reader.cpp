@@ -54,6 +54,9 @@ void TurnReader::Take(const CapturedDatagram& datagram,
   if (!streams.empty() && std::ranges::count(streams, StreamOf(datagram)) == 0) {
     return CountOther(datagram);
   }
+  if (datagram.has_wrong_checksum && !sensor_.ignores_checksums) {
+    return damaged_.Count(datagram.packet);
+  }
   if (datagram.payload.empty()) return CountUnknown(datagram);
   const std::size_t size = datagram.payload.size();
   for (std::size_t offset = 0; offset < size; offset += sensor_.packet_size) {

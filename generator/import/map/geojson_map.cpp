@@ -197,6 +197,30 @@ void GeoJsonReader::ReadObject(const Json& object,
   remarks_.push_back({RemarkKind::kLinesLeftOut, pointer, 1, "it has no line"});
 }
 
+/// Throws if a server says that there is more than it gave, as ArcGIS, WFS and OGC's APIs do.
+void CheckIsAll(const Json& root) {
+  const auto fail = [](const std::string& got) {
+    throw InputError("must hold all features that there are, and not the first ones alone (got " +
+                     got + ")");
+  };
+  const Json properties = root.value("properties", Json());
+  for (const Json* object : {&root, &properties}) {
+    if (object->is_object() && object->value("exceededTransferLimit", Json()) == true) {
+      fail("exceededTransferLimit");
+    }
+  }
+  const std::size_t num = root.contains("features") ? root["features"].size() : 0;
+  for (const char* key : {"numberMatched", "totalFeatures"}) {
+    const Json stated = root.value(key, Json());
+    if (stated.is_number() && stated > num) {
+      fail(NumberText(num) + " of " + key + " " + stated.dump());
+    }
+  }
+  for (const Json& link : root.value("links", Json::array())) {
+    if (link.is_object() && link.value("rel", Json()) == "next") fail("a link to the next ones");
+  }
+}
+
 /// Whether a line has what GDAL, Overpass Turbo and osmtogeojson write for those of OpenStreetMap.
 bool IsOfOpenStreetMap(const MapLine& line) {
   return line.tags.contains("osm_id") || line.tags.contains("@id") ||
@@ -215,6 +239,7 @@ RailMap ReadGeoJson(const std::filesystem::path& file) {
     if (root["type"] == "Topology") {
       throw InputError("must be GeoJSON (ogr2ogr OUT.geojson IN.json makes it) (got TopoJSON)");
     }
+    CheckIsAll(root);
     GeoJsonReader reader;
     reader.ReadObject(root, "", {}, 0);
     reader.errors().ThrowIfAny();

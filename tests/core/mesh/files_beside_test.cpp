@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -133,6 +135,21 @@ TEST_F(FilesBeside, OfAnObjThatAreNotThereAreTold) {
   EXPECT_EQ(missing("b.mtl # by hand"), std::vector<Remark>{});
 }
 
+TEST_F(FilesBeside, OfAnObjDescribeItsMaterialsOrThatIsTold) {
+  Write("b.mtl", "newmtl red\n");
+  const auto told = [&](const std::string& library, const std::string& material) {
+    return ReadMesh(Write("rock.obj", library + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + material +
+                                          "\nf 1 2 3\n"))
+        .remarks;
+  };
+  const std::string place = (folder_.path() / "rock.obj").string();
+  EXPECT_EQ(told("mtllib b.mtl", "blue"),
+            (std::vector<Remark>{{RemarkKind::kMaterialFileMissing, place, 1, "\"blue\""}}));
+  EXPECT_TRUE(told("mtllib b.mtl", "red").empty());
+  EXPECT_TRUE(told("mtllib b.mtl", "None").empty());
+  EXPECT_TRUE(told("", "blue").empty()) << "many come without a library";
+}
+
 TEST_F(FilesBeside, AreNoPictures) {
   Write("rock.png", "a picture");
   const std::string picture =
@@ -150,20 +167,21 @@ TEST_F(FilesBeside, OfOtherFormatsThereAreNone) {
 }
 
 TEST(ReadMtl, TakesTheLuminanceOfColoursThatNoPictureChanges) {
-  std::map<std::string, double> found;
+  std::map<std::string, std::optional<double>> found;
   ReadMtl("a.mtl",
           "# made by hand\nnewmtl red\nKd 1 0 0\nnewmtl dark grey \n\tKd .1 0.1 +1e-1\r\n"
           "newmtl pictured\nKd 1 1 1\nmap_Kd wall.png\nnewmtl none\nKa 1 1 1\n"
           "newmtl spectrum\nKd spectral a.rfl 1\nnewmtl one\nKd 0.5\n",
           found);
-  ASSERT_EQ(found.size(), 3U);
-  EXPECT_DOUBLE_EQ(found.at("red"), 0.2126);  // IEC 61966-2-1.
-  EXPECT_NEAR(found.at("dark grey"), 0.1, 1e-15);
-  EXPECT_NEAR(found.at("one"), 0.5, 1e-15);
+  ASSERT_EQ(found.size(), 6U);
+  EXPECT_DOUBLE_EQ(found.at("red").value(), 0.2126);  // IEC 61966-2-1.
+  EXPECT_NEAR(found.at("dark grey").value(), 0.1, 1e-15);
+  EXPECT_NEAR(found.at("one").value(), 0.5, 1e-15);
+  for (const char* name : {"pictured", "none", "spectrum"}) EXPECT_FALSE(found.at(name)) << name;
 }
 
 TEST(ReadMtl, RefusesColoursThatAreNone) {
-  std::map<std::string, double> found;
+  std::map<std::string, std::optional<double>> found;
   EXPECT_EQ(MessageOf([&] { ReadMtl("a.mtl", "newmtl a\nKd 1 0\nKd 1 0 2\nKd 1 0 nan\n", found); }),
             "a.mtl: line 2: Kd must be three numbers from 0 to 1 (got \"Kd 1 0\")\n"
             "a.mtl: line 3: Kd must be three numbers from 0 to 1 (got \"Kd 1 0 2\")\n"

@@ -313,6 +313,15 @@ TEST_F(SceneImport, TellsWhatGltfUsesAndIsNotRead) {
                                                 "\"EXT_mesh_gpu_instancing\""}}));
 }
 
+TEST_F(SceneImport, TellsThatMorphTargetsOfGltfAreNotRead) {
+  const auto told = [](const std::string& weights) {
+    return ParseMesh(TriangleGltf("{\"mesh\": 0, \"weights\": " + weights + "}"), "a.gltf").remarks;
+  };
+  EXPECT_TRUE(told("[0, 0.0]").empty());
+  EXPECT_EQ(told("[0, 0.5]"), (std::vector<Remark>{{RemarkKind::kExtensionUnread, "a.gltf", 1,
+                                                    "\"weights of morph targets\""}}));
+}
+
 TEST_F(SceneImport, RefusesPositionsOfGltfThatAreNoFloats) {
   const std::string bytes = Replaced(GltfWith("\"extensionsUsed\": []"), "5126", "5123");
   EXPECT_EQ(MessageOf([&] { (void)ParseMesh(bytes, "a.gltf"); }),

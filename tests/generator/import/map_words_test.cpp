@@ -469,6 +469,22 @@ TEST_F(MapWords, AreReadInUtf16AndBehindAByteOrderMark) {
   }
 }
 
+TEST_F(MapWords, OfServersThatGaveOnlyTheFirstFeaturesAreRefused) {
+  const auto fault = [&](const std::string& member) {
+    return Fault("a.geojson", Features(Feature("{}")).insert(1, member + ", "));
+  };
+  const std::string rule =
+      "a.geojson: must hold all features that there are, and not the first ones alone (got ";
+  EXPECT_EQ(fault(R"("exceededTransferLimit": true)"), rule + "exceededTransferLimit)");
+  EXPECT_EQ(fault(R"("properties": {"exceededTransferLimit": true})"),
+            rule + "exceededTransferLimit)");
+  EXPECT_EQ(fault(R"("numberMatched": 5000)"), rule + "1 of numberMatched 5000)");
+  EXPECT_EQ(fault(R"("links": [{"rel": "next"}])"), rule + "a link to the next ones)");
+  EXPECT_EQ(fault(R"("exceededTransferLimit": false, "totalFeatures": 1, "numberMatched": "unknown",
+                  "links": [{"rel": "self"}])"),
+            "no error");
+}
+
 TEST_F(MapWords, OfFormatsThatAreNotReadAreNamed) {
   EXPECT_EQ(Fault("a.kmz", "PK\3\4"),
             "a.kmz: is packed KML, which is not read: unzip a.kmz doc.kml");

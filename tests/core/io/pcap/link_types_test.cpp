@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/io/pcap/pcap_reader.h"
@@ -136,6 +137,21 @@ TEST(PcapReader, ReadsACaptureThatEndsWithinAPacketUpToThat) {
     WriteFileWhole(file, whole);
     EXPECT_EQ(PayloadsIn(file).payloads.size(), 3U);
     EXPECT_TRUE(PayloadsIn(file).remarks.empty());
+  }
+}
+
+std::string WithChecksum(std::size_t checksum) {
+  return EthernetOf(IpOf("abc"))
+      .replace(kEthernetSize + kIpv4HeaderSize + kUdpChecksumPlace, 2, Big16(checksum));
+}
+
+// Of "abc" from 192.168.1.201 to 255.255.255.255, by hand after RFC 768: 0x6684.
+TEST(PcapReader, KnowsDatagramsThatDoNotAgreeWithTheirChecksums) {
+  const TemporaryDirectory directory;
+  for (const auto& [checksum, is_wrong] :
+       std::vector<std::pair<std::size_t, bool>>{{0, false}, {0x6684, false}, {0x6685, true}}) {
+    PcapReader reader(WriteCapture(directory.path() / "a.pcap", {{WithChecksum(checksum)}}));
+    EXPECT_EQ(reader.Next()->has_wrong_checksum, is_wrong) << checksum;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 
@@ -41,6 +42,13 @@ TEST(CloudNames, AreComparedAsDecimalNumbersWhereAllAreSuch) {
 TEST(CloudNames, MayEndInAnyCaseButNotBeginWithAPoint) {
   EXPECT_THAT(FramesOf({"1.pcd", "2.PCD", "._1.pcd", ".pcd", "3.Ply", "4.BIN"}),
               ElementsAre("1.pcd", "2.PCD", "3.Ply", "4.BIN"));
+}
+
+TEST(CloudNames, OfOneFrameInTwoFormatsAreRefused) {
+  EXPECT_THAT(MessageOf([] {
+                (void)FramesOf({"1.pcd", "2.pcd", "1.ply"});
+              }),
+              testing::EndsWith(": must have each frame in one format (got 1.pcd and 1.ply)"));
 }
 
 TEST(CloudNames, AreStampsWhereAllAreSeconds) {

@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "core/base/input_file.h"
 #include "core/io/bag/sqlite_database.h"
 #include "core/io/mcap/byte_file.h"
 #include "core/io/mcap/mcap_index.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
+#include "core/io/write_file.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_bag.h"
@@ -256,6 +258,35 @@ TEST(ForeignBag, TellsThatItsEndIsCutOff) {
   const auto remarks = recording->info().remarks->List();
   ASSERT_EQ(RemarkNames(remarks), TextList{"recording-cut 1"});
   EXPECT_TRUE(remarks[0].place.starts_with(file.string() + ": record at ")) << remarks[0].place;
+}
+
+TEST(ForeignBag, TellsWhatIsWrongBehindItsData) {
+  MadeBag bag;
+  bag.Add("/points", 0, CloudOf(kFourPoints, 0));
+  const auto file = bag.Closed();
+  const std::string whole = ReadFileWhole(file);
+  const auto told = [&](const std::string& bytes) {
+    WriteFileWhole(file, bytes);
+    const auto recording = OpenRecording(file);
+    EXPECT_EQ(ReadAll(*recording).size(), 1U);
+    return RemarkNames(recording->info().remarks->List());
+  };
+  EXPECT_EQ(told(whole), TextList{});
+  EXPECT_EQ(told(whole + "junk"), TextList{"surplus-bytes 4"});
+  EXPECT_EQ(told(whole.substr(0, whole.size() - 1)), TextList{"recording-cut 1"});
+  EXPECT_EQ(told(whole.substr(0, whole.size() - 37)), TextList{"recording-cut 1"});
+}
+
+TEST(ForeignBag, RefusesATopicOfTwoTypes) {
+  MadeBag bag;
+  bag.Add("/points", 0, CloudOf(kFourPoints, 0));
+  bag.Add("/points", 1, CloudOf(kFourPoints, 1), "other_msgs/msg/Cloud");
+  const auto file = bag.Closed();
+  const std::string message = file.string() +
+                              ": /points: must be a topic of one type (got "
+                              "sensor_msgs/msg/PointCloud2 as cdr and other_msgs/msg/Cloud as cdr)";
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }), message);
+  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(TopicOfBag(file, "/points")); }), message);
 }
 
 TEST(ForeignBag, TellsOfFilesThatItsMetadataDoNotName) {

@@ -303,5 +303,41 @@ TEST(CaptureRecording, LeavesOutAPacketOfAnotherSize) {
   EXPECT_EQ(read.remarks[0].detail, "must be whole packets of 1206 bytes (got 1210)");
 }
 
+// As of a sensor without a time, or one whose driver leaves it out.
+TEST(CaptureRecording, TakesPacketsAsTheyComeWhereTheClockStandsStill) {
+  auto packets = Turns(3);
+  const ReadTurns plain = ReadPackets(packets);
+  for (std::string& packet : packets) packet.replace(1200, 4, 4, '\0');
+  const ReadTurns read = ReadPackets(packets);
+  ASSERT_EQ(read.remarks.size(), 1U);
+  EXPECT_EQ(read.remarks[0].kind, RemarkKind::kFieldsLeftOut);
+  ASSERT_EQ(read.frames.size(), plain.frames.size());
+  for (std::size_t i = 0; i < read.frames.size(); ++i) {
+    EXPECT_EQ(read.frames[i].frame.x.size(), plain.frames[i].frame.x.size());
+  }
+}
+
+TEST(CaptureRecording, LeavesOutPacketsThatDoNotAgreeWithTheirChecksumsOfUdp) {
+  const auto packets = TwoTurns();
+  const auto num_damaged = [&](const auto& is_wrong) {
+    std::vector<CapturedFrame> frames;
+    for (const std::string& packet : packets) {
+      const std::size_t checksum = is_wrong(frames.size()) ? 1 : 0;
+      frames.push_back(
+          {EthernetOf(IpOf(packet)).replace(40, 2, Big16(checksum)), 1000 * frames.size()});
+    }
+    const TemporaryDirectory directory;
+    const auto recording = OpenRecording(WriteCapture(directory.path() / "a.pcap", frames));
+    (void)ReadAll(*recording);
+    const auto remarks = recording->info().remarks->List();
+    EXPECT_LE(remarks.size(), 1U);
+    const auto found = std::ranges::find(remarks, RemarkKind::kPacketsDamaged, &Remark::kind);
+    return found == remarks.end() ? 0 : found->number;
+  };
+  EXPECT_EQ(num_damaged([](std::size_t i) { return i == 0 || i == 40; }), 2U);
+  // On the machine that sends them, the network card fills all of them in.
+  EXPECT_EQ(num_damaged([](std::size_t) { return true; }), 0U);
+}
+
 }  // namespace
 }  // namespace railcast

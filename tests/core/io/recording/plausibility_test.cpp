@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -75,6 +77,50 @@ TEST(CheckPositions, LeavesOutWhatIsNoPoint) {
     SetX(none, 150, cloud);
     EXPECT_EQ(PositionFault(cloud), "no error");
   }
+}
+
+TEST(CheckPositions, RefusesWholeNumbersWhichStateNoUnit) {
+  Cloud cloud;
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kInt16);
+  cloud.width = cloud.height = 1;
+  cloud.data.assign(6, 1);
+  EXPECT_EQ(PositionFault(cloud),
+            "a.pcd: x: must be floating point, for whole numbers do not state their unit (got 16 "
+            "bits)");
+}
+
+/// Points around the sensor, the times of which span so many nanoseconds.
+Cloud TurnOf(std::uint32_t duration_ns) {
+  constexpr std::uint32_t kNum = 400;
+  Cloud cloud;
+  for (const char* axis : {"x", "y", "z"}) cloud.AddField(axis, NumberType::kFloat);
+  cloud.AddField("time_ns", NumberType::kUint32);
+  cloud.width = kNum;
+  cloud.height = 1;
+  for (std::uint32_t i = 0; i < kNum; ++i) {
+    const float azimuth_rad = 6.28F * static_cast<float>(i) / kNum;
+    const std::array<float, 3> point = {9.0F * std::cos(azimuth_rad), 9.0F * std::sin(azimuth_rad),
+                                        1.0F};
+    const std::uint32_t time_ns = duration_ns / (kNum - 1) * i;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(point.data());
+    cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof point);
+    bytes = reinterpret_cast<const std::uint8_t*>(&time_ns);
+    cloud.data.insert(cloud.data.end(), bytes, bytes + sizeof time_ns);
+  }
+  return cloud;
+}
+
+TEST(UnlikelyTimes, OfATurnWithinLessThanAnyTakesAreLeftOut) {
+  const RecordedFrame likely = MakeCloudFrame(TurnOf(100'000'000), "a.pcd");
+  EXPECT_TRUE(likely.remarks.empty());
+  EXPECT_TRUE(likely.Has("time_ns"));
+  const RecordedFrame unlikely = MakeCloudFrame(TurnOf(99'750), "a.pcd");
+  EXPECT_EQ(
+      unlikely.remarks,
+      (std::vector<Remark>{{RemarkKind::kFieldsLeftOut, "a.pcd", 1,
+                            "times of points, for no turn is as short as theirs, 0.09975 ms"}}));
+  EXPECT_FALSE(unlikely.Has("time_ns"));
+  EXPECT_EQ(unlikely.frame.duration_ns, 0U);
 }
 
 TEST(CheckPositions, IsSaidByWhatMakesFramesOfClouds) {
