@@ -138,9 +138,10 @@ std::vector<Setting> Settings() {
 }
 
 Frame Scan(const Setting& setting, Fidelity rung) {
+  static const auto scenes = MakeSceneStore(MixedWorld(), Materials());
   SimulatorSpec spec = setting.spec;
   spec.detector.effects = EffectsOfRung(rung);
-  Simulator simulator(MixedWorld(), setting.pattern, Materials(), spec, 0);
+  Simulator simulator(scenes, setting.pattern, Materials(), spec, 0);
   Frame frame;
   simulator.Scan(2, frame);
   return frame;
