@@ -45,6 +45,19 @@ struct ThinEchoes {
   }
 };
 
+/// Whether a beam may meet an object's box: its axis passes it at less than 10 mrad, which is more
+/// than ten standard deviations of its profile.
+bool PassesBy(const Vector3& direction, const Placement& placement) {
+  Eigen::AlignedBox3d box = placement.model->Bounds();
+  box.translate(Vector3(placement.chunk_from_model.translation()));
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const double x_m = std::lerp(box.min().x(), box.max().x(), share);
+    const Vector3 place_m = x_m / direction.x() * direction;
+    if (box.exteriorDistance(place_m) < 0.01 * x_m) return true;
+  }
+  return false;
+}
+
 ThinEchoes CompareThin(const Frame& rung, const Frame& reference, std::uint32_t label) {
   ThinEchoes echoes;
   const auto has_echo = [&](const Frame& frame, std::size_t slot) {
@@ -109,7 +122,12 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
                                         const EffectSet& effects) const {
     const ScanPattern pattern =
         BuildScanPattern(CutSector(scenario_.lidar.scan, {kRowHalfAzimuth_deg, -20.0, 12.0}));
-    return {world, pattern, materials_, SpecOf(scenario_.lidar, effects), 0};
+    const auto is_near = [&](const Vector3& direction) {
+      return std::ranges::any_of(world->placements, [&](const Placement& placement) {
+        return PassesBy(direction, placement);
+      });
+    };
+    return {world, Only(pattern, is_near), materials_, SpecOf(scenario_.lidar, effects), 0};
   }
 
   [[nodiscard]] ThinEchoes CompareRow(const std::shared_ptr<const Model>& model,

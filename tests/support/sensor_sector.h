@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/fidelity/frame_comparison.h"
 #include "railcast/effects.h"
 #include "railcast/frame.h"
@@ -18,6 +19,7 @@
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 
@@ -72,6 +74,29 @@ struct SectorSpec {
   }
   for (ChannelSpec& channel : spinning.channels) channel.time_us -= first_us;
   return scan;
+}
+
+/// The firings of a pattern whose directions `is_wanted` holds of, in one row.
+template <class Wanted>
+[[nodiscard]] ScanPattern Only(const ScanPattern& all, const Wanted& is_wanted) {
+  Check(all.repeats() && all.origin_x_m.empty(),
+        "the beams leave at the origin, in every frame alike");
+  ScanPattern some;
+  some.rate_hz = all.rate_hz;
+  some.phase_ns = all.phase_ns;
+  some.rows = 1;
+  for (std::size_t i = 0; i < all.num_firings(); ++i) {
+    if (!is_wanted(DirectionOf(all, i))) continue;
+    some.direction_x.push_back(all.direction_x[i]);
+    some.direction_y.push_back(all.direction_y[i]);
+    some.direction_z.push_back(all.direction_z[i]);
+    some.time_ns.push_back(all.time_ns[i]);
+    some.row.push_back(0);
+    some.packet_order.push_back(some.columns);
+    some.column.push_back(some.columns++);
+  }
+  while (some.packet_order.size() % kPacketSize != 0) some.packet_order.push_back(some.columns - 1);
+  return some;
 }
 
 /// The spec of a sensor with a set of effects, without random errors of ranges. The pointing has no
