@@ -70,17 +70,19 @@ std::uint32_t NearestOf(const std::vector<Cluster>& clusters, double elevation_r
 class Crowding {
  public:
   Crowding(std::span<const LevelPoint> points, double bin_rad)
-      : points_(points), bin_rad_(bin_rad), num_(BinOf(std::numbers::pi) + 1) {}
+      : points_(points), bin_rad_(bin_rad) {}
 
   [[nodiscard]] std::uint64_t From(const std::array<double, 2>& origin_m) {
-    std::uint64_t squares = 0;
+    bins_.clear();
     for (const LevelPoint& point : points_) {
       bins_.push_back(BinOf(point.ElevationFrom_rad(origin_m)));
-      squares += 2 * std::uint64_t{num_[bins_.back()]++} + 1;
     }
-    // There are far more bins than points.
-    for (const std::size_t bin : bins_) num_[bin] = 0;
-    bins_.clear();
+    // There are far more bins than points, of which a sensor's elevations take few.
+    const auto [least, most] = std::ranges::minmax(bins_);
+    num_.resize(std::max(num_.size(), most - least + 1));
+    std::uint64_t squares = 0;
+    for (const std::size_t bin : bins_) squares += 2 * std::uint64_t{num_[bin - least]++} + 1;
+    for (const std::size_t bin : bins_) num_[bin - least] = 0;
     return squares;
   }
 
