@@ -26,10 +26,9 @@ std::vector<std::uint32_t> Thinned(const std::vector<std::uint32_t>& frames) {
 }
 
 RunCourses CoursesOn(Fidelity fidelity,
-                     const StudySpec& study,
                      ScenarioSpec scenario,
                      const std::vector<std::uint32_t>& frames,
-                     int num_threads) {
+                     ApproachScanner& scanner) {
   // Is never complete, so that all frames up to the closest are traced.
   constexpr DetectionRule kNever = {
       .min_points = std::numeric_limits<std::uint32_t>::max(), .min_frames = 1, .of_frames = 1};
@@ -37,9 +36,7 @@ RunCourses CoursesOn(Fidelity fidelity,
     scenario.fidelity = fidelity;
     scenario.effects = {};
   }
-  return ApproachScanner(num_threads, {}, study.gauge, study.objects)
-      .Follow(scenario, frames, kNever, [] { return false; })
-      .value();
+  return scanner.Follow(scenario, frames, kNever, [] { return false; }).value();
 }
 
 void AddCompared(const RunCourses& courses, const RunCourses& reference, ModelError& error) {
@@ -197,12 +194,15 @@ ModelError MeasureModelError(const FinishedStudy& study,
   const StudySpec& spec = study.spec;
   error.min_points = spec.detector ? spec.detector->min_points : spec.detect.rule.min_points;
   std::set<Fidelity> rungs;
+  // One for each side, since a scanner keeps the scene of one rung.
+  ApproachScanner own(num_threads, {}, spec.gauge, spec.objects);
+  ApproachScanner reference(num_threads, {}, spec.gauge, spec.objects);
   for (std::size_t i = 0; i < sample.size(); ++i) {
     on_progress(static_cast<double>(i) / static_cast<double>(sample.size()));
     const ScenarioSpec& scenario = sample[i];
     rungs.insert(scenario.fidelity);
-    AddCompared(CoursesOn(scenario.fidelity, study.spec, scenario, frames, num_threads),
-                CoursesOn(Fidelity::kReference, study.spec, scenario, frames, num_threads), error);
+    AddCompared(CoursesOn(scenario.fidelity, scenario, frames, own),
+                CoursesOn(Fidelity::kReference, scenario, frames, reference), error);
   }
   if (rungs.size() == 1) error.rung = NameOf(*rungs.begin());
   return error;
