@@ -52,19 +52,33 @@ struct Parameters {
   double upper = 1.0;
 };
 
-double LogLikelihood(const std::vector<Inspection>& inspections, const Parameters& at) {
+/// An inspection with the logarithm of its range, which a search asks for thousands of times.
+struct LogInspection : Inspection {
+  double log_range{};
+};
+using LogInspections = std::vector<LogInspection>;
+
+LogInspections LogInspectionsOf(const std::vector<Inspection>& inspections) {
+  LogInspections logged;
+  for (const Inspection& each : inspections) logged.push_back({each, std::log(each.range_m)});
+  return logged;
+}
+
+double LogLikelihood(const LogInspections& inspections, const Parameters& at) {
   const double slope = std::exp(at.log_slope);
+  const double log_upper = std::log(at.upper);
   double sum = 0.0;
-  for (const Inspection& each : inspections) {
+  for (const LogInspection& each : inspections) {
     const std::uint64_t num_missed = each.num_targets - each.num_detected;
     if (each.range_m <= 0.0) {  // Only the asymptote counts.
-      sum +=
-          Times(each.num_detected, std::log(at.upper)) + Times(num_missed, std::log1p(-at.upper));
+      sum += Times(each.num_detected, log_upper) + Times(num_missed, std::log1p(-at.upper));
       continue;
     }
-    const double z = slope * (std::log(each.range_m) - at.log_middle);
-    sum += Times(each.num_detected, std::log(at.upper) - SoftPlus(z)) +
-           Times(num_missed, LogRestPlus(1.0 - at.upper, z) - SoftPlus(z));
+    const double z = slope * (each.log_range - at.log_middle);
+    const double soft_plus = SoftPlus(z);
+    const double log_missed = num_missed == 0 ? 0.0 : LogRestPlus(1.0 - at.upper, z);
+    sum +=
+        Times(each.num_detected, log_upper - soft_plus) + Times(num_missed, log_missed - soft_plus);
   }
   return sum;
 }
@@ -72,15 +86,13 @@ double LogLikelihood(const std::vector<Inspection>& inspections, const Parameter
 /// Half the logarithm of the determinant of Fisher's information of the line in the logarithm of
 /// range and, with an asymptote, of that: the penalty that takes most of the bias of small samples
 /// away (Firth 1993, Biometrika 80; Heinze and Schemper 2002, Statistics in Medicine 21).
-double Penalty(const std::vector<Inspection>& inspections,
-               const Parameters& at,
-               bool has_asymptote) {
+double Penalty(const LogInspections& inspections, const Parameters& at, bool has_asymptote) {
   const double slope = std::exp(at.log_slope);
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   if (!has_asymptote) information(2, 2) = 1.0;
-  for (const Inspection& each : inspections) {
+  for (const LogInspection& each : inspections) {
     if (each.range_m <= 0.0) continue;
-    const double beyond = std::log(each.range_m) - at.log_middle;
+    const double beyond = each.log_range - at.log_middle;
     const double near = 1.0 / (1.0 + std::exp(slope * beyond));
     const double probability = at.upper * near;
     const double variance = probability * (1.0 - probability);
@@ -93,9 +105,7 @@ double Penalty(const std::vector<Inspection>& inspections,
   return 0.5 * std::log(std::max(information.determinant(), 1e-300));
 }
 
-double Penalized(const std::vector<Inspection>& inspections,
-                 const Parameters& at,
-                 bool has_asymptote) {
+double Penalized(const LogInspections& inspections, const Parameters& at, bool has_asymptote) {
   return LogLikelihood(inspections, at) + Penalty(inspections, at, has_asymptote);
 }
 
@@ -174,7 +184,7 @@ Interval MiddleBounds(const std::vector<Inspection>& inspections) {
 }
 
 // The greatest likelihood of curves that fall to kProbability at a range, near a known curve.
-double LikelihoodOfD90(const std::vector<Inspection>& inspections,
+double LikelihoodOfD90(const LogInspections& inspections,
                        double log_d90,
                        const DetectionCurve& known,
                        bool has_asymptote) {
@@ -236,6 +246,7 @@ DetectionCurve FitCurve(const std::vector<Inspection>& inspections,
                         double upper,
                         bool is_penalized) {
   const bool is_free = std::isnan(upper);
+  const LogInspections logged = LogInspectionsOf(inspections);
   std::vector<Interval> bounds{MiddleBounds(inspections), SlopeBounds()};
   const double share = SharedDetected(inspections);
   if (is_free) bounds.push_back({share, 1.0, 0.5 * (1.0 + share)});
@@ -243,8 +254,8 @@ DetectionCurve FitCurve(const std::vector<Inspection>& inspections,
     return Parameters{at[0], at[1], is_free ? at[2] : upper};
   };
   const Maximum best = Maximize(bounds, [&](const std::vector<double>& at) {
-    return is_penalized ? Penalized(inspections, parameters(at), is_free)
-                        : LogLikelihood(inspections, parameters(at));
+    return is_penalized ? Penalized(logged, parameters(at), is_free)
+                        : LogLikelihood(logged, parameters(at));
   });
   return FoundCurve(parameters(best.at), best.value);
 }
@@ -296,10 +307,11 @@ DetectionFit FitDetection(const std::vector<Inspection>& inspections) {
     fit.upper_high = std::isnan(high) ? 1.0 : high;
   }
   if (std::isnan(fit.d90_m)) return fit;
+  const LogInspections logged = LogInspectionsOf(inspections);
   const double log_d90_95 =
       FirstRoot(std::log(fit.d90_m), std::log(fit.d90_m / kBeyond), [&](double log_d90) {
         return fit.curve.log_likelihood -
-               LikelihoodOfD90(inspections, log_d90, fit.curve, fit.has_asymptote) - one_sided;
+               LikelihoodOfD90(logged, log_d90, fit.curve, fit.has_asymptote) - one_sided;
       });
   fit.d90_95_m = std::exp(log_d90_95);
   return fit;
