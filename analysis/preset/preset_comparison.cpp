@@ -117,30 +117,32 @@ void AddGaps(const Frame& frame, double dead_length_m, EchoGaps& gaps) {
 void CompareTurn(const SeenTurns::Turn& turn, const Replay& replay, PresetComparison& comparison) {
   const ScanTable& replay_scan = replay.scan();
   // Frames of their own, so that no two replays draw the same numbers.
-  const auto replayed = [&](const std::map<PlaneCell, double>& reflectivities,
-                            std::uint32_t which) {
-    return AsRecorded(replay.Scan(turn.seen, reflectivities, 3 * turn.index + which), turn.index);
-  };
+  const std::uint32_t index = 3 * turn.index;
   const auto planes_of = [&](const RecordedFrame& frame) {
     return PlanesOfReplay(frame.frame, turn.seen, replay_scan);
   };
   PlaneFigures even;
-  const RecordedFrame bright = replayed(EvenReflectivities(turn.intensities), 0);
-  even.Add(bright, planes_of(bright), turn.index);
+  const RecordedFrame bright = AsRecorded(
+      replay.Scan(turn.seen, EvenReflectivities(turn.intensities), {index}).front(), turn.index);
+  even.Add(bright, planes_of(bright));
   const auto cells = ComparableCells(turn.intensities, even.intensities, turn.seen, turn.index);
   comparison.intensity.insert(comparison.intensity.end(), cells.begin(), cells.end());
   const auto local = LocalReflectivities(turn.intensities, even);
   if (local.empty()) return;
   ++comparison.num_turns;
   comparison.num_planes += turn.seen.planes.size();
-  const RecordedFrame first = replayed(local, 1);
-  comparison.simulated.Add(first, planes_of(first), turn.index);
-  comparison.simulated.temporal.Add(first, replayed(local, 2), &replay_scan, &replay_scan);
+  std::vector<Frame> replayed = replay.Scan(turn.seen, local, {index + 1, index + 2});
+  const RecordedFrame first = AsRecorded(std::move(replayed[0]), turn.index);
+  const RecordedFrame second = AsRecorded(std::move(replayed[1]), turn.index);
+  const SeenPlanes first_planes = planes_of(first);
+  comparison.simulated.Add(first, first_planes);
+  comparison.simulated.AddNoise(first, first_planes, turn.index);
+  comparison.simulated.temporal.Add(first, second, &replay_scan, &replay_scan);
 }
 
 }  // namespace
 
-void PlaneFigures::Add(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn) {
+void PlaneFigures::Add(const RecordedFrame& masked, const SeenPlanes& seen) {
   const Frame& frame = masked.frame;
   firings.resize(RangeBins().size());
   intensities.clear();
@@ -167,12 +169,21 @@ void PlaneFigures::Add(const RecordedFrame& masked, const SeenPlanes& seen, std:
       points.incidence_deg.Add(DegFromRad(std::acos(cosine)));
     }
   }
+}
+
+void PlaneFigures::AddNoise(const RecordedFrame& masked,
+                            const SeenPlanes& seen,
+                            std::uint32_t turn) {
   // The places where flat pieces are looked for follow from the index; one would give too few.
   constexpr std::uint32_t kLooks = 6;
   RecordedFrame looked = masked;
   for (std::uint32_t look = 0; look < kLooks; ++look) {
     looked.frame.index = kLooks * turn + look;
-    noise.Add(looked, FindPlanePatches(looked, &seen.scan));
+    std::vector<PlanePatch> patches;
+    for (const FlatPiece& piece : FindFlatPieces(looked, &seen.scan)) {
+      patches.push_back(piece.patch);
+    }
+    noise.Add(looked, patches);
   }
 }
 
@@ -251,7 +262,8 @@ SeenTurns SeePlanesOf(const std::vector<RecordedFrame>& turns, Sectors sectors) 
     SeenPlanes seen = FindSeenPlanes(turns[i].frame, *scan, sectors);
     if (seen.planes.empty()) continue;
     const RecordedFrame masked = Masked(turns[i], seen);
-    result.recorded.Add(masked, seen, index);
+    result.recorded.Add(masked, seen);
+    result.recorded.AddNoise(masked, seen, index);
     if (result.recorded.intensities.empty()) continue;
     result.turns.push_back(
         {index, turns[i].frame.rows, std::move(seen), result.recorded.intensities});

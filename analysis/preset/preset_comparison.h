@@ -150,16 +150,17 @@ class Replay {
 
   /// @param reflectivities Of cells; those not named have that of the nearest cell before them.
   /// @pre There is at least one.
-  /// @returns The frame; `instance` is the index of the plane + 1.
-  [[nodiscard]] Frame Scan(const SeenPlanes& seen,
-                           const std::map<PlaneCell, double>& reflectivities,
-                           std::uint32_t frame_index) const;
+  /// @returns The frames with these indices; `instance` is the index of the plane + 1.
+  [[nodiscard]] std::vector<Frame> Scan(const SeenPlanes& seen,
+                                        const std::map<PlaneCell, double>& reflectivities,
+                                        const std::vector<std::uint32_t>& frame_indices) const;
 
   /// The directions of the firings.
   [[nodiscard]] const ScanTable& scan() const { return scan_; }
 
  private:
   const ScenarioSpec scenario_;
+  const ScanPattern pattern_;
   ScanTable scan_;
 };
 
@@ -178,9 +179,11 @@ struct PlaneFigures {
   TemporalNoise temporal;
   std::map<PlaneCell, CellPoints> intensities;
 
-  /// Adds a turn; points of other firings than the planes' are left out. Intensities are those of
-  /// this turn alone.
-  void Add(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn);
+  /// Adds the firings and intensities of a turn; points of other firings than the planes' are left
+  /// out. Intensities are those of this turn alone.
+  void Add(const RecordedFrame& masked, const SeenPlanes& seen);
+  /// Adds the noise about flat pieces of a turn's points.
+  void AddNoise(const RecordedFrame& masked, const SeenPlanes& seen, std::uint32_t turn);
 };
 
 /// Ranges between the two returns of a firing.

@@ -120,22 +120,25 @@ const Material& MaterialNamed(const ScenarioSpec& scenario, const std::string& n
   return *found;
 }
 
-ScanTable ScanOf(const ScenarioSpec& scenario) {
-  auto scan = MakeScanTable(BuildScanPattern(scenario.lidar.scan));
+ScanTable ScanOf(const ScanPattern& pattern) {
+  auto scan = MakeScanTable(pattern);
   if (!scan) throw InputError("/lidar/scan: must be a grid of rings and columns");
   return *std::move(scan);
 }
 
 }  // namespace
 
-Replay::Replay(const ScenarioSpec& scenario) : scenario_(scenario), scan_(ScanOf(scenario)) {
+Replay::Replay(const ScenarioSpec& scenario)
+    : scenario_(scenario),
+      pattern_(BuildScanPattern(scenario.lidar.scan)),
+      scan_(ScanOf(pattern_)) {
   (void)MaterialNamed(scenario_, "asphalt");
   (void)MaterialNamed(scenario_, "concrete");
 }
 
-Frame Replay::Scan(const SeenPlanes& seen,
-                   const std::map<PlaneCell, double>& reflectivities,
-                   std::uint32_t frame_index) const {
+std::vector<Frame> Replay::Scan(const SeenPlanes& seen,
+                                const std::map<PlaneCell, double>& reflectivities,
+                                const std::vector<std::uint32_t>& frame_indices) const {
   std::vector<Material> materials;
   std::vector<Surface> surfaces(1);
   std::map<PlaneCell, std::uint32_t> surface_of;
@@ -151,12 +154,14 @@ Frame Replay::Scan(const SeenPlanes& seen,
   }
   const SimulatorSpec spec{.detector =
                                DetectorSpecOf(scenario_, scenario_.lidar, EffectsOf(scenario_))};
-  Simulator simulator(std::make_shared<StandingWorld>(), BuildScanPattern(scenario_.lidar.scan),
-                      MaterialLibrary(materials), spec, 0);
+  Simulator simulator(std::make_shared<StandingWorld>(), pattern_, MaterialLibrary(materials), spec,
+                      0);
   const PlaneCaster caster(seen, scan_.elevation_rad, surface_of);
-  Frame frame;
-  simulator.Scan(frame_index, {caster, Transform::Identity(), surfaces}, frame);
-  return frame;
+  std::vector<Frame> frames;
+  for (const std::uint32_t index : frame_indices) {
+    simulator.Scan(index, {caster, Transform::Identity(), surfaces}, frames.emplace_back());
+  }
+  return frames;
 }
 
 }  // namespace railcast

@@ -182,6 +182,7 @@ std::optional<FlatPiece> MakePiece(const Points& points) {
   }
   if (!IsFlat(kept, plane)) return std::nullopt;
   FlatPiece piece;
+  for (const PatchPoint& point : points) piece.slots_about.push_back(point.slot);
   piece.middle_m = plane.middle;
   piece.normal = plane.normal;
   PlanePatch& patch = piece.patch;
@@ -191,7 +192,6 @@ std::optional<FlatPiece> MakePiece(const Points& points) {
   patch.range_m = plane.middle.norm();
   patch.num_points = kept.size();
   patch.num_outliers = points.size() - kept.size();
-  patch.by_pcl = PclPlaneOf(points, plane);
   Moments intensities;
   for (const PatchPoint& point : kept) {
     const double square_m = plane.normal.dot(point.position_m - plane.middle);
@@ -298,7 +298,12 @@ std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded, const ScanT
 
 std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded, const ScanTable* scan) {
   std::vector<PlanePatch> patches;
-  for (const FlatPiece& piece : FindFlatPieces(recorded, scan)) patches.push_back(piece.patch);
+  for (const FlatPiece& piece : FindFlatPieces(recorded, scan)) {
+    Points points;
+    for (const std::size_t slot : piece.slots_about) Gather(recorded, slot, points);
+    patches.push_back(piece.patch);
+    patches.back().by_pcl = PclPlaneOf(points, {.middle = piece.middle_m, .normal = piece.normal});
+  }
   return patches;
 }
 

@@ -44,7 +44,7 @@ struct PlanePatch {
   /// the beams, and perpendicular to the plane.
   double range_squares_m2{};
   double plane_squares_m2{};
-  PclPlane by_pcl;
+  PclPlane by_pcl;  ///< Of FindPlanePatches() alone: it takes longer than all else.
 
   [[nodiscard]] double degrees() const { return static_cast<double>(num_points) - 3.0; }
 };
@@ -52,9 +52,10 @@ struct PlanePatch {
 /// A patch with its plane and its points.
 struct FlatPiece {
   PlanePatch patch;
-  Vector3 middle_m = Vector3::Zero();  ///< Mean of its points; lies in the plane.
-  Vector3 normal = Vector3::UnitZ();   ///< Unit vector of either sign.
-  std::vector<std::size_t> slots;      ///< Slots of its points, without outliers.
+  Vector3 middle_m = Vector3::Zero();    ///< Mean of its points; lies in the plane.
+  Vector3 normal = Vector3::UnitZ();     ///< Unit vector of either sign.
+  std::vector<std::size_t> slots;        ///< Slots of its points, without outliers.
+  std::vector<std::size_t> slots_about;  ///< Of all points among which it was found.
 };
 
 /// Maximum per frame, so that the time does not grow with the number of points.
@@ -70,7 +71,7 @@ inline constexpr std::size_t kMaxPatches = 150;
 /// @param scan Null if the frame is no grid.
 [[nodiscard]] std::vector<FlatPiece> FindFlatPieces(const RecordedFrame& recorded,
                                                     const ScanTable* scan);
-/// As above, but drops the list of slots in each patch.
+/// As above, without the pieces' slots, and with what PCL makes of each.
 [[nodiscard]] std::vector<PlanePatch> FindPlanePatches(const RecordedFrame& recorded,
                                                        const ScanTable* scan);
 
