@@ -107,7 +107,7 @@ std::vector<Remark> CheckPositions(const Cloud& cloud, const std::string& name) 
 }
 
 void LeaveOutUnlikelyTimes(RecordedFrame& recorded) {
-  constexpr std::uint32_t kShortestTurn_ns = 5'000'000;
+  constexpr std::uint32_t kShortestTurn_ns = 2'000'000;
   Frame& frame = recorded.frame;
   if (!recorded.Has("time_ns")) return;
   std::array<std::size_t, 4> num_in_quadrant{};
