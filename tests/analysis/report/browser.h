@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "core/io/image/png.h"
 #include "core/io/write_file.h"
@@ -104,16 +105,17 @@ inline nlohmann::json ProbeOf(const std::string& options, const std::filesystem:
   return nlohmann::json::parse(dumped.said.substr(begin + 5, end - begin - 4));
 }
 
-/// Result of the probe in a window whose size the options give.
+/// Result of the probe in a window whose size the options give. The picture that they may ask for
+/// is that of the page with the probe's result at its end.
 inline nlohmann::json Probe(const std::string& options, const std::filesystem::path& page) {
   const auto copy = page.parent_path() / "probe.html";
   WriteFileWhole(copy, WithScript(page, kProbe));
   return ProbeOf(options, copy);
 }
 
-/// A script that tells the window around its own what lies beyond its place with all tables
-/// unfolded: beyond the window and, unless the window is that of a phone or the table is too long
-/// for paper, beyond the card that scrolls it.
+/// A script that tells the window around its own, with its own name, what lies beyond its place
+/// with all tables unfolded: beyond the window and, unless the window is that of a phone or the
+/// table is too long for paper, beyond the card that scrolls it.
 inline constexpr const char* kOverflowProbe = R"(<script>
 document.querySelectorAll("details").forEach(d => d.open = true);
 const isPhone = innerWidth < 500, isPaper = innerWidth === 703;
@@ -122,30 +124,42 @@ const told = e => e.tagName + " " + e.className + ": " + e.textContent.trim().sl
 const wide = all.filter(e => (isPaper || !e.closest(".scroll, .drawing")) && e.getBoundingClientRect().right > innerWidth + 1);
 const scrolled = isPhone || isPaper ? [] : all.filter(e =>
   e.matches(".scroll, .drawing") && !e.closest("details.screen") && e.scrollWidth > e.clientWidth + 1);
-parent.postMessage({[innerWidth]: wide.concat(scrolled).map(told)}, "*");
+parent.postMessage({page: name, [innerWidth]: wide.concat(scrolled).map(told)}, "*");
 </script></body>)";
 
-/// What lies beyond its place on a phone, on a screen of 1300 pixels, and on paper of A4 between
-/// the page's margins, by the width of the window in pixels. A window of Chromium itself has at
-/// least 500.
-inline nlohmann::json OverflowOf(const std::filesystem::path& page) {
-  const auto folder = page.parent_path();
-  const std::string on_screen = WithScript(page, kOverflowProbe);
-  WriteFileWhole(folder / "on_screen.html", on_screen);
-  std::string on_paper = on_screen;
-  on_paper.replace(on_paper.find("@media print"), 12, "@media all");
-  WriteFileWhole(folder / "on_paper.html", on_paper);
-  WriteFileWhole(folder / "windows.html", R"(<pre id="probe"></pre><script>
+/// Expects that on none of the pages anything lies beyond its place on a phone, on a screen of 1300
+/// pixels, and on paper of A4 between the page's margins, in frames of one window: one of Chromium
+/// itself has at least 500 pixels.
+inline void ExpectFitWidths(const std::vector<std::filesystem::path>& pages) {
+  std::string windows = R"(<pre id="probe"></pre><script>
 const found = {};
+let num = 0;
 onmessage = m => {
-  Object.assign(found, m.data);
-  if (Object.keys(found).length === 3) document.getElementById("probe").textContent = "PROBE" + JSON.stringify(found) + "PROBE";
+  const {page, ...beyond} = m.data;
+  Object.assign(found[page] ??= {}, beyond);
+  if (++num === frames.length) document.getElementById("probe").textContent = "PROBE" + JSON.stringify(found) + "PROBE";
 };
-</script>
-<iframe width="390" height="844" frameborder="0" src="on_screen.html"></iframe>
-<iframe width="1300" height="900" frameborder="0" src="on_screen.html"></iframe>
-<iframe width="703" height="1000" frameborder="0" src="on_paper.html"></iframe>)");
-  return ProbeOf("--virtual-time-budget=10000", folder / "windows.html");
+</script>)";
+  nlohmann::json expected;
+  for (const std::filesystem::path& page : pages) {
+    const auto folder = page.parent_path();
+    std::string text = WithScript(page, kOverflowProbe);
+    WriteFileWhole(folder / "on_screen.html", text);
+    text.replace(text.find("@media print"), 12, "@media all");
+    WriteFileWhole(folder / "on_paper.html", text);
+    const auto frame = [&](const std::string& size, const std::string& file) {
+      windows += "<iframe " + size + " frameborder=\"0\" name=\"" + page.string() +
+                 "\" src=\"file://" + (folder / file).string() + "\"></iframe>";
+    };
+    frame("width=\"390\" height=\"844\"", "on_screen.html");
+    frame("width=\"1300\" height=\"900\"", "on_screen.html");
+    frame("width=\"703\" height=\"1000\"", "on_paper.html");
+    const auto none = nlohmann::json::array();
+    expected[page.string()] = {{"390", none}, {"1300", none}, {"703", none}};
+  }
+  const auto file = pages.front().parent_path() / "windows.html";
+  WriteFileWhole(file, windows);
+  EXPECT_EQ(ProbeOf("--virtual-time-budget=10000", file), expected);
 }
 
 /// Contrast of the brightest with the darkest pixel in a box of left, top, right and bottom (Web
@@ -172,12 +186,11 @@ inline double ContrastIn(const DecodedImage<std::uint8_t>& picture, const nlohma
 /// from its ground, by the browser's own account and, of titles, in a picture of the page.
 inline void ExpectReadable(const std::filesystem::path& page) {
   for (const std::string& scheme : {std::string(), std::string(kDarkScheme)}) {
-    const std::string options = "--window-size=1000,2000 " + scheme;
-    const nlohmann::json look = Probe(options, page);
+    const auto picture = page.parent_path() / "picture.png";
+    const nlohmann::json look =
+        Probe("--window-size=1000,2000 --screenshot='" + picture.string() + "'" + scheme, page);
     EXPECT_EQ(look["wide"], nlohmann::json::array()) << scheme;
     EXPECT_EQ(look["pale"], nlohmann::json::array()) << scheme;
-    const auto picture = page.parent_path() / "picture.png";
-    Browse("--screenshot='" + picture.string() + "' " + options, page);
     const auto pixels = DecodePngRgb(ReadFileWhole(picture));
     ASSERT_FALSE(look["titles"].empty());
     for (const nlohmann::json& title : look["titles"]) {
