@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <stdexcept>
 #include <string>
 
 #include "tests/core/scenario/scenario_files.h"
@@ -13,15 +15,32 @@ inline Ended Analyze(const std::string& arguments) {
   return RunCommand("SOURCE_DATE_EPOCH=1700000000 " RAILCAST_ANALYZE " " + arguments);
 }
 
+/// Makes what railcast-generate makes with these arguments, once for all tests that ask for it, and
+/// copies it to `out`.
+inline void GenerateOnce(const std::string& arguments, const std::filesystem::path& out) {
+  static const TemporaryDirectory kept;
+  static std::map<std::string, std::filesystem::path> made;
+  const auto [found, is_new] =
+      made.try_emplace(arguments, kept.path() / std::to_string(made.size()));
+  if (is_new) {
+    const Ended run =
+        RunCommand(RAILCAST_GENERATE " " + arguments + " --out " + found->second.string());
+    if (run.status != 0) throw std::runtime_error(run.said);
+  }
+  std::filesystem::copy(found->second, out, std::filesystem::copy_options::recursive);
+}
+
 /// Writes a scenario of a straight line with few beams.
 /// @param more Further keys, each followed by a comma.
 inline std::filesystem::path WriteScenario(const TemporaryFolder& folder,
-                                           const std::string& more = {}) {
+                                           const std::string& more = {},
+                                           const std::string& resolution_deg = "0.5") {
   const std::string scenarios = ScenariosDir().string();
   return folder.Write("scenario.json", R"({
     "version": 1,)" + more + R"(
     "lidar": {"scan": {"rate_hz": 10, "pattern": {"type": "raster", "horizontal_fov_deg": 20,
-              "vertical_fov_deg": 40, "angular_resolution_deg": 0.5}}},
+              "vertical_fov_deg": 40, "angular_resolution_deg": )" +
+                                           resolution_deg + R"(}}},
     "world": {
       "alignment": {
         "course": {"type": "elements", "elements": [{"type": "straight", "length_m": 1000}]}

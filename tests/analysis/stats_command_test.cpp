@@ -28,11 +28,10 @@ using PlainJson = nlohmann::json;
 const std::string kCaptures = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/";
 
 std::filesystem::path MakeSequence(const TemporaryFolder& folder, const std::string& options) {
-  const auto scenario = WriteScenario(folder, R"("weather": {"rain_rate_mmph": 40},)");
-  const auto out = scenario.parent_path() / "sequence";
-  const Ended run = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
-                               out.string() + " --frames 11 " + options);
-  if (run.status != 0) throw std::runtime_error(run.said);
+  static const TemporaryFolder kept;
+  static const auto scenario = WriteScenario(kept, R"("weather": {"rain_rate_mmph": 40},)");
+  const auto out = folder.Write("scenario.json", TextOf(scenario)).parent_path() / "sequence";
+  GenerateOnce("sequence " + scenario.string() + " --frames 11 " + options, out);
   return out;
 }
 
@@ -43,6 +42,14 @@ const PlainJson& JsonTableOf(const PlainJson& stats, const std::string& key) {
     }
   }
   throw std::out_of_range(key);
+}
+
+/// The figures alone: the charts of a report take longer to be drawn than all else.
+/// @param options Also the sources.
+PlainJson StatsOf(const std::string& options) {
+  const Ended run = Analyze("stats " + options + " --format json 2>/dev/null");
+  EXPECT_EQ(run.status, 0) << options;
+  return PlainJson::parse(run.said);
 }
 
 TEST(StatsCommand, CountsTheOutcomesThatTheSequenceCounted) {
@@ -166,11 +173,7 @@ TEST(StatsCommand, GivesTheSameFiguresAtAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const auto sequence = MakeSequence(folder, "");
   const auto json_of = [&](const std::string& threads) {
-    const auto out = sequence.parent_path() / "out";
-    const Ended run =
-        Analyze("stats " + sequence.string() + " --out " + out.string() + " --threads " + threads);
-    EXPECT_EQ(run.status, 0) << run.said;
-    PlainJson stats = PlainJson::parse(ReadFileWhole(out / "stats.json"));
+    PlainJson stats = StatsOf(sequence.string() + " --threads " + threads);
     stats.erase("command");  // The command line contains the number of threads.
     return stats.dump();
   };
@@ -235,21 +238,15 @@ TEST(StatsCommand, RefusesToSumUpLabelsOfTwoMeanings) {
 // One sensor of 20 Hz without rings and one of 10 Hz with 16.
 TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
   const TemporaryFolder folder;
-  const auto out = folder.Write("x", "").parent_path();
-  const auto run = out / "run";
+  const auto run = folder.Write("x", "").parent_path() / "run";
   const std::string scenario = (ScenariosDir() / "two_sensors.json").string();
   ASSERT_EQ(
       RunCommand(RAILCAST_GENERATE " sequence " + scenario + " --frames 4 --out " + run.string())
           .status,
       0);
-  const auto points_of = [&](const std::string& sources, const std::string& name) {
-    const Ended ended = Analyze("stats " + sources + " --out " + (out / name).string());
-    EXPECT_EQ(ended.status, 0) << ended.said;
-    return PlainJson::parse(ReadFileWhole(out / name / "stats.json"));
-  };
-  const PlainJson front = points_of((run / "front").string(), "of_front");
-  const PlainJson roof = points_of((run / "roof").string(), "of_roof");
-  const PlainJson both = points_of(run.string(), "of_both");
+  const PlainJson front = StatsOf((run / "front").string());
+  const PlainJson roof = StatsOf((run / "roof").string());
+  const PlainJson both = StatsOf(run.string());
   const auto fact = [](const PlainJson& stats, const std::string& name) {
     return std::stoul(stats.at("facts").at(name).get<std::string>());
   };
@@ -257,7 +254,7 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
   EXPECT_EQ(fact(both, "Frames"), 6U);
   EXPECT_EQ(both.at("facts").at("Sensors"),
             "front, roof, taken together; --sensor takes one of them");
-  PlainJson chosen = points_of(run.string() + " --sensor roof", "of_chosen");
+  const PlainJson chosen = StatsOf(run.string() + " --sensor roof");
   EXPECT_EQ(chosen.at("sections"), roof.at("sections"));
   EXPECT_EQ(Analyze("stats " + run.string() + " --sensor back --format text").said,
             "--sensor: must be a sensor of " + run.string() + ", of front, roof (got back)\n");
@@ -268,7 +265,8 @@ TEST(StatsCommand, SumsUpDifferentSensorsWithoutTheirRingsOrTakesOne) {
   }
 }
 
-PlainJson StatsOf(const std::filesystem::path& source, const std::filesystem::path& out) {
+PlainJson WholeStatsOf(const std::filesystem::path& source) {
+  const std::filesystem::path out = source.parent_path() / "out";
   const Ended run = Analyze("stats " + source.string() + " --out " + out.string());
   EXPECT_EQ(run.status, 0) << run.said;
   return PlainJson::parse(ReadFileWhole(out / "stats.json"));
@@ -277,7 +275,7 @@ PlainJson StatsOf(const std::filesystem::path& source, const std::filesystem::pa
 TEST(StatsCommand, SumsUpADataSetAndShowsItsReportFirst) {
   const TemporaryFolder folder;
   const auto set = MakeSmallDataset(folder, "");
-  const PlainJson stats = StatsOf(set, set.parent_path() / "out");
+  const PlainJson stats = WholeStatsOf(set);
   EXPECT_EQ(stats["title"], "Statistics of set");
   EXPECT_EQ(stats["facts"]["Frames"], "6");
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (data set)");
@@ -312,7 +310,7 @@ TEST(StatsCommand, RefusesAnUnfinishedDataSetInOneLine) {
 TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
   const TemporaryFolder folder;
   const auto set = MakeSmallDataset(folder, "--shard 1/2");
-  const PlainJson stats = StatsOf(set, set.parent_path() / "out");
+  const PlainJson stats = WholeStatsOf(set);
   EXPECT_EQ(stats["facts"]["Frames"], "4");
   EXPECT_EQ(stats["facts"]["Source"], set.string() + " (shard 1/2 of a data set)");
   EXPECT_EQ(stats["sections"][0]["key"], "sheet");
@@ -323,7 +321,7 @@ TEST(StatsCommand, SumsUpAShardWithoutASectionOfItsOwn) {
 TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   const TemporaryFolder folder;
   const auto run = MakeSequence(folder, "--format kitti");
-  const PlainJson one = StatsOf(run, run.parent_path() / "of_one");
+  const PlainJson one = StatsOf(run.string());
   const auto other = run.parent_path() / "other";
   std::filesystem::copy(run, other, std::filesystem::copy_options::recursive);
   const auto joined = run.parent_path() / "joined";
@@ -331,7 +329,7 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
       RunCommand("/usr/bin/python3 " RAILCAST_SOURCE_DIR "/scripts/join_semantic_kitti.py " +
                  joined.string() + " --train " + run.string() + " --test " + other.string());
   ASSERT_EQ(join.status, 0) << join.said;
-  const PlainJson both = StatsOf(joined, run.parent_path() / "of_both");
+  const PlainJson both = StatsOf(joined.string());
   EXPECT_EQ(both["facts"]["Source"], joined.string() + " (KITTI data set of 2 sequences)");
   EXPECT_EQ(both["facts"]["Frames"], "22");
   const PlainJson& rows = JsonTableOf(one, "points_by_label")["rows"];
@@ -345,7 +343,7 @@ TEST(StatsCommand, SumsUpAllKittiSequencesByTheNamesBesideThem) {
   }
   EXPECT_TRUE(names.contains("rail"));
   std::filesystem::remove(joined / "semantic-kitti-railcast.yaml");
-  const PlainJson numbers = StatsOf(joined, run.parent_path() / "of_numbers");
+  const PlainJson numbers = StatsOf(joined.string());
   EXPECT_EQ(JsonTableOf(numbers, "points_by_label")["rows"].size(), rows.size());
   for (const PlainJson& row : JsonTableOf(numbers, "points_by_label")["rows"]) {
     EXPECT_FALSE(names.contains(row["label"].get<std::string>()));
@@ -422,11 +420,7 @@ class StatsOfCapture : public testing::TestWithParam<std::string> {
 // centimetres (data sheets: 2 to 3 cm), hardly any holes in surfaces, and not enough turns for a
 // mean over frames.
 TEST_P(StatsOfCapture, ArePlausible) {
-  const TemporaryFolder folder;
-  const auto out = folder.Write("x", "").parent_path() / "out";
-  const Ended run = Analyze("stats " + kCaptures + GetParam() + ".pcap --out " + out.string());
-  ASSERT_EQ(run.status, 0) << run.said;
-  const PlainJson stats = PlainJson::parse(ReadFileWhole(out / "stats.json"));
+  const PlainJson stats = StatsOf(kCaptures + GetParam() + ".pcap");
   int num_bins = 0;
   for (const PlainJson& row : JsonTableOf(stats, "temporal_noise")["rows"]) {
     const PlainJson& sigma_mm = row["robust_sigma_mm"];
