@@ -123,7 +123,7 @@ TEST_P(RealTurns, ArePredictedByThoseBefore) {
   for (std::size_t i = 0; i < last.beams.size(); ++i) {
     const SurveyBeam& beam = last.beams[i];
     const double range_m = (beam.point_m - beam.origin_m).norm();
-    const bool is_within = cells.NearestAbout_m(beam.point_m) <= double{spacings_rad[i]} * range_m;
+    const bool is_within = cells.HasWithin(double{spacings_rad[i]} * range_m, beam.point_m);
     if (!is_within) continue;
     beams.push_back({"", range_m, 0.0, cells.NumAbout(beam.point_m), true, found_m[i] - range_m});
   }

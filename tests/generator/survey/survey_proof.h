@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -20,17 +19,20 @@ class RecordedCells {
   void Add(const Vector3& point_m) { points_of_cell_[KeyOf(point_m)].push_back(point_m); }
   /// The number of points in the cell of a place and those that touch it.
   [[nodiscard]] int NumAbout(const Vector3& place_m) const {
-    int num = 0;
-    ForEachAbout(place_m, [&](const Vector3& /*point_m*/) { ++num; });
-    return num;
-  }
-  /// Distance to the nearest of these points; infinite without any.
-  [[nodiscard]] double NearestAbout_m(const Vector3& place_m) const {
-    double nearest_m = std::numeric_limits<double>::infinity();
-    ForEachAbout(place_m, [&](const Vector3& point_m) {
-      nearest_m = std::min(nearest_m, (point_m - place_m).norm());
+    std::size_t num = 0;
+    (void)AnyAbout(place_m, [&](const std::vector<Vector3>& points_m) {
+      num += points_m.size();
+      return false;
     });
-    return nearest_m;
+    return static_cast<int>(num);
+  }
+  /// Whether one of these points is so near.
+  [[nodiscard]] bool HasWithin(double distance_m, const Vector3& place_m) const {
+    return AnyAbout(place_m, [&](const std::vector<Vector3>& points_m) {
+      return std::ranges::any_of(points_m, [&](const Vector3& point_m) {
+        return (point_m - place_m).norm() <= distance_m;
+      });
+    });
   }
 
  private:
@@ -42,13 +44,17 @@ class RecordedCells {
     }
     return key;
   }
-  template <class Visit>
-  void ForEachAbout(const Vector3& place_m, const Visit& visit) const {
-    for (int k = 0; k < 27; ++k) {
+  /// Whether the points of one of the cells are so: its own first, where the nearest mostly are.
+  template <class AreSo>
+  bool AnyAbout(const Vector3& place_m, const AreSo& are_so) const {
+    constexpr int kOwn = 13;
+    for (int i = 0; i < 27; ++i) {
+      const int k = (i + kOwn) % 27;
       const Vector3 offset_m = kEdge_m * Vector3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
       const auto found = points_of_cell_.find(KeyOf(place_m + offset_m));
-      if (found != points_of_cell_.end()) std::ranges::for_each(found->second, visit);
+      if (found != points_of_cell_.end() && are_so(found->second)) return true;
     }
+    return false;
   }
   std::unordered_map<std::int64_t, std::vector<Vector3>> points_of_cell_;
 };

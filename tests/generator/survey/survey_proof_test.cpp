@@ -35,32 +35,45 @@ ScenarioSpec StationToSurvey() {
   return scenario;
 }
 
-struct SurveyedRun {
-  Survey survey;
-  RecordedCells cells;
+/// What the sensor of a scenario saw.
+struct SeenRun {
+  std::vector<SurveyFrame> even;  ///< Frames 0, 2, 4, ...
+  SurveyLabels labels;
+  RecordedCells cells;     ///< Of the even frames.
+  std::vector<Frame> odd;  ///< Frames 1, 3, 5, ... without noise.
 };
 
-/// The scene of frames 0, 2, 4, ...
-SurveyedRun SurveyEvenFrames(const ScenarioSpec& scenario, const SurveyOptions& options = {}) {
-  SurveyedRun run;
-  SurveyLabels labels;
+SeenRun SeeRun(ScenarioSpec scenario) {
+  SeenRun run;
   RecordingInfo info;
   info.labels = LabelTable(scenario.labels);
   info.scenario = scenario;
   info.origin = SequenceOrigin{};
   const auto simulator = MakeSimulator(scenario, 0);
-  std::vector<SurveyFrame> frames;
   for (std::uint32_t k = 0; k < kNumFrames; k += 2) {
     RecordedFrame recorded;
     simulator->Scan(k, recorded.frame);
     recorded.fields = {"x", "y", "z", "intensity", "time_ns", "label", "outcome"};
     recorded.has_pose = true;
-    frames.push_back(BeamsOf(recorded, info, {.recordings = {}, .range_max_m = kRange_m}, labels));
-    for (const SurveyBeam& beam : frames.back().beams) run.cells.Add(beam.point_m);
+    run.even.push_back(
+        BeamsOf(recorded, info, {.recordings = {}, .range_max_m = kRange_m}, run.labels));
+    for (const SurveyBeam& beam : run.even.back().beams) run.cells.Add(beam.point_m);
   }
-  const FramesOfSurvey all = [&](const auto& visit) { std::ranges::for_each(frames, visit); };
-  run.survey = MakeSurvey(all, labels, options);
+  scenario.fidelity = Fidelity::kGeometry;
+  const auto exact = MakeSimulator(scenario, 0);
+  for (std::uint32_t k = 1; k < kNumFrames; k += 2) exact->Scan(k, run.odd.emplace_back());
   return run;
+}
+
+/// What is seen of the station, which several tests survey.
+const SeenRun& SeenStation() {
+  static const SeenRun run = SeeRun(StationToSurvey());
+  return run;
+}
+
+Survey SurveyOfRun(const SeenRun& run, const SurveyOptions& options = {}) {
+  return MakeSurvey([&](const auto& visit) { std::ranges::for_each(run.even, visit); }, run.labels,
+                    options);
 }
 
 /// The line of a scenario with a survey in place of all that stands there, as a file gives it.
@@ -82,18 +95,15 @@ struct Prediction {
 
 Prediction PredictOddFrames(const ScenarioSpec& scenario,
                             const ScenarioSpec& on_survey,
-                            const RecordedCells& cells) {
-  const auto truth = MakeSimulator(scenario, 0);
+                            const SeenRun& run) {
   const auto prediction = MakeSimulator(on_survey, 0);
   const LabelTable labels(scenario.labels);
   const double spacing_rad =
       RadFromDeg(std::get<RasterSpec>(scenario.lidar.scan.pattern).angular_resolution_deg);
   Prediction made;
-  for (std::uint32_t k = 1; k < kNumFrames; k += 2) {
-    Frame exact;
-    Frame predicted;
-    truth->Scan(k, exact);
-    prediction->Scan(k, predicted);
+  Frame predicted;
+  for (const Frame& exact : run.odd) {
+    prediction->Scan(exact.index, predicted);
     const ScanMotion motion(exact);
     const auto is_met = [](const Frame& frame, std::size_t i) {
       return HasPoint(frame.outcome[i]) && double{frame.true_range_m[i]} <= kRange_m;
@@ -110,14 +120,14 @@ Prediction PredictOddFrames(const ScenarioSpec& scenario,
       ++made.exact[label];
       const Vector3 sensor_m(exact.x[i], exact.y[i], exact.z[i]);
       const Vector3 world_m = exact.world_from_sensor * motion.AtStamp(sensor_m, exact.time_ns[i]);
-      const int num_points = cells.NumAbout(world_m);
+      const int num_points = run.cells.NumAbout(world_m);
       if (num_points < kLeastPointsOfSurface) continue;
       const double range_m{exact.true_range_m[i]};
       const double found_m = HasPoint(predicted.outcome[i])
                                  ? double{predicted.true_range_m[i]}
                                  : std::numeric_limits<double>::quiet_NaN();
       made.beams.push_back({label, range_m, DegFromRad(double{exact.incidence_rad[i]}), num_points,
-                            cells.NearestAbout_m(world_m) <= spacing_rad * range_m,
+                            run.cells.HasWithin(spacing_rad * range_m, world_m),
                             found_m - range_m});
     }
   }
@@ -188,39 +198,40 @@ void PrintTables(const Prediction& made) {
 
 /// What even frames of a run predict of the odd ones.
 Prediction Predict(ScenarioSpec scenario,
-                   const SurveyedRun& run,
+                   const SeenRun& run,
+                   const Survey& survey,
                    const std::filesystem::path& scene) {
-  WriteFileWhole(scene, EncodeSurvey(run.survey.labels, run.survey.tiles));
+  WriteFileWhole(scene, EncodeSurvey(survey.labels, survey.tiles));
   scenario.fidelity = Fidelity::kGeometry;
-  return PredictOddFrames(scenario, OnSurvey(scenario, scene), run.cells);
+  return PredictOddFrames(scenario, OnSurvey(scenario, scene), run);
 }
 
 class SurveyProof : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     scenario_ = new ScenarioSpec(StationToSurvey());
-    run_ = new SurveyedRun(SurveyEvenFrames(*scenario_));
+    survey_ = new Survey(SurveyOfRun(SeenStation()));
     directory_ = new TemporaryDirectory;
     const auto file = directory_->path() / "scene.survey";
-    WriteFileWhole(file, EncodeSurvey(run_->survey.labels, run_->survey.tiles));
+    WriteFileWhole(file, EncodeSurvey(survey_->labels, survey_->tiles));
     scenario_->fidelity = Fidelity::kGeometry;
     on_survey_ = new ScenarioSpec(OnSurvey(*scenario_, file));
   }
   static void TearDownTestSuite() {
     delete on_survey_;
     delete directory_;
-    delete run_;
+    delete survey_;
     delete scenario_;
   }
 
   static inline ScenarioSpec* scenario_ = nullptr;
   static inline ScenarioSpec* on_survey_ = nullptr;
-  static inline SurveyedRun* run_ = nullptr;
+  static inline Survey* survey_ = nullptr;
   static inline TemporaryDirectory* directory_ = nullptr;
 };
 
 TEST_F(SurveyProof, EvenFramesPredictOddOnes) {
-  const Prediction made = PredictOddFrames(*scenario_, *on_survey_, run_->cells);
+  const Prediction made = PredictOddFrames(*scenario_, *on_survey_, SeenStation());
   if (std::getenv("RAILCAST_PRINT_SURVEY") != nullptr) PrintTables(made);
   const std::vector<ProvenBeam>& beams = made.beams;
   EXPECT_GE(ProvenBy(beams, IsAny).hit_share, 0.98);
@@ -253,8 +264,9 @@ TEST(SurveyProofBesideWalls, EvenFramesPredictOddOnes) {
   ScenarioSpec scenario = StationToSurvey();
   scenario.vehicle.start_s_m = 450.0;
   const TemporaryDirectory directory;
+  const SeenRun run = SeeRun(scenario);
   const Prediction made =
-      Predict(scenario, SurveyEvenFrames(scenario), directory.path() / "scene.survey");
+      Predict(scenario, run, SurveyOfRun(run), directory.path() / "scene.survey");
   if (std::getenv("RAILCAST_PRINT_SURVEY") != nullptr) PrintTables(made);
   const Proven walls = ProvenBy(made.beams, IsWall);
   EXPECT_GT(walls.num_beams, 40'000U);
@@ -282,14 +294,14 @@ TEST(SurfelSize, LargerSurfelsHitMoreAndErrMore) {
   const std::filesystem::path folder = kept == nullptr ? directory.path() : kept;
   std::vector<Proven> ground;
   for (const Size& size : sizes) {
-    const SurveyedRun run = SurveyEvenFrames(
-        scenario, {.voxel_m = size.voxel_m, .surfels = {.size_factor = size.factor}});
+    const Survey survey = SurveyOfRun(
+        SeenStation(), {.voxel_m = size.voxel_m, .surfels = {.size_factor = size.factor}});
     const std::string name = NumberText(size.voxel_m) + "_" + NumberText(size.factor);
-    const Prediction made = Predict(scenario, run, folder / (name + ".survey"));
+    const Prediction made = Predict(scenario, SeenStation(), survey, folder / (name + ".survey"));
     ground.push_back(ProvenBy(made.beams, IsGround));
     if (kept == nullptr) continue;
     const Proven all = ProvenBy(made.beams, IsAny);
-    std::printf("%s\t%zu\t%.1f\t%.2f\t%.1f\n", name.c_str(), run.survey.num_surfels,
+    std::printf("%s\t%zu\t%.1f\t%.2f\t%.1f\n", name.c_str(), survey.num_surfels,
                 100.0 * all.hit_share, 100.0 * ground.back().median_error_m,
                 100.0 * all.near_share);
   }
@@ -298,7 +310,7 @@ TEST(SurfelSize, LargerSurfelsHitMoreAndErrMore) {
 }
 
 TEST_F(SurveyProof, FindsNothingMovingWhereNothingMoves) {
-  EXPECT_LT(run_->survey.num_moving, run_->survey.num_surfels / 500);
+  EXPECT_LT(survey_->num_moving, survey_->num_surfels / 500);
 }
 
 TEST_F(SurveyProof, StandsObjectsOnTheSurveyedGround) {
