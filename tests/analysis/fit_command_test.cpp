@@ -19,11 +19,10 @@ const std::string kVlp16 = RAILCAST_SHARED_DATA_DIR "/lidar_packets_nebula/vlp16
 
 /// Twelve frames with rung plausibility in heavy rain.
 std::filesystem::path MakeFitSequence(const TemporaryFolder& folder) {
-  const auto scenario = WriteScenario(folder, R"("weather": {"rain_rate_mmph": 40},)");
-  const auto out = scenario.parent_path() / "sequence";
-  const Ended run = RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " +
-                               out.string() + " --frames 12");
-  if (run.status != 0) throw std::runtime_error(run.said);
+  static const TemporaryFolder kept;
+  static const auto scenario = WriteScenario(kept, R"("weather": {"rain_rate_mmph": 40},)");
+  const auto out = folder.Write("scenario.json", "").parent_path() / "sequence";
+  GenerateOnce("sequence " + scenario.string() + " --frames 12", out);
   return out;
 }
 

@@ -58,7 +58,7 @@ TEST(RailcastAnalyze, NamesAnUnknownRowAndAMissingScenario) {
 
 TEST(RailcastAnalyze, ChartsAScenario) {
   const TemporaryFolder folder;
-  const auto scenario = WriteScenario(folder);
+  const auto scenario = WriteScenario(folder, "", "1.0");
   const auto out = scenario.parent_path() / "out";
   const Ended run = Analyze("frontier " + scenario.string() + " --out " + out.string() +
                             " --frames 1 --rows footprint,brute_force_4");
@@ -85,7 +85,7 @@ TEST(RailcastAnalyze, ChartsAScenario) {
 
 TEST(RailcastAnalyze, LeavesTheNumbersWhereGnuplotIsMissing) {
   const TemporaryFolder folder;
-  const auto scenario = WriteScenario(folder);
+  const auto scenario = WriteScenario(folder, "", "2.0");
   const auto out = scenario.parent_path() / "out";
   const Ended run = RunCommand("PATH=/nowhere " RAILCAST_ANALYZE " frontier " + scenario.string() +
                                " --out " + out.string() + " --frames 1 --rows geometry");
