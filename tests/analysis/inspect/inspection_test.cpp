@@ -130,6 +130,9 @@ TEST(Inspect, FindsPosesThatJump) {
     frames[i].frame.stamp_ns = static_cast<std::int64_t>(i + 1) * 100'000'000;
     frames[i].frame.world_from_sensor.translation().x() =
         i < 3 ? 2.0 * static_cast<double>(i) : 500.0;
+    // Few points, since clouds of a made scan take long to be laid on one another.
+    std::vector<float>& x_m = frames[i].frame.x;
+    for (std::size_t k = 0; k < x_m.size(); ++k) x_m[k] = k % 20 == 0 ? x_m[k] : kNaN;
   }
   const std::string text = TextOf(LookAt(std::move(frames)));
   EXPECT_THAT(text, testing::ContainsRegex("highest speed from frame to frame +4960 m/s +a jump"));

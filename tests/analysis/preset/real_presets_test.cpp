@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include "analysis/preset/preset_comparison.h"
 #include "analysis/stats/bins.h"
@@ -52,6 +54,17 @@ PresetComparison Compare(const Gate& gate, const ScenarioSpec& scenario) {
   return ComparePreset(*recording, scenario, gate.sectors);
 }
 
+/// The comparison with the preset itself, made when it is first asked for.
+const PresetComparison& OfPreset(const Gate& gate) {
+  static std::map<std::pair<std::string, Sectors>, PresetComparison> compared;
+  const std::pair key(gate.sensor, gate.sectors);
+  auto found = compared.find(key);
+  if (found == compared.end()) {
+    found = compared.emplace(key, Compare(gate, PresetScenario(gate.sensor))).first;
+  }
+  return found->second;
+}
+
 std::uint64_t NumFirings(const PlaneFigures& figures) {
   Holes::Count all;
   for (const Holes::Count& count : figures.firings) all.Add(count);
@@ -64,7 +77,7 @@ class RealPreset : public testing::TestWithParam<Gate> {};
 TEST_P(RealPreset, MeasuresItsSensorsPlanesAsTheSensorDid) {
   const Gate& gate = GetParam();
   if (const std::string why = WhyNoCapture(gate); !why.empty()) GTEST_SKIP() << why;
-  const PresetComparison comparison = Compare(gate, PresetScenario(gate.sensor));
+  const PresetComparison& comparison = OfPreset(gate);
   const auto num_cells = static_cast<double>(LikePieces(comparison.intensity).size());
   const double holes = comparison.simulated.HoleShare();
   std::cout << gate << ": points " << comparison.PointsError() << ", intensity "
@@ -161,7 +174,7 @@ double NumFarPoints(const PlaneFigures& figures) {
 TEST(RealVls128, SeesTheRoadByTheEnergyOfThePulseWhosePeakWouldNotSuffice) {
   if (const std::string why = WhyNoCapture(kOddVls128); !why.empty()) GTEST_SKIP() << why;
   ScenarioSpec scenario = PresetScenario("vls128");
-  const PresetComparison by_energy = Compare(kOddVls128, scenario);
+  const PresetComparison& by_energy = OfPreset(kOddVls128);
   scenario.lidar.receiver.signal = EchoSignal::kPeak;
   const PresetComparison by_peak = Compare(kOddVls128, scenario);
   const double num_seen = NumFarPoints(by_energy.recorded);
@@ -175,7 +188,7 @@ TEST(RealVls128, SeesTheRoadByTheEnergyOfThePulseWhosePeakWouldNotSuffice) {
 // The law of incidence: no power of range is left in the intensities of the ground.
 TEST(RealVls128, HasIntensitiesOfTheGroundThatLeaveNoPowerOfRange) {
   if (const std::string why = WhyNoCapture(kOddVls128); !why.empty()) GTEST_SKIP() << why;
-  const PresetComparison comparison = Compare(kOddVls128, PresetScenario("vls128"));
+  const PresetComparison& comparison = OfPreset(kOddVls128);
   const Estimate left = RangeExponentLeft(comparison.intensity);
   std::cout << "power of range left: " << left.value << " [" << left.low << ", " << left.high
             << "] of " << left.num << '\n';
@@ -187,7 +200,7 @@ TEST(RealVls128, HasIntensitiesOfTheGroundThatLeaveNoPowerOfRange) {
 // tells whether the noise grows with the signal-to-noise ratio as the formula says.
 TEST(RealVls128, HasTheNoiseOfItsSignalOnAFarWallThatWasNotFitted) {
   if (const std::string why = WhyNoCapture(kOddVls128); !why.empty()) GTEST_SKIP() << why;
-  const PresetComparison comparison = Compare(kOddVls128, PresetScenario("vls128"));
+  const PresetComparison& comparison = OfPreset(kOddVls128);
   const auto bin = RangeBins().Find(171.0);
   const double recorded_m = comparison.recorded.temporal.bins()[*bin].RobustSigma_m().value;
   const double simulated_m = comparison.simulated.temporal.bins()[*bin].RobustSigma_m().value;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <memory>
+
 #include "analysis/study/kept_files.h"
 #include "core/base/input_file.h"
 #include "core/io/content_hash.h"
@@ -12,27 +15,40 @@
 namespace railcast {
 namespace {
 
+/// Makes a study, or a shard of it, and keeps its files.
+void MakeKeptStudy(const std::filesystem::path& folder, const Shard& shard) {
+  const TemporaryDirectory project;
+  const StudySpec spec = ReadStudy(WriteStudy(project.path(), StudiedRecipe(6)));
+  const Recipe recipe = ReadStudyRecipe(spec);
+  const ScenarioDrawer drawer(recipe);
+  StudyChoices choices;
+  choices.directory = folder;
+  choices.shard = shard;
+  const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
+  const std::vector<Observation> observations = ObservationsOf(result.approaches);
+  KeepFiles(spec, drawer, {}, SampleOf(observations), folder);
+}
+
 class FinishedStudies : public testing::Test {
  protected:
+  static void TearDownTestSuite() { made_.reset(); }
   [[nodiscard]] std::filesystem::path folder() const { return directory_.path() / "made"; }
 
-  /// Makes a study, or a shard of it, and keeps its files.
-  void Make(const Shard& shard = {}) const {
-    const StudySpec spec = ReadStudy(WriteStudy(directory_.path(), StudiedRecipe(6)));
-    const Recipe recipe = ReadStudyRecipe(spec);
-    const ScenarioDrawer drawer(recipe);
-    StudyChoices choices;
-    choices.directory = folder();
-    choices.shard = shard;
-    const StudyResult result = RunStudy(spec, drawer, choices, NoStudyHooks());
-    const std::vector<Observation> observations = ObservationsOf(result.approaches);
-    KeepFiles(spec, drawer, {}, SampleOf(observations), folder());
+  /// The study is made once, and each test has a copy.
+  void Make() const {
+    if (!made_) {
+      made_ = std::make_unique<TemporaryDirectory>();
+      MakeKeptStudy(made_->path() / "made", {});
+    }
+    std::filesystem::copy(made_->path() / "made", folder(),
+                          std::filesystem::copy_options::recursive);
   }
   [[nodiscard]] std::string MessageOfReading() const {
     return MessageOf([&] { static_cast<void>(ReadFinishedStudy(folder())); });
   }
 
  private:
+  static inline std::unique_ptr<TemporaryDirectory> made_;
   TemporaryDirectory directory_;
 };
 
@@ -95,7 +111,7 @@ TEST_F(FinishedStudies, AreRefusedWhereApproachesAreMissing) {
 }
 
 TEST_F(FinishedStudies, AreRefusedIfTheyAreShards) {
-  Make({.number = 2, .of = 3});
+  MakeKeptStudy(folder(), {.number = 2, .of = 3});
   EXPECT_EQ(MessageOfReading(), (folder() / "study.json").string() +
                                     ": /shard: must be absent: railcast-analyze study --shards "
                                     "joins shards (got \"2/3\")");
