@@ -25,30 +25,27 @@ constexpr const char* kVehicle =
     R"("vehicle": {"start_s_m": 400, "motion": {"profile": )"
     R"([{"time_s": 0, "speed_mps": 10}]}}, )";
 
-/// 40 frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first.
+/// Frames of an approach at 10 m/s towards a box that is 79 m ahead of the sensor at first.
 std::filesystem::path MakeApproach(const TemporaryFolder& folder,
                                    const std::string& name,
-                                   const std::string& options,
-                                   const std::string& fidelity = "geometry") {
+                                   const std::string& options = "--frames 40 --fidelity geometry") {
   const std::string scenarios = ScenariosDir().string();
-  const auto scenario = folder.Write(
-      name + ".json",
-      std::string("{\"version\": 1, ") + kVehicle + R"("lidar": {"scan": {"rate_hz": 10, )" +
-          R"("pattern": {"type": "raster", )" + R"("horizontal_fov_deg": 20, )" +
-          R"("vertical_fov_deg": 20, )" + R"("angular_resolution_deg": 0.5}}}, )" +
-          R"("materials": ")" + scenarios + R"(/materials/railway.json", "labels": ")" + scenarios +
-          R"(/labels.json"})");
-  auto out = scenario.parent_path() / name;
-  const Ended run =
-      RunCommand(RAILCAST_GENERATE " sequence " + scenario.string() + " --out " + out.string() +
-                 " --frames 40 --fields x,y,z,label --fidelity " + fidelity + " " + options);
-  if (run.status != 0) throw std::runtime_error(run.said);
+  static const TemporaryFolder kept;
+  const auto scenario =
+      kept.Write("approach.json",
+                 std::string("{\"version\": 1, ") + kVehicle +
+                     R"("lidar": {"scan": {"rate_hz": 10, )" + R"("pattern": {"type": "raster", )" +
+                     R"("horizontal_fov_deg": 20, )" + R"("vertical_fov_deg": 20, )" +
+                     R"("angular_resolution_deg": 0.5}}}, )" + R"("materials": ")" + scenarios +
+                     R"(/materials/railway.json", "labels": ")" + scenarios + R"(/labels.json"})");
+  auto out = folder.Write("here", "").parent_path() / name;
+  GenerateOnce("sequence " + scenario.string() + " --fields x,y,z,label " + options, out);
   return out;
 }
 
 TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
   const TemporaryFolder folder;
-  const auto run = MakeApproach(folder, "run", "");
+  const auto run = MakeApproach(folder, "run");
   const auto out = run.parent_path() / "report";
   const Ended ended =
       Analyze("detect " + run.string() + " --points 20 --frames 2/3 --out " + out.string());
@@ -94,7 +91,7 @@ TEST(DetectCommand, FindsWhereABoxIsFirstSeenByTwentyBeams) {
 // The scene, the box with at most 19 points of its colour, and the box with 20 or more.
 TEST(DetectCommand, ShowsWhatWasSeenOfABox) {
   const TemporaryFolder folder;
-  const auto run = MakeApproach(folder, "run", "");
+  const auto run = MakeApproach(folder, "run");
   const auto out = run.parent_path() / "report";
   const Ended ended =
       Analyze("detect " + run.string() + " --points 20 --frames 1/1 --out " + out.string());
@@ -131,7 +128,7 @@ TEST(DetectCommand, ShowsWhatWasSeenOfABox) {
 TEST(DetectCommand, SaysWhichRungMadeTheFrames) {
   const TemporaryFolder folder;
   const auto detect = [&](const std::string& fidelity) {
-    const auto run = MakeApproach(folder, fidelity, "", fidelity);
+    const auto run = MakeApproach(folder, fidelity, "--frames 3 --fidelity " + fidelity);
     return Analyze("detect " + run.string() + " --format text").said;
   };
   EXPECT_THAT(detect("surface"), testing::AllOf(HasSubstr("surface: one ray per beam"),
@@ -146,8 +143,8 @@ TEST(DetectCommand, SaysWhichRungMadeTheFrames) {
 
 TEST(DetectCommand, RefusesWhatIsNoSetOfRuns) {
   const TemporaryFolder folder;
-  const auto one = MakeApproach(folder, "one", "--seed 1");
-  const auto same = MakeApproach(folder, "same", "--seed 1");
+  const auto one = MakeApproach(folder, "one", "--frames 3 --fidelity geometry");
+  const auto same = MakeApproach(folder, "same", "--frames 3 --fidelity geometry");
   const Ended twice = Analyze("detect " + one.string() + " " + same.string() + " --format text");
   EXPECT_EQ(twice.status, 1);
   EXPECT_EQ(twice.said,
