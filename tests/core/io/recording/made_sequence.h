@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,21 @@ inline std::string MadeScenario(const MadeSequenceSpec& spec) {
          R"(materials/railway.json", "labels": ")" + folder + "labels.json\"}\n";
 }
 
+/// The frames of a scenario that a program has needed so far, by number: each is simulated once,
+/// however often it is written.
+inline const std::map<std::uint32_t, Frame>& ScannedFrames(const ScenarioSpec& scenario,
+                                                           const MadeSequenceSpec& made) {
+  static std::map<std::string, std::map<std::uint32_t, Frame>> frames_by_scenario;
+  std::map<std::uint32_t, Frame>& frames = frames_by_scenario[MadeScenario(made)];
+  std::unique_ptr<Simulator> simulator;
+  for (std::uint32_t i = made.start_frame; i < made.start_frame + made.num_frames; ++i) {
+    if (frames.contains(i)) continue;
+    if (simulator == nullptr) simulator = MakeSimulator(scenario, 1);
+    simulator->Scan(i, frames[i]);
+  }
+  return frames;
+}
+
 /// Writes a sequence of that scenario as railcast-generate would.
 /// @param directory Must not exist.
 inline MadeSequence MakeSequence(const std::filesystem::path& directory,
@@ -68,9 +85,9 @@ inline MadeSequence MakeSequence(const std::filesystem::path& directory,
   spec.materials = MaterialLibrary(result.scenario.materials);
   spec.start_frame = made.start_frame;
   spec.num_frames = made.num_frames;
-  const auto simulator = MakeSimulator(result.scenario, 1);
+  const std::map<std::uint32_t, Frame>& frames = ScannedFrames(result.scenario, made);
   const auto make = [&](std::uint32_t index, MadeFrame& to) {
-    simulator->Scan(index, to.frame);
+    to.frame = frames.at(index);
     ObjectInFrame wagon{"wagon", "open_wagon", "wagon", 1};
     wagon.size_m = Vector3(14.0, 3.0, 3.4);
     wagon.world_from_box = to.frame.world_from_sensor;
