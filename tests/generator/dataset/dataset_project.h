@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/io/content_hash.h"
+#include "core/io/write_file.h"
 #include "generator/dataset/run_dataset.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/core/recipe/recipe_project.h"
 
 namespace railcast {
@@ -51,6 +54,24 @@ inline DatasetChoices OnOneThread(const std::filesystem::path& directory, const 
   choices.num_threads = 1;
   choices.shard = shard;
   return choices;
+}
+
+/// Makes a data set in a new folder; a program makes it once for each text of a recipe, and copies
+/// it from then on.
+inline DatasetResult MakeOnce(const Recipe& recipe, const DatasetChoices& choices) {
+  static const TemporaryDirectory folder;
+  static std::map<std::string, DatasetResult> results;
+  const std::string name =
+      ContentHash(ReadFileWhole(recipe.file) + choices.format + " " +
+                  std::to_string(choices.shard.number) + "/" + std::to_string(choices.shard.of));
+  const std::filesystem::path made = folder.path() / name;
+  if (!results.contains(name)) {
+    DatasetChoices there = choices;
+    there.directory = made;
+    results[name] = RunDataset(recipe, there, NoDatasetHooks());
+  }
+  std::filesystem::copy(made, choices.directory, std::filesystem::copy_options::recursive);
+  return results[name];
 }
 
 /// Makes such a data set.

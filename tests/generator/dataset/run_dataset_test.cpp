@@ -64,7 +64,7 @@ TEST_F(RunDatasetTest, TellsWhatAnEarlierRunDid) {
 }
 
 TEST_F(RunDatasetTest, IndexAndReportAgree) {
-  (void)MakeDataset(recipe_, Path("set"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
   std::istringstream lines(ReadFileWhole(Path("set/index.jsonl")));
   std::int64_t num_frames = 0;
   std::int64_t num_points = 0;
@@ -89,7 +89,7 @@ TEST_F(RunDatasetTest, IndexAndReportAgree) {
 }
 
 TEST_F(RunDatasetTest, SplitsNameEachScenarioOnce) {
-  (void)MakeDataset(recipe_, Path("set"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
   std::string all;
   for (const char* const split : {"train", "val", "test"}) {
     all += ReadFileWhole(Path("set/split") / (std::string(split) + ".txt"));
@@ -102,7 +102,7 @@ TEST_F(RunDatasetTest, SplitsNameEachScenarioOnce) {
 }
 
 TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
-  (void)MakeDataset(recipe_, Path("whole"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("whole")));
   for (const std::uint32_t num : {2U, 9U}) {
     std::vector<fs::path> shards;
     for (std::uint32_t i = num; i > 0; --i) {
@@ -116,7 +116,7 @@ TEST_F(RunDatasetTest, MergedShardsHaveTheBytesOfOneRun) {
 }
 
 TEST_F(RunDatasetTest, AnyNumberOfThreadsGivesTheSameBytes) {
-  (void)MakeDataset(recipe_, Path("1"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("1")));
   for (const int num_threads : {2, 4, 0}) {
     DatasetChoices choices = OnOneThread(Path("threads_" + std::to_string(num_threads)));
     choices.num_threads = num_threads;
@@ -126,7 +126,7 @@ TEST_F(RunDatasetTest, AnyNumberOfThreadsGivesTheSameBytes) {
 }
 
 TEST_F(RunDatasetTest, AStoppedRunOnThreeThreadsContinuesOnOneWithTheSameBytes) {
-  (void)MakeDataset(recipe_, Path("whole"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("whole")));
   for (const int after : {3, 9, 15}) {
     std::atomic<int> num_asked = 0;
     const DatasetHooks hooks = {NoDatasetHooks().on_progress, [&] { return ++num_asked > after; }};
@@ -140,8 +140,8 @@ TEST_F(RunDatasetTest, AStoppedRunOnThreeThreadsContinuesOnOneWithTheSameBytes) 
 }
 
 TEST_F(RunDatasetTest, MergingContinuesWhereItWasInterrupted) {
-  (void)MakeDataset(recipe_, Path("a"), {1, 2});
-  (void)MakeDataset(recipe_, Path("b"), {2, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("a"), {1, 2}));
+  (void)MakeOnce(recipe_, OnOneThread(Path("b"), {2, 2}));
   (void)MergeShards({Path("a"), Path("b")}, Path("merged"), NoProgress);
   const auto whole = FilesOfDataset(Path("merged"));
   const std::string& lines = whole.at("scenarios.jsonl");
@@ -161,8 +161,8 @@ TEST_F(RunDatasetTest, MergingContinuesWhereItWasInterrupted) {
 }
 
 TEST_F(RunDatasetTest, MergingNeedsAllShardsOfOneDataSet) {
-  (void)MakeDataset(recipe_, Path("a"), {1, 3});
-  (void)MakeDataset(recipe_, Path("b"), {3, 3});
+  (void)MakeOnce(recipe_, OnOneThread(Path("a"), {1, 3}));
+  (void)MakeOnce(recipe_, OnOneThread(Path("b"), {3, 3}));
   const auto message = [&](const std::vector<fs::path>& shards) {
     return MessageOf([&] { (void)MergeShards(shards, Path("merged"), NoProgress); });
   };
@@ -179,7 +179,7 @@ TEST_F(RunDatasetTest, MergingNeedsAllShardsOfOneDataSet) {
 }
 
 TEST_F(RunDatasetTest, MergingNeedsFinishedShards) {
-  (void)MakeDataset(recipe_, Path("a"), {1, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("a"), {1, 2}));
   const DatasetHooks hooks = {NoDatasetHooks().on_progress, [] { return true; }};
   (void)RunDataset(recipe_, OnOneThread(Path("b"), {2, 2}), hooks);
   EXPECT_EQ(MessageOf([&] {
@@ -190,7 +190,7 @@ TEST_F(RunDatasetTest, MergingNeedsFinishedShards) {
 }
 
 TEST_F(RunDatasetTest, AStoppedRunContinuesWithTheSameBytes) {
-  (void)MakeDataset(recipe_, Path("whole"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("whole")));
   for (const int after : {1, 6, 11, 16}) {
     const fs::path stopped = Path("stopped_" + std::to_string(after));
     std::atomic<int> num_asked = 0;
@@ -209,7 +209,7 @@ TEST_F(RunDatasetTest, LeavesOtherFoldersAlone) {
   WriteFileWhole(Path("note.txt"), "mine");
   EXPECT_THAT(MessageOf([&] { (void)MakeDataset(recipe_, directory_.path()); }),
               HasSubstr("--out: must be a new or an empty folder, or that of a data set"));
-  (void)MakeDataset(recipe_, Path("set"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
   nlohmann::json other = ProjectRecipe();
   other["num_frames"] = 4;
   const Recipe changed = ReadProjectRecipe(directory_.path() / "project", other);
@@ -231,7 +231,7 @@ TEST_F(RunDatasetTest, LeavesAStrangersUnfinishedFileAlone) {
 }
 
 TEST_F(RunDatasetTest, ContinuesARunThatWasKilledWhileItBegan) {
-  (void)MakeDataset(recipe_, Path("whole"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("whole")));
   const std::string text = ReadFileWhole(Path("whole/dataset.json"));
   fs::create_directories(Path("killed"));
   WriteFileWhole(Path("half"), text.substr(0, text.size() / 2));
@@ -241,7 +241,7 @@ TEST_F(RunDatasetTest, ContinuesARunThatWasKilledWhileItBegan) {
 }
 
 TEST_F(RunDatasetTest, MendsALineThatWasChangedSinceItWasComplete) {
-  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("set"), {1, 2}));
   const auto whole = FilesOfDataset(Path("set"));
   const fs::path file = Path("set/scenarios.jsonl");
   std::string lines = ReadFileWhole(file);
@@ -253,8 +253,8 @@ TEST_F(RunDatasetTest, MendsALineThatWasChangedSinceItWasComplete) {
 }
 
 TEST_F(RunDatasetTest, MakesAnUnfinishedScenarioWhoseLineWasChangedAnew) {
-  (void)MakeDataset(recipe_, Path("whole"), {1, 2});
-  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("whole"), {1, 2}));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set"), {1, 2}));
   fs::remove(Path("set/manifest.json"));
   std::string lines = ReadFileWhole(Path("set/scenarios.jsonl"));
   lines.replace(lines.find("\"points\":"), 9, "\"points\":1");
@@ -295,7 +295,7 @@ const std::vector<Damage>& Damages() {
 
 // docs/files.md: what was changed is named and made anew.
 TEST_F(RunDatasetTest, NamesWhatIsDamagedAndMendsIt) {
-  (void)MakeDataset(recipe_, Path("set"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
   const auto whole = FilesOfDataset(Path("set"));
   for (const Damage& damage : Damages()) {
     SCOPED_TRACE(damage.name);
@@ -312,7 +312,7 @@ TEST_F(RunDatasetTest, NamesWhatIsDamagedAndMendsIt) {
 }
 
 TEST_F(RunDatasetTest, LeavesAStrangersFileInAScenarioAloneWhenItMends) {
-  (void)MakeDataset(recipe_, Path("set"));
+  (void)MakeOnce(recipe_, OnOneThread(Path("set")));
   const fs::path letter = Path("set/sequences/000/000003/letter.txt");
   WriteFileWhole(letter, "dear");
   fs::remove(Path("set/manifest.json"));
@@ -322,8 +322,8 @@ TEST_F(RunDatasetTest, LeavesAStrangersFileInAScenarioAloneWhenItMends) {
 }
 
 TEST_F(RunDatasetTest, MergingMendsWhatIsDamaged) {
-  (void)MakeDataset(recipe_, Path("a"), {1, 2});
-  (void)MakeDataset(recipe_, Path("b"), {2, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("a"), {1, 2}));
+  (void)MakeOnce(recipe_, OnOneThread(Path("b"), {2, 2}));
   const auto merge = [&] { (void)MergeShards({Path("a"), Path("b")}, Path("set"), NoProgress); };
   merge();
   const auto whole = FilesOfDataset(Path("set"));
@@ -336,7 +336,7 @@ TEST_F(RunDatasetTest, MergingMendsWhatIsDamaged) {
 }
 
 TEST_F(RunDatasetTest, MergingLeavesAStrangersFileAlone) {
-  (void)MakeDataset(recipe_, Path("a"), {1, 1});
+  (void)MakeOnce(recipe_, OnOneThread(Path("a"), {1, 1}));
   const auto merge = [&] { (void)MergeShards({Path("a")}, Path("set"), NoProgress); };
   merge();
   const fs::path letter = Path("set/sequences/000/000002/letter.txt");
@@ -347,7 +347,7 @@ TEST_F(RunDatasetTest, MergingLeavesAStrangersFileAlone) {
 }
 
 TEST_F(RunDatasetTest, NoticesAChangedBase) {
-  (void)MakeDataset(recipe_, Path("set"), {1, 2});
+  (void)MakeOnce(recipe_, OnOneThread(Path("set"), {1, 2}));
   const fs::path base = directory_.path() / "project/scenario.json";
   std::string text = ReadFileWhole(base);
   text.replace(text.find("\"start_s_m\": 400"), 16, "\"start_s_m\": 401");
