@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <cmath>
 #include <cstring>
@@ -67,6 +68,14 @@ class Stream {
  private:
   std::future<Ended> run_;
 };
+
+/// What makes the shell note a stream's process in a file, and wait for it.
+inline std::string NotedIn(const std::filesystem::path& pid_file) {
+  return " & echo $! > " + pid_file.string() + "; wait $!; exit $?";
+}
+inline void Interrupt(const std::filesystem::path& pid_file) {
+  ::kill(std::stoi(ReadFileWhole(pid_file)), SIGINT);
+}
 
 /// A controller that drives a vehicle in lockstep.
 class Controller {

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <filesystem>
 #include <string>
@@ -88,10 +87,9 @@ TEST(Stream, EndsInOrderOnASignal) {
   const std::string scenario = CoarseScenario(folder.path());
   StreamReceiver receiver(kAnyLoopbackPort);
   const auto pid_file = folder.path() / "pid";
-  Stream stream(scenario + " --to " + EndpointText(receiver.at()) + " & echo $! > " +
-                pid_file.string() + "; wait $!; exit $?");
+  Stream stream(scenario + " --to " + EndpointText(receiver.at()) + NotedIn(pid_file));
   ASSERT_TRUE(receiver.Next(kPatience_ms).has_value());
-  ::kill(std::stoi(ReadFileWhole(pid_file)), SIGINT);
+  Interrupt(pid_file);
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_NE(ended.said.find(" late; "), std::string::npos) << ended.said;

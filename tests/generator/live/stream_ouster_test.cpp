@@ -99,8 +99,9 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   const std::string scenario = OusterScenario(folder.path(), "RNG19_RFL8_SIG16_NIR16");
   UdpReceiver receiver(kAnyLoopbackPort);
   const std::string port = FreePort();
-  Stream stream(scenario + " --duration 4 --http 127.0.0.1:" + port + " --to " +
-                EndpointText(receiver.at()));
+  const auto pid_file = folder.path() / "pid";
+  Stream stream(scenario + " --http 127.0.0.1:" + port + " --to " + EndpointText(receiver.at()) +
+                NotedIn(pid_file));
   const auto first = receiver.Receive(kPatience_ms);
   ASSERT_TRUE(first.has_value());
   const std::vector<char> packet(first->bytes.begin(), first->bytes.end());
@@ -117,6 +118,7 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   OusterDecoder decoder(ParseOusterMetadata(asked.said));
   std::vector<SensorTurn> turns;
   EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
+  Interrupt(pid_file);
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_NE(ended.said.find("HTTP at 127.0.0.1:" + port), std::string::npos) << ended.said;
@@ -130,8 +132,9 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
   const std::string scenario = OusterScenario(folder.path(), "RNG19_RFL8_SIG16_NIR16");
   UdpReceiver receiver(*ipv6);
   const std::string port = FreePort();
-  Stream stream(scenario + " --duration 3 --clock tai --http '[::1]:" + port + "' --to " +
-                EndpointText(receiver.at()));
+  const auto pid_file = folder.path() / "pid";
+  Stream stream(scenario + " --clock tai --http '[::1]:" + port + "' --to " +
+                EndpointText(receiver.at()) + NotedIn(pid_file));
   const auto first = receiver.Receive(kPatience_ms);
   ASSERT_TRUE(first.has_value());
   const std::vector<char> packet(first->bytes.begin(), first->bytes.end());
@@ -152,6 +155,7 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
                          std::chrono::duration<double>(now).count();
   EXPECT_LE(ahead_s, 37.0);
   EXPECT_GT(ahead_s, 37.0 - 30.0);
+  Interrupt(pid_file);
   const Ended ended = stream.Wait();
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_NE(ended.said.find("HTTP at [::1]:" + port), std::string::npos) << ended.said;

@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
@@ -231,11 +230,10 @@ TEST(ReplayCommand, EndsInOrderOnASignal) {
       MadeRun(ReplayedScenario(folder.path()), folder.path() / "run", "--frames 4");
   StreamReceiver receiver(kAnyLoopbackPort);
   const fs::path pid_file = folder.path() / "pid";
-  auto replay =
-      Replaying(run.string() + " --rate 0.05 --pacing burst --to " + EndpointText(receiver.at()) +
-                " & echo $! > " + pid_file.string() + "; wait $!; exit $?");
+  auto replay = Replaying(run.string() + " --rate 0.05 --pacing burst --to " +
+                          EndpointText(receiver.at()) + NotedIn(pid_file));
   ASSERT_TRUE(receiver.Next(kPatience_ms));
-  ::kill(std::stoi(ReadFileWhole(pid_file)), SIGINT);
+  Interrupt(pid_file);
   const Ended ended = replay.get();
   EXPECT_EQ(ended.status, 0) << ended.said;
   EXPECT_THAT(ended.said, testing::HasSubstr(" late; "));
