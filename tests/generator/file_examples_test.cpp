@@ -37,6 +37,7 @@ std::string CurveWithTraffic(const std::string& output, bool moves) {
       "alignment": {"course": {"type": "elements", "elements": [
         {"type": "arc", "length_m": 2000, "radius_m": 900}]}},
       "tracks": [{"name": "main"}, {"name": "second", "offset_m": 4.0}],
+      "vegetation": {"trees_per_hectare": 0, "grass": false},
       "objects": [
         {"name": "parked", "type": "open_wagon", "s_m": 1080, "d_m": -4.5},
         {"name": "ahead", "type": "flat_wagon", "s_m": 1040, )" +
