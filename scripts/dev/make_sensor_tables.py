@@ -10,11 +10,12 @@ scenarios/sensors/README.md names the source of every other figure.
 """
 
 import csv
+import hashlib
 import json
 import math
 import pathlib
 import re
-import shutil
+import struct
 import sys
 
 # Pandar64: microseconds from the firing of channels 1 to 64 to the end of their block (Hesai,
@@ -232,9 +233,24 @@ QT128 = [
 ]
 
 
-def write_at128(path, correction, detection):
-    """The sensor whose firings are those of a unit's correction file, which lies beside it."""
-    shutil.copyfile(correction, path.with_suffix(".dat"))
+def at128_correction():
+    """A correction file without the deviations of a unit, as core/scan/at128_correction.cpp reads it: lasers 0.2 deg apart
+    that look 2.4 and 0.65 deg to either side in turn, 16 and 16 (tier4/nebula, PandarAT128.csv), fields 120 deg apart,
+    and no shifts."""
+    steps_per_deg = 25600 // 2
+    starts = [20 + 120 * field for field in range(3)]
+    azimuths = [(-1 if i // 16 % 2 == 0 else 1) * (2.4 if i % 2 == 0 else -0.65) for i in range(128)]
+    elevations = [12.93 - 0.2 * i for i in range(128)]
+    head = bytes([0xEE, 0xFF, 1, 5, 128, 3, 3, 1, 2, 4, 0, 0, 0, 0, 0, 2])
+    angles = struct.pack("<262i", *(round(steps_per_deg * angle)
+                                    for angle in [*starts, *starts[1:], starts[0], *azimuths, *elevations]))
+    body = head + angles + bytes(2 * 128 * 180)
+    return body + hashlib.sha256(body).digest()
+
+
+def write_at128(path, detection):
+    """The sensor whose firings are those of a correction file, which lies beside it."""
+    path.with_suffix(".dat").write_bytes(at128_correction())
     pattern = {"type": "table", "file": path.with_suffix(".dat").name, "frames": 3}
     section = {"version": 1, "name": "AT128", "scan": {"rate_hz": 10, "pattern": pattern}}
     path.write_text(json.dumps({**section, **detection}, indent=2) + "\n")
@@ -305,8 +321,7 @@ def main():
     write_sensor(out / "xt32m.json", "XT32M", hesai_lasers(hesai / "PandarXT32M.csv"),
                  [2.888 * (i % 16) for i in range(32)], 50.0, 2000,
                  detection(0.5, 300.0, 80.0, 0.005, [3.0, 1.5], *XT32), turned_us=6.0)
-    write_at128(out / "at128.json", hesai / "PandarAT128.dat",
-                detection(1.0, 180.0, 200.0, 0.01, [3.0, 1.5]))
+    write_at128(out / "at128.json", detection(1.0, 180.0, 200.0, 0.01, [3.0, 1.5]))
 
 
 if __name__ == "__main__":
