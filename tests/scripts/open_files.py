@@ -2,6 +2,7 @@
 
 import ast
 import csv
+import hashlib
 import html.parser
 import json
 import math
@@ -32,6 +33,11 @@ def open_html(data):
     parser.feed(data.decode())
     parser.close()
     check(data.rstrip().endswith(b"</html>"), "must end")
+
+
+def open_correction(data):
+    """The correction file of an AT128, which ends with the SHA-256 of the rest."""
+    check(data.startswith(b"\xEE\xFF") and hashlib.sha256(data[:-32]).digest() == data[-32:], "must be a whole file of angles")
 
 
 def open_png(data):
@@ -141,7 +147,7 @@ def open_something(data):
 OPENERS = {".json": json.loads, ".jsonl": lambda data: [json.loads(line) for line in data.splitlines()],
            ".csv": open_rows, ".html": open_html, ".svg": xml.etree.ElementTree.fromstring, ".png": open_png,
            ".xml": xml.etree.ElementTree.fromstring, ".pdf": open_pdf, ".pcd": open_pcd, ".ply": open_ply,
-           ".pcap": open_pcap,
+           ".pcap": open_pcap, ".dat": open_correction,
            ".mcap": open_mcap, ".osi": open_trace, ".glb": open_glb, ".sqlite": open_database, ".db3": open_database,
            ".npy": open_array, ".bin": open_words(16), ".label": open_words(4), ".md": bytes.decode, ".txt": bytes.decode,
            ".yaml": bytes.decode, ".obj": bytes.decode, ".gnuplot": bytes.decode, ".survey": open_something}
