@@ -29,12 +29,29 @@ FidelityChoice Choose(const ScenarioSpec& scenario, int num_threads = 0) {
 
 const char* const kSideways = R"({"position_m": [0, 0, 6], "yaw_deg": 90, "pitch_deg": 35})";
 
+const char* const kAnythingGoes = R"("tolerance": {"range_m": 100, "missed_share": 1,
+    "false_share": 1, "thin_missed_share": 1, "intensity": 1000},)";
+
+// Choices that several tests look at.
+const FidelityChoice& OnTheLine() {
+  static const FidelityChoice choice = Choose(ReadLine({}), 2);
+  return choice;
+}
+const FidelityChoice& OnABarePlain() {
+  static const FidelityChoice choice = Choose(ReadLine({.has_wires = false, .mount = kSideways}));
+  return choice;
+}
+const FidelityChoice& WhereAnythingGoes() {
+  static const FidelityChoice choice = Choose(ReadLine({.more = kAnythingGoes}));
+  return choice;
+}
+
 TEST(ChooseFidelity, KeepsThinConductorsWhereThereAreWires) {
-  EXPECT_TRUE(Choose(ReadLine({})).effects.thin_conductors);
+  EXPECT_TRUE(OnTheLine().effects.thin_conductors);
 }
 
 TEST(ChooseFidelity, LeavesOutTheFootprintOnABarePlainFarFromEdges) {
-  const FidelityChoice choice = Choose(ReadLine({.has_wires = false, .mount = kSideways}));
+  const FidelityChoice& choice = OnABarePlain();
   EXPECT_FALSE(choice.effects.footprint);
   EXPECT_TRUE(choice.is_within_tolerance);
 }
@@ -53,11 +70,8 @@ TEST(ChooseFidelity, KeepsAllThatMattersAtNoTolerance) {
   }
 }
 
-const char* const kAnythingGoes = R"("tolerance": {"range_m": 100, "missed_share": 1,
-    "false_share": 1, "thin_missed_share": 1, "intensity": 1000},)";
-
 TEST(ChooseFidelity, LeavesOutTheDearestIfAnythingGoes) {
-  const FidelityChoice choice = Choose(ReadLine({.more = kAnythingGoes}));
+  const FidelityChoice& choice = WhereAnythingGoes();
   EXPECT_FALSE(choice.effects.footprint);
   EXPECT_LT(choice.instructions, choice.full_instructions);
   EXPECT_TRUE(choice.is_within_tolerance);
@@ -66,7 +80,7 @@ TEST(ChooseFidelity, LeavesOutTheDearestIfAnythingGoes) {
 // It would save 35 of 39,000 instructions, or of 4,000 where the user has switched the footprint
 // off. Far away, where the sensor sees nothing, everything would then return.
 TEST(ChooseFidelity, NeverLeavesOutTheThreshold) {
-  EXPECT_TRUE(Choose(ReadLine({.more = kAnythingGoes})).effects.detection);
+  EXPECT_TRUE(WhereAnythingGoes().effects.detection);
   const FidelityChoice choice = Choose(
       ReadLine({.more = std::string(R"("effects": {"footprint": false},)") + kAnythingGoes}));
   EXPECT_TRUE(choice.effects.detection);
@@ -86,7 +100,7 @@ TEST(ChooseFidelity, KeepsWhatSavesLessThanOnePercent) {
 // Stakes of 3 cm beside the track, from 4.4 s after the start on: a ray meets one now and then.
 TEST(ChooseFidelity, SeesWhatComesLater) {
   Line line{.has_wires = false, .mount = kSideways};
-  EXPECT_FALSE(Choose(ReadLine(line)).effects.footprint);
+  EXPECT_FALSE(OnABarePlain().effects.footprint);
   line.objects = "[";
   for (int i = 0; i < 4; ++i) {
     line.objects += std::string(i == 0 ? "" : ", ") + R"({"name": "stake )" + std::to_string(i) +
@@ -145,13 +159,11 @@ TEST(ChooseFidelity, LeavesTheUsersSwitchesAlone) {
 }
 
 TEST(ChooseFidelity, IsTheSameAtAnyNumberOfThreads) {
-  const ScenarioSpec scenario = ReadLine({});
-  const ToleranceSpec tolerance;
-  EXPECT_EQ(ChoiceJson(Choose(scenario, 1)), ChoiceJson(Choose(scenario, 2)));
+  EXPECT_EQ(ChoiceJson(Choose(ReadLine({}), 1)), ChoiceJson(OnTheLine()));
 }
 
 TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
-  const FidelityChoice choice = Choose(ReadLine({.has_wires = false, .mount = kSideways}));
+  const FidelityChoice& choice = OnABarePlain();
   ASSERT_EQ(choice.held_back.size(), 3U);
   for (const FidelityChoice::HeldBack& held : choice.held_back) {
     EXPECT_THAT(choice.sample_frames, Not(Contains(held.frame)));
@@ -160,10 +172,10 @@ TEST(ChooseFidelity, IsNotMadeOnTheFramesItIsCheckedWith) {
 }
 
 TEST(ChooseFidelity, SaysWhichSceneDetailHolds) {
-  ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
-  const FidelityChoice choice = Choose(scenario);
+  const FidelityChoice& choice = OnABarePlain();
   EXPECT_THAT(ChoiceText(choice), HasSubstr("\n  scene detail: auto, as the scenario has it: "));
   EXPECT_THAT(ChoiceJson(choice), HasSubstr("\"detail\": \"auto\""));
+  ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
   scenario.world.detail = SceneDetail::kFull;
   const FidelityChoice in_full = Choose(scenario);
   EXPECT_THAT(ChoiceText(in_full), HasSubstr("\n  scene detail: full, as the scenario has it\n"));
@@ -195,11 +207,11 @@ TEST(ChooseFidelity, LeavesTheSimulatorAsItWas) {
 TEST(UseChosenFidelity, GivesTheSimulatorTheChosenEffects) {
   const ScenarioSpec scenario = ReadLine({.has_wires = false, .mount = kSideways});
   const auto simulator = MakeSimulator(scenario, 0);
-  ASSERT_NE(simulator->spec().detector.effects, Choose(scenario).effects);
+  ASSERT_NE(simulator->spec().detector.effects, OnABarePlain().effects);
   double done = -1.0;
   const FidelityChoice choice =
       UseChosenFidelity(*simulator, scenario, [&](double share) { done = share; });
-  EXPECT_EQ(choice.effects, Choose(scenario).effects);
+  EXPECT_EQ(choice.effects, OnABarePlain().effects);
   EXPECT_EQ(simulator->spec().detector.effects, choice.effects);
   EXPECT_EQ(simulator->spec().detector.beam.footprint_rays, choice.footprint_rays);
   EXPECT_GT(done, 0.0);
