@@ -21,6 +21,16 @@ function(run_for output)
   set(${output} "${said}" PARENT_SCOPE)
 endfunction()
 
+# run_beside(SCENARIO EXAMPLE PORT): runs an example that receives a stream, which ends with it, and sets `said` and
+# `status` to what it prints and to its exit status.
+function(run_beside scenario example port)
+  execute_process(
+    COMMAND sh -c "\"$1\" stream \"$2\" --to $4 --duration 100 >/dev/null & \"$3\" $4; status=$?; kill $!; exit $status" sh
+            ${BUILD_DIR}/generator/railcast-generate ${scenario} ${examples}/${example} 127.0.0.1:${port}
+    OUTPUT_VARIABLE said RESULT_VARIABLE status TIMEOUT 120)
+  return(PROPAGATE said status)
+endfunction()
+
 set(prefix ${WORK_DIR}/prefix)
 set(examples ${WORK_DIR}/examples)
 set(minimal ${SOURCE_DIR}/scenarios/minimal.json)
@@ -105,20 +115,12 @@ if(WITH_IO)
   if(NOT in_frame STREQUAL in_file OR NOT in_frame MATCHES "cells of label [1-9][0-9]* in a box of")
     message(FATAL_ERROR "find_things: ${in_frame} in the frame, ${in_file} in its file")
   endif()
-  execute_process(
-    COMMAND ${BUILD_DIR}/generator/railcast-generate stream ${approach} --to 127.0.0.1:27498 --duration 8
-    COMMAND ${examples}/find_things_cpp 127.0.0.1:27498
-    OUTPUT_VARIABLE said TIMEOUT 60)
+  run_beside(${approach} find_things_cpp 27498)
   if(NOT said MATCHES "cells of label [1-9][0-9]* in a box of")
     message(FATAL_ERROR "find_things in a stream: ${said}")
   endif()
-  # The commands of one call run at the same time.
-  execute_process(
-    COMMAND ${BUILD_DIR}/generator/railcast-generate stream ${minimal} --to 127.0.0.1:27499 --duration 3
-    COMMAND ${examples}/receive_stream_cpp 127.0.0.1:27499
-    OUTPUT_VARIABLE said RESULTS_VARIABLE results)
-  list(GET results 1 grabbed)
-  if(NOT grabbed EQUAL 0)
-    message(FATAL_ERROR "receive_stream: ${grabbed} (${said})")
+  run_beside(${minimal} receive_stream_cpp 27499)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "receive_stream: ${status} (${said})")
   endif()
 endif()
