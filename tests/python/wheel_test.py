@@ -40,8 +40,8 @@ class Wheel(unittest.TestCase):
             "--wheel-dir", cls.folder, ROOT)
         cls.wheel, = cls.folder.glob("railcast-*.whl")
         cls.environment = cls.folder / "environment"
-        # With the system's numpy, which pip would otherwise fetch.
-        run(sys.executable, "-m", "venv", "--system-site-packages", cls.environment)
+        # With the numpy and the pip of the system.
+        run(sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", cls.environment)
         cls.python = cls.environment / "bin" / "python3"
         run(cls.python, "-m", "pip", "install", "--no-index", cls.wheel)
 
@@ -95,7 +95,7 @@ class Wheel(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    for module in ("venv", "pip", "ensurepip"):
+    for module in ("venv", "pip"):
         if subprocess.run([sys.executable, "-c", f"import {module}"], capture_output=True, check=False).returncode != 0:
             print(f"skipped: {sys.executable} has no {module} (python3-{'venv' if module != 'pip' else 'pip'})")
             sys.exit(SKIPPED)
