@@ -347,7 +347,7 @@ void TellFarPlaces(const std::vector<ImportedLine>& lines, std::vector<Remark>& 
 
 int RunImport(const ImportCommandOptions& options) {
   RailMap map = ReadMapWithin(options);
-  TellSpeeds(map);
+  TellTags(map);
   LeftOutOfMap left_out{std::move(map.remarks), {}};
   RemarkLog log;
   const auto tell = [&](const std::filesystem::path& file, std::size_t from) {

@@ -212,7 +212,7 @@ std::optional<double> SpeedOf_kmph(const MapTags& tags) {
   return least_kmph;
 }
 
-void TellSpeeds(RailMap& map) {
+void TellTags(RailMap& map) {
   constexpr auto kOthers = std::to_array<std::string_view>(
       {"maxspeed:type", "maxspeed:source", "maxspeed:reason", "maxspeed:note", kDirections[0],
        kDirections[1], kConditional});
@@ -225,9 +225,10 @@ void TellSpeeds(RailMap& map) {
     }
     TellOtherSpeeds(way, map.remarks);
     for (const auto& [key, value] : way.tags) {
-      const bool is_unread =
+      const bool is_speed =
           key.starts_with("maxspeed:") && std::ranges::find(kOthers, key) == kOthers.end();
-      if (!is_unread) continue;
+      const bool is_several = key == "tracks" && value != "1";
+      if (!is_speed && !is_several) continue;
       map.remarks.push_back(
           {RemarkKind::kTagsUnread, way.place, 1, ShownText(key) + "=" + ShownText(value)});
     }

@@ -28,8 +28,9 @@ namespace railcast {
 [[nodiscard]] std::optional<double> SpeedOf_kmph(const MapTags& tags);
 
 /// Adds to a map's remarks the ways whose speeds are not understood, are several or differ by
-/// direction, or which have others, by condition or kind of train (`maxspeed:freight`, ...).
-void TellSpeeds(RailMap& map);
+/// direction, or which have others, by condition or kind of train (`maxspeed:freight`, ...), and
+/// those that stand for several tracks (`tracks=2`).
+void TellTags(RailMap& map);
 
 /// Gives every track without a tag `electrified` what is usual for its kind (`railway`): trams have
 /// a contact line; other kinds have one if the tag is on at least half of their length on this map,

@@ -61,6 +61,7 @@ class KmlReader final : public XmlMapReader {
   MapTags tags_;                ///< Of the same.
   std::string key_;             ///< Of the data that are open.
   std::string altitude_mode_;   ///< Of the geometry that is open.
+  double altitude_offset_m_ = 0.0;
   std::uint64_t coordinates_line_{};
 };
 
@@ -101,6 +102,7 @@ void KmlReader::Begin(const XmlElement& element) {
     tags_.clear();
   } else if (IsKmlGeometry(element.name)) {
     altitude_mode_.clear();
+    altitude_offset_m_ = 0.0;
     MapLine& line = lines_.emplace_back();
     line.place = "line " + std::to_string(element.line) + ", " + std::string(element.name);
     line.is_area = parent() == "outerBoundaryIs";
@@ -119,7 +121,12 @@ void KmlReader::EndGeometry(std::string_view name) {
     lines_.pop_back();
     return;
   }
-  if (altitude_mode_ == "absolute") return;
+  if (altitude_mode_ == "absolute") {
+    for (auto& height_m : line.heights_m) {
+      if (height_m) *height_m += altitude_offset_m_;
+    }
+    return;
+  }
   const bool has_any = std::ranges::any_of(line.heights_m, [](const auto& height_m) {
     return height_m.has_value() && *height_m != 0.0;
   });
@@ -139,6 +146,11 @@ void KmlReader::EndText(std::string_view name, std::string_view text) {
   if (is_value && !key_.empty()) tags_[key_] = text;
   if (name == "name" && parent() == "Placemark") tags_["name"] = text;
   if (name == "altitudeMode") altitude_mode_ = text;
+  if (name == "altitudeOffset") {
+    const std::optional<double> offset_m = XmlNumber(text);
+    altitude_offset_m_ = offset_m.value_or(0.0);
+    if (!offset_m) faults_.Add(coordinates_line_, "altitudeOffset", "must be m", Quoted(text));
+  }
   if (name == "href" && (parent() == "Link" || parent() == "Url")) {
     remarks_.push_back({RemarkKind::kFilesLeftOut, "NetworkLink", 1, Quoted(text)});
   }

@@ -327,8 +327,10 @@ std::string Kml(const std::string& mode, const std::string& coordinates) {
 TEST_F(MapWords, OfAltitudesThatAreAbsoluteAreObeyedAndOthersTold) {
   const std::string places = "15.60,48.20,250 15.61,48.20,251";
   const RailMap absolute = Read("a.kml", Kml("absolute", places));
-  EXPECT_EQ(absolute.nodes[1].height_m, 251.0);
-  EXPECT_TRUE(absolute.remarks.empty());
+  EXPECT_TRUE(absolute.nodes[1].height_m == 251.0 && absolute.remarks.empty());
+  const std::string offset = "<altitudeOffset>8</altitudeOffset><altitudeMode>absolute";
+  const RailMap moved = Read("a.kml", Kml("absolute</altitudeMode>" + offset, places));
+  EXPECT_EQ(moved.nodes[1].height_m, 259.0);
   for (const std::string mode : {"relativeToGround", "clampToGround", ""}) {
     const RailMap map = Read("b.kml", Kml(mode, places));
     EXPECT_EQ(map.nodes[1].height_m, std::nullopt);
@@ -475,7 +477,6 @@ TEST_F(MapWords, OfServersThatGaveOnlyTheFirstFeaturesAreRefused) {
   };
   const std::string rule =
       "a.geojson: must hold all features that there are, and not the first ones alone (got ";
-  EXPECT_EQ(fault(R"("exceededTransferLimit": true)"), rule + "exceededTransferLimit)");
   EXPECT_EQ(fault(R"("properties": {"exceededTransferLimit": true})"),
             rule + "exceededTransferLimit)");
   EXPECT_EQ(fault(R"("numberMatched": 5000)"), rule + "1 of numberMatched 5000)");

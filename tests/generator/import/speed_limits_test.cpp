@@ -115,8 +115,9 @@ TEST(SpeedLimits, AreToldWhereTheyAreNotTakenAsTheyStand) {
   map.ways[0].tags["maxspeed:conditional"] = "60 @ (22:00-06:00; SH off); 50 @ wet; 110";
   map.ways[0].tags["maxspeed:hgv"] = "70";
   map.ways[0].tags["maxspeed:source"] = "sign";
+  map.ways[0].tags["tracks"] = "2";
   map.ways[0].place = "way 1";
-  TellSpeeds(map);
+  TellTags(map);
   EXPECT_EQ(
       map.remarks,
       (std::vector<Remark>{
@@ -127,6 +128,7 @@ TEST(SpeedLimits, AreToldWhereTheyAreNotTakenAsTheyStand) {
           {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:conditional=50 @ wet"},
           {RemarkKind::kSpeedsChosen, "way 1", 1, "maxspeed:conditional=110"},
           {RemarkKind::kTagsUnread, "way 1", 1, "maxspeed:hgv=70"},
+          {RemarkKind::kTagsUnread, "way 1", 1, "tracks=2"},
           {RemarkKind::kSpeedsUnread, "", 1, "\"DE:rural\""},
       }));
 }
