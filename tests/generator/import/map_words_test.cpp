@@ -328,9 +328,8 @@ TEST_F(MapWords, OfAltitudesThatAreAbsoluteAreObeyedAndOthersTold) {
   const std::string places = "15.60,48.20,250 15.61,48.20,251";
   const RailMap absolute = Read("a.kml", Kml("absolute", places));
   EXPECT_TRUE(absolute.nodes[1].height_m == 251.0 && absolute.remarks.empty());
-  const std::string offset = "<altitudeOffset>8</altitudeOffset><altitudeMode>absolute";
-  const RailMap moved = Read("a.kml", Kml("absolute</altitudeMode>" + offset, places));
-  EXPECT_EQ(moved.nodes[1].height_m, 259.0);
+  const std::string offset = "</altitudeMode><altitudeOffset>8</altitudeOffset><altitudeMode>";
+  EXPECT_EQ(Read("a.kml", Kml(offset + "absolute", places)).nodes[1].height_m, 259.0);
   for (const std::string mode : {"relativeToGround", "clampToGround", ""}) {
     const RailMap map = Read("b.kml", Kml(mode, places));
     EXPECT_EQ(map.nodes[1].height_m, std::nullopt);
