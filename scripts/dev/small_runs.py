@@ -4,6 +4,7 @@ tests/scripts/every_command_test.py opens what they write; check_bytes.py says w
 """
 
 import json
+import os
 import pathlib
 import socket
 import subprocess
@@ -19,6 +20,8 @@ PROGRAMS = {"railcast-generate": "generator", "railcast-import": "generator", "r
             "railcast-view": "viewer"}
 # Text that has what is not the same twice is in this folder: arrivals, times of commands, what else depends on a clock.
 LIVE = "live"
+XVFB_RUN = ("xvfb-run", "-a", "-s", "-noreset")
+ON_DISPLAY = "RAILCAST_ON_DISPLAY"  # In the environment of what enter_display() began.
 
 # The command, its arguments, files that it must write or words that it must print, and a program that runs beside it:
 # what receives, or a line to be sent to it.
@@ -206,10 +209,17 @@ def make_inputs(build, folder):
     (folder / "scenarios").symlink_to(ROOT / "scenarios")
 
 
+def enter_display():
+    """Begins the program anew on a display that all its runs of railcast-view share."""
+    if ON_DISPLAY not in os.environ:
+        os.environ[ON_DISPLAY] = "1"
+        os.execvp(XVFB_RUN[0], [*XVFB_RUN, sys.executable, "-B", *sys.argv])
+
+
 def words_of(command, arguments, build, port):
     program, _, subcommand = command.partition(" ")
     words = [build / PROGRAMS[program] / program, *subcommand.split(), *arguments.replace("PORT", str(port)).split()]
-    return ["xvfb-run", "-a", "-s", "-noreset", *words] if program == "railcast-view" else words
+    return [*XVFB_RUN, *words] if program == "railcast-view" and ON_DISPLAY not in os.environ else words
 
 
 def free_port():

@@ -75,6 +75,7 @@ def main(build):
     if missing:
         print(f"skipped: {' and '.join(missing)} is not installed")
         return SKIPPED
+    small_runs.enter_display()
     listed = dict(listed_commands(build))
     rows = [row for row in small_runs.all_rows(build) if row[0] in listed]
     faults = list(missing_rows(listed, rows))

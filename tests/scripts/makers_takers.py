@@ -6,6 +6,8 @@ what was found; --write writes it. Ends with 77 if what draws on a server is not
 """
 
 import concurrent.futures
+import contextlib
+import io
 import json
 import os
 import pathlib
@@ -14,10 +16,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import traceback
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "dev"))
+sys.path[:0] = [str(ROOT / "scripts" / "dev"), str(ROOT / "scripts")]
 import small_runs  # noqa: E402 (found through the line above)
 
 SKIPPED = 77  # For ctest.
@@ -104,15 +107,29 @@ OF_OTHERS = {**dict.fromkeys(("drive", "in_sequence", "surveyed", "arrived", "wh
 REFUSALS = ("ValueError", "TypeError", "railcast._railcast.InputError")
 
 
-def words_of(build, text, folder):
+def words_of(build, text):
     program, *words = text.split()
     return [str(build / small_runs.PROGRAMS[f"railcast-{program}"] / f"railcast-{program}"), *words]
 
 
-def run(words, folder, **environment):
-    ended = subprocess.run(words, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
-                           env={**os.environ, **environment})
-    return ended.returncode, ended.stdout, ended.stderr
+def run(words, folder):
+    ended = subprocess.run(words, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+    return ended.returncode, ended.stderr
+
+
+def run_python(text, words):
+    """What run() gives, of a program in Python that is run here, because the start of one takes longer than its work."""
+    sys.argv = words
+    complaint = io.StringIO()
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(complaint):
+        try:
+            exec(compile(text, words[0], "exec"), {"__name__": "__main__"})  # pylint: disable=exec-used
+        except SystemExit as ended:
+            return ended.code or 0, complaint.getvalue()
+        except Exception:  # pylint: disable=broad-exception-caught  # What it is, the last line says.
+            traceback.print_exc()
+            return 1, complaint.getvalue()
+    return 0, ""
 
 
 def make(maker, build, folder):
@@ -128,7 +145,7 @@ def make(maker, build, folder):
             if status != 0:
                 raise RuntimeError(f"{maker[0]}: {said}")
         else:
-            status, _, said = run(words_of(build, text, folder), folder)
+            status, said = run(words_of(build, text), folder)
             if status != 0:
                 raise RuntimeError(f"{maker[0]}: {text}: {said}")
 
@@ -138,13 +155,7 @@ def words_of_taker(text, recording, out, build):
     kind, *words = text.split()
     words = [{"@": recording, "PLAN": plan, "SCENARIO": scenario}.get(word, word.replace("OUT", out).replace(
         "PORT", str(small_runs.free_port()))) for word in words]
-    if kind == "python":
-        return ["/usr/bin/python3", "-c", PYTHON[words[0]], recording]
-    if kind == "script":
-        return ["/usr/bin/python3", str(ROOT / "scripts" / words[0]), *words[1:]]
-    program = f"railcast-{kind}"
-    words = [str(build / small_runs.PROGRAMS[program] / program), *words]
-    return ["xvfb-run", "-a", "-s", "-noreset", *words] if kind == "view" else words
+    return words if kind in ("python", "script") else words_of(build, " ".join([kind, *words]))
 
 
 def take(maker, taker, build, folder):
@@ -154,7 +165,12 @@ def take(maker, taker, build, folder):
     for number, text in enumerate(taker[1:]):
         out = f"out/{MAKERS.index(maker)}_{TAKERS.index(taker)}_{number}"
         words = words_of_taker(text, recording, out, build)
-        status, _, complaint = run(words, folder, PYTHONPATH=str(build / "python"), PYTHONDONTWRITEBYTECODE="1")
+        if text.startswith("python"):
+            status, complaint = run_python(PYTHON[words[0]], [words[0], recording])
+        elif text.startswith("script"):
+            status, complaint = run_python((ROOT / "scripts" / words[0]).read_text(), words)
+        else:
+            status, complaint = run(words, folder)
         if status == 0:
             return None
         lines = complaint.strip().splitlines()
@@ -188,6 +204,8 @@ def main(build, writes):
     if not shutil.which("xvfb-run"):
         print("skipped: xvfb-run is not installed")
         return SKIPPED
+    small_runs.enter_display()
+    sys.path.insert(0, str(build / "python"))
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary).resolve()
         small_runs.make_inputs(build, folder)
@@ -197,7 +215,7 @@ def main(build, writes):
         for maker in MAKERS:
             make(maker, build, folder)
         cells = [(maker, taker) for maker in MAKERS for taker in TAKERS]
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), initializer=os.chdir, initargs=(folder,)) as pool:
             results = [pool.submit(take, maker, taker, build, folder) for maker, taker in cells]
         faults = [str(result.exception()) for result in results if result.exception()]
         if faults:

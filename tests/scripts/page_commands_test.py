@@ -31,7 +31,6 @@ import run_small  # noqa: E402
 import small_runs  # noqa: E402 (found through the line above)
 
 SKIPPED = 77  # For ctest.
-ALONE = "RAILCAST_PAGES_ALONE"  # Set where there is a display already.
 CLONE_NEWUSER, CLONE_NEWNET, SIOCSIFFLAGS, IFF_UP = 0x10000000, 0x40000000, 0x8914, 1  # Of Linux.
 BLOCK = re.compile(r"^```(sh|)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INDENTED = re.compile(r"^    (railcast-.*)$", re.MULTILINE)
@@ -262,9 +261,7 @@ def main(build, asked):
     if not shutil.which("xvfb-run"):
         print("skipped: xvfb-run is not installed")
         return SKIPPED
-    if ALONE not in os.environ:
-        os.environ[ALONE] = "1"
-        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-noreset", sys.executable, "-B", *sys.argv])
+    small_runs.enter_display()
     leave_network()
     faults, used = [], set()
     with tempfile.TemporaryDirectory() as name:
