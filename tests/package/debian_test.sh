@@ -80,8 +80,7 @@ inside bash -c 'source /usr/share/bash-completion/completions/railcast-generate
   fail "bash completes nothing"
 
 # All others.
-inside apt-get install -q -y --no-install-recommends xvfb xauth >>"$work/apt.log" 2>&1 || fail "xvfb: see $work/apt.log"
-inside sh -c 'apt-get install -q -y --no-install-recommends /packages/*.deb' >>"$work/apt.log" 2>&1 ||
+inside sh -c 'apt-get install -q -y --no-install-recommends xvfb xauth /packages/*.deb' >>"$work/apt.log" 2>&1 ||
   fail "the packages are not installed: see $work/apt.log"
 inside xvfb-run --auto-servernum railcast-view /root/demo --frame 1 --camera driver --color-by label \
   --size 640x360 --screenshot /root/demo.png
