@@ -16,6 +16,7 @@
 #include "core/io/mcap/mcap_index.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
+#include "core/io/recording/recording_kinds.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
@@ -277,16 +278,21 @@ TEST(ForeignBag, TellsWhatIsWrongBehindItsData) {
   EXPECT_EQ(told(whole.substr(0, whole.size() - 37)), TextList{"recording-cut 1"});
 }
 
-TEST(ForeignBag, RefusesATopicOfTwoTypes) {
-  MadeBag bag;
-  bag.Add("/points", 0, CloudOf(kFourPoints, 0));
-  bag.Add("/points", 1, CloudOf(kFourPoints, 1), "other_msgs/msg/Cloud");
-  const auto file = bag.Closed();
-  const std::string message = file.string() +
-                              ": /points: must be a topic of one type (got "
-                              "sensor_msgs/msg/PointCloud2 as cdr and other_msgs/msg/Cloud as cdr)";
-  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(file); }), message);
-  EXPECT_EQ(MessageOf([&] { (void)OpenRecording(TopicOfBag(file, "/points")); }), message);
+TEST(ForeignBag, RefusesATopicOfTwoEncodings) {
+  const std::string type(ros::PointCloud2::kName);
+  const bag::BagTopic points{.name = "/points", .type = type, .definition = {}, .hash = {}};
+  bag::BagTopic other = points;
+  other.encoding = "json";
+  for (const char* name : {"", "/points"}) {
+    const auto fault = [&] {
+      return MessageOf([&] { (void)PickTopic({points, other}, "a.mcap", name); });
+    };
+    other.name = "/points";
+    EXPECT_EQ(fault(), "a.mcap: /points: must be a topic of one type (got " + type +
+                           " as cdr and " + type + " as json)");
+    other.name = "/others";
+    EXPECT_EQ(fault(), "no error");
+  }
 }
 
 TEST(ForeignBag, TellsOfFilesThatItsMetadataDoNotName) {
