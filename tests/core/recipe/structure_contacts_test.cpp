@@ -21,6 +21,7 @@ using testing::Optional;
 class StructureContactsTest : public testing::Test {
  protected:
   StructureContactsTest() : scenario_(ReadScenario(MakeProject(directory_.path()))) {
+    scenario_.world.vegetation = {};  // The project has no plants.
     PlatformSpec platform;
     platform.name = "platform";
     platform.begin_s_m = 420.0;

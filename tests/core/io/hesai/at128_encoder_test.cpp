@@ -105,10 +105,9 @@ TEST(At128Packet, HasItsFieldsWhereTheMakersDecoderReadsThem) {
   // number, a signature and confidences.
   EXPECT_EQ(std::string(packet.data(), 12),
             std::string("\xEE\xFF\x04\x03\0\0\x80\x02\0\x04\x01\x19", 12));
-  // The fields start at 23.331, 143.205 and 263.149 deg, on average 23.228 deg beyond 0, 120 and
-  // 240 deg; 45 deg on is the middle of a sweep.
+  // The fields start at 20, 140 and 260 deg; 45 deg on is the middle of a sweep.
   const double step_deg = 120.0 * 10.0 * 41.666e-6;
-  EXPECT_NEAR(azimuth_deg(0, 0), 23.228307 + 45.0 - 599.5 * step_deg, 1.0 / 25'600.0);
+  EXPECT_NEAR(azimuth_deg(0, 0), 20.0 + 45.0 - 599.5 * step_deg, 1.0 / 25'600.0);
   EXPECT_NEAR(azimuth_deg(0, 1) - azimuth_deg(0, 0), step_deg, 1.0 / 25'600.0);
   EXPECT_NEAR(azimuth_deg(600, 0) - azimuth_deg(0, 0), 120.0, 1.0 / 25'600.0);
   // Laser 1 is the highest.
