@@ -101,10 +101,11 @@ TEST(AddVegetation, KeepsTreesOffTheTracksAndOnTheChunksGround) {
       EXPECT_LE(std::abs(at_m.x()), 0.5 * TestLine::kChunkLength_m);
       const double s_m = (chunk + 0.5) * TestLine::kChunkLength_m + at_m.x();
       EXPECT_NEAR(at_m.z(), GroundPoint(line.Context(chunk), s_m, at_m.y()).z(), 1e-6);
-      EXPECT_GE(HeightOf(tree), 6.0 - 1e-9);
-      EXPECT_LE(HeightOf(tree), 14.0 + 1e-9);
+      const double height_m = HeightOf(tree);
+      EXPECT_GE(height_m, 6.0 - 1e-9);
+      EXPECT_LE(height_m, 14.0 + 1e-9);
       EXPECT_EQ(tree.instance, 0U);
-      EXPECT_NEAR(tree.sway_height_m, HeightOf(tree), 1e-6);
+      EXPECT_NEAR(tree.sway_height_m, height_m, 1e-6);
     }
   }
 }

@@ -5,28 +5,24 @@
 #include <limits>
 
 #include "core/rail/structures/structures.h"
+#include "tests/support/ray_cast.h"
 
 namespace railcast {
 namespace {
 
-/// Distance along a ray to a triangle, or infinity (Möller, Trumbore 1997).
-double DistanceTo(const Mesh& mesh,
-                  const std::array<std::uint32_t, 3>& triangle,
-                  const Vector3& origin,
-                  const Vector3& direction) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  const Vector3 a = mesh.vertices[triangle[0]].cast<double>();
-  const Vector3 ab = mesh.vertices[triangle[1]].cast<double>() - a;
-  const Vector3 ac = mesh.vertices[triangle[2]].cast<double>() - a;
-  const Vector3 p = direction.cross(ac);
-  const double determinant = ab.dot(p);
-  if (std::abs(determinant) < 1e-15) return kNone;
-  const Vector3 from_a = origin - a;
-  const double u = from_a.dot(p) / determinant;
-  const Vector3 q = from_a.cross(ab);
-  const double v = direction.dot(q) / determinant;
-  const double distance = ac.dot(q) / determinant;
-  return u < 0.0 || v < 0.0 || u + v > 1.0 || distance < 0.0 ? kNone : distance;
+/// All parts of a chunk in its frame, or those of one surface alone.
+std::vector<Part> PartsOfChunk(const Chunk& chunk, const std::optional<SurfaceClass>& surface) {
+  std::vector<Part> parts = chunk.ground.parts;
+  for (const Placement& placement : chunk.placements) {
+    for (Part part : placement.model->parts) {
+      for (Eigen::Vector3f& vertex : part.mesh.vertices) {
+        vertex = (placement.chunk_from_model * vertex.cast<double>()).cast<float>();
+      }
+      parts.push_back(std::move(part));
+    }
+  }
+  if (surface) parts = {{MeshOfSurface(chunk, *surface), surface->material, surface->label}};
+  return parts;
 }
 
 }  // namespace
@@ -70,55 +66,44 @@ Vector3 StructureProbe::WorldAt(const Vector3& place) const {
   return on_axis_m + Vector3(0.0, 0.0, place.z());
 }
 
-const Chunk& StructureProbe::BuiltChunk(int index, bool is_coarse) const {
-  const auto [built, is_new] = built_.try_emplace({index, is_coarse});
-  if (is_new) built->second = line_.Build(index, is_coarse);
-  return built->second;
+StructureProbe::Seen StructureProbe::Look(const Vector3& from,
+                                          const Vector3& to,
+                                          const std::optional<SurfaceClass>& surface,
+                                          bool is_coarse) const {
+  static const TraceDevice device;
+  const int index = static_cast<int>(std::floor(to.x() / TestLine::kChunkLength_m));
+  const SurfaceClass only = surface.value_or(SurfaceClass{});
+  const auto [it, is_new] = built_.try_emplace({index, is_coarse, only.label, only.material});
+  Built& built = it->second;
+  if (is_new) {
+    built.model.parts = PartsOfChunk(line_.Build(index, is_coarse), surface);
+    built.scene = SceneOf(device, built.model);
+  }
+  const Transform chunk_from_world = line_.WorldFromChunk(index).inverse();
+  const Vector3 origin = chunk_from_world * WorldAt(from);
+  const Vector3 target = chunk_from_world * WorldAt(to);
+  const Ray ray = RayThrough(origin, target);
+  const float beyond_m = static_cast<float>((target - origin).norm()) + 1.0F;
+  const RayHit hit = CastRays(*built.scene, {&ray, 1}, beyond_m).front();
+  if (hit.surface == 0) return {0, static_cast<double>(beyond_m)};
+  return {built.model.parts[hit.surface - 1].label, static_cast<double>(hit.range_m)};
 }
 
-std::optional<double> StructureProbe::HeightBelow_m(const SurfaceClass& surface,
-                                                    const Vector3& place,
-                                                    bool is_coarse) const {
-  const int index = static_cast<int>(std::floor(place.x() / TestLine::kChunkLength_m));
-  const Mesh mesh = MeshOfSurface(BuiltChunk(index, is_coarse), surface);
-  const Vector3 from_m = line_.WorldFromChunk(index).inverse() * WorldAt(place);
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const auto& triangle : mesh.triangles) {
-    nearest_m = std::min(nearest_m, DistanceTo(mesh, triangle, from_m, -Vector3::UnitZ()));
-  }
-  if (std::isinf(nearest_m)) return std::nullopt;
-  return place.z() - nearest_m;
+StructureProbe::Seen StructureProbe::Look(const Vector3& from, const Vector3& to) const {
+  return Look(from, to, std::nullopt, false);
 }
 
 std::uint32_t StructureProbe::LabelSeen(const Vector3& from, const Vector3& to) const {
   return Look(from, to).label;
 }
 
-StructureProbe::Seen StructureProbe::Look(const Vector3& from, const Vector3& to) const {
-  const int index = static_cast<int>(std::floor(to.x() / TestLine::kChunkLength_m));
-  const Chunk& chunk = BuiltChunk(index, false);
-  const Transform chunk_from_world = line_.WorldFromChunk(index).inverse();
-  const Vector3 origin = chunk_from_world * WorldAt(from);
-  const Vector3 way = chunk_from_world * WorldAt(to) - origin;
-  double nearest_m = way.norm() + 1.0;
-  std::uint32_t label = 0;
-  const auto look_at = [&](const Model& model, const Eigen::Affine3d& model_from_chunk) {
-    const Vector3 begin = model_from_chunk * origin;
-    const Vector3 direction = model_from_chunk.linear() * way.normalized();
-    for (const Part& part : model.parts) {
-      for (const auto& triangle : part.mesh.triangles) {
-        const double distance_m = DistanceTo(part.mesh, triangle, begin, direction);
-        if (distance_m >= nearest_m) continue;
-        nearest_m = distance_m;
-        label = part.label;
-      }
-    }
-  };
-  look_at(chunk.ground, Eigen::Affine3d::Identity());
-  for (const Placement& placement : chunk.placements) {
-    look_at(*placement.model, placement.chunk_from_model.inverse());
-  }
-  return {label, nearest_m};
+std::optional<double> StructureProbe::HeightBelow_m(const SurfaceClass& surface,
+                                                    const Vector3& place,
+                                                    bool is_coarse) const {
+  constexpr double kDeep_m = 1000.0;
+  const Seen seen = Look(place, place - kDeep_m * Vector3::UnitZ(), surface, is_coarse);
+  if (seen.label == 0) return std::nullopt;
+  return place.z() - seen.distance_m;
 }
 
 double LeastOf(const std::vector<Eigen::Vector2d>& points, int axis) {

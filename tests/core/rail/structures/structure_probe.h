@@ -3,10 +3,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "core/trace/trace_scene.h"
 #include "railcast/world_spec.h"
 #include "tests/core/rail/test_line.h"
 
@@ -45,14 +48,23 @@ class StructureProbe {
                                                     bool is_coarse = false) const;
 
  private:
-  [[nodiscard]] const Chunk& BuiltChunk(int index, bool is_coarse) const;
+  /// As Look(), at all or at one surface of a chunk's ground.
+  [[nodiscard]] Seen Look(const Vector3& from,
+                          const Vector3& to,
+                          const std::optional<SurfaceClass>& surface,
+                          bool is_coarse) const;
   [[nodiscard]] Vector3 WorldAt(const Vector3& place) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> CutAt(const SurfaceClass& surface,
                                                    double s_m,
                                                    const Transform& world_from_plane) const;
 
+  struct Built {
+    Model model;
+    std::unique_ptr<const TraceScene> scene;
+  };
   TestLine line_;
-  mutable std::map<std::pair<int, bool>, Chunk> built_;
+  /// By chunk, form, label and material; 0 = all of it.
+  mutable std::map<std::tuple<int, bool, std::uint32_t, std::uint16_t>, Built> built_;
 };
 
 /// The largest or smallest y or z of the points.

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <deque>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -148,18 +149,40 @@ std::vector<BearerCase> CantedTurnouts() {
   return cases;
 }
 
+/// What is built of a case.
+struct BuiltCase {
+  explicit BuiltCase(const BearerCase& close)
+      : name(close.name), slope(close.slope), line(close.world), bearers(BearersOf(line)) {}
+  std::string name;
+  double slope;
+  TestLine line;
+  std::vector<Footprint> bearers;
+};
+
+const std::deque<BuiltCase>& BuiltLevel() {
+  static const std::vector<BearerCase> cases = CloseTurnouts();
+  static const std::deque<BuiltCase> built(cases.begin(), cases.end());
+  return built;
+}
+
+const std::deque<BuiltCase>& BuiltCanted() {
+  static const std::vector<BearerCase> cases = CantedTurnouts();
+  static const std::deque<BuiltCase> built(cases.begin(), cases.end());
+  return built;
+}
+
 TEST(Bearers, DoNotLieInEachOther) {
-  std::vector<BearerCase> cases = CloseTurnouts();
-  std::ranges::move(CantedTurnouts(), std::back_inserter(cases));
-  for (const BearerCase& close : cases) {
-    const std::vector<Footprint> bearers = BearersOf(TestLine(close.world));
-    ASSERT_GT(bearers.size(), 1000U) << close.name;
-    for (std::size_t i = 0; i < bearers.size(); ++i) {
-      for (std::size_t j = i + 1; j < bearers.size(); ++j) {
-        if (bearers[j].middle_m.x() > bearers[i].middle_m.x() + 3.0) break;
-        EXPECT_LT(Overlap_m(bearers[i], bearers[j]), 1e-3)
-            << close.name << ": " << bearers[i].middle_m.transpose() << " and "
-            << bearers[j].middle_m.transpose();
+  for (const auto& cases : {std::cref(BuiltLevel()), std::cref(BuiltCanted())}) {
+    for (const BuiltCase& close : cases.get()) {
+      const std::vector<Footprint>& bearers = close.bearers;
+      ASSERT_GT(bearers.size(), 1000U) << close.name;
+      for (std::size_t i = 0; i < bearers.size(); ++i) {
+        for (std::size_t j = i + 1; j < bearers.size(); ++j) {
+          if (bearers[j].middle_m.x() > bearers[i].middle_m.x() + 3.0) break;
+          EXPECT_LT(Overlap_m(bearers[i], bearers[j]), 1e-3)
+              << close.name << ": " << bearers[i].middle_m.transpose() << " and "
+              << bearers[j].middle_m.transpose();
+        }
       }
     }
   }
@@ -188,8 +211,8 @@ std::vector<Eigen::Vector2d> SeatsNear(const std::vector<Footprint>& bearers,
 
 /// Calls `judge` for both rails of all tracks with their seats on both sides, every 0.3 m.
 template <typename Judge>
-void ForEachSeatOfARail(const TestLine& line, Judge judge) {
-  const std::vector<Footprint> bearers = BearersOf(line);
+void ForEachSeatOfARail(const BuiltCase& built, Judge judge) {
+  const TestLine& line = built.line;
   for (std::size_t track = 0; track < line.network().courses.size(); ++track) {
     const TrackCourse& course = line.network().courses[track];
     const double end_s_m = std::min(course.end_s_m(), kStraight_m) - 3.0;
@@ -197,7 +220,7 @@ void ForEachSeatOfARail(const TestLine& line, Judge judge) {
       for (const double rail_m : {-0.7535, 0.7535}) {
         const Transform world_from_rail =
             course.WorldFromTrack(line.alignment(), s_m) * Eigen::Translation3d(0.0, rail_m, 0.0);
-        judge(SeatsNear(bearers, world_from_rail),
+        judge(SeatsNear(built.bearers, world_from_rail),
               std::to_string(track) + " at " + std::to_string(s_m));
       }
     }
@@ -208,8 +231,8 @@ TEST(Bearers, CarryEveryRailWithinTheSpacing) {
   // Two neighbours turn against each other by no more than the tracks do, and this not farther from
   // the rail than half a sleeper.
   constexpr double kTurnAside_m = 1.3;
-  for (const BearerCase& close : CloseTurnouts()) {
-    ForEachSeatOfARail(TestLine(close.world),
+  for (const BuiltCase& close : BuiltLevel()) {
+    ForEachSeatOfARail(close,
                        [&](const std::vector<Eigen::Vector2d>& seats, const std::string& where) {
                          double ahead_m = 100.0;
                          double behind_m = 100.0;
@@ -224,14 +247,14 @@ TEST(Bearers, CarryEveryRailWithinTheSpacing) {
 }
 
 TEST(Bearers, FollowThePlaneOfTheRailsOfCrossoversOnCant) {
-  for (const BearerCase& close : CantedTurnouts()) {
-    ForEachSeatOfARail(TestLine(close.world), [&](const std::vector<Eigen::Vector2d>& seats,
-                                                  const std::string& where) {
-      for (const Eigen::Vector2d& seat : seats) {
-        if (std::abs(seat.x()) > 0.15) continue;
-        EXPECT_LE(std::abs(seat.y()), 0.020) << close.name << ", track " << where;
-      }
-    });
+  for (const BuiltCase& close : BuiltCanted()) {
+    ForEachSeatOfARail(
+        close, [&](const std::vector<Eigen::Vector2d>& seats, const std::string& where) {
+          for (const Eigen::Vector2d& seat : seats) {
+            if (std::abs(seat.x()) > 0.15) continue;
+            EXPECT_LE(std::abs(seat.y()), 0.020) << close.name << ", track " << where;
+          }
+        });
   }
 }
 

@@ -138,9 +138,10 @@ TEST(CantedTurnout, HasNothingAboveItsRailsButCheckRails) {
   constexpr double kAboveCheckRails_m = 0.022;
   for (const double offset_m : {-4.5, 4.5}) {
     const TestLine line(CantedLoop(TurnoutType::k9_190, offset_m, TurnoutPosition::kStraight));
+    const BuiltTracks tracks(line);
     for (const std::size_t track : {0U, 1U}) {
       for (double s_m = 61.0; s_m < 94.0; s_m += 1.1) {
-        EXPECT_TRUE(CutRails(line, track, s_m).At(kAboveCheckRails_m).empty())
+        EXPECT_TRUE(CutRails(tracks, track, s_m).At(kAboveCheckRails_m).empty())
             << track << " at " << s_m;
       }
     }
@@ -152,7 +153,8 @@ TEST(CantedTurnout, RestsOnBearersInThePlaneOfItsRails) {
     const TestLine line(CantedLoop(TurnoutType::k9_300, offset_m, TurnoutPosition::kStraight));
     const TrackCourse& through = line.network().courses[0];
     int num_parts = 0;
-    for (const Placement& placement : CutRails::ChunkAt(line, 80.0).placements) {
+    const BuiltTracks tracks(line);
+    for (const Placement& placement : tracks.At(80.0).placements) {
       if (placement.model == line.models().concrete_sleeper) continue;
       const Transform world_from_model =
           line.WorldFromChunk(1) * Transform(placement.chunk_from_model.matrix());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/rail/track/track_structure.h"
 
@@ -17,10 +16,14 @@ int ChunkIndexAt(double s_m) {
 
 }  // namespace
 
-CutRails::CutRails(const TestLine& line, std::size_t track, double s_m)
-    : CutRails(line, ChunkAt(line, s_m), track, s_m) {}
+const Chunk& BuiltTracks::At(double s_m) const {
+  const auto [it, is_new] = chunks_.try_emplace(ChunkIndexAt(s_m));
+  if (is_new) AddTracks(line_.Context(it->first), line_.models(), it->second);
+  return it->second;
+}
 
-CutRails::CutRails(const TestLine& line, const Chunk& chunk, std::size_t track, double s_m) {
+CutRails::CutRails(const BuiltTracks& tracks, std::size_t track, double s_m) {
+  const TestLine& line = tracks.line();
   const int chunk_index = ChunkIndexAt(s_m);
   const Transform track_from_chunk =
       line.Context(chunk_index).tracks[track].WorldFromTrack(line.alignment(), s_m).inverse() *
@@ -28,14 +31,8 @@ CutRails::CutRails(const TestLine& line, const Chunk& chunk, std::size_t track, 
   const RailSurfaces& surfaces = line.surfaces();
   for (const SurfaceClass& surface : {surfaces.rail_head, surfaces.rail_side,
                                       surfaces.turnouts.running_band, surfaces.turnouts.rail}) {
-    Cut(MeshOfSurface(chunk, surface), track_from_chunk);
+    Cut(MeshOfSurface(tracks.At(s_m), surface), track_from_chunk);
   }
-}
-
-Chunk CutRails::ChunkAt(const TestLine& line, double s_m) {
-  Chunk chunk;
-  AddTracks(line.Context(ChunkIndexAt(s_m)), line.models(), chunk);
-  return chunk;
 }
 
 bool CutRails::IsFree(const Eigen::AlignedBox2d& area_m) const {
@@ -60,11 +57,15 @@ std::vector<double> CutRails::At(double z_m) const {
 }
 
 void CutRails::Cut(const Mesh& mesh, const Transform& track_from_chunk) {
+  std::vector<Vector3> places;
+  for (const Eigen::Vector3f& vertex : mesh.vertices) {
+    places.push_back(track_from_chunk * vertex.cast<double>());
+  }
   for (const auto& triangle : mesh.triangles) {
     std::vector<Eigen::Vector2d> points;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3 a = track_from_chunk * mesh.vertices[triangle[i]].cast<double>();
-      const Vector3 b = track_from_chunk * mesh.vertices[triangle[(i + 1) % 3]].cast<double>();
+      const Vector3& a = places[triangle[i]];
+      const Vector3& b = places[triangle[(i + 1) % 3]];
       if ((a.x() < 0.0) == (b.x() < 0.0)) continue;
       const Vector3 point = a + a.x() / (a.x() - b.x()) * (b - a);
       points.emplace_back(point.y(), point.z());
@@ -74,14 +75,9 @@ void CutRails::Cut(const Mesh& mesh, const Transform& track_from_chunk) {
 }
 
 void ExpectFlangesFindAWay(const TestLine& line, const WayOfWheels& way, const std::string& what) {
-  std::optional<int> chunk_index;
-  Chunk chunk;
+  const BuiltTracks tracks(line);
   for (double s_m = way.begin_s_m; s_m <= way.end_s_m; s_m += 0.37) {
-    if (chunk_index != ChunkIndexAt(s_m)) {
-      chunk_index = ChunkIndexAt(s_m);
-      chunk = CutRails::ChunkAt(line, s_m);
-    }
-    const CutRails rails(line, chunk, way.track, s_m);
+    const CutRails rails(tracks, way.track, s_m);
     for (const double side : {-1.0, 1.0}) {
       const Eigen::AlignedBox2d flange(
           Eigen::Vector2d(std::min(side * (kHalf_m - 0.033), side * (kHalf_m - 0.002)), -0.028),

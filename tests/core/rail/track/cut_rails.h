@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,14 +14,25 @@ namespace railcast {
 
 inline constexpr double kHalf_m = 0.5 * kGauge_m;
 
+/// The tracks of a line in its chunks, each built once.
+class BuiltTracks {
+ public:
+  explicit BuiltTracks(const TestLine& line) : line_(line) {}
+
+  [[nodiscard]] const TestLine& line() const { return line_; }
+  [[nodiscard]] const Chunk& At(double s_m) const;
+
+ private:
+  const TestLine& line_;
+  mutable std::map<int, Chunk> chunks_;
+};
+
 /// Rails and parts of turnouts and crossings near a place, cut by the plane across a track.
 class CutRails {
  public:
-  CutRails(const TestLine& line, std::size_t track, double s_m);
-  /// @param chunk As ChunkAt() makes it.
-  CutRails(const TestLine& line, const Chunk& chunk, std::size_t track, double s_m);
-
-  [[nodiscard]] static Chunk ChunkAt(const TestLine& line, double s_m);
+  CutRails(const BuiltTracks& tracks, std::size_t track, double s_m);
+  CutRails(const TestLine& line, std::size_t track, double s_m)
+      : CutRails(BuiltTracks(line), track, s_m) {}
 
   /// Whether nothing lies in the rectangle of y and z.
   [[nodiscard]] bool IsFree(const Eigen::AlignedBox2d& area_m) const;

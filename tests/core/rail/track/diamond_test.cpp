@@ -158,10 +158,11 @@ TEST(Diamond, HasFlangewaysOf44MillimetresInItsFrogs) {
 
 TEST(Diamond, LeavesRunningSurfacesButForTheGapsOfItsFrogs) {
   const TestLine line(LineWithDiamond(StraightLine(300.0), 9.0));
+  const BuiltTracks tracks(line);
   const CrossedRailPlaces left = PlacesOnRail(line, false, true);
   const auto carries = [&](double s_m) {
     // 12 mm behind the gauge face, where the head is 2 mm lower than its crown.
-    return !CutRails(line, 0, s_m)
+    return !CutRails(tracks, 0, s_m)
                 .IsFree({Eigen::Vector2d(kHalf_m + 0.009, -0.004),
                          Eigen::Vector2d(kHalf_m + 0.012, 0.001)});
   };
