@@ -293,6 +293,7 @@ void JsonReader::Finish() {
   for (const Member& member : list_.members) {
     if (std::find(keys_.begin(), keys_.end(), member.key) != keys_.end()) continue;
     strangers.push_back(&member);
+    if (missing_.empty()) continue;
     if (const auto nearest = Nearest(member.key, keys_)) meant.insert(*nearest);
   }
   // Do not report a required key as missing if one of the unknown keys is a misspelling of it.
