@@ -1,5 +1,6 @@
 """What scripts/dev/summarize_tests.py says of the results of GoogleTest."""
 
+import json
 import pathlib
 import sys
 import tempfile
@@ -48,6 +49,11 @@ class SummarizeTests(unittest.TestCase):
                          ["  new_test: 21 s, 20 are allowed at this machine's pace",
                           "  rails_test: 140 s, 120 are allowed at this machine's pace"])
         self.assertEqual(summarize_tests.over_budget({"a": 50.0}, {}), [])
+
+    def test_reads_the_budget_of_this_tree(self):
+        budget = json.loads(summarize_tests.BUDGET.read_text(encoding="utf-8"))
+        self.assertGreater(len(budget), 10)
+        self.assertGreaterEqual(min(budget.values()), 10)
 
 
 if __name__ == "__main__":
