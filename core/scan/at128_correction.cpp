@@ -75,6 +75,13 @@ At128Correction::At128Correction(std::span<const char> bytes) {
   for (Shifts* shifts : {&azimuth_shifts_, &elevation_shifts_}) {
     shifts->resize(kAt128Lasers * kShifts);
     std::copy_n(place, shifts->size(), shifts->begin());
+    // Those of real units are below 1 deg.
+    constexpr int kMost_deg = 5;
+    for (const int shift : *shifts) {
+      if (resolution * std::abs(shift) <= kMost_deg * static_cast<int>(kShiftsPerDeg)) continue;
+      throw InputError("shifts of lasers must be within 5 deg" +
+                       Got(resolution * shift / kShiftsPerDeg));
+    }
     place += shifts->size();
   }
 }

@@ -15,7 +15,6 @@
 #include "core/io/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/program/stop_signals.h"
-#include "core/scan/at128_correction.h"
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
@@ -184,13 +183,14 @@ void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lida
   if (!stream.pcap || stream.protocol != Protocol::kAt128) return;
   std::filesystem::path file = *stream.pcap;
   file.replace_extension(".dat");
-  if (std::filesystem::exists(file) && !IsAt128File(file)) {
+  // That the scan is one of these was checked when its stream was made.
+  const std::string bytes = ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file);
+  if (std::filesystem::exists(file) && ReadFileWhole(file) != bytes) {
     throw InputError(ShownPath(file) +
-                     ": must not be there, or be the correction file of an AT128, which is written "
+                     ": must not be there, or be the scan's correction file, which is written "
                      "beside the capture");
   }
-  // That the scan is one of these was checked when its stream was made.
-  WriteFileWhole(file, ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file));
+  WriteFileWhole(file, bytes);
 }
 
 /// Returns a number that distinguishes this start from earlier ones. A run that is only captured

@@ -8,7 +8,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/units.h"
 #include "railcast/scenario.h"
@@ -36,12 +35,14 @@ ScenarioSpec Demo(Fidelity rung, SceneDetail detail) {
   return spec;
 }
 
-EchoesByPlace EchoesOf(Simulator& simulator, const LabelTable& labels, std::uint32_t num_frames) {
+EchoesByPlace EchoesOf(const ScenarioSpec& spec, std::uint32_t num_frames) {
   constexpr double kBin_m = 60.0;
+  const auto simulator = MakeSimulator(spec, 2);
+  const LabelTable labels(spec.labels);
   EchoesByPlace echoes;
   Frame frame;
   for (std::uint32_t index = 0; index < num_frames; ++index) {
-    simulator.Scan(index, frame);
+    simulator->Scan(index, frame);
     for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
       if (frame.outcome[slot] != Outcome::kReturned) continue;
       const int bin = static_cast<int>(static_cast<double>(frame.true_range_m[slot]) / kBin_m);
@@ -51,39 +52,6 @@ EchoesByPlace EchoesOf(Simulator& simulator, const LabelTable& labels, std::uint
     }
   }
   return echoes;
-}
-
-constexpr std::uint32_t kMostFrames = 10;
-
-/// The demo's sensor and one of narrow beams in one scene, which is built once for all tests.
-struct DemoSensors {
-  explicit DemoSensors(SceneDetail detail) : spec(Demo(Fidelity::kFootprint, detail)) {
-    LidarSpec narrow = spec.lidar;
-    narrow.name = "narrow";
-    narrow.scan.pattern = RasterSpec{
-        .horizontal_fov_deg = 16.0, .vertical_fov_deg = 4.0, .angular_resolution_deg = 0.05};
-    narrow.beam.divergence_mrad = {0.9, 0.9};
-    spec.lidars = {std::exchange(spec.lidar, {}), narrow};
-    simulators = MakeSimulators(spec, 2);
-    for (const auto& simulator : simulators) simulator->KeepWindows(kMostFrames);
-  }
-
-  EchoesByPlace EchoesOnRung(Fidelity rung, std::uint32_t num_frames) {
-    SimulatorSpec on_rung = simulators[0]->spec();
-    spec.fidelity = rung;
-    on_rung.detector.effects = EffectsOf(spec);
-    simulators[0]->Use(on_rung);
-    return EchoesOf(*simulators[0], labels, num_frames);
-  }
-
-  ScenarioSpec spec;
-  LabelTable labels{spec.labels};
-  std::vector<std::unique_ptr<Simulator>> simulators;
-};
-
-DemoSensors& SensorsIn(SceneDetail detail) {
-  static std::map<SceneDetail, DemoSensors> made;
-  return made.try_emplace(detail, detail).first->second;
 }
 
 /// Expects every count above 1,000 to change by less than 5 % and the noise of two Poisson counts,
@@ -108,23 +76,27 @@ TEST(SceneDetail, KeepsTheEchoesOfRaysByLabelAndRange) {
   RecordRegime(
       "plants and ground coarser far away",
       {"-", "numbers and intensities of echoes within 5 % and chance, by class and range"});
-  ExpectAlike(SensorsIn(SceneDetail::kFull).EchoesOnRung(Fidelity::kSurface, 6),
-              SensorsIn(SceneDetail::kAuto).EchoesOnRung(Fidelity::kSurface, 6));
+  ExpectAlike(EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kFull), 6),
+              EchoesOf(Demo(Fidelity::kSurface, SceneDetail::kAuto), 6));
 }
 
 TEST(SceneDetail, KeepsTheEchoesOfBeamsByLabelAndRange) {
-  ExpectAlike(SensorsIn(SceneDetail::kFull).EchoesOnRung(Fidelity::kFootprint, 3),
-              SensorsIn(SceneDetail::kAuto).EchoesOnRung(Fidelity::kFootprint, 3));
+  ExpectAlike(EchoesOf(Demo(Fidelity::kFootprint, SceneDetail::kFull), 3),
+              EchoesOf(Demo(Fidelity::kFootprint, SceneDetail::kAuto), 3));
 }
 
 // Blades two thirds as wide as these beams are 8 % brighter between 60 and 120 m.
 TEST(SceneDetail, KeepsTheGrassOfNarrowBeams) {
-  const auto grass_in = [](SceneDetail detail) {
-    DemoSensors& sensors = SensorsIn(detail);
-    return EchoesOf(*sensors.simulators[1], sensors.labels, kMostFrames).at({"grass", 1});
+  const auto narrow = [](SceneDetail detail) {
+    ScenarioSpec spec = Demo(Fidelity::kFootprint, detail);
+    spec.lidar.scan.pattern = RasterSpec{
+        .horizontal_fov_deg = 16.0, .vertical_fov_deg = 4.0, .angular_resolution_deg = 0.05};
+    spec.lidar.beam.divergence_mrad = {0.9, 0.9};
+    return spec;
   };
-  const Echoes full = grass_in(SceneDetail::kFull);
-  const Echoes coarser = grass_in(SceneDetail::kAuto);
+  const std::pair<std::string, int> place{"grass", 1};
+  const Echoes full = EchoesOf(narrow(SceneDetail::kFull), 10).at(place);
+  const Echoes coarser = EchoesOf(narrow(SceneDetail::kAuto), 10).at(place);
   ASSERT_GT(full.count, 3000.0);
   EXPECT_NEAR(coarser.count / full.count, 1.0, 0.02);
   EXPECT_NEAR(coarser.intensity / coarser.count * full.count / full.intensity, 1.0, 0.03);
@@ -135,9 +107,7 @@ TEST(SceneDetail, HoldsForTreesThatSwayInTheWind) {
   ScenarioSpec coarser = Demo(Fidelity::kSurface, SceneDetail::kAuto);
   full.weather.wind_speed_mps = 10.0;
   coarser.weather.wind_speed_mps = 10.0;
-  const LabelTable labels(full.labels);
-  ExpectAlike(EchoesOf(*MakeSimulator(full, 2), labels, 4),
-              EchoesOf(*MakeSimulator(coarser, 2), labels, 4));
+  ExpectAlike(EchoesOf(full, 4), EchoesOf(coarser, 4));
 }
 
 /// The demo's vehicle, standing, before 60 persons who walk up to 150 m ahead of it.

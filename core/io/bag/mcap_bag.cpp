@@ -120,7 +120,7 @@ class McapBagReader : public BagReader {
     }
     return {{.kind = RemarkKind::kRecordingCut,
              .place = name_ + ": record at " + NumberText(cut->offset),
-             .detail = cut->num_bytes == 0 ? "its footer is missing"
+             .detail = cut->num_bytes == 0 ? "its end is missing"
                                            : "the last " + NumberText(cut->num_bytes) +
                                                  " bytes are no whole record"}};
   }
@@ -147,9 +147,13 @@ class McapBagReader : public BagReader {
     return topic;
   }
 
-  // Several channels of one topic, as of several publishers, are one topic here.
+  // Several channels of one topic, as of several publishers, are one topic here, whatever their
+  // hashes and promises.
   void AddTopic(std::uint16_t channel, BagTopic topic) {
-    const auto known = std::ranges::find(topics_, topic);
+    const auto known = std::ranges::find_if(topics_, [&](const BagTopic& other) {
+      return other.name == topic.name && other.type == topic.type &&
+             other.encoding == topic.encoding;
+    });
     topic_by_channel_.emplace(channel, static_cast<std::size_t>(known - topics_.begin()));
     if (known == topics_.end()) topics_.push_back(std::move(topic));
   }

@@ -235,12 +235,11 @@ void ScanUpTo(const ByteFile& file, std::uint64_t end, ScannedFile& scanned) {
   }
 }
 
-/// What stands behind the last whole record; nothing if nothing does.
+/// What stands behind the last whole record, where the data have no end; nothing if the file has.
 /// @throws InputError if it is damaged rather than cut off.
 std::optional<CutEnd> CutAt(const ByteFile& file, std::uint64_t offset) {
   const std::uint64_t num_bytes = file.size() - offset;
-  if (num_bytes == 0) return std::nullopt;
-  if (FooterOf(file)) {
+  if (num_bytes > 0 && FooterOf(file)) {
     if (num_bytes == kMagic.size()) return std::nullopt;
     std::uint64_t length{};
     FieldReader(file.Read(offset + 1, sizeof length))("length", length);

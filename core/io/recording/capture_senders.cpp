@@ -86,7 +86,7 @@ class StreamTable {
         sensors.push_back(*found.sensor);
       }
       sensors[place].streams.push_back(found.stream);
-      if (found.num_wrong == found.num_packets) sensors[place].ignores_checksums = true;
+      if (2 * found.num_wrong > found.num_packets) sensors[place].ignores_checksums = true;
     }
     return sensors;
   }

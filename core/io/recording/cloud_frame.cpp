@@ -168,7 +168,7 @@ RecordedFrame MakeCloudFrame(const Cloud& cloud, const std::string& name) {
   if (!recorded.Has("time_ns")) FillForeignTime(cloud, plan, recorded);
   const std::vector<std::uint32_t>& times_ns = recorded.frame.time_ns;
   if (!times_ns.empty()) recorded.frame.duration_ns = *std::ranges::max_element(times_ns);
-  LeaveOutUnlikelyTimes(recorded);
+  if (!recorded.Has("column")) LeaveOutUnlikelyTimes(recorded);  // Ours may begin all at once.
   return recorded;
 }
 

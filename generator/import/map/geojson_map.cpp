@@ -200,8 +200,10 @@ void GeoJsonReader::ReadObject(const Json& object,
 /// Throws if a server says that there is more than it gave, as ArcGIS, WFS and OGC's APIs do.
 void CheckIsAll(const Json& root) {
   const auto fail = [](const std::string& got) {
-    throw InputError("must hold all features that there are, and not the first ones alone (got " +
-                     got + ")");
+    throw InputError(
+        "must hold all features that there are, and not the first ones alone, or else not say so "
+        "(got " +
+        got + ")");
   };
   const Json properties = root.value("properties", Json());
   for (const Json* object : {&root, &properties}) {
@@ -216,6 +218,7 @@ void CheckIsAll(const Json& root) {
       fail(NumberText(num) + " of " + key + " " + stated.dump());
     }
   }
+  if (root.value("numberMatched", Json()) == num) return;
   for (const Json& link : root.value("links", Json::array())) {
     if (link.is_object() && link.value("rel", Json()) == "next") fail("a link to the next ones");
   }

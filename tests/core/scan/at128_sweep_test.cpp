@@ -12,6 +12,7 @@
 
 #include "core/base/bytes.h"
 #include "core/base/units.h"
+#include "tests/core/io/temporary_directory.h"
 #include "tests/core/scan/pattern_angles.h"
 #include "tests/support/sensor_file.h"
 
@@ -73,10 +74,10 @@ ScanSpec ScanOfUnit(const std::filesystem::path& file) {
 // turn, and lasers are shifted up to 0.9 deg in azimuth and 0.5 deg in elevation.
 TEST(At128Sweep, IsNearThoseOfTwoRealUnits) {
   const std::filesystem::path data = RAILCAST_SHARED_DATA_DIR;
+  if (!exists(data)) GTEST_SKIP() << data << " is not there";
   const ScanPattern preset = BuildScanPattern(ReadSensor("at128"));
   for (const char* name : {"hesai_calibration/PandarAT128.dat",
                            "lidar_hesai/calibration/sdk_AT128E3X_Angle_Correction_File.dat"}) {
-    if (!exists(data / name)) GTEST_SKIP() << data / name << " is not there";
     const ScanPattern unit = BuildScanPattern(ScanOfUnit(data / name));
     std::vector<SweptRows> sweeps;
     double most_aside_deg = 0.0;
@@ -156,11 +157,11 @@ TEST(At128Sweep, SaysWhatIsWrong) {
   };
   EXPECT_EQ(said(1, 10.0), "/pattern/frames: must be 3, the mirrors of an AT128 (got 1)");
   EXPECT_EQ(said(3, 0.5), "/rate_hz: must be >= 1 and <= 100 with an AT128's file (got 0.5)");
-  const std::string cut = testing::TempDir() + "cut_at128.dat";
+  const TemporaryDirectory folder;
+  const std::string cut = (folder.path() / "cut.dat").string();
   std::ofstream(cut) << "\xEE\xFF";
   EXPECT_EQ(FaultsOf({.rate_hz = 10.0, .pattern = FiringTableSpec{cut, 3}}),
             "/pattern/file: " + cut + ": must be 47176 bytes (got 2)");
-  std::filesystem::remove(cut);
 }
 
 }  // namespace

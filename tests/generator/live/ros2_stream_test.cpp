@@ -139,13 +139,12 @@ TEST(Ros2Stream, GivesLateJoinersTheStaticTransforms) {
   EXPECT_EQ(stream.Wait().status, 0);
 }
 
-/// The coarse scenario with such brakes at commands of ROS 2.
-std::string FirmBrakes(const std::filesystem::path& folder, const std::string& deceleration_mps2) {
+/// The coarse scenario with brakes of 2 m/s^2 at commands of ROS 2.
+std::string FirmBrakes(const std::filesystem::path& folder) {
   std::string text = ReadFileWhole(CoarseScenario(folder));
   const std::string begin = "\"version\": 1,";
-  text.replace(
-      text.find(begin), begin.size(),
-      begin + R"("interfaces": {"ros2": {"deceleration_mps2": )" + deceleration_mps2 + "}},");
+  text.replace(text.find(begin), begin.size(),
+               begin + R"("interfaces": {"ros2": {"deceleration_mps2": 2}},)");
   const std::filesystem::path file = folder / "firm.json";
   WriteFileWhole(file, text);
   return file.string();
@@ -176,11 +175,11 @@ double NearestAhead_m(const ros::PointCloud2& cloud) {
 // The loop of examples/brake_client.py by messages alone: the cloud in, the brake out.
 TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   const TemporaryDirectory folder;
-  const std::string scenario = FirmBrakes(folder.path(), "5");
+  const std::string scenario = FirmBrakes(folder.path());
   const std::uint32_t domain = FreeDomain();
   const std::filesystem::path log = folder.path() / "log.jsonl";
   Stream stream(RosArguments(scenario, domain) +
-                " --pacing burst --duration 6 --commands-topic /brake --commands-log " +
+                " --pacing burst --duration 12 --commands-topic /brake --commands-log " +
                 log.string());
   FastParticipant node(domain);
   FastReader& clouds = node.Read(kPoints, kCloudType);
@@ -208,7 +207,7 @@ TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
             std::string::npos)
       << ended.said;
   const std::string command = ReadFileWhole(log);
-  EXPECT_NE(command.find(R"({"command":"brake","deceleration_mps2":5.0})"), std::string::npos)
+  EXPECT_NE(command.find(R"({"command":"brake","deceleration_mps2":2.0})"), std::string::npos)
       << command;
   const auto poses = motion.WaitFor(1);
   const auto first = ros::FromCdr<ros::Odometry>(poses.front());
@@ -217,8 +216,7 @@ TEST(Ros2Stream, LetsANodeBrakeForTheWagonAhead) {
   EXPECT_NEAR(last.twist.twist.linear.x, 0.0, 1e-9);
   const double gap_m = NearestAhead_m(ros::FromCdr<ros::PointCloud2>(clouds.WaitFor(seen).back()));
   EXPECT_GT(gap_m, 5.0);
-  // From 10 m/s it stands after 2 s and 10 m, and goes on for a frame, 0.05 s, or more before.
-  EXPECT_LT(gap_m, ahead_m - 9.6);
+  EXPECT_LT(gap_m, ahead_m - 24.0);
 }
 
 MessageBytes StepAt(std::int32_t sec, std::uint32_t nanosec = 0) {
@@ -273,7 +271,7 @@ TEST(Ros2Stream, WaitsForTheStampOfEachFrameOnAStepTopic) {
 // The example is run as it is, where rclpy is not: what stands in for it speaks by Fast DDS, too.
 TEST(Ros2Stream, IsDrivenByTheNodeThatBrakesAsByTheClient) {
   const TemporaryDirectory folder;
-  const std::string scenario = FirmBrakes(folder.path(), "2");
+  const std::string scenario = FirmBrakes(folder.path());
   const std::string domain = std::to_string(FreeDomain());
   const std::string frames_port = FreePort();
   const std::string commands_port = FreePort();

@@ -191,6 +191,14 @@ TEST(At128Correction, SaysWhatIsWrongWithAFile) {
   EXPECT_EQ(said(19, 1), "a field must start before 360 deg (got 675.36)");
   EXPECT_EQ(said(18, 0x10), "fields must start 120 deg apart, to 5 deg (got 43.04)");
   EXPECT_EQ(said(555, 0x7F), "angles of lasers must be within 90 deg (got 83240.72)");
+  std::string coarse = MadeCorrection();
+  coarse[15] = 4;
+  for (std::uint32_t field = 0; field < 3; ++field) {
+    StoreAt<std::uint32_t>(coarse.data() + 16 + 4 * field, (20 + 120 * field) * 6'400);
+  }
+  coarse[ShiftPlace(true, 5, 7)] = 127;
+  EXPECT_EQ(MessageOf([&] { (void)CorrectionOf(coarse); }),
+            "shifts of lasers must be within 5 deg (got 5.08)");
 }
 
 std::filesystem::path At128File(const char* name) {
