@@ -194,15 +194,24 @@ ModelError MeasureModelError(const FinishedStudy& study,
   const StudySpec& spec = study.spec;
   error.min_points = spec.detector ? spec.detector->min_points : spec.detect.rule.min_points;
   std::set<Fidelity> rungs;
-  // One for each side, since a scanner keeps the scene of one rung.
-  ApproachScanner own(num_threads, {}, spec.gauge, spec.objects);
-  ApproachScanner reference(num_threads, {}, spec.gauge, spec.objects);
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    on_progress(static_cast<double>(i) / static_cast<double>(sample.size()));
-    const ScenarioSpec& scenario = sample[i];
-    rungs.insert(scenario.fidelity);
-    AddCompared(CoursesOn(scenario.fidelity, scenario, frames, own),
-                CoursesOn(Fidelity::kReference, scenario, frames, reference), error);
+  std::vector<RunCourses> courses;
+  // A scanner keeps the scene of one rung, so that all approaches are on one, and then on the
+  // other.
+  for (const bool is_reference : {false, true}) {
+    ApproachScanner scanner(num_threads, {}, spec.gauge, spec.objects);
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+      const std::size_t num_done = i + (is_reference ? sample.size() : 0);
+      on_progress(0.5 * static_cast<double>(num_done) / static_cast<double>(sample.size()));
+      const ScenarioSpec& scenario = sample[i];
+      rungs.insert(scenario.fidelity);
+      RunCourses found = CoursesOn(is_reference ? Fidelity::kReference : scenario.fidelity,
+                                   scenario, frames, scanner);
+      if (is_reference) {
+        AddCompared(courses[i], found, error);
+      } else {
+        courses.push_back(std::move(found));
+      }
+    }
   }
   if (rungs.size() == 1) error.rung = NameOf(*rungs.begin());
   return error;
