@@ -20,14 +20,13 @@ inline Ended Analyze(const std::string& arguments) {
 inline void GenerateOnce(const std::string& arguments, const std::filesystem::path& out) {
   static const TemporaryDirectory kept;
   static std::map<std::string, std::filesystem::path> made;
-  const auto [found, is_new] =
-      made.try_emplace(arguments, kept.path() / std::to_string(made.size()));
-  if (is_new) {
-    const Ended run =
-        RunCommand(RAILCAST_GENERATE " " + arguments + " --out " + found->second.string());
+  if (!made.contains(arguments)) {
+    const std::filesystem::path folder = kept.path() / std::to_string(made.size());
+    const Ended run = RunCommand(RAILCAST_GENERATE " " + arguments + " --out " + folder.string());
     if (run.status != 0) throw std::runtime_error(run.said);
+    made.emplace(arguments, folder);
   }
-  std::filesystem::copy(found->second, out, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(made.at(arguments), out, std::filesystem::copy_options::recursive);
 }
 
 /// Writes a scenario of a straight line with few beams.

@@ -25,7 +25,7 @@ endfunction()
 # `status` to what it prints and to its exit status.
 function(run_beside scenario example port)
   execute_process(
-    COMMAND sh -c "\"$1\" stream \"$2\" --to $4 --duration 100 >/dev/null & \"$3\" $4; status=$?; kill $!; exit $status" sh
+    COMMAND sh -c "\"$1\" stream \"$2\" --to $4 --duration 100 >/dev/null & timeout 60 \"$3\" $4; status=$?; kill $!; exit $status" sh
             ${BUILD_DIR}/generator/railcast-generate ${scenario} ${examples}/${example} 127.0.0.1:${port}
     OUTPUT_VARIABLE said RESULT_VARIABLE status TIMEOUT 120)
   return(PROPAGATE said status)
@@ -116,8 +116,8 @@ if(WITH_IO)
     message(FATAL_ERROR "find_things: ${in_frame} in the frame, ${in_file} in its file")
   endif()
   run_beside(${approach} find_things_cpp 27498)
-  if(NOT said MATCHES "cells of label [1-9][0-9]* in a box of")
-    message(FATAL_ERROR "find_things in a stream: ${said}")
+  if(NOT status EQUAL 0 OR NOT said MATCHES "cells of label [1-9][0-9]* in a box of")
+    message(FATAL_ERROR "find_things in a stream: ${status} (${said})")
   endif()
   run_beside(${minimal} receive_stream_cpp 27499)
   if(NOT status EQUAL 0)

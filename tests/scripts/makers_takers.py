@@ -120,16 +120,24 @@ def run(words, folder):
 def run_python(text, words):
     """What run() gives, of a program in Python that is run here, because the start of one takes longer than its work."""
     sys.argv = words
-    complaint = io.StringIO()
-    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(complaint):
-        try:
-            exec(compile(text, words[0], "exec"), {"__name__": "__main__"})  # pylint: disable=exec-used
-        except SystemExit as ended:
-            return ended.code or 0, complaint.getvalue()
-        except Exception:  # pylint: disable=broad-exception-caught  # What it is, the last line says.
-            traceback.print_exc()
-            return 1, complaint.getvalue()
-    return 0, ""
+    with tempfile.TemporaryFile("w+") as said, contextlib.redirect_stdout(io.StringIO()):
+        before = os.dup(2)
+        os.dup2(said.fileno(), 2)  # Of libraries, too.
+        status = 0
+        with contextlib.redirect_stderr(said):
+            try:
+                exec(compile(text, words[0], "exec"), {"__name__": "__main__"})  # pylint: disable=exec-used
+            except SystemExit as ended:
+                status = ended.code or 0
+                if isinstance(status, str):
+                    status = print(status, file=said) or 1
+            except Exception:  # pylint: disable=broad-exception-caught  # What it is, the last line says.
+                status = traceback.print_exc() or 1
+        said.flush()
+        os.dup2(before, 2)
+        os.close(before)
+        said.seek(0)
+        return status, said.read()
 
 
 def make(maker, build, folder):
@@ -177,7 +185,7 @@ def take(maker, taker, build, folder):
         if text.startswith("python"):  # What a program does not catch ends with the name and the text of the exception.
             lines = [said for name, _, said in (line.partition(": ") for line in lines[-1:]) if name in REFUSALS]
         if status != 1 or len(lines) != 1:
-            raise RuntimeError(f"{maker[0]} / {taker[0]}: {' '.join(words)}: exit status {status}: {lines[-1:]}")
+            raise RuntimeError(f"{' '.join(words)}: exit status {status}: {lines[-1:]}")
         refusals.append(lines[0])
     return refusals[-1].removeprefix("error: ").replace(str(folder), "").replace(recording, "RECORDING")
 
@@ -217,7 +225,8 @@ def main(build, writes):
         cells = [(maker, taker) for maker in MAKERS for taker in TAKERS]
         with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), initializer=os.chdir, initargs=(folder,)) as pool:
             results = [pool.submit(take, maker, taker, build, folder) for maker, taker in cells]
-        faults = [str(result.exception()) for result in results if result.exception()]
+        faults = [f"{maker[0]} / {taker[0]}: {result.exception()}"
+                  for (maker, taker), result in zip(cells, results) if result.exception()]
         if faults:
             print("\n".join(faults))
             return 1

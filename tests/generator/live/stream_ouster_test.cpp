@@ -100,8 +100,8 @@ TEST(StreamOuster, TellsADriverOverHttpWhatItSends) {
   UdpReceiver receiver(kAnyLoopbackPort);
   const std::string port = FreePort();
   const auto pid_file = folder.path() / "pid";
-  Stream stream(scenario + " --http 127.0.0.1:" + port + " --to " + EndpointText(receiver.at()) +
-                NotedIn(pid_file));
+  Stream stream(scenario + " --duration 25 --http 127.0.0.1:" + port + " --to " +
+                EndpointText(receiver.at()) + NotedIn(pid_file));
   const auto first = receiver.Receive(kPatience_ms);
   ASSERT_TRUE(first.has_value());
   const std::vector<char> packet(first->bytes.begin(), first->bytes.end());
@@ -133,7 +133,7 @@ TEST(StreamOuster, StatesAtomicTimeAndThatItIs) {
   UdpReceiver receiver(*ipv6);
   const std::string port = FreePort();
   const auto pid_file = folder.path() / "pid";
-  Stream stream(scenario + " --clock tai --http '[::1]:" + port + "' --to " +
+  Stream stream(scenario + " --duration 25 --clock tai --http '[::1]:" + port + "' --to " +
                 EndpointText(receiver.at()) + NotedIn(pid_file));
   const auto first = receiver.Receive(kPatience_ms);
   ASSERT_TRUE(first.has_value());

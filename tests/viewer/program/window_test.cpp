@@ -36,9 +36,8 @@ class Window : public WindowTest {
   /// have its bytes (determinism_test.cpp).
   [[nodiscard]] const Picture& Expected(const std::string& options) {
     static std::map<std::string, Picture> drawn;
-    const auto [place, is_new] = drawn.try_emplace(options);
-    if (is_new) place->second = Draw(options + " " + path_);
-    return place->second;
+    if (!drawn.contains(options)) drawn.emplace(options, Draw(options + " " + path_));
+    return drawn.at(options);
   }
 
   const RecordedRun& run_ = RecordedRun::Yard();
