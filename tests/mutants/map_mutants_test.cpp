@@ -228,15 +228,9 @@ TEST(MapMutants, OfOverpassAreNeverReadWrongWithoutAWord) {
   CheckSection("Overpass", {&mutants});
 }
 
-/// Five nodes, the second of which has a height, and a track of them.
-/// @param more Further fields of the block, as Protocol Buffers have them.
-std::string PbfOf(const std::string& nodes, const std::string& way, const std::string& more = {}) {
-  return FileOfGroups(nodes + way + more);
-}
-
 TEST(MapMutants, OfPbfAreNeverReadWrongWithoutAWord) {
   const std::string way = Way({1, 2, 3, 4, 5});
-  Mutants mutants("OSM PBF", "a.osm.pbf", PbfOf(DenseNodes(5), way), ReadMapWhole);
+  Mutants mutants("OSM PBF", "a.osm.pbf", FileOfGroups(DenseNodes(5) + way), ReadMapWhole);
   for (std::size_t size = 1; size < mutants.good().size(); ++size) {
     mutants.Try("cut off", NumberText(size), mutants.good().substr(0, size));
     mutants.Try("a byte lost", NumberText(size), std::string(mutants.good()).erase(size, 1));
@@ -249,18 +243,20 @@ TEST(MapMutants, OfPbfAreNeverReadWrongWithoutAWord) {
   mutants.Try("a feature that is needed", "", Replaced(mutants.good(), "-V0.6", "-V0.7"));
   for (const std::int64_t node : {0, 6, 99, -1})
     mutants.Try("a reference to no node", NumberText(node),
-                PbfOf(DenseNodes(5), Way({1, 2, node, 4, 5})));
-  mutants.Try("a reference doubled", "", PbfOf(DenseNodes(5), Way({1, 2, 2, 3, 4, 5})));
-  mutants.Try("a node lost", "", PbfOf(DenseNodes(4), way));
-  mutants.Try("nodes doubled", "", PbfOf(DenseNodes(5) + DenseNodes(5), way));
-  mutants.Try("a way doubled", "", PbfOf(DenseNodes(5), way + way));
+                FileOfGroups(DenseNodes(5) + Way({1, 2, node, 4, 5})));
+  mutants.Try("a reference doubled", "", FileOfGroups(DenseNodes(5) + Way({1, 2, 2, 3, 4, 5})));
+  mutants.Try("a node lost", "", FileOfGroups(DenseNodes(4) + way));
+  mutants.Try("nodes doubled", "", FileOfGroups(DenseNodes(5) + DenseNodes(5) + way));
+  mutants.Try("a way doubled", "", FileOfGroups(DenseNodes(5) + way + way));
   for (const char* text : {"rail", "railway", "250"})
     mutants.Try("a word changed", text,
                 Replaced(mutants.good(), text, std::string(text).replace(0, 1, "X")));
-  mutants.TryHarmless("a granularity", PbfOf(DenseNodes(5), way, VarintField(17, Varint(100))));
   mutants.TryHarmless("a granularity",
-                      PbfOf(DenseNodes(5, {}, 10), way, VarintField(17, Varint(10))));
-  mutants.TryHarmless("an offset of 0", PbfOf(DenseNodes(5), way, VarintField(19, Varint(0))));
+                      FileOfGroups(DenseNodes(5) + way + VarintField(17, Varint(100))));
+  mutants.TryHarmless("a granularity",
+                      FileOfGroups(DenseNodes(5, {}, 10) + way + VarintField(17, Varint(10))));
+  mutants.TryHarmless("an offset of 0",
+                      FileOfGroups(DenseNodes(5) + way + VarintField(19, Varint(0))));
   CheckSection("OSM PBF", {&mutants});
 }
 

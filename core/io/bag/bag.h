@@ -30,6 +30,10 @@ struct BagTopic {
   bool operator==(const BagTopic&) const = default;
 };
 
+/// The index of the topic with this one's name, type and encoding, whatever its publishers' hashes
+/// and promises. It is appended if there is none.
+[[nodiscard]] std::size_t IndexOfTopic(const BagTopic& topic, std::vector<BagTopic>& topics);
+
 /// Where a message stands in a bag.
 struct BagPlace {
   std::size_t part{};            ///< Index of its file among the bag's files.

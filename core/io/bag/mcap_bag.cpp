@@ -72,7 +72,10 @@ class McapBagReader : public BagReader {
  public:
   McapBagReader(const std::filesystem::path& file, const std::string& name)
       : name_(name), reader_(file, name) {
-    for (const auto& [id, channel] : reader_.index().channels) AddTopic(id, TopicOf(channel));
+    // Channels of several publishers are one topic here.
+    for (const auto& [id, channel] : reader_.index().channels) {
+      topic_by_channel_.emplace(id, IndexOfTopic(TopicOf(channel), topics_));
+    }
   }
 
   [[nodiscard]] const std::vector<BagTopic>& topics() const override { return topics_; }
@@ -145,17 +148,6 @@ class McapBagReader : public BagReader {
     topic.type = FullTypeName(schema->second.name, topic.encoding);
     if (schema->second.encoding == "ros2msg") topic.definition = schema->second.data;
     return topic;
-  }
-
-  // Several channels of one topic, as of several publishers, are one topic here, whatever their
-  // hashes and promises.
-  void AddTopic(std::uint16_t channel, BagTopic topic) {
-    const auto known = std::ranges::find_if(topics_, [&](const BagTopic& other) {
-      return other.name == topic.name && other.type == topic.type &&
-             other.encoding == topic.encoding;
-    });
-    topic_by_channel_.emplace(channel, static_cast<std::size_t>(known - topics_.begin()));
-    if (known == topics_.end()) topics_.push_back(std::move(topic));
   }
 
   std::string name_;

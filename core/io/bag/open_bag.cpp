@@ -46,7 +46,8 @@ class MergedReader : public BagReader {
                    .start_ns = {},
                    .next = {}};
       part.start_ns = part.reader->FindStart_ns();
-      for (const BagTopic& topic : part.reader->topics()) part.topics.push_back(IndexOf(topic));
+      for (const BagTopic& topic : part.reader->topics())
+        part.topics.push_back(IndexOfTopic(topic, topics_));
       parts_.push_back(std::move(part));
     }
     std::ranges::stable_sort(parts_, {}, &BagPart::start_ns);
@@ -110,16 +111,6 @@ class MergedReader : public BagReader {
   }
 
  private:
-  std::size_t IndexOf(const BagTopic& topic) {
-    const auto known = std::ranges::find_if(topics_, [&](const BagTopic& other) {
-      return other.name == topic.name && other.type == topic.type &&
-             other.encoding == topic.encoding;
-    });
-    const auto index = static_cast<std::size_t>(known - topics_.begin());
-    if (known == topics_.end()) topics_.push_back(topic);
-    return index;
-  }
-
   std::vector<Remark> remarks_;
   std::vector<BagPart> parts_;
   std::vector<BagTopic> topics_;
@@ -343,6 +334,15 @@ std::unique_ptr<BagCopy> CopyBag(const std::filesystem::path& bag,
                                  const BagTopic& topic) {
   if (is_directory(bag)) return std::make_unique<DirectoryCopy>(bag, copy, topic);
   return CopyBagFile(bag, copy, topic);
+}
+
+std::size_t IndexOfTopic(const BagTopic& topic, std::vector<BagTopic>& topics) {
+  const auto known = std::ranges::find_if(topics, [&](const BagTopic& other) {
+    return other.name == topic.name && other.type == topic.type && other.encoding == topic.encoding;
+  });
+  const auto index = static_cast<std::size_t>(known - topics.begin());
+  if (known == topics.end()) topics.push_back(topic);
+  return index;
 }
 
 std::string FullTypeName(std::string type, std::string_view encoding) {

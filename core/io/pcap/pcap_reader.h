@@ -111,7 +111,7 @@ struct CapturedDatagram {
   /// Time of capture since 1970-01-01 00:00:00 UTC; of a datagram in fragments, the last one's.
   std::int64_t time_ns{};
   std::size_t packet{};  ///< Index among all packets of the file, from 0; as `time_ns`.
-  /// Whether it does not agree with its checksum. On the machine that sends them no datagrams do
+  /// Whether it does not agree with its checksum. On the machine that sends them hardly any do
   /// where the network card fills that in.
   bool has_wrong_checksum{};
   /// Where the datagram stands in the file from its UDP header on, if PcapReader was asked for it.

@@ -69,7 +69,7 @@ struct CaptureSensor {
   /// Where it sends from, as `--sensor` takes it: "192.168.1.201", with a port where other sensors
   /// have that address, too.
   std::string address{};
-  /// Whether no packet of one of its streams agrees with its checksum of UDP.
+  /// Whether most packets of one of its streams do not agree with their checksums of UDP.
   bool ignores_checksums{};
 };
 
