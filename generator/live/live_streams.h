@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
-#include "core/io/pcap/pcap_writer.h"
 #include "generator/live/live_run.h"
 #include "generator/live/ros_output.h"
 #include "generator/live/stamp_clock.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/io/ros/sensor_messages.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/scenario/sensors.h"
 #include "generator/run/run_topics.h"
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "core/extras/ros/dds/participant.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/datagrams.h"
-#include "core/io/dds/participant.h"
 #include "core/io/net/udp.h"
-#include "core/io/ros/frame_topics.h"
 #include "generator/live/live_run.h"
 #include "generator/live/ros_writers.h"
 #include "generator/run/frame_maker.h"

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/extras/ros/dds/participant.h"
 #include "core/io/datagrams.h"
-#include "core/io/dds/participant.h"
 #include "core/io/net/udp.h"
 
 namespace railcast {

@@ -5,9 +5,9 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/geometry_messages.h"
-#include "core/io/ros/message_type.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/messages/message_type.h"
 
 namespace railcast {
 namespace {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/io/ros/geometry_messages.h"
-#include "core/io/ros/message_type.h"
+#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/messages/message_type.h"
 #include "generator/live/twist_message.h"
 
 namespace railcast {

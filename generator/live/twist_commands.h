@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/dds/participant.h"
+#include "core/extras/ros/dds/participant.h"
 #include "generator/live/command_source.h"
 
 namespace railcast {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/geometry_messages.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/geometry_messages.h"
 
 namespace railcast {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/bag/bag.h"
-#include "core/io/ros/frame_topics.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/run/run_folder.h"
 #include "core/io/verify/bag_lines.h"
 #include "generator/run/frame_maker.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros/frame_topics.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
 #include "generator/run/frame_maker.h"

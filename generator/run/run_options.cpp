@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros/point_layout.h"
+#include "core/extras/ros/messages/point_layout.h"
 #include "core/program/command_line.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"

@@ -7,9 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/osi/sensor_view.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/cloud/track_fields.h"
-#include "core/io/osi/sensor_view.h"
-#include "core/io/ros/frame_topics.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros/point_layout.h"
+#include "core/extras/ros/messages/point_layout.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/scenario/command_log.h"
 #include "generator/run/frame_maker.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/io/ros/frame_topics.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"

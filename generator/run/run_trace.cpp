@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/base/error.h"
-#include "core/io/osi/sensor_view.h"
+#include "core/extras/osi/sensor_view.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "core/io/bag/bag.h"
-#include "core/io/osi/trace_file.h"
+#include "core/extras/osi/trace_file.h"
+#include "core/extras/ros/bag/bag.h"
 #include "core/io/run/run_folder.h"
 
 namespace railcast {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/osi/sensor_view.h"
+#include "core/extras/osi/sensor_view.h"
 #include "core/rail/motion/differentiated.h"
 #include "core/rail/traffic/ego_train.h"
 

@@ -18,19 +18,18 @@ import lint_architecture
 
 BUDGET = "scripts/dev/budget.json"
 PRODUCT_TREES = ("core", *lint_architecture.PROGRAMS)
-# Folders of which each is to become a library that the product does not know.
-EXTRAS = ("core/io/bag core/io/dds core/io/mcap core/io/osi core/io/ouster core/io/pcap core/io/ros "
-          "core/io/spinning core/io/velodyne core/recipe "
-          "generator/convert generator/dataset generator/import generator/insert generator/replay generator/survey "
-          "analysis/card analysis/detectability analysis/detectors analysis/dossier analysis/preset analysis/sight "
-          "analysis/study").split()
+# What can be taken away: the product includes nothing of it.
+EXTRAS = ("core/extras", "generator/extras", "analysis/extras")
 SMALL_HEADER_LINES = 120
 
 
 def room_of(name):
     """core/rail/track for core/rail/track/ballast.h, core/base for core/base/units.h."""
     parts = name.split("/")[:-1]
-    return "/".join(parts[:3] if parts[:2] in (["core", "rail"], ["core", "detect"], ["core", "io"]) else parts[:2])
+    if parts[:3] in (["core", "extras", "packets"], ["core", "extras", "ros"]):
+        return "/".join(parts[:4])
+    is_divided = parts[1:2] == ["extras"] or parts[:2] in (["core", "rail"], ["core", "detect"], ["core", "io"])
+    return "/".join(parts[:3] if is_divided else parts[:2])
 
 
 def is_of_extra(name):
@@ -54,8 +53,7 @@ def measure(root):
             # Its own source is no user.
             if included.removesuffix(".h") != name.removesuffix(".cpp"):
                 users[included].append(name)
-            # The command of an extra belongs to it, though it stands beside the others.
-            if is_of_extra(included) and not is_of_extra(name) and not name.endswith("_command.cpp"):
+            if is_of_extra(included) and not is_of_extra(name):
                 to_extras.append(f"{name} -> {included}")
     small = {name: users[name][0] for name, source in sorted(sources.items())
              if source.is_header and not source.is_public and len(users[name]) == 1

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <string>
 
-#include "analysis/study/approach_record.h"
-#include "analysis/study/study_directory.h"
+#include "analysis/extras/study/approach_record.h"
+#include "analysis/extras/study/study_directory.h"
 #include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/dataset_report_record.h"

@@ -14,9 +14,9 @@
 #include "core/io/write_file.h"
 #include "tests/analysis/analyze_program.h"
 #include "tests/analysis/made_dataset.h"
+#include "tests/core/extras/packets/pcap/made_capture.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/damage.h"
-#include "tests/core/io/pcap/made_capture.h"
-#include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {

@@ -7,13 +7,13 @@
 #include <string_view>
 
 #include "core/base/error.h"
-#include "core/io/bag/bag.h"
-#include "core/io/osi/trace_file.h"
+#include "core/extras/osi/trace_file.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/sensor_messages.h"
 #include "railcast/io/recording.h"
 #include "tests/fuzz/fault_lines.h"
 #include "tests/fuzz/fuzz_target.h"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string>
 
-#include "analysis/detectors/reported_detections.h"
+#include "analysis/extras/detectors/reported_detections.h"
 #include "core/base/error.h"
 #include "tests/fuzz/fault_lines.h"
 #include "tests/fuzz/fuzz_target.h"

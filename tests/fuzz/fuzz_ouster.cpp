@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/ouster/ouster_decoder.h"
-#include "core/io/ouster/ouster_encoder.h"
-#include "core/io/ouster/ouster_http.h"
+#include "core/extras/packets/ouster/ouster_decoder.h"
+#include "core/extras/packets/ouster/ouster_encoder.h"
+#include "core/extras/packets/ouster/ouster_http.h"
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/lidar.h"
 #include "tests/fuzz/fuzz_target.h"

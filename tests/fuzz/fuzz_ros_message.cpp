@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/discovery_messages.h"
+#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/messages/scene_messages.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/recording/packet_messages.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/discovery_messages.h"
-#include "core/io/ros/geometry_messages.h"
-#include "core/io/ros/scene_messages.h"
-#include "core/io/ros/sensor_messages.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast::ros {

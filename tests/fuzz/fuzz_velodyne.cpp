@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/pcap/pcap_reader.h"
-#include "core/io/spinning/spinning_decoder.h"
+#include "core/extras/packets/pcap/pcap_reader.h"
+#include "core/extras/packets/spinning/spinning_decoder.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {

@@ -68,10 +68,10 @@ class SmallHeaders(unittest.TestCase):
 class Extras(unittest.TestCase):
 
     def test_an_include_from_the_product_is_listed(self):
-        files = {"generator/insert/plan.h": "", "generator/run/run.cpp": '#include "generator/insert/plan.h"\n',
-                 "generator/insert/plan.cpp": '#include "generator/insert/plan.h"\n',
-                 "analysis/study_command.cpp": '#include "analysis/study/study.h"\n'}
-        self.assertEqual(measured(files)["product_to_extras"], ["generator/run/run.cpp -> generator/insert/plan.h"])
+        files = {"generator/extras/insert/plan.h": "", "generator/run/run.cpp": '#include "generator/extras/insert/plan.h"\n',
+                 "generator/extras/insert/plan.cpp": '#include "generator/extras/insert/plan.h"\n',
+                 "analysis/extras/study/study_command.cpp": '#include "analysis/extras/study/study.h"\n'}
+        self.assertEqual(measured(files)["product_to_extras"], ["generator/run/run.cpp -> generator/extras/insert/plan.h"])
 
 
 class Text(unittest.TestCase):

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "tests/core/io/hesai/made_packet.h"
-#include "tests/core/io/ouster/made_ouster.h"
-#include "tests/core/io/pcap/made_capture.h"
-#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/core/extras/packets/hesai/made_packet.h"
+#include "tests/core/extras/packets/ouster/made_ouster.h"
+#include "tests/core/extras/packets/pcap/made_capture.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/mutants/mutants.h"
 #include "tests/support/sensor_file.h"
 

@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "generator/import/heights/elevation_map.h"
-#include "generator/import/map/map_projection.h"
+#include "generator/extras/import/heights/elevation_map.h"
+#include "generator/extras/import/map/map_projection.h"
 #include "tests/mutants/mutants.h"
 
 namespace railcast {

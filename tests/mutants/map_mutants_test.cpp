@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "generator/import/map/read_map.h"
-#include "tests/generator/import/made_pbf.h"
+#include "generator/extras/import/map/read_map.h"
+#include "tests/generator/extras/import/made_pbf.h"
 #include "tests/mutants/mutants.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "generator/insert/plan/pose_file.h"
+#include "generator/extras/insert/plan/pose_file.h"
 #include "tests/mutants/mutants.h"
 
 namespace railcast {

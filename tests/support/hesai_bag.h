@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/datagrams.h"
-#include "core/io/pcap/pcap_writer.h"
 #include "core/io/recording/recording_kinds.h"
 #include "tests/core/io/temporary_directory.h"
 

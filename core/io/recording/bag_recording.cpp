@@ -10,14 +10,14 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/cdr.h"
 #include "core/io/recording/cloud_frame.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/message_packets.h"
 #include "core/io/recording/packet_messages.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/tf_poses.h"
-#include "core/io/ros/cdr.h"
 #include "core/scenario/ouster_metadata.h"
 
 namespace railcast {

@@ -9,7 +9,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
-#include "core/io/pcap/pcap_reader.h"
+#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/turn_reader.h"
 #include "core/io/write_file.h"

@@ -11,11 +11,11 @@
 #include <variant>
 #include <vector>
 
-#include "core/io/ouster/ouster_decoder.h"
+#include "core/extras/packets/ouster/ouster_decoder.h"
+#include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/io/recording/capture_metadata.h"
 #include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
-#include "core/io/spinning/spinning_decoder.h"
 #include "railcast/io/endpoint.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/cloud/cloud.h"
 #include "core/io/recording/packet_messages.h"
-#include "core/io/ros/sensor_messages.h"
 
 namespace railcast {
 

@@ -10,7 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/record/read_record.h"
 #include "core/io/recording/recording_kinds.h"

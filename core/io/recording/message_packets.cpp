@@ -9,8 +9,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/extras/ros/messages/cdr.h"
 #include "core/io/recording/packet_messages.h"
-#include "core/io/ros/cdr.h"
 
 namespace railcast {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
 
 namespace railcast {
 

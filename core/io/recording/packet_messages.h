@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/ros/geometry_messages.h"
+#include "core/extras/ros/messages/geometry_messages.h"
 
 // Messages in which ROS drivers record the packets of their sensors, unchanged, and those of Livox,
 // which hold points. VisitFields() as in geometry_messages.h.

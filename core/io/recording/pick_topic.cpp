@@ -7,11 +7,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/unread_formats.h"
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/recording/message_packets.h"
 #include "core/io/recording/packet_messages.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/io/ros/sensor_messages.h"
 
 namespace railcast {
 namespace {

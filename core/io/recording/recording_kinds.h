@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/pcap/pcap_reader.h"
+#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/io/recording/capture_metadata.h"
 #include "railcast/io/recording.h"
 

@@ -10,8 +10,8 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/geometry_messages.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/geometry_messages.h"
 
 namespace railcast {
 namespace {

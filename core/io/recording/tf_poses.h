@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
 #include "railcast/transform.h"
 
 namespace railcast {

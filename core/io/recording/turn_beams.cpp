@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/io/ouster/ouster_decoder.h"
+#include "core/extras/packets/ouster/ouster_decoder.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {

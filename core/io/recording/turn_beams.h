@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
+#include "core/extras/packets/spinning/spinning_model.h"
 #include "core/io/sensor_turn.h"
-#include "core/io/spinning/spinning_model.h"
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/io/recording.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/pcap/pcap_reader.h"
+#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/packet_order.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/io/bag/bag.h"
+#include "core/extras/ros/bag/bag.h"
 
 namespace railcast {
 

@@ -9,11 +9,11 @@
 #include <optional>
 
 #include "core/base/text.h"
-#include "core/io/bag/bag.h"
+#include "core/extras/osi/trace_file.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/mcap/byte_file.h"
+#include "core/extras/ros/mcap/record_scan.h"
 #include "core/io/content_hash.h"
-#include "core/io/mcap/byte_file.h"
-#include "core/io/mcap/record_scan.h"
-#include "core/io/osi/trace_file.h"
 #include "core/scenario/json_text.h"
 
 namespace railcast {

@@ -13,7 +13,7 @@
 #include "core/base/units.h"
 #include "tests/analysis/held_recording.h"
 #include "tests/analysis/recorded_frames.h"
-#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "analysis/dossier/dossier_report.h"
+#include "analysis/extras/dossier/dossier_report.h"
 #include "analysis/report/output.h"
 #include "tests/analysis/report/browser.h"
 #include "tests/analysis/report/made_report.h"

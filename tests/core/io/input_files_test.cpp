@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "core/io/pcap/pcap_reader.h"
+#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/io/recording/line_reader.h"
 #include "core/io/write_file.h"
 #include "core/mesh/mesh_import.h"

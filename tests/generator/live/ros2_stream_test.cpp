@@ -11,15 +11,15 @@
 #include <thread>
 #include <vector>
 
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/frame_topics.h"
-#include "core/io/ros/geometry_messages.h"
-#include "core/io/ros/sensor_messages.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/frame_topics.h"
+#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/write_file.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_topics.h"
-#include "tests/core/io/dds/fast_dds.h"
-#include "tests/core/io/dds/free_domain.h"
+#include "tests/core/extras/ros/dds/fast_dds.h"
+#include "tests/core/extras/ros/dds/free_domain.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/live/live_process.h"
 

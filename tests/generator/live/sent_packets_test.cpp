@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/spinning/spinning_decoder.h"
+#include "core/extras/packets/spinning/spinning_decoder.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/spinning/spinning_decoder.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/extras/packets/spinning/spinning_decoder.h"
+#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "railcast/io/stream.h"
 #include "tests/core/io/net/ipv6_loopback.h"
 #include "tests/core/io/temporary_directory.h"

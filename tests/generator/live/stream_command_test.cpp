@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/spinning/spinning_model.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/extras/packets/spinning/spinning_model.h"
+#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/stream.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/packets/ouster/ouster_decoder.h"
 #include "core/io/net/udp.h"
-#include "core/io/ouster/ouster_decoder.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/net/ipv6_loopback.h"

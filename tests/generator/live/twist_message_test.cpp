@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/geometry_messages.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/geometry_messages.h"
 #include "tests/core/io/message_of.h"
 
 namespace railcast {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "core/io/bag/bag.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/scene_messages.h"
-#include "core/io/ros/sensor_messages.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/scene_messages.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "core/io/write_file.h"
 #include "generator/run/all_sensors.h"
 #include "tests/core/io/damage.h"

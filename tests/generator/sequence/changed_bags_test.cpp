@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/io/bag/bag.h"
-#include "core/io/bag/sqlite_database.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/bag/sqlite_database.h"
 #include "core/io/write_file.h"
-#include "tests/core/io/bag/read_bag.h"
+#include "tests/core/extras/ros/bag/read_bag.h"
 #include "tests/generator/sequence/sequence_runs.h"
 
 namespace railcast {

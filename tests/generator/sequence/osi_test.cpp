@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-#include "core/io/bag/bag.h"
-#include "core/io/mcap/byte_file.h"
-#include "core/io/mcap/mcap_index.h"
-#include "core/io/mcap/record_codec.h"
-#include "core/io/mcap/record_scan.h"
-#include "core/io/osi/sensor_view.h"
-#include "core/io/osi/trace_file.h"
+#include "core/extras/osi/sensor_view.h"
+#include "core/extras/osi/trace_file.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/mcap/byte_file.h"
+#include "core/extras/ros/mcap/mcap_index.h"
+#include "core/extras/ros/mcap/record_codec.h"
+#include "core/extras/ros/mcap/record_scan.h"
 #include "core/io/write_file.h"
+#include "tests/core/extras/osi/example_view.h"
+#include "tests/core/extras/osi/true_messages.h"
 #include "tests/core/io/damage.h"
-#include "tests/core/io/osi/example_view.h"
-#include "tests/core/io/osi/true_messages.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/generator/sequence/sequence_runs.h"
 

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "core/io/pcap/pcap_writer.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
-#include "tests/core/io/velodyne/made_scan.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {

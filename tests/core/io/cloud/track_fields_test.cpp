@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/ros/point_layout.h"
+#include "core/extras/ros/messages/point_layout.h"
 #include "core/io/write_file.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"

@@ -3,17 +3,17 @@
 
 #include <cmath>
 
-#include "core/io/pcap/pcap_writer.h"
+#include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/spinning/spinning_encoder.h"
+#include "core/extras/packets/spinning/spinning_model.h"
+#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/recording/capture_sensor.h"
-#include "core/io/spinning/spinning_encoder.h"
-#include "core/io/spinning/spinning_model.h"
-#include "core/io/velodyne/velodyne_packet.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/hesai_bag.h"
 #include "tests/support/sensor_file.h"
 

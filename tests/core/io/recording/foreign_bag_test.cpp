@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/base/input_file.h"
-#include "core/io/bag/sqlite_database.h"
-#include "core/io/mcap/byte_file.h"
-#include "core/io/mcap/mcap_index.h"
+#include "core/extras/ros/bag/sqlite_database.h"
+#include "core/extras/ros/mcap/byte_file.h"
+#include "core/extras/ros/mcap/mcap_index.h"
 #include "core/io/recording/cloud_message.h"
 #include "core/io/recording/packet_messages.h"
 #include "core/io/recording/recording_kinds.h"

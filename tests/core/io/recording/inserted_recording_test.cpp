@@ -10,13 +10,13 @@
 
 #include "core/io/recording/recorded_motion.h"
 #include "core/io/write_file.h"
-#include "generator/insert/run/insert_run.h"
+#include "generator/extras/insert/run/insert_run.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/insert/run/made_insertion.h"
+#include "tests/generator/extras/insert/run/made_insertion.h"
 
 namespace railcast {
 namespace {

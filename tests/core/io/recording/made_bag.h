@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/bag/bag.h"
-#include "core/io/ros/cdr.h"
-#include "core/io/ros/geometry_messages.h"
-#include "core/io/ros/sensor_messages.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/messages/geometry_messages.h"
+#include "core/extras/ros/messages/sensor_messages.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "core/io/pcap/pcap_writer.h"
-#include "core/io/velodyne/velodyne_packet.h"
+#include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
-#include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/extras/packets/hesai/made_packet.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/sensor_file.h"
 

@@ -10,12 +10,12 @@
 
 #include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
-#include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/extras/packets/hesai/made_packet.h"
+#include "tests/core/extras/packets/pcap/made_capture.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/pcap/made_capture.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/core/io/velodyne/made_scan.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/sensor_file.h"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/io/pcap/pcap_writer.h"
+#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/write_file.h"
-#include "tests/core/io/hesai/made_packet.h"
+#include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/hesai_bag.h"

@@ -10,7 +10,7 @@
 
 #include "core/io/write_file.h"
 #include "tests/core/io/temporary_directory.h"
-#include "tests/generator/dataset/dataset_project.h"
+#include "tests/generator/extras/dataset/dataset_project.h"
 
 namespace railcast {
 namespace {

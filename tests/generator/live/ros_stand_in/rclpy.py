@@ -1,5 +1,5 @@
 """Stands in for ROS 2's rclpy, of which it has what examples/brake_node.py asks for: nodes whose
-messages fast_bridge (tests/core/io/dds) brings by Fast DDS."""
+messages fast_bridge (tests/core/extras/ros/dds) brings by Fast DDS."""
 
 import os
 import select

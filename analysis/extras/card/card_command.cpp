@@ -1,0 +1,78 @@
+#include <iostream>
+#include <memory>
+
+#include "analysis/commands.h"
+#include "analysis/extras/card/dataset_card.h"
+#include "analysis/report/formats.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/run/run_folder.h"
+#include "core/io/write_file.h"
+#include "core/program/version.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCardFile = "README.md";
+
+struct CardOptions {
+  fs::path dataset;
+  std::string licence;
+  ReportOutput output;
+};
+
+void CheckOut(const fs::path& out, const fs::path& dataset) {
+  // A data set holds what its manifest names and nothing else.
+  if (IsInFolder(out, dataset)) {
+    throw InputError(
+        "--out: must be outside the data set, which holds nothing but its own files (got " +
+        ShownPath(out) + ")");
+  }
+  // People write files of this name, too.
+  const fs::path readme = out / kCardFile;
+  if (fs::exists(readme) && !ReadFileWhole(readme).starts_with("# Data set ")) {
+    throw InputError(ShownPath(readme) + ": must be a card, which is replaced, or not be there");
+  }
+}
+
+int RunCard(const CardOptions& options, const std::string& command_line) {
+  const fs::path& out = options.output.out;
+  if (!out.empty()) CheckOut(out, options.dataset);
+  Report report = MakeDatasetCard(options.dataset, options.licence, command_line);
+  for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
+  if (!out.empty()) {
+    MakeFolders(out);
+    WriteFileWhole(out / kCardFile, ReportMarkdown(report));
+  }
+  EmitReport(report, options.output, "card");
+  if (!out.empty() && !options.output.is_json) {
+    std::cout << kCardFile << " in " << ShownPath(out) << "\n" << std::flush;
+  }
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddCard(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<CardOptions>();
+  ProgramOptions card = app.AddCommand("card",
+                                       "Write the card of a data set: pictures, parts, classes, "
+                                       "recipe, licence and limits, as README.md and page");
+  card.AddOption("DATASET", options->dataset,
+                 "Folder that railcast-generate dataset or merge made, whole and finished")
+      .Required()
+      .Check(NonEmpty());
+  card.AddOption("--licence", options->licence,
+                 "Licence under which the data set is given away, such as CC-BY-4.0")
+      .Check(NonEmpty());
+  AddReportOptions(card, options->output);
+  card.WhenParsed([&command, options] {
+    command = [options](const std::string& line) { return RunCard(*options, line); };
+  });
+}
+
+}  // namespace railcast

@@ -1,0 +1,155 @@
+#include "analysis/extras/detectors/alarm_report.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/text.h"
+
+namespace railcast {
+namespace {
+
+constexpr double kMetresPerKm = 1e3;
+
+std::string CauseText(const FalseAlarm& alarm) {
+  return alarm.cause.empty() ? "no points" : alarm.cause;
+}
+
+// Nothing there first, by cause, then objects.
+Table AlarmTable(const std::vector<EvaluatedRun>& runs) {
+  Table table{.key = "false_alarms",
+              .title = "False alarms by what raised them",
+              .note =
+                  "The cause is the label of most of the points in the box that completes the "
+                  "rule, or its class where it has none. Intervals are exact for a Poisson process "
+                  "(Garwood 1936), with no alarm, too.",
+              .columns = ColumnsOf("at: At; cause: Cause; alarms: Alarms; per_km: Alarms per km"),
+              .is_open = true};
+  std::map<std::pair<std::string, std::string>, std::uint64_t> counts;
+  std::uint64_t num_all = 0;
+  std::uint64_t num_at_nothing = 0;
+  for (const EvaluatedRun& run : runs) {
+    for (const FalseAlarm& alarm : run.alarms) {
+      ++counts[{alarm.object, CauseText(alarm)}];
+      ++num_all;
+      num_at_nothing += alarm.object.empty() ? 1U : 0U;
+    }
+  }
+  const double driven_m = SumDriven_m(runs);
+  for (const auto& [key, num] : counts) {
+    const auto& [object, cause] = key;
+    table.rows.push_back(
+        {object.empty() ? "no object" : object, cause, num, AlarmsPerKm(num, driven_m)});
+  }
+  table.rows.push_back({"no object", "all", num_at_nothing, AlarmsPerKm(num_at_nothing, driven_m)});
+  table.rows.push_back({"all", "", num_all, AlarmsPerKm(num_all, driven_m)});
+  return table;
+}
+
+Table BesideAlarmsTable(const std::vector<EvaluatedRun>& runs) {
+  Table table{.key = "no_alarm",
+              .title = "Objects that must raise no alarm",
+              .note = "They are approached and never reach into the gauge of the own track.",
+              .columns = ColumnsOf(
+                  "object: Object; type: Type; verdict: Verdict; runs: Runs; "
+                  "runs_with_alarm: With an alarm; alarms: Alarms; from_axis_m: From the axis"),
+              .is_open = true};
+  for (const auto& [name, object] : ObjectsBesideIn(runs)) {
+    table.rows.push_back({name, object.type, object.num_alarms == 0 ? "no alarm" : "false alarm",
+                          object.num_runs, object.num_runs_with_alarm, object.num_alarms,
+                          object.from_axis_m});
+  }
+  return table;
+}
+
+// Where they happen, by cause.
+Chart AlarmChart(const std::vector<EvaluatedRun>& runs) {
+  std::map<std::string, ChartSeries> by_cause;
+  for (const EvaluatedRun& run : runs) {
+    for (const FalseAlarm& alarm : run.alarms) {
+      const std::string cause = alarm.object.empty() ? CauseText(alarm) : alarm.object;
+      ChartSeries& series = by_cause[cause];
+      series.title = cause;
+      series.style = SeriesStyle::kPoints;
+      series.points.push_back({.x = alarm.s_m, .y = alarm.distance_m});
+    }
+  }
+  Chart chart{
+      .key = "false_alarms",
+      .title = "Where false alarms are seen",
+      .caption = "Chainage of the box that completes the rule, and how far ahead it is then.",
+      .x = {.title = "Chainage", .unit = "m"},
+      .y = {.title = "Distance", .unit = "m"}};
+  for (auto& [cause, series] : by_cause) chart.series.push_back(std::move(series));
+  return chart;
+}
+
+Table AlarmList(const std::vector<EvaluatedRun>& runs) {
+  Table table{.key = "each_false_alarm",
+              .title = "Each false alarm",
+              .columns = ColumnsOf("run: Run; frame: Frame; chainage_m: Chainage; "
+                                   "distance_m: Distance; at: At; cause: Cause")};
+  for (const EvaluatedRun& run : runs) {
+    for (const FalseAlarm& alarm : run.alarms) {
+      table.rows.push_back({ShownPath(run.run.source), std::uint64_t{alarm.frame}, alarm.s_m,
+                            alarm.distance_m, alarm.object.empty() ? "no object" : alarm.object,
+                            CauseText(alarm)});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+double SumDriven_m(const std::vector<EvaluatedRun>& runs) {
+  double sum_m = 0.0;
+  for (const EvaluatedRun& run : runs) sum_m += run.driven_m;
+  return sum_m;
+}
+
+std::map<std::string, ObjectBeside> ObjectsBesideIn(const std::vector<EvaluatedRun>& runs) {
+  std::map<std::string, ObjectBeside> objects;
+  for (const EvaluatedRun& run : runs) {
+    for (const std::string& name : run.ObjectsBeside()) {
+      ObjectBeside& object = objects[name];
+      object.type = run.run.courses.objects.at(name).type;
+      object.from_axis_m = std::min(object.from_axis_m, run.run.detections.at(name).from_axis_m);
+      const auto num =
+          static_cast<std::uint64_t>(std::ranges::count(run.alarms, name, &FalseAlarm::object));
+      ++object.num_runs;
+      object.num_runs_with_alarm += num > 0 ? 1U : 0U;
+      object.num_alarms += num;
+    }
+  }
+  return objects;
+}
+
+Estimate AlarmsPerKm(std::uint64_t num_alarms, double driven_m) {
+  return ExactPoissonRate(num_alarms, driven_m / kMetresPerKm);
+}
+
+std::string FalseAlarmText(const DetectionRule& rule) {
+  return "A false alarm is a run of frames of which each has, with those before it, boxes in the "
+         "gauge in " +
+         NumberText(rule.min_frames) + " of " + NumberText(rule.of_frames) +
+         " frames that are of no object in the way. A box is of an object if half of the smaller "
+         "of the two lies in the other, after " +
+         NumberText(kBoxSlack_m) +
+         " m have been added to each face of the true one. Boxes of an object that never reaches "
+         "into the gauge are false alarms at that object.";
+}
+
+Section AlarmSection(const std::vector<EvaluatedRun>& runs, const DetectionRule& rule) {
+  Section section{.key = "false_alarms",
+                  .title = "False alarms",
+                  .paragraphs = {FalseAlarmText(rule)},
+                  .tables = {AlarmTable(runs)}};
+  Table beside = BesideAlarmsTable(runs);
+  if (!beside.rows.empty()) section.tables.push_back(std::move(beside));
+  Table list = AlarmList(runs);
+  if (list.rows.empty()) return section;
+  section.charts = {AlarmChart(runs)};
+  section.tables.push_back(std::move(list));
+  return section;
+}
+
+}  // namespace railcast

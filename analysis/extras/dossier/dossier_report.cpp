@@ -1,0 +1,153 @@
+#include "analysis/extras/dossier/dossier_report.h"
+
+#include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "analysis/extras/study/study_factors.h"
+#include "analysis/extras/study/study_report.h"
+#include "analysis/limits/limit_sections.h"
+#include "analysis/report/program_output.h"
+#include "analysis/report/provenance.h"
+#include "core/base/error.h"
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/write_file.h"
+#include "core/program/command_line.h"
+
+namespace railcast {
+
+extern const char* const kPrintCss;
+extern const char* const kCredibility;
+
+namespace {
+
+std::vector<Headline> VerdictHeadlines(const std::vector<TargetResult>& targets) {
+  std::vector<Headline> headlines;
+  for (const TargetResult& target : targets) {
+    headlines.push_back(
+        {.title = target.name + ": detected in time", .unit = "", .value = AnswerOf(target)});
+    headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
+                         .unit = "m",
+                         .value = target.d90_95_m});
+    headlines.push_back(
+        {.title = target.name + ": needed, at most", .unit = "m", .value = target.most_needed_m});
+  }
+  return headlines;
+}
+
+}  // namespace
+
+Report MakeDossier(const FinishedStudy& study,
+                   const std::vector<ScenarioSpec>& sample,
+                   const ModelError& error,
+                   const std::string& command) {
+  const std::vector<Observation> observations = ObservationsOf(study.result.approaches);
+  if (observations.empty()) {
+    throw InputError(ShownPath(study.directory) +
+                     ": no approach comes to an object in the way: nothing can be detected");
+  }
+  const std::vector<TargetResult> targets = TargetsOf(observations);
+  const std::vector<Factor> factors = FactorsOf(observations);
+  Report report{
+      .title = study.spec.question.empty() ? "Dossier of a study" : study.spec.question,
+      .command = command,
+      .headlines = VerdictHeadlines(targets),
+      .sections = {VerdictSection(targets), ScopeSection(study, sample), ModelErrorSection(error),
+                   SensorSection(sample), LimitsSection(sample, study.spec.detector.has_value()),
+                   FactorsSection(WeighFactors(observations, factors), observations.size()),
+                   ConditionsSection(observations, factors), YardsticksSection(targets),
+                   CredibilitySection(), TraceabilitySection(study), SignaturesSection()}};
+  Section placement = PlacementSection(observations, factors, study.recipe);
+  if (!placement.tables.empty()) {
+    report.sections.insert(report.sections.begin() + 1, std::move(placement));
+  }
+  if (study.spec.detector) {
+    report.sections.insert(report.sections.begin() + 1,
+                           StudyAlarmsSection(study.spec, study.result.approaches));
+  }
+  return report;
+}
+
+void PrintPage(const std::filesystem::path& page, const std::filesystem::path& pdf) {
+  std::string html = ReadFileWhole(page);
+  // weasyprint 57 fails on drawings in the colour of the text.
+  boost::replace_all(html, "currentColor", "#17202a");
+  const std::size_t head = html.find("</head>");
+  Check(head != std::string::npos, "a page has a head");
+  html.insert(head, "<style>" + std::string(kPrintCss) + "</style>");
+  const ReportScratch scratch;
+  const std::filesystem::path file = scratch.path() / "page.html";
+  WriteFileWhole(file, html);
+  WriteFileWhole(
+      pdf, ProgramOutput("weasyprint --quiet " + ShellWord(file.string()) + " -", "weasyprint"));
+}
+
+Section CredibilitySection() {
+  Table table{
+      .key = "credibility",
+      .title = "Questions of credibility",
+      .note =
+          "After the properties that Regulation (EU) 2022/1426, Annex III part 4, and the NATM "
+          "guidelines of UNECE ask of simulation toolchains, in our words. Open questions are for "
+          "whoever files this.",
+      .columns = ColumnsOf("property: Property; question: Question; state: State; answer: Answer"),
+      .is_open = true};
+  for (const Json& row : Json::parse(kCredibility)) {
+    const auto answer = row.at("answer").get<std::string>();
+    table.rows.push_back({row.at("property").get<std::string>(),
+                          row.at("question").get<std::string>(),
+                          std::string(answer.empty() ? "open" : "answered"), answer});
+  }
+  return {.key = "credibility", .title = "Credibility", .tables = {std::move(table)}};
+}
+
+Section TraceabilitySection(const FinishedStudy& study) {
+  Table table{.key = "traceability",
+              .title = "What the figures depend on",
+              .columns = ColumnsOf("what: What; value: Value"),
+              .is_open = true};
+  const auto add = [&](const std::string& what, const std::string& value) {
+    table.rows.push_back({what, value});
+  };
+  const StudyRecord& identity = study.result.identity;
+  add("Made by",
+      "railcast " + identity.version + ", Embree " + identity.embree + ", " + identity.isa);
+  add("Machine", ProcessorName() +
+                     ", for the measured errors and this dossier; approaches have the same bytes "
+                     "on every processor with " +
+                     identity.isa);
+  add("Study", identity.study_hash);
+  add("Asked about", study.spec.ObjectsText());
+  add("Recipe", identity.recipe_hash);
+  std::string bases;
+  for (const std::string& hash : identity.base_hashes) {
+    bases += (bases.empty() ? "" : ", ") + hash;
+  }
+  add("Bases", bases);
+  const std::string& files = identity.files_hash;
+  add("Other files", files.empty() ? "none" : files);
+  const auto& approaches = study.result.approaches;
+  const auto seeds = std::ranges::minmax(approaches, {}, &ApproachRecord::seed);
+  add("Approaches", NumberText(approaches.size()) + ", seeds " + NumberText(seeds.min.seed) +
+                        " to " + NumberText(seeds.max.seed) +
+                        "; each line of approaches.jsonl has its own");
+  add("To make it again", "railcast-analyze study STUDY.json --out DIR --isa " + identity.isa +
+                              ", with the study and the recipe of the hashes above (inputs/ has "
+                              "copies); approaches.jsonl then has the same bytes");
+  return {.key = "traceability", .title = "Traceability", .tables = {std::move(table)}};
+}
+
+Section SignaturesSection() {
+  Table table{.key = "signatures",
+              .title = "Signatures",
+              .columns = ColumnsOf("role: Role; name: Name; date: Date; signature: Signature"),
+              .is_open = true};
+  for (const char* const role : {"Made by", "Checked by", "Assessed by"}) {
+    table.rows.push_back({std::string(role), std::string(), std::string(), std::string()});
+  }
+  return {.key = "signatures", .title = "Signatures", .tables = {std::move(table)}};
+}
+
+}  // namespace railcast

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/detectability/object_detection.h"
+#include "analysis/extras/detectors/run_evaluation.h"
+#include "core/extras/recipe/scenario_draw.h"
+#include "core/scenario/json_text.h"
+#include "core/scenario/value_type.h"
+
+namespace railcast {
+
+/// What is pooled over approaches: the name without the number of a placed object, "person" of
+/// "person/2".
+[[nodiscard]] std::string TargetOf(const std::string& name);
+
+/// Whether a study asks about an object.
+/// @param objects StudySpec::objects.
+[[nodiscard]] bool IsAskedAbout(const std::string& name, const std::vector<std::string>& objects);
+
+/// An object in the way, as a study records it.
+struct StudiedObject {
+  std::string name{};
+  std::string type{};
+  bool is_detected{};
+  double distance_m{};  ///< Of the detection; NaN without one.
+  /// Number of the frame that completes the rule, or that of the closest point without detection.
+  std::uint32_t frame{};
+  bool is_from_start{};                 ///< Whether the first frames complete the rule already.
+  double nearest_m{};                   ///< Distances of the approach, ...
+  double farthest_m{};                  ///< ... from the first sighting on.
+  double speed_mps{};                   ///< At the detection, or where it was first in range.
+  double needed_m{};                    ///< To stop, with the margin.
+  std::map<std::string, Json> drawn{};  ///< Of the object itself, by JSON pointer.
+
+  [[nodiscard]] std::string Target() const { return TargetOf(name); }
+  /// 0 without detection.
+  [[nodiscard]] double detected_m() const { return is_detected ? distance_m : 0.0; }
+  /// Of what was not detected, the distance needed is missing.
+  [[nodiscard]] double spare_m() const { return detected_m() - needed_m; }
+  [[nodiscard]] bool is_in_time() const { return is_detected && spare_m() >= 0.0; }
+  /// Whether the approach began too near to tell: detected at once, yet too late.
+  [[nodiscard]] bool is_undecided() const { return is_from_start && !is_in_time(); }
+};
+
+void Describe(Archive& a, StudiedObject& s);
+
+/// What a detector says of an approach beyond the objects in the way.
+struct ApproachAlarms {
+  double driven_m{};
+  std::vector<std::string> beside{};  ///< Objects that must raise no alarm.
+  std::vector<FalseAlarm> alarms{};
+};
+
+/// One approach of a study.
+struct ApproachRecord {
+  std::uint32_t scenario{};
+  std::uint64_t seed{};
+  std::string base{};
+  std::map<std::string, Json> drawn{};     ///< By name or JSON pointer.
+  std::vector<StudiedObject> objects{};    ///< Those in the way that are approached.
+  std::optional<ApproachAlarms> alarms{};  ///< Of studies with a detector.
+};
+
+/// A line of approaches.jsonl.
+void Describe(Archive& a, ApproachRecord& s);
+
+/// What the courses of a scenario say.
+/// @param frames Numbers of the frames that were followed.
+/// @throws InputError as DetectObject() does.
+[[nodiscard]] ApproachRecord RecordOf(const DrawnScenario& drawn,
+                                      const RunCourses& courses,
+                                      const std::vector<std::uint32_t>& frames,
+                                      const DetectSpec& spec);
+
+[[nodiscard]] ApproachAlarms AlarmsOf(const EvaluatedRun& run);
+
+}  // namespace railcast

@@ -1,0 +1,80 @@
+#include <utility>
+
+#include "analysis/extras/study/study_spec.h"
+#include "core/base/error.h"
+#include "core/base/units.h"
+#include "core/scenario/json_reader.h"
+#include "core/scenario/json_source.h"
+
+namespace railcast {
+
+void Describe(Archive& a, DetectionRule& s) {
+  a.Optional("points", s.min_points, "Least number of points on an object that is seen.",
+             Within(1, 1e6));
+  a.Optional("frames", s.min_frames, "In how many frames it is seen ...", Within(1, 1e4));
+  a.Optional("of_frames", s.of_frames, "... of so many consecutive ones.", Within(1, 1e4));
+  a.Ensure({"of_frames", "frames"}, s.min_frames <= s.of_frames, "must be >= frames");
+}
+
+void Describe(Archive& a, BrakingSpec& s) {
+  a.Optional("reaction_s", s.reaction_s, "From the detection to full braking.", Within(0, 60));
+  a.Optional("deceleration_mps2", s.deceleration_mps2, "On the level.", Within(0.01, 10));
+  a.Optional("margin_m", s.margin_m, "To be left before the object.", Within(0, 1000));
+}
+
+void Describe(Archive& a, ClusterDetectorSpec& s) {
+  std::string type;
+  a.Required("type", type, "The reference detector, the only one.", OneOf({"clusters"}));
+  a.Optional("min_height_m", s.min_height_m, "What is lower over top of rail is track.",
+             Within(0, 5));
+  a.Optional("min_distance_m", s.min_distance_m, "Ahead of the sensor: what is nearer is rain.",
+             Within(0, 100));
+  a.Optional("cluster_distance_m", s.cluster_distance_m, "Of points of one cluster, in plan.",
+             Within(0.01, 10));
+  a.Optional("min_points", s.min_points, "Of a cluster.", Within(1, 1e6));
+}
+
+void Describe(Archive& a, TrainGauge& s) {
+  a.Required("width_m", s.width_m, "Of the gauge.", Within(0.1, 10));
+  a.Required("height_m", s.height_m, "Over top of rail.", Within(0.1, 10));
+}
+
+void Describe(Archive& a, StudySpec& s) {
+  a.Optional("question", s.question, "What the study is to answer.");
+  a.Required("recipe", s.recipe, "What scenarios are drawn from.", ExistingFile());
+  std::optional<std::vector<std::string>> objects;
+  a.Optional("objects", objects, "Names of those asked about; absent = all in the way.",
+             NonEmptyString());
+  a.Ensure({"objects"}, !objects || !objects->empty(), "must not be empty");
+  if (objects) s.objects = std::move(*objects);
+  a.Optional("detection", s.detect.rule, "When an object counts as detected.");
+  a.Optional("detector", s.detector, "Finds the objects, in whole frames.");
+  a.Optional("gauge", s.gauge, "Of the train, instead of the vehicle's outline.");
+  a.Optional("braking", s.detect.braking, "How the train stops.");
+  std::optional<double> speed_kmph;
+  a.Optional("speed_kmph", speed_kmph, "To brake from; absent = the vehicle's own.",
+             Within(0, 500));
+  if (speed_kmph) s.detect.speed_mps = MpsFromKmph(*speed_kmph);
+}
+
+std::string StudySpec::ObjectsText() const {
+  if (objects.empty()) return "all objects in the way";
+  std::string text;
+  for (const std::string& name : objects) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+StudySpec ReadStudy(const std::filesystem::path& file) {
+  JsonSource source;
+  StudySpec study;
+  if (const auto root = source.Open(file)) {
+    if (auto list = source.PlainMembers(*root)) {
+      ReadMembers(source, *root, std::move(*list), study);
+    }
+  }
+  source.errors().ThrowIfAny();
+  study.file = file;
+  return study;
+}
+
+}  // namespace railcast

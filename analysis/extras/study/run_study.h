@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/extras/study/approach_record.h"
+#include "analysis/extras/study/study_directory.h"
+#include "analysis/extras/study/study_spec.h"
+#include "core/extras/recipe/recipe.h"
+#include "core/io/run/dataset_files.h"
+#include "core/scenario/json_text.h"
+
+namespace railcast {
+
+struct StudyChoices {
+  std::filesystem::path directory{};
+  Shard shard{};
+  std::vector<std::filesystem::path> shards{};  ///< To be merged instead of simulated.
+  int num_threads = 0;                          ///< 0 = all cores.
+  std::string isa{};                            ///< As MakeSimulator() takes it.
+};
+
+struct StudyHooks {
+  /// Called by one thread at a time.
+  std::function<void(std::uint32_t num_done, std::uint32_t num_approaches)> on_progress;
+  std::function<bool()> is_stopped;  ///< Called by several threads at once.
+};
+
+struct StudyResult {
+  std::vector<ApproachRecord> approaches;  ///< All of the shard's that are done.
+  std::uint32_t num_made{};                ///< By this run.
+  std::uint32_t num_approaches{};          ///< Of the shard.
+  std::uint64_t num_frames{};              ///< Of those made by this run.
+  std::uint64_t num_traced{};              ///< Frames among them of which firings were traced.
+  double elapsed_s{};
+  StudyRecord identity;  ///< What the figures depend on: versions and hashes.
+
+  [[nodiscard]] bool is_complete() const { return approaches.size() == num_approaches; }
+};
+
+/// Reads a recipe that is fit for a study: of scenarios with one sensor, on a rung that is named.
+/// @throws InputError as ReadRecipe() does.
+[[nodiscard]] Recipe ReadStudyRecipe(const StudySpec& study);
+
+/// Makes the approaches that the folder does not hold yet, one on each thread.
+/// @throws InputError as StudyDirectory, ScenarioDrawer and ApproachScanner do; if no scenario has
+///   what is asked about, "study.json: /objects/1: must be an object of a scenario (got "wagon")".
+[[nodiscard]] StudyResult RunStudy(const StudySpec& study,
+                                   const ScenarioDrawer& drawer,
+                                   const StudyChoices& choices,
+                                   const StudyHooks& hooks);
+
+}  // namespace railcast

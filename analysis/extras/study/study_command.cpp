@@ -1,0 +1,113 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "analysis/commands.h"
+#include "analysis/extras/study/kept_files.h"
+#include "analysis/extras/study/run_study.h"
+#include "analysis/extras/study/study_report.h"
+#include "analysis/report/output.h"
+#include "analysis/report/provenance.h"
+#include "core/base/input_file.h"
+#include "core/extras/recipe/scenario_draw.h"
+#include "core/io/run/dataset_files.h"
+#include "core/program/progress_line.h"
+#include "core/program/stop_signals.h"
+#include "core/program/version.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+  fs::path study;
+  StudyChoices choices;
+  std::string shard;
+  ReportOutput output;
+};
+
+std::string Summary(const StudyResult& result) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << "made " << result.num_made << " approaches in "
+       << result.elapsed_s << " s";
+  if (result.num_made > 0) {
+    text << ", tracing objects in " << result.num_traced << " of " << result.num_frames
+         << " frames";
+  }
+  text << "; " << result.approaches.size() << " of " << result.num_approaches << " are done\n";
+  return text.str();
+}
+
+int RunStudyCommand(StudyOptions options, const std::string& command_line) {
+  if (options.output.out.empty()) {
+    throw InputError("--out: missing: the folder of the study, in which it can be continued");
+  }
+  const StudySpec study = ReadStudy(options.study);
+  const Recipe recipe = ReadStudyRecipe(study);
+  const ScenarioDrawer drawer(recipe);
+  CatchStopSignals();
+  const ProgressLine line;
+  const StudyHooks hooks = {[&](std::uint32_t num_done, std::uint32_t num_approaches) {
+                              line.Show("approaches",
+                                        static_cast<double>(num_done) / num_approaches);
+                            },
+                            StopRequested};
+  options.choices.directory = options.output.out;
+  const StudyResult result = RunStudy(study, drawer, options.choices, hooks);
+  line.End();
+  if (!options.output.is_json) std::cout << Summary(result);
+  if (!result.is_complete()) {
+    std::cerr << "interrupted; the same command continues\n";
+    return kExitInterrupted;
+  }
+  if (!options.choices.shard.is_whole()) {
+    std::cout << "shard " << options.shard << " is complete; --shards joins all of them\n";
+    return kExitSuccess;
+  }
+  const std::vector<Observation> observations = ObservationsOf(result.approaches);
+  if (observations.empty()) {
+    throw InputError(ShownPath(options.study) +
+                     ": no approach comes to an object in the way: nothing can be detected");
+  }
+  const std::vector<Observation> worst = WorstOf(observations);
+  KeepFiles(study, drawer, worst, SampleOf(observations), options.output.out);
+  Report report = MakeStudyReport(study, Json::parse(ReadFileWhole(study.recipe)), result,
+                                  observations, command_line);
+  report.sections.insert(report.sections.end() - 1,
+                         WorstSection(worst, ShownPath(options.output.out)));
+  for (const auto& fact : MakerFacts(ProgramVersion())) report.facts.push_back(fact);
+  EmitReport(report, options.output, "report");
+  return kExitSuccess;
+}
+
+}  // namespace
+
+void AddStudy(ProgramOptions& app, ProgramCommand& command) {
+  const auto options = std::make_shared<StudyOptions>();
+  ProgramOptions study = app.AddCommand(
+      "study",
+      "Simulate the approaches that a recipe draws, and report with which probability objects in "
+      "the way are detected at which distance");
+  study.AddOption("STUDY", options->study, "What is asked of which recipe (docs/study.md)")
+      .Required();
+  AddReportOptions(study, options->output);
+  const Option shard = study
+                           .AddOption("--shard", options->shard,
+                                      "Make every N-th approach only, the I-th of each N: I/N")
+                           .Check({ShardRule, ""});
+  study
+      .AddOption("--shards", options->choices.shards,
+                 "Folders of all shards, to report on them as one study")
+      .Excludes(shard);
+  AddThreads(study, options->choices.num_threads);
+  AddIsa(study, options->choices.isa);
+  study.WhenParsed([&command, options] {
+    if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
+    command = [options](const std::string& line) { return RunStudyCommand(*options, line); };
+  });
+}
+
+}  // namespace railcast

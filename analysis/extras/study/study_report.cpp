@@ -1,0 +1,181 @@
+#include "analysis/extras/study/study_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "analysis/detectability/detect_report.h"
+#include "analysis/extras/detectors/alarm_report.h"
+#include "analysis/extras/detectors/evaluate_report.h"
+#include "analysis/extras/study/kept_files.h"
+#include "core/base/text.h"
+
+namespace railcast {
+
+extern const char* const kYardsticks;
+
+namespace {
+
+std::string DrawnText(const std::map<std::string, Json>& drawn) {
+  std::string text;
+  for (const auto& [name, value] : drawn) {
+    if (!text.empty()) text += ", ";
+    text += name + " " + (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text;
+}
+
+// Those that were missed first, then by what is to spare, then by their place in the recipe.
+bool IsWorse(const Observation& one, const Observation& other) {
+  const auto key = [](const Observation& each) {
+    return std::tuple(each.object->is_detected, each.object->spare_m(), each.approach->scenario);
+  };
+  return key(one) < key(other);
+}
+
+std::string SeenText(const StudySpec& study) {
+  const DetectionRule& rule = study.detect.rule;
+  const std::string frames =
+      NumberText(rule.min_frames) + " of " + NumberText(rule.of_frames) + " frames";
+  if (!study.detector) return NumberText(rule.min_points) + " points in " + frames;
+  return ClusterDetectorText(*study.detector) + "; in " + frames;
+}
+
+std::vector<std::pair<std::string, std::string>> FactsOfStudy(const StudySpec& study,
+                                                              const StudyResult& result) {
+  const StudyRecord& identity = result.identity;
+  std::string bases;
+  for (const std::string& hash : identity.base_hashes) {
+    bases += (bases.empty() ? "" : ", ") + hash;
+  }
+  const BrakingSpec& braking = study.detect.braking;
+  return {
+      {"Study", ShownPath(study.file) + " (" + identity.study_hash + ")"},
+      {"Recipe", ShownPath(study.recipe) + " (" + identity.recipe_hash + ")"},
+      {"Bases", bases},
+      {"Approaches", NumberText(result.approaches.size())},
+      {"Asked about", study.ObjectsText()},
+      {"Detected", SeenText(study)},
+      {"Braking", NumberText(braking.reaction_s) + " s, " + NumberText(braking.deceleration_mps2) +
+                      " m/s2, margin " + NumberText(braking.margin_m) + " m"},
+      {"Simulated by", identity.version + ", Embree " + identity.embree + ", " + identity.isa}};
+}
+
+// Each target that a driver's distance is published for.
+Table DriverTable(const std::vector<TargetResult>& targets, const Json& yardsticks) {
+  Table table{
+      .key = "beside_driver",
+      .title = "Beside the driver",
+      .note =
+          "The driver's distance is about where objects were noticed, which no confidence is given "
+          "for; d90/95 is what 90 % of the approaches reach. Farther than the driver if it is "
+          "above 100 %.",
+      .columns = ColumnsOf("target: Target; d90_95_m: 0.9 with 95 % confidence at; driver_m: "
+                           "Driver; of_driver_percent: Of the driver's distance; source: Source"),
+      .is_open = true};
+  for (const TargetResult& target : targets) {
+    for (const Json& row : yardsticks) {
+      const auto what = row.at("what").get<std::string>();
+      if (row.at("who") != "driver" || (what != target.type && what != target.name)) continue;
+      const auto driver_m = row.at("distance_m").get<double>();
+      table.rows.push_back({target.name, target.d90_95_m, driver_m,
+                            100.0 * target.d90_95_m / driver_m,
+                            row.at("source").get<std::string>()});
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+Section YardsticksSection(const std::vector<TargetResult>& targets) {
+  const Json yardsticks = Json::parse(kYardsticks);
+  Table table{.key = "yardsticks",
+              .title = "Published distances of detection",
+              .note = "Other objects, places and weather than here: for the order of magnitude.",
+              .columns = ColumnsOf(
+                  "what: What; who: By; distance_m: Distance; how: How measured; source: Source"),
+              .is_open = true};
+  for (const Json& row : yardsticks) {
+    table.rows.push_back({row.at("what").get<std::string>(), row.at("who").get<std::string>(),
+                          row.at("distance_m").get<double>(), row.at("how").get<std::string>(),
+                          row.at("source").get<std::string>()});
+  }
+  Section section{.key = "yardsticks", .title = "The driver, and others"};
+  Table beside_driver = DriverTable(targets, yardsticks);
+  if (!beside_driver.rows.empty()) section.tables.push_back(std::move(beside_driver));
+  section.tables.push_back(std::move(table));
+  return section;
+}
+
+std::vector<Observation> WorstOf(const std::vector<Observation>& observations) {
+  constexpr std::size_t kMostWorst = 10;
+  std::vector<Observation> worst;
+  std::ranges::copy_if(observations, std::back_inserter(worst),
+                       [](const Observation& each) { return !each.object->is_undecided(); });
+  std::ranges::sort(worst, IsWorse);
+  worst.resize(std::min(worst.size(), kMostWorst));
+  return worst;
+}
+
+Section WorstSection(const std::vector<Observation>& worst, const std::string& folder) {
+  Table table{.key = "worst",
+              .title = "The worst approaches",
+              .note =
+                  "Not detected, or with the least to spare. The command makes its frames and "
+                  "opens the one in which it is detected, or that of the closest point.",
+              .columns = ColumnsOf("scenario: Scenario; object: Object; distance_m: Detected at; "
+                                   "needed_m: Needed; drawn: Drawn; command: Command"),
+              .is_open = true};
+  for (const Observation& each : worst) {
+    const StudiedObject& object = *each.object;
+    const std::string place = folder + "/" + KeptFolder(kWorstFolder, each.approach->scenario);
+    std::string drawn = DrawnText(each.approach->drawn);
+    if (!object.drawn.empty()) drawn += (drawn.empty() ? "" : "; ") + DrawnText(object.drawn);
+    table.rows.push_back({std::uint64_t{each.approach->scenario}, object.name, object.distance_m,
+                          object.needed_m, std::move(drawn),
+                          "railcast-generate sequence " + place + "/scenario.resolved.json --out " +
+                              place + "/frames --frames " + std::to_string(object.frame + 1) +
+                              " && railcast-view " + place + "/frames --frame " +
+                              std::to_string(object.frame)});
+  }
+  return {.key = "worst", .title = "Where it fails", .tables = {std::move(table)}};
+}
+
+Report MakeStudyReport(const StudySpec& study,
+                       const Json& recipe,
+                       const StudyResult& result,
+                       const std::vector<Observation>& observations,
+                       const std::string& command) {
+  Report report{.title = study.question.empty() ? "A study of detection" : study.question,
+                .command = command,
+                .facts = FactsOfStudy(study, result)};
+  const std::vector<TargetResult> targets = TargetsOf(observations);
+  for (const TargetResult& target : targets) {
+    report.headlines.push_back({.title = target.name + ": 0.9 with 95 % confidence at",
+                                .unit = "m",
+                                .value = target.d90_95_m});
+  }
+  const std::vector<Factor> factors = FactorsOf(observations);
+  Section placement = PlacementSection(observations, factors, recipe);
+  report.sections = {VerdictSection(targets),
+                     FactorsSection(WeighFactors(observations, factors), observations.size()),
+                     ConditionsSection(observations, factors), YardsticksSection(targets)};
+  if (!placement.tables.empty()) {
+    report.sections.insert(report.sections.begin() + 1, std::move(placement));
+  }
+  if (!study.detector) return report;
+  std::uint64_t num_alarms = 0;
+  double driven_m = 0.0;
+  for (const ApproachRecord& approach : result.approaches) {
+    num_alarms += approach.alarms->alarms.size();
+    driven_m += approach.alarms->driven_m;
+  }
+  report.headlines.push_back(
+      {.title = "False alarms per km", .unit = "1/km", .value = AlarmsPerKm(num_alarms, driven_m)});
+  // After the verdict.
+  report.sections.insert(report.sections.begin() + 1, StudyAlarmsSection(study, result.approaches));
+  return report;
+}
+
+}  // namespace railcast

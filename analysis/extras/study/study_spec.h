@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/detectability/object_detection.h"
+#include "analysis/extras/detectors/cluster_detector.h"
+#include "analysis/extras/detectors/detection.h"
+
+namespace railcast {
+
+/// A study: what is asked of the scenarios of a recipe (docs/study.md).
+struct StudySpec {
+  std::filesystem::path file;
+  std::string question;  ///< In the words of whoever asks; may be empty.
+  std::string recipe;    ///< Absolute name of the recipe's file.
+  /// What is asked about: names of objects ("wagons/3"), or of all that are placed under a name
+  /// ("person"). Empty = all that come in the way.
+  std::vector<std::string> objects;
+  DetectSpec detect;
+  /// Whose detections are studied; absent = an object is seen by the number of points on it.
+  std::optional<ClusterDetectorSpec> detector;
+  std::optional<TrainGauge> gauge;  ///< Of the train, in place of the vehicle's outline.
+
+  /// What is asked about, for pages: "wagons/3, person", or "all objects in the way".
+  [[nodiscard]] std::string ObjectsText() const;
+};
+
+/// Reads a study as strictly as a scenario.
+/// @throws InputError with a line for every fault: "file: /pointer: rule (got value)".
+[[nodiscard]] StudySpec ReadStudy(const std::filesystem::path& file);
+
+}  // namespace railcast

@@ -1,0 +1,327 @@
+#include "core/extras/packets/ouster/ouster_packet.h"
+
+#include <cstring>
+
+#include "core/extras/packets/velodyne/velodyne_packet.h"
+#include "core/io/field_layout.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kOusterHeaderSize = 32;
+constexpr std::size_t kOusterFooterSize = 32;
+constexpr std::size_t kChecksumSize = 8;
+/// What firmware 2.3 has in the place of a checksum; that of 2.2 has 0.
+constexpr std::uint64_t kBlankFooter = 0xDEADBEEF0000C0DE;
+
+// In a column.
+constexpr std::size_t kMeasurementPlace = 8;
+constexpr std::size_t kStatusPlace = 10;
+constexpr std::size_t kLegacyFramePlace = 10;
+constexpr std::size_t kEncoderPlace = 12;
+constexpr std::uint32_t kLegacyValid = 0xFFFFFFFF;
+
+// Fields of a header: the byte at which they begin, and their number of bits, from the lowest on.
+struct HeaderField {
+  std::size_t place{};
+  unsigned bits{};
+};
+struct HeaderPlaces {
+  HeaderField type, frame, initialization, serial, alerts;
+};
+constexpr HeaderPlaces kStandardHeader = {{0, 16}, {2, 16}, {4, 24}, {7, 40}, {12, 8}};
+constexpr HeaderPlaces kFusaHeader = {{0, 8}, {4, 32}, {1, 24}, {11, 40}, {8, 8}};
+constexpr std::size_t kShutdownCountdownPlace = 16;
+constexpr std::size_t kShotCountdownPlace = 17;
+constexpr std::size_t kShutdownPlace = 18;
+constexpr std::size_t kShotLimitingPlace = 19;
+constexpr std::uint8_t kFourBits = 0xF;
+
+std::uint64_t LoadField(const char* header, const HeaderField& field) {
+  std::uint64_t value = 0;
+  std::memcpy(&value, header + field.place, field.bits / 8);
+  return value;
+}
+
+void StoreField(char* header, const HeaderField& field, std::uint64_t value) {
+  std::memcpy(header + field.place, &value, field.bits / 8);
+}
+
+constexpr std::uint32_t kTwentyBits = (1U << 20U) - 1;
+constexpr std::uint32_t kNineteenBits = (1U << 19U) - 1;
+constexpr std::uint32_t kFifteenBits = (1U << 15U) - 1;
+constexpr std::uint8_t kFiveBits = 0x1F;
+
+OusterPixel LegacyPixel(const char* place) {
+  const auto word = LoadAt<std::uint32_t>(place);
+  return {.returns = {{{.range_mm = word & kTwentyBits,
+                        .flags = static_cast<std::uint8_t>(word >> 28U),
+                        .reflectivity = LoadAt<std::uint8_t>(place + 4),
+                        .signal = LoadAt<std::uint16_t>(place + 6)}}},
+          .near_ir = LoadAt<std::uint16_t>(place + 8)};
+}
+
+void StoreLegacy(const OusterPixel& pixel, char* place) {
+  const OusterReturn& only = pixel.returns[0];
+  StoreAt<std::uint32_t>(place, (only.range_mm & kTwentyBits) |
+                                    static_cast<std::uint32_t>(only.flags & kFourBits) << 28U);
+  StoreAt<std::uint8_t>(place + 4, only.reflectivity);
+  StoreAt<std::uint16_t>(place + 6, only.signal);
+  StoreAt<std::uint16_t>(place + 8, pixel.near_ir);
+}
+
+OusterReturn RangeAndFlags(const char* place) {
+  const auto word = LoadAt<std::uint32_t>(place);
+  return {.range_mm = word & kNineteenBits,
+          .flags = static_cast<std::uint8_t>(word >> 19U & kFiveBits)};
+}
+
+// Leaves the highest byte of the four as it is.
+void StoreRangeAndFlags(const OusterReturn& coded, char* place) {
+  const std::uint32_t word =
+      (coded.range_mm & kNineteenBits) | static_cast<std::uint32_t>(coded.flags & kFiveBits) << 19U;
+  std::memcpy(place, &word, 3);
+}
+
+OusterPixel SinglePixel(const char* place) {
+  OusterPixel pixel{.returns = {RangeAndFlags(place)}, .near_ir = LoadAt<std::uint16_t>(place + 8)};
+  pixel.returns[0].reflectivity = LoadAt<std::uint8_t>(place + 4);
+  pixel.returns[0].signal = LoadAt<std::uint16_t>(place + 6);
+  return pixel;
+}
+
+void StoreSingle(const OusterPixel& pixel, char* place) {
+  StoreRangeAndFlags(pixel.returns[0], place);
+  StoreAt<std::uint8_t>(place + 4, pixel.returns[0].reflectivity);
+  StoreAt<std::uint16_t>(place + 6, pixel.returns[0].signal);
+  StoreAt<std::uint16_t>(place + 8, pixel.near_ir);
+}
+
+OusterPixel DualPixel(const char* place) {
+  OusterPixel pixel{.near_ir = LoadAt<std::uint16_t>(place + 12)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    pixel.returns[i] = RangeAndFlags(place + 4 * i);
+    pixel.returns[i].reflectivity = LoadAt<std::uint8_t>(place + 4 * i + 3);
+    pixel.returns[i].signal = LoadAt<std::uint16_t>(place + 8 + 2 * i);
+  }
+  return pixel;
+}
+
+void StoreDual(const OusterPixel& pixel, char* place) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    StoreRangeAndFlags(pixel.returns[i], place + 4 * i);
+    StoreAt<std::uint8_t>(place + 4 * i + 3, pixel.returns[i].reflectivity);
+    StoreAt<std::uint16_t>(place + 8 + 2 * i, pixel.returns[i].signal);
+  }
+  StoreAt<std::uint16_t>(place + 12, pixel.near_ir);
+}
+
+constexpr std::uint32_t kLowRateUnit_mm = 8;
+constexpr std::uint16_t kLowRateNearIr = 16;
+
+OusterReturn LowRateReturn(const char* place) {
+  const auto word = LoadAt<std::uint16_t>(place);
+  return {.range_mm = kLowRateUnit_mm * (word & kFifteenBits),
+          .flags = static_cast<std::uint8_t>(word >> 15U),
+          .reflectivity = LoadAt<std::uint8_t>(place + 2)};
+}
+
+void StoreLowRateReturn(const OusterReturn& coded, char* place) {
+  StoreAt<std::uint16_t>(place, (coded.range_mm / kLowRateUnit_mm & kFifteenBits) |
+                                    static_cast<std::uint32_t>(coded.flags & 1U) << 15U);
+  StoreAt<std::uint8_t>(place + 2, coded.reflectivity);
+}
+
+OusterPixel LowRatePixel(const char* place, bool is_dual) {
+  OusterPixel pixel{.returns = {LowRateReturn(place)}};
+  pixel.near_ir = static_cast<std::uint16_t>(kLowRateNearIr * LoadAt<std::uint8_t>(place + 3));
+  if (is_dual) pixel.returns[1] = LowRateReturn(place + 4);
+  return pixel;
+}
+
+void StoreLowRate(const OusterPixel& pixel, bool is_dual, char* place) {
+  StoreLowRateReturn(pixel.returns[0], place);
+  StoreAt<std::uint8_t>(place + 3, pixel.near_ir / kLowRateNearIr);
+  if (is_dual) StoreLowRateReturn(pixel.returns[1], place + 4);
+}
+
+std::array<std::uint64_t, 256> ChecksumTable() {
+  constexpr std::uint64_t kReversedPolynomial = 0xC96C5795D7870F42;
+  std::array<std::uint64_t, 256> table{};
+  for (std::size_t byte = 0; byte < table.size(); ++byte) {
+    std::uint64_t rest = byte;
+    for (int bit = 0; bit < 8; ++bit) {
+      rest = rest >> 1U ^ ((rest & 1U) != 0 ? kReversedPolynomial : 0);
+    }
+    table[byte] = rest;
+  }
+  return table;
+}
+
+}  // namespace
+
+OusterLayout::OusterLayout(const OusterMetadata& metadata)
+    : profile_(metadata.profile),
+      has_fusa_header_(metadata.has_fusa_header),
+      num_columns_(metadata.columns_per_packet),
+      num_pixels_(metadata.pixels_per_column),
+      header_size_(is_legacy() ? 0 : kOusterHeaderSize),
+      column_header_size_(is_legacy() ? 16 : 12),
+      packet_size_(OusterPacketSize(metadata)) {
+  const std::size_t footer_size = is_legacy() ? 0 : kOusterFooterSize;
+  column_size_ = (packet_size_ - header_size_ - footer_size) / num_columns_;
+  const std::size_t column_footer_size = is_legacy() ? 4 : 0;
+  pixel_size_ = (column_size_ - column_header_size_ - column_footer_size) / num_pixels_;
+}
+
+std::uint32_t OusterLayout::most_range_mm() const {
+  if (is_legacy()) return kTwentyBits;
+  return has_low_rate() ? kLowRateUnit_mm * kFifteenBits : kNineteenBits;
+}
+
+OusterHeader OusterLayout::HeaderOf(std::span<const char> packet) const {
+  if (is_legacy()) {
+    return {.frame_id = LoadAt<std::uint16_t>(packet.data() + kLegacyFramePlace)};
+  }
+  const HeaderPlaces& at = has_fusa_header_ ? kFusaHeader : kStandardHeader;
+  const char* const header = packet.data();
+  return {.packet_type = static_cast<std::uint16_t>(LoadField(header, at.type)),
+          .frame_id = static_cast<std::uint32_t>(LoadField(header, at.frame)),
+          .initialization_id = static_cast<std::uint32_t>(LoadField(header, at.initialization)),
+          .serial_number = LoadField(header, at.serial),
+          .alert_flags = static_cast<std::uint8_t>(LoadField(header, at.alerts)),
+          .shutdown_countdown_s = LoadAt<std::uint8_t>(header + kShutdownCountdownPlace),
+          .shot_limiting_countdown_s = LoadAt<std::uint8_t>(header + kShotCountdownPlace),
+          .thermal_shutdown =
+              static_cast<std::uint8_t>(LoadAt<std::uint8_t>(header + kShutdownPlace) & kFourBits),
+          .shot_limiting = static_cast<std::uint8_t>(
+              LoadAt<std::uint8_t>(header + kShotLimitingPlace) & kFourBits)};
+}
+
+void OusterLayout::Store(const OusterHeader& header, std::span<char> packet) const {
+  if (is_legacy()) return;
+  const HeaderPlaces& at = has_fusa_header_ ? kFusaHeader : kStandardHeader;
+  char* const place = packet.data();
+  StoreField(place, at.type, header.packet_type);
+  StoreField(place, at.frame, header.frame_id);
+  StoreField(place, at.initialization, header.initialization_id);
+  StoreField(place, at.serial, header.serial_number);
+  StoreField(place, at.alerts, header.alert_flags);
+  StoreAt<std::uint8_t>(place + kShutdownCountdownPlace, header.shutdown_countdown_s);
+  StoreAt<std::uint8_t>(place + kShotCountdownPlace, header.shot_limiting_countdown_s);
+  StoreAt<std::uint8_t>(place + kShutdownPlace, header.thermal_shutdown & kFourBits);
+  StoreAt<std::uint8_t>(place + kShotLimitingPlace, header.shot_limiting & kFourBits);
+}
+
+OusterColumn OusterLayout::ColumnOf(std::span<const char> packet, std::size_t column) const {
+  const char* const place = packet.data() + PlaceOfColumn(column);
+  const bool is_valid =
+      is_legacy()
+          ? LoadAt<std::uint32_t>(place + column_size_ - sizeof(kLegacyValid)) == kLegacyValid
+          : (LoadAt<std::uint16_t>(place + kStatusPlace) & 1U) != 0;
+  return {.time_ns = LoadAt<std::uint64_t>(place),
+          .measurement_id = LoadAt<std::uint16_t>(place + kMeasurementPlace),
+          .is_valid = is_valid};
+}
+
+void OusterLayout::Store(const OusterColumn& column,
+                         std::size_t place,
+                         std::uint32_t frame_id,
+                         std::uint32_t encoder_ticks,
+                         std::span<char> packet) const {
+  char* const begin = packet.data() + PlaceOfColumn(place);
+  StoreAt<std::uint64_t>(begin, column.time_ns);
+  StoreAt<std::uint16_t>(begin + kMeasurementPlace, column.measurement_id);
+  if (!is_legacy()) {
+    StoreAt<std::uint16_t>(begin + kStatusPlace, column.is_valid ? 1 : 0);
+    return;
+  }
+  StoreAt<std::uint16_t>(begin + kLegacyFramePlace, frame_id);
+  StoreAt<std::uint32_t>(begin + kEncoderPlace, encoder_ticks);
+  StoreAt<std::uint32_t>(begin + column_size_ - sizeof(kLegacyValid),
+                         column.is_valid ? kLegacyValid : 0);
+}
+
+OusterPixel OusterLayout::PixelAt(std::span<const char> packet, std::size_t place) const {
+  const char* const begin = packet.data() + place;
+  switch (profile_) {
+    case OusterProfile::kLegacy:
+      return LegacyPixel(begin);
+    case OusterProfile::kSingle:
+      return SinglePixel(begin);
+    case OusterProfile::kDual:
+      return DualPixel(begin);
+    case OusterProfile::kLowRate:
+    case OusterProfile::kLowRateDual:
+    case OusterProfile::kFusaDual:
+      break;
+  }
+  return LowRatePixel(begin, is_dual());
+}
+
+void OusterLayout::StorePixel(const OusterPixel& pixel,
+                              std::size_t place,
+                              std::span<char> packet) const {
+  char* const begin = packet.data() + place;
+  switch (profile_) {
+    case OusterProfile::kLegacy:
+      return StoreLegacy(pixel, begin);
+    case OusterProfile::kSingle:
+      return StoreSingle(pixel, begin);
+    case OusterProfile::kDual:
+      return StoreDual(pixel, begin);
+    case OusterProfile::kLowRate:
+    case OusterProfile::kLowRateDual:
+    case OusterProfile::kFusaDual:
+      break;
+  }
+  StoreLowRate(pixel, is_dual(), begin);
+}
+
+std::uint64_t OusterChecksum(std::span<const char> bytes) {
+  static const std::array<std::uint64_t, 256> table = ChecksumTable();
+  std::uint64_t checksum = ~std::uint64_t{0};
+  for (const char byte : bytes) {
+    checksum = table[(checksum ^ static_cast<unsigned char>(byte)) & 0xFFU] ^ checksum >> 8U;
+  }
+  return ~checksum;
+}
+
+bool StatesChecksum(std::span<const char> packet) {
+  const auto stated = LoadAt<std::uint64_t>(packet.data() + packet.size() - kChecksumSize);
+  return stated != 0 && stated != kBlankFooter;
+}
+
+bool HasRightChecksum(std::span<const char> packet) {
+  const std::span<const char> before = packet.first(packet.size() - kChecksumSize);
+  return !StatesChecksum(packet) ||
+         LoadAt<std::uint64_t>(packet.data() + before.size()) == OusterChecksum(before);
+}
+
+void StoreChecksum(std::span<char> packet) {
+  const std::span<char> before = packet.first(packet.size() - kChecksumSize);
+  StoreAt<std::uint64_t>(packet.data() + before.size(), OusterChecksum(before));
+}
+
+OusterImu ImuOf(std::span<const char, kOusterImuPacketSize> packet) {
+  OusterImu imu{.system_time_ns = LoadAt<std::uint64_t>(packet.data()),
+                .acceleration_time_ns = LoadAt<std::uint64_t>(packet.data() + 8),
+                .rotation_time_ns = LoadAt<std::uint64_t>(packet.data() + 16)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    imu.acceleration_g[i] = LoadAt<float>(packet.data() + 24 + 4 * i);
+    imu.rotation_degps[i] = LoadAt<float>(packet.data() + 36 + 4 * i);
+  }
+  return imu;
+}
+
+void StoreImu(const OusterImu& imu, std::span<char, kOusterImuPacketSize> packet) {
+  StoreAt<std::uint64_t>(packet.data(), imu.system_time_ns);
+  StoreAt<std::uint64_t>(packet.data() + 8, imu.acceleration_time_ns);
+  StoreAt<std::uint64_t>(packet.data() + 16, imu.rotation_time_ns);
+  for (std::size_t i = 0; i < 3; ++i) {
+    StoreAt<float>(packet.data() + 24 + 4 * i, imu.acceleration_g[i]);
+    StoreAt<float>(packet.data() + 36 + 4 * i, imu.rotation_degps[i]);
+  }
+}
+
+}  // namespace railcast

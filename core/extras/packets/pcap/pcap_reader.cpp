@@ -1,0 +1,427 @@
+#include "core/extras/packets/pcap/pcap_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <pcap/pcap.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/base/units.h"
+#include "core/extras/packets/pcap/internet_checksum.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+constexpr std::size_t kVlanTagSize = 4;
+constexpr std::uint16_t kIpv4Type = 0x0800;  // Of Ethernet.
+constexpr std::uint16_t kIpv6Type = 0x86DD;
+
+std::uint16_t BigAt(std::span<const char> bytes, std::size_t place) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes[place]) << 8U |
+                                    static_cast<unsigned char>(bytes[place + 1]));
+}
+
+constexpr std::size_t kUdpProtocolPlace = 9;  // In the IPv4 header.
+
+std::uint8_t OctetAt(std::span<const char> bytes, std::size_t place) {
+  return static_cast<std::uint8_t>(bytes[place]);
+}
+
+/// What a frame carries: a packet of IP if the type is that.
+struct FrameContent {
+  std::uint16_t type{};  ///< As of Ethernet; of loopback devices the family, if it is not IP.
+  std::span<const char> bytes{};
+  /// The frame ends before its protocol can be told.
+  bool is_cut{};
+
+  [[nodiscard]] bool is_ipv6() const { return type == kIpv6Type; }
+  [[nodiscard]] bool is_ip() const { return type == kIpv4Type || is_ipv6(); }
+};
+
+/// What begins with the version of IP.
+FrameContent IpContent(std::span<const char> bytes) {
+  if (bytes.empty()) return {.is_cut = true};
+  const unsigned version = OctetAt(bytes, 0) >> 4U;
+  if (version == 4) return {kIpv4Type, bytes};
+  return {version == 6 ? kIpv6Type : std::uint16_t{}, bytes};
+}
+
+/// What follows the family's number, in whichever byte order.
+FrameContent LoopbackContent(std::span<const char> frame) {
+  constexpr std::size_t kFamilySize = 4;
+  if (frame.size() <= kFamilySize) return {.is_cut = true};
+  // That of IPv4 is 2 everywhere, that of IPv6 one of those of Linux, BSD, FreeBSD and macOS.
+  constexpr auto kFamilies = std::to_array<unsigned>({2, 10, 24, 28, 30});
+  const unsigned family = OctetAt(frame, 0) | OctetAt(frame, 3);
+  if (std::ranges::count(kFamilies, family) > 0) return IpContent(frame.subspan(kFamilySize));
+  return {static_cast<std::uint16_t>(family), frame.subspan(kFamilySize)};
+}
+
+/// Where the type of what a frame carries stands, and where that begins.
+struct LinkHead {
+  std::size_t type_place{};
+  std::size_t size{};
+};
+
+/// What follows the header of Ethernet, or the one that Linux has in its place, and VLAN tags.
+FrameContent TaggedContent(std::span<const char> frame, LinkHead head) {
+  constexpr auto kTagTypes = std::to_array<std::uint16_t>({0x8100, 0x88A8, 0x9100});
+  while (frame.size() >= std::max(head.size, head.type_place + 2)) {
+    const std::uint16_t type = BigAt(frame, head.type_place);
+    if (std::ranges::count(kTagTypes, type) == 0) return {type, frame.subspan(head.size)};
+    head = {head.size + 2, head.size + kVlanTagSize};
+  }
+  return {.is_cut = true};
+}
+
+/// @param link One of those of IsKnownLink().
+FrameContent ContentOf(std::span<const char> frame, int link) {
+  switch (link) {
+    case DLT_NULL:
+    case DLT_LOOP:
+      return LoopbackContent(frame);
+    case DLT_LINUX_SLL:
+      return TaggedContent(frame, {14, 16});
+    case DLT_LINUX_SLL2:
+      return TaggedContent(frame, {0, 20});
+    case DLT_EN10MB:
+      return TaggedContent(frame, {kEthernetSize - 2, kEthernetSize});
+    default:
+      return IpContent(frame);
+  }
+}
+
+bool IsKnownLink(int link) {
+  // libpcap's number for 101, IP of either version, is 12, or 14 on some systems.
+  constexpr auto kLinks = std::to_array<int>({DLT_NULL, DLT_EN10MB, DLT_RAW, 12, 14, 101, DLT_LOOP,
+                                              DLT_LINUX_SLL, DLT_IPV4, DLT_IPV6, DLT_LINUX_SLL2});
+  return std::ranges::count(kLinks, link) > 0;
+}
+
+/// Whether frames of a type are known to carry no UDP: those with a length in its place, ARP, time
+/// and what switches and network cards say to each other.
+bool CarriesNoUdp(std::uint16_t type) {
+  constexpr std::uint16_t kLeastType = 0x0600;
+  constexpr auto kTypes = std::to_array<std::uint16_t>(
+      {0x0806, 0x0842, 0x8035, 0x8809, 0x888E, 0x8899, 0x88CC, 0x88E1, 0x88F7, 0x8902, 0x9000});
+  return type < kLeastType || std::ranges::count(kTypes, type) > 0;
+}
+
+/// What follows the headers of an IPv6 packet, as far as these are there.
+struct Ipv6Content {
+  std::uint8_t protocol{};
+  std::size_t place{};
+  bool is_cut{};           ///< The headers go on behind the end.
+  std::size_t fragment{};  ///< Place of the fragment header; 0 = none.
+};
+
+// Walks over the extension headers that may stand before UDP (RFC 8200, 4).
+Ipv6Content ContentOfIpv6(std::span<const char> ip) {
+  constexpr std::uint8_t kFragment = 44;
+  constexpr auto kOptions =
+      std::to_array<std::uint8_t>({0, 43, 60});  // Hop by hop, routing, destination.
+  if (ip.size() < kIpv6HeaderSize) return {.is_cut = true};
+  Ipv6Content content{.protocol = OctetAt(ip, 6), .place = kIpv6HeaderSize};
+  while (content.protocol == kFragment ||
+         std::ranges::find(kOptions, content.protocol) != kOptions.end()) {
+    const bool is_fragment = content.protocol == kFragment;
+    if (content.place + 8 > ip.size()) {
+      content.is_cut = true;
+      return content;
+    }
+    if (is_fragment) content.fragment = content.place;
+    content.protocol = OctetAt(ip, content.place);
+    content.place += is_fragment ? 8 : 8 * (std::size_t{1} + OctetAt(ip, content.place + 1));
+    // What follows the fragment header of a fragment is a piece of the packet.
+    constexpr std::uint16_t kOffsetAndMore = 0xFFF9;
+    if (is_fragment && (BigAt(ip, content.fragment + 2) & kOffsetAndMore) != 0) break;
+  }
+  return content;
+}
+
+// Whether the captured part of a frame may be the beginning of a UDP datagram. Frames of other
+// protocols are not wanted and may be truncated anywhere.
+bool MayBeginDatagram(const FrameContent& ip) {
+  if (ip.is_cut) return true;
+  if (!ip.is_ip()) return false;
+  if (ip.is_ipv6()) {
+    const Ipv6Content content = ContentOfIpv6(ip.bytes);
+    return content.is_cut || content.protocol == kUdpProtocol;
+  }
+  if (ip.bytes.size() <= kUdpProtocolPlace) return true;
+  return OctetAt(ip.bytes, 0) >> 4U == 4 && OctetAt(ip.bytes, kUdpProtocolPlace) == kUdpProtocol;
+}
+
+// Returns what an IPv4 packet carries for UDP: a datagram or a fragment of one.
+std::optional<IpFragment> UdpFragment(std::span<const char> ip) {
+  if (ip.size() < kIpv4HeaderSize) return std::nullopt;
+  const std::uint8_t version_and_words = OctetAt(ip, 0);
+  const std::size_t header_size = std::size_t{version_and_words & 0xFU} * 4;
+  // The packet's own length counts, since Ethernet may pad the frame behind it.
+  const std::size_t size = BigAt(ip, 2);
+  if (version_and_words >> 4U != 4 || header_size < kIpv4HeaderSize || size < header_size ||
+      size > ip.size() || OctetAt(ip, kUdpProtocolPlace) != kUdpProtocol) {
+    return std::nullopt;
+  }
+  constexpr std::uint16_t kMoreFragments = 0x2000U;
+  const std::uint16_t flags_and_offset = BigAt(ip, 6);
+  IpFragment fragment{.source = IpAddress(std::uint32_t{BigAt(ip, 12)} << 16U | BigAt(ip, 14)),
+                      .destination = IpAddress(std::uint32_t{BigAt(ip, 16)} << 16U | BigAt(ip, 18)),
+                      .offset = (flags_and_offset & 0x1FFFU) * std::size_t{8},
+                      .is_last = (flags_and_offset & kMoreFragments) == 0,
+                      .bytes = ip.subspan(header_size, size - header_size)};
+  const auto addresses = ip.subspan(12, 8);
+  const auto identification = ip.subspan(4, 2);
+  std::ranges::copy(identification, std::ranges::copy(addresses, fragment.packet.begin()).out);
+  return fragment;
+}
+
+// As UdpFragment(), of an IPv6 packet.
+std::optional<IpFragment> UdpFragmentOfIpv6(std::span<const char> ip) {
+  if (ip.size() < kIpv6HeaderSize || OctetAt(ip, 0) >> 4U != 6) return std::nullopt;
+  const std::size_t size = kIpv6HeaderSize + BigAt(ip, 4);
+  if (size > ip.size()) return std::nullopt;
+  ip = ip.first(size);
+  const Ipv6Content content = ContentOfIpv6(ip);
+  if (content.is_cut || content.protocol != kUdpProtocol || content.place > size) {
+    return std::nullopt;
+  }
+  IpFragment fragment{.offset = 0, .is_last = true, .bytes = ip.subspan(content.place)};
+  const auto to_octet = [](char octet) { return static_cast<std::uint8_t>(octet); };
+  std::ranges::transform(ip.subspan(8, 16), fragment.source.bytes.begin(), to_octet);
+  std::ranges::transform(ip.subspan(24, 16), fragment.destination.bytes.begin(), to_octet);
+  if (content.fragment == 0) return fragment;
+  const std::uint16_t offset_and_flag = BigAt(ip, content.fragment + 2);
+  fragment.offset = offset_and_flag & 0xFFF8U;
+  fragment.is_last = (offset_and_flag & 1U) == 0;
+  const auto addresses = ip.subspan(8, 32);
+  const auto identification = ip.subspan(content.fragment + 4, 4);
+  std::ranges::copy(identification, std::ranges::copy(addresses, fragment.packet.begin()).out);
+  return fragment;
+}
+
+bool IsWhole(const IpFragment& fragment) {
+  return fragment.offset == 0 && fragment.is_last;
+}
+
+std::optional<CapturedDatagram> DatagramIn(std::span<const char> udp) {
+  if (udp.size() < kUdpHeaderSize) return std::nullopt;
+  const std::size_t size = BigAt(udp, 4);
+  if (size < kUdpHeaderSize || size > udp.size()) return std::nullopt;
+  return CapturedDatagram{.payload = udp.subspan(kUdpHeaderSize, size - kUdpHeaderSize),
+                          .source_port = BigAt(udp, 0),
+                          .destination_port = BigAt(udp, 2)};
+}
+
+/// Whether a datagram agrees with its checksum, or has none (RFC 768; RFC 8200, 8.1).
+bool AgreesWithChecksum(const CapturedDatagram& datagram) {
+  const std::span udp(datagram.payload.data() - kUdpHeaderSize,
+                      datagram.payload.size() + kUdpHeaderSize);
+  if (BigAt(udp, kUdpChecksumPlace) == 0) return true;
+  // What addresses of IPv4 have before them adds nothing.
+  std::uint64_t sum = AddWords(udp, udp.size() + kUdpProtocol);
+  for (const IpAddress& address : {datagram.source_address, datagram.destination_address}) {
+    sum =
+        AddWords({reinterpret_cast<const char*>(address.bytes.data()), address.bytes.size()}, sum);
+  }
+  return ChecksumOf(sum) == 0;
+}
+
+/// "0x88A8"
+std::string TypeText(std::uint16_t type) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "0x%04X", type);
+  return text.data();
+}
+
+std::optional<IpFragment> FindFragment(const FrameContent& ip) {
+  if (!ip.is_ip()) return std::nullopt;
+  return ip.is_ipv6() ? UdpFragmentOfIpv6(ip.bytes) : UdpFragment(ip.bytes);
+}
+
+// The time of capture, for which libpcap was asked in nanoseconds: tv_usec holds these.
+std::int64_t TimeOf(pcap_t* pcap, const pcap_pkthdr& header, const std::string& place) {
+  // Classic captures, whose version is 2, have unsigned seconds of 32 bits (IETF,
+  // draft-ietf-opsawg-pcap, 5), which libpcap takes for signed ones.
+  const bool is_classic = pcap_major_version(pcap) == 2;
+  const std::int64_t time_s = is_classic
+                                  ? std::int64_t{static_cast<std::uint32_t>(header.ts.tv_sec)}
+                                  : std::int64_t{header.ts.tv_sec};
+  // pcapng's clocks have more bits than int64_t has nanoseconds.
+  constexpr std::int64_t kMaxTime_s = std::numeric_limits<std::int64_t>::max() / kNsPerS - 1;
+  if (time_s < 0 || time_s > kMaxTime_s) {
+    throw InputError(place + "must be captured before the year 2262 (got " + NumberText(time_s) +
+                     " s since 1970)");
+  }
+  return time_s * kNsPerS + header.ts.tv_usec;
+}
+
+std::FILE* Open(const std::filesystem::path& file) {
+  CheckIsReadable(file);
+  std::FILE* const stream = std::fopen(file.c_str(), "rbe");
+  if (stream == nullptr) throw FileError(file, errno);
+  return stream;
+}
+
+}  // namespace
+
+std::optional<CapturedDatagram> FindDatagram(std::span<const char> frame) {
+  const auto fragment = FindFragment(ContentOf(frame, DLT_EN10MB));
+  if (!fragment || !IsWhole(*fragment)) return std::nullopt;
+  auto datagram = DatagramIn(fragment->bytes);
+  if (datagram) datagram->source_address = fragment->source;
+  return datagram;
+}
+
+struct PcapReader::Capture {
+  pcap_t* pcap{};
+
+  Capture() = default;
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+  ~Capture() {
+    if (pcap != nullptr) pcap_close(pcap);
+  }
+};
+
+PcapReader::PcapReader(const std::filesystem::path& file)
+    : PcapReader(Open(file), ShownPath(file)) {}
+
+PcapReader::PcapReader(std::FILE* stream, std::string name)
+    : name_(std::move(name)), capture_(std::make_unique<Capture>()) {
+  std::array<char, PCAP_ERRBUF_SIZE> reason{};
+  capture_->pcap =
+      pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, reason.data());
+  if (capture_->pcap == nullptr) {
+    std::fclose(stream);
+    throw InputError(name_ + ": " + reason.data());
+  }
+  const int link = pcap_datalink(capture_->pcap);
+  if (IsKnownLink(link)) return;
+  const char* const link_name = pcap_datalink_val_to_name(link);
+  throw InputError(name_ +
+                   ": must be a capture of Ethernet, of Linux's \"any\" (SLL, SLL2), of a " +
+                   "loopback device or of IP (got " +
+                   (link_name != nullptr ? std::string(link_name) : NumberText(link)) + ")");
+}
+
+PcapReader::~PcapReader() = default;
+
+std::uint64_t PcapReader::PlaceOf(std::span<const char> packet, const std::string& place) const {
+  // Of classic captures a packet ends where libpcap stands, and so does its block in pcapng, whose
+  // last four bytes are its length, and from whose begin on the packet is 28 bytes away, or 12 in a
+  // simple packet block (IETF, draft-tuexen-opsawg-pcapng, 4.3 and 4.4).
+  constexpr std::array<std::uint64_t, 2> kBlockHeads = {28, 12};
+  std::FILE* const stream = pcap_file(capture_->pcap);
+  const auto end = static_cast<std::uint64_t>(::ftello(stream));
+  const int file = ::fileno(stream);
+  std::vector<std::uint64_t> candidates = {end - packet.size()};
+  std::uint32_t length = 0;
+  if (::pread(file, &length, sizeof length, static_cast<::off_t>(end - sizeof length)) == 4) {
+    for (const std::uint32_t size : {length, __builtin_bswap32(length)}) {
+      for (const std::uint64_t head : kBlockHeads) candidates.push_back(end - size + head);
+    }
+  }
+  std::vector<char> there(packet.size());
+  for (const std::uint64_t candidate : candidates) {
+    if (candidate > end || end - candidate < packet.size()) continue;
+    const auto got = ::pread(file, there.data(), there.size(), static_cast<::off_t>(candidate));
+    if (got >= 0 && static_cast<std::size_t>(got) == there.size() &&
+        std::ranges::equal(there, packet)) {
+      return candidate;
+    }
+  }
+  throw InputError(place + "must stand in the file as it was captured (got a stream)");
+}
+
+std::optional<CapturedDatagram> PcapReader::Next() {
+  while (true) {
+    pcap_pkthdr* header = nullptr;
+    const u_char* bytes = nullptr;
+    const int status = pcap_next_ex(capture_->pcap, &header, &bytes);
+    if (status == PCAP_ERROR_BREAK) return std::nullopt;
+    const std::size_t packet = num_frames_++;
+    const std::string place = name_ + ": packet " + NumberText(packet) + ": ";
+    if (status != 1) {
+      const std::string reason = pcap_geterr(capture_->pcap);
+      // libpcap says so, too, where the file begins no packet that could be one.
+      if (!reason.starts_with("truncated") || std::feof(pcap_file(capture_->pcap)) == 0) {
+        throw InputError(place + reason);
+      }
+      cut_ = {.number = 1, .first = packet};
+      return std::nullopt;
+    }
+    const std::span<const char> kept(reinterpret_cast<const char*>(bytes), header->caplen);
+    const FrameContent content = ContentOf(kept, pcap_datalink(capture_->pcap));
+    auto fragment = FindFragment(content);
+    const bool is_datagram = fragment && (!IsWhole(*fragment) || DatagramIn(fragment->bytes));
+    if (!is_datagram && header->caplen < header->len && MayBeginDatagram(content)) {
+      throw InputError(place + "must be captured whole (got " + NumberText(header->caplen) +
+                       " of " + NumberText(header->len) + " bytes)");
+    }
+    if (!is_datagram) {
+      const bool is_unknown = content.is_ip() ? MayBeginDatagram(content)
+                                              : !content.is_cut && !CarriesNoUdp(content.type);
+      if (is_unknown && unknown_.number++ == 0) {
+        unknown_.first = packet;
+        unknown_.detail = content.is_ip() ? "a length of IP or UDP that the frame does not have"
+                                          : "type " + TypeText(content.type);
+      }
+      continue;
+    }
+    fragment->number = packet;
+    const std::int64_t time_ns = TimeOf(capture_->pcap, *header, place);
+    if (finds_places_) {
+      const auto in_packet = static_cast<std::uint64_t>(fragment->bytes.data() - kept.data());
+      fragment->place = PlaceOf(kept, place) + in_packet;
+      pieces_ = {{fragment->place, fragment->bytes.size()}};
+    }
+    auto datagram =
+        IsWhole(*fragment) ? DatagramIn(fragment->bytes) : PutTogether(*fragment, time_ns, place);
+    if (!datagram) continue;
+    datagram->source_address = fragment->source;
+    datagram->destination_address = fragment->destination;
+    datagram->packet = packet;
+    datagram->time_ns = time_ns;
+    datagram->has_wrong_checksum = !AgreesWithChecksum(*datagram);
+    if (finds_places_) datagram->pieces = IsWhole(*fragment) ? pieces_ : fragments_.pieces();
+    return datagram;
+  }
+}
+
+std::vector<Remark> PcapReader::remarks() const {
+  std::vector<Remark> remarks;
+  const auto add = [&](RemarkKind kind, const LeftOut& left_out) {
+    AddRemark({.kind = kind,
+               .place = name_ + ": packet " + NumberText(left_out.first),
+               .number = left_out.number,
+               .detail = left_out.detail},
+              remarks);
+  };
+  if (num_torn() > 0) add(RemarkKind::kFragmentsMissing, {num_torn(), fragments_.first_torn(), ""});
+  add(RemarkKind::kFramesUnknown, unknown_);
+  add(RemarkKind::kRecordingCut, cut_);
+  return remarks;
+}
+
+std::optional<CapturedDatagram> PcapReader::PutTogether(IpFragment fragment,
+                                                        std::int64_t time_ns,
+                                                        const std::string& place) {
+  fragment.time_ns = time_ns;
+  try {
+    const auto udp = fragments_.Add(fragment);
+    return udp ? DatagramIn(*udp) : std::nullopt;
+  } catch (const InputError& error) {
+    throw InputError(place + error.what());
+  }
+}
+
+}  // namespace railcast

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "generator/extras/insert/clouds/edit_rows.h"
+#include "generator/extras/insert/insert_plan.h"
+#include "generator/extras/insert/inserted_frame.h"
+#include "generator/extras/insert/recorded_firings.h"
+#include "generator/run/line_ledger.h"
+#include "generator/run/run_directory.h"
+#include "railcast/io/cloud_files.h"
+#include "railcast/io/recording.h"
+
+namespace railcast {
+
+struct SequenceSummary;
+
+/// A file that stands beside those of the frames.
+struct FixedFile {
+  std::string name;  ///< Relative to the folder of the recording.
+  std::string bytes;
+  std::filesystem::path copy_of;  ///< The file whose bytes it has instead, unless empty.
+};
+
+/// What a frame adds to the recording that is written.
+struct WrittenFrame {
+  /// Files to write, relative to the folder of the recording.
+  std::vector<FrameFile> files;
+  std::vector<std::string> lines;  ///< One for each of RecordingOutput::LineFiles().
+  /// For each point of the frame's cloud, in its order, the slot; kNoSlot for places in an
+  /// organised cloud that belong to none.
+  std::vector<std::uint32_t> slots;
+  bool has_slots = true;                ///< Whether they are known before Write().
+  std::string source_hash;              ///< ContentHash of the frame's source, if it is a file.
+  std::optional<EncodedFrame> frame{};  ///< Of a sequence.
+};
+
+/// Writes the recording with what was inserted, frame by frame.
+class RecordingOutput {
+ public:
+  virtual ~RecordingOutput() = default;
+
+  /// The files that get a line of each frame, with their headers; relative to the folder of the
+  /// recording.
+  [[nodiscard]] virtual std::vector<LineFileName> LineFiles() const { return {}; }
+  [[nodiscard]] virtual std::vector<FixedFile> FixedFiles() const { return {}; }
+
+  /// Begins, or goes on after an interruption.
+  /// @param num_done How many frames an earlier run has written.
+  /// @return How many of these are there and need not be written again.
+  [[nodiscard]] virtual std::uint32_t Begin(std::uint32_t num_done) { return num_done; }
+  /// Several threads may do so at once, and while one writes.
+  /// @param frame Counted from 0 in the recording.
+  [[nodiscard]] virtual WrittenFrame Encode(const RecordedFirings& firings,
+                                            const InsertedFrame& inserted,
+                                            std::uint32_t frame) const = 0;
+  /// Writes what is not in WrittenFrame::files, of one frame after another, and sets
+  /// WrittenFrame::slots where Encode() did not know them.
+  virtual void Write(const RecordedFirings& /*firings*/,
+                     const InsertedFrame& /*inserted*/,
+                     WrittenFrame& /*output*/) {}
+  virtual void Finish() {}
+  /// The names of the files that hold more than a frame and are none of LineFiles() or
+  /// FixedFiles(), as of a capture; not of a sequence, whose own manifest knows its files. After
+  /// Finish().
+  [[nodiscard]] virtual std::vector<std::string> WholeFiles() const { return {}; }
+};
+
+/// What the run of a recorded sequence was, but for its directory and frames.
+[[nodiscard]] SequenceSpec SpecOfRecorded(const SequenceSummary& summary,
+                                          const ScenarioSpec& scenario);
+
+/// Whether points are in the sensor's axes, as recordings are read.
+[[nodiscard]] inline bool IsInSensorAxes(const OutputSpec& output) {
+  return output.frame == OutputFrame::kSensor && output.handedness == Handedness::kRight;
+}
+
+/// The frame as encoders expect it: with an outcome for each slot.
+/// @param recorded Of which `frame` is taken.
+[[nodiscard]] Frame WithOutcomes(const RecordedFrame& recorded);
+
+/// The table for encoders, where labels are SemanticKITTI's numbers.
+[[nodiscard]] LabelTable KittiNumbersIn(const Frame& frame);
+
+/// Writes a recording of cloud files as it was; null if it is none. Beside some of its frames,
+/// poses.txt and times.txt of KITTI have the lines of these.
+/// @throws InputError if the recording has no number for a label of the plan's objects.
+[[nodiscard]] std::unique_ptr<RecordingOutput> MakeSameClouds(const RecordingInfo& info,
+                                                              const InsertPlan& plan,
+                                                              const InsertRange& range);
+
+/// Writes a sequence of railcast as it was; null if the recording is none.
+/// @param folder Where it is written.
+/// @throws InputError if its clouds are not in files, or not in the sensor's axes, or as above.
+[[nodiscard]] std::unique_ptr<RecordingOutput> MakeSameSequence(
+    const RecordingInfo& info,
+    const InsertPlan& plan,
+    const InsertRange& range,
+    const std::filesystem::path& folder);
+
+/// Writes frames of any recording in a format of railcast's that has files for each frame: in
+/// KITTI's layout, or as clouds with frames.csv where poses are known.
+[[nodiscard]] std::unique_ptr<RecordingOutput> MakeConvertedClouds(const RecordingInfo& info,
+                                                                   const InsertPlan& plan,
+                                                                   const FrameFormat& format,
+                                                                   std::uint32_t first_frame);
+
+}  // namespace railcast

@@ -1,0 +1,135 @@
+#include "generator/extras/insert/run/frame_folder.h"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/record/read_record.h"
+#include "core/io/run/convert_record.h"
+#include "core/io/run/folder_identity.h"
+#include "core/io/unfinished_file.h"
+#include "core/io/verify/verification.h"
+#include "core/io/write_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a line of the ledger says; nothing if it is not that of the frame.
+std::optional<LedgerItem> ReadItem(const FrameFolderSpec& spec,
+                                   std::string_view line,
+                                   std::uint32_t frame) {
+  const auto record = ReadWholeLine(
+      line, [&](std::string_view whole) { return ReadLedgerLine(spec.ledger, whole, ""); });
+  if (!record || record->frame != frame) return std::nullopt;
+  return LedgerItem{record->files, record->records_hash, std::vector(spec.line_files.size(), 1U)};
+}
+
+// What another value of a key of run.json means.
+std::string FolderDifference(const std::string& key, const Json& found, const Json& ours) {
+  return "holds another run: " + ValuesText(key, MemberOf(found, key), MemberOf(ours, key));
+}
+
+std::vector<LineFileName> WithLedger(const FrameFolderSpec& spec) {
+  std::vector<LineFileName> files = spec.line_files;
+  files.push_back({spec.ledger, ""});
+  return files;
+}
+
+}  // namespace
+
+FrameFolder::FrameFolder(FrameFolderSpec spec)
+    : spec_(std::move(spec)), lock_(spec_.directory), lines_(spec_.directory, WithLedger(spec_)) {
+  const FolderIdentity identity{.file = spec_.directory / kRunFile,
+                                .text = spec_.run,
+                                .is_complete = fs::exists(spec_.directory / kManifestFile)};
+  if (!spec_.is_known) was_empty_ = TakeFolder(identity, spec_.made, FolderDifference);
+  is_complete_ = identity.is_complete;
+  if (is_complete_) {
+    changed_ = FaultsToMend(spec_.directory, VerifyInsertion(spec_.directory, [](double) {}));
+    is_complete_ = changed_.empty();
+  }
+  if (!is_complete_) {
+    fs::remove(spec_.directory / kManifestFile);
+    WriteFileWhole(identity.file, identity.text);
+  }
+  num_done_ = lines_.Count(spec_.num_frames, [&](std::uint32_t i, std::string_view line) {
+    return ReadItem(spec_, line, spec_.first_frame + i);
+  });
+}
+
+void FrameFolder::Open(std::uint32_t num_kept) {
+  Check(num_kept <= num_done_, "only frames that are there are kept");
+  num_done_ = num_kept;
+  lines_.Open(num_kept);
+}
+
+void FrameFolder::WriteFixed(const FixedFile& file) {
+  const fs::path path = spec_.directory / file.name;
+  fixed_.push_back(file.name);
+  if (fs::exists(path)) {  // Else what it is to hold need not be read twice.
+    const FileHash wanted = file.copy_of.empty()
+                                ? FileHash{ContentHash(file.bytes), file.bytes.size()}
+                                : HashFile(file.copy_of);
+    if (HasContent(spec_.directory, {file.name, wanted.hash, wanted.num_bytes})) return;
+  }
+  MakeFolders(path.parent_path());
+  if (file.copy_of.empty()) {
+    WriteFileWhole(path, file.bytes);
+    return;
+  }
+  // Beside clouds may stand images and maps of any size.
+  const UnfinishedFile copy(path, 0);
+  copy.AppendFile(file.copy_of);
+  copy.Finish();
+}
+
+void FrameFolder::WriteFiles(const std::vector<FrameFile>& files, FrameRecord& frame) const {
+  for (const FrameFile& file : files) {
+    MakeFolders((spec_.directory / file.name).parent_path());
+    WriteFileWhole(spec_.directory / file.name, file.bytes);
+    frame.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
+  }
+}
+
+void FrameFolder::Abandon() noexcept {
+  if (!was_empty_ || num_done_ > 0) return;
+  std::error_code error;
+  fs::remove_all(spec_.directory, error);
+}
+
+// What a run that was killed has left beside the file that it wrote, unless the recording has a
+// file of this name.
+void FrameFolder::RemoveUnfinished(const std::vector<std::string>& own) const {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(spec_.directory)) {
+    const fs::path& file = entry.path();
+    if (file.extension() != kUnfinishedSuffix || !entry.is_regular_file()) continue;
+    const std::string name = file.lexically_relative(spec_.directory).generic_string();
+    const bool is_own = std::ranges::find(own, name) != own.end();
+    if (!is_own && fs::exists(file.parent_path() / file.stem())) files.push_back(file);
+  }
+  for (const fs::path& file : files) fs::remove(file);
+}
+
+NamedValues<std::string> FrameFolder::HashesOfWhole(const std::vector<std::string>& others) {
+  lines_.Sync();
+  std::vector<std::string> names = {std::string(kRunFile)};
+  names.insert(names.end(), fixed_.begin(), fixed_.end());
+  names.insert(names.end(), others.begin(), others.end());
+  for (const LineFileName& file : lines_.files()) names.push_back(file.name);
+  RemoveUnfinished(names);
+  NamedValues<std::string> hashes;
+  for (const std::string& name : names) {
+    hashes.emplace_back(name, HashFile(spec_.directory / name).hash);
+  }
+  return hashes;
+}
+
+}  // namespace railcast

@@ -1,0 +1,110 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/extras/dataset/dataset_project.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Runs the command on the project's recipe in a folder.
+class DatasetCommand : public testing::Test {
+ protected:
+  [[nodiscard]] fs::path Path(const std::string& name) const { return directory_.path() / name; }
+  [[nodiscard]] std::string Command(const std::string& out, const std::string& options = "") const {
+    return "dataset " + recipe_.string() + " --threads 1 --out " + Path(out).string() + " " +
+           options;
+  }
+  TemporaryDirectory directory_;
+  fs::path recipe_ = WriteProjectRecipe(directory_.path() / "project", ProjectRecipe());
+};
+
+TEST_F(DatasetCommand, ContinuesAfterItWasKilledWithTheSameBytes) {
+  ASSERT_EQ(Generate(Command("whole")).status, 0);
+  for (const char* const killed_after_s : {"0.05", "0.1", "0.15", "0.2", "0.3"}) {
+    const std::string program = std::string(RAILCAST_GENERATE) + " " + Command("killed");
+    (void)RunCommand("timeout -s KILL " + std::string(killed_after_s) + " " + program);
+  }
+  const Ended run = Generate(Command("killed"));
+  EXPECT_EQ(run.status, 0) << run.said;
+  EXPECT_EQ(FilesOfDataset(Path("killed")), FilesOfDataset(Path("whole")));
+}
+
+TEST_F(DatasetCommand, SaysWhatItMadeAndHowToMerge) {
+  const Ended first = Generate(Command("1", "--shard 1/2"));
+  EXPECT_EQ(first.status, 0);
+  EXPECT_THAT(first.said, HasSubstr("3 of 3 scenarios in " + Path("1").string()));
+  EXPECT_THAT(first.said, HasSubstr("shard 1/2 is complete; railcast-generate merge makes one"));
+  EXPECT_EQ(Generate(Command("2", "--shard 2/2")).status, 0);
+  const Ended merged = Generate("merge " + Path("1").string() + " " + Path("2").string() +
+                                " --out " + Path("merged").string());
+  EXPECT_EQ(merged.status, 0);
+  EXPECT_EQ(merged.said, "6 scenarios of 2 shards in " + Path("merged").string() + "\n");
+  EXPECT_THAT(Generate(Command("merged")).said, HasSubstr("already complete: nothing to do\n"));
+}
+
+TEST_F(DatasetCommand, WritesTheScenariosAlone) {
+  const Ended run = Generate(Command("scenarios", "--scenarios-only"));
+  EXPECT_EQ(run.status, 0) << run.said;
+  for (int i = 0; i < 6; ++i) {
+    const fs::path file =
+        Path("scenarios/sequences/000/00000" + std::to_string(i)) / "scenario.resolved.json";
+    EXPECT_EQ(Generate("check " + file.string()).status, 0) << file;
+  }
+}
+
+TEST_F(DatasetCommand, ReportsThePartsOfScenariosAlone) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["num_scenarios"] = 20;
+  recipe["objects"][0]["count"] = {{"type", "choice"}, {"values", {1}}};
+  recipe["split"] = {{"train", 0.7}, {"val", 0.15}, {"test", 0.15}};
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  const Ended run = Generate(Command("scenarios", "--scenarios-only"));
+  EXPECT_THAT(run.said, HasSubstr("  train        14 scenarios, 70.0 % (asked for: 70.0 %)\n"
+                                  "  val           3 scenarios, 15.0 % (asked for: 15.0 %)\n"
+                                  "  test          3 scenarios, 15.0 % (asked for: 15.0 %)\n"
+                                  "  bases: scenario.json 20\n"
+                                  "  weathers: rain 20\n"
+                                  "  placed: person 20\n"));
+  const auto num_lines = [&](const char* part) {
+    const std::string text = ReadFileWhole(Path("scenarios/split") / part);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(num_lines("train.txt"), 14);
+  EXPECT_EQ(num_lines("val.txt"), 3);
+  EXPECT_EQ(num_lines("test.txt"), 3);
+  const Json report = Json::parse(ReadFileWhole(Path("scenarios/report.json")));
+  EXPECT_EQ(report.at("splits").at("train").at("scenarios"), 14);
+  EXPECT_EQ(report.at("splits").at("train").at("asked"), 0.7);
+}
+
+TEST_F(DatasetCommand, RefusesShardsThatAreNone) {
+  for (const char* const shard : {"0/2", "3/2", "1", "1/0", "a/2", "1/2/3", "-1/2"}) {
+    const Ended run = Generate(Command("out", "--shard " + std::string(shard)));
+    EXPECT_EQ(run.status, 2) << shard;
+    EXPECT_THAT(run.said, HasSubstr("must be I/N with I from 1 to N and N at most 100000 (got " +
+                                    std::string(shard) + ")"));
+  }
+}
+
+TEST_F(DatasetCommand, RefusesAFormatThatCannotHoldTheOutput) {
+  nlohmann::json recipe = ProjectRecipe();
+  recipe["set"]["/output"] = {{"frame", "vehicle"}};
+  (void)WriteProjectRecipe(directory_.path() / "project", recipe);
+  const Ended run = Generate(Command("out", "--format kitti"));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.said, recipe_.string() +
+                          ": scenario 0: /output: must be right-handed sensor coordinates for "
+                          "--format kitti (got right-handed vehicle)\n");
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/io/write_file.h"
+#include "generator/extras/import/map/read_map.h"
+#include "railcast/error.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/extras/import/made_pbf.h"
+#include "tests/generator/extras/import/written_maps.h"
+
+namespace railcast {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// Two nodes and a way with railway=rail, maxspeed=90.
+std::string SmallPbf(int compression = kRaw) {
+  const std::string texts = BytesField(1, "") + BytesField(1, "railway") + BytesField(1, "rail") +
+                            BytesField(1, "maxspeed") + BytesField(1, "90");
+  const std::string way = VarintField(1, Varint(7)) + BytesField(2, Varint(1) + Varint(3)) +
+                          BytesField(3, Varint(2) + Varint(4)) +
+                          BytesField(8, Signed(1) + Signed(1));
+  const std::string data = BytesField(1, texts) +
+                           BytesField(2, NodeOfMap(1, 15.60, 48.20) + NodeOfMap(2, 15.61, 48.21)) +
+                           BytesField(2, BytesField(3, way));
+  return FileBlock("OSMHeader", BytesField(4, "OsmSchema-V0.6")) +
+         FileBlock("OSMData", data, compression);
+}
+
+TEST(OsmPbf, IsReadAsAMap) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  WriteFileWhole(file, SmallPbf());
+  const RailMap map = ReadMap(file);
+  ASSERT_THAT(map.ways, SizeIs(1));
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_NEAR(map.nodes[1].geographic_deg.x(), 15.61, 1e-9);
+  EXPECT_NEAR(map.nodes[1].geographic_deg.y(), 48.21, 1e-9);
+  EXPECT_EQ(TagOf(map.ways[0].tags, "maxspeed"), "90");
+}
+
+class OsmPbfWords : public ::testing::Test, public WrittenMaps {};
+
+TEST_F(OsmPbfWords, MayHaveThePlacesOfNodesInItsWays) {
+  const std::string places = BytesField(9, Signed(482000000) + Signed(100000)) +
+                             BytesField(10, Signed(156000000) + Signed(0));
+  const RailMap map = Read("map.pbf", FileOfGroups(Way({1, 2}, places)));
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(map.nodes[1].geographic_deg, Eigen::Vector2d(15.6, 48.21));
+}
+
+TEST_F(OsmPbfWords, OfDenseNodesHaveTheirTags) {
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(3) + Way({1, 2, 3})));
+  ASSERT_THAT(map.nodes, SizeIs(3));
+  EXPECT_EQ(map.nodes[2].geographic_deg, Eigen::Vector2d(15.62, 48.2));
+  EXPECT_EQ(map.nodes[1].height_m, 250.0);
+  EXPECT_EQ(map.nodes[2].height_m, std::nullopt);
+}
+
+TEST_F(OsmPbfWords, CutWaysWhereNodesAreMissing) {
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(4) + Way({1, 2, 98, 99, 3, 4})));
+  ASSERT_THAT(map.ways, SizeIs(2));
+  EXPECT_THAT(map.nodes, SizeIs(4));
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kNodesMissing)->number, 2U);
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kNodesMissing)->place, "way 7");
+}
+
+TEST_F(OsmPbfWords, LeaveOutWhatIsDeleted) {
+  // The second of three nodes is not visible.
+  const std::string visible = BytesField(5, BytesField(6, Varint(1) + Varint(0) + Varint(1)));
+  const RailMap map = Read("map.pbf", FileOfGroups(DenseNodes(3, visible) + Way({1, 2, 3})));
+  ASSERT_THAT(map.ways, SizeIs(1));
+  EXPECT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(RemarkOf(map, RemarkKind::kDeletedLeftOut)->place, "node 2");
+}
+
+TEST_F(OsmPbfWords, AreRefusedIfTheyNeedWhatIsNotRead) {
+  for (const std::string feature : {"Curves", "HistoricalInformation"}) {
+    EXPECT_EQ(Fault("map.pbf", FileOfGroups("", BytesField(4, feature))),
+              "map.pbf: must need no features but OsmSchema-V0.6, DenseNodes and LocationsOnWays "
+              "(got \"" +
+                  feature + "\")");
+  }
+}
+
+TEST_F(OsmPbfWords, AreRefusedIfABlobHasNoData) {
+  const std::string header = BytesField(1, "OSMData") + VarintField(3, Varint(2));
+  EXPECT_EQ(
+      Fault("map.pbf", FileOfGroups("") + std::string(3, '\0') + static_cast<char>(header.size()) +
+                           header + VarintField(2, Varint(0))),
+      "map.pbf: must be a .pbf file to its end (got damaged data)");
+}
+
+TEST(OsmPbf, IsRefusedIfItsBlobsAreCompressedInAWayThatIsNotRead) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  const auto fault = [&](int compression) -> std::string {
+    WriteFileWhole(file, SmallPbf(compression));
+    try {
+      static_cast<void>(ReadMap(file));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string rule = file.string() +
+                           ": must have blobs that are zlib or plain (osmium cat IN.pbf -o OUT.pbf "
+                           "makes them so) (got ";
+  EXPECT_EQ(fault(kLz4), rule + "lz4)");
+  EXPECT_EQ(fault(kZstd), rule + "zstd)");
+}
+
+TEST(OsmPbf, OfMonacoIsReadWithZlibAndRefusedWithLz4) {
+  const std::filesystem::path file = RAILCAST_SHARED_DATA_DIR "/osm_more/monaco.lz4.osm.pbf";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  EXPECT_THROW(static_cast<void>(ReadMap(file)), InputError);
+  const std::filesystem::path same = RAILCAST_SHARED_DATA_DIR "/osm_more/monaco.osm.pbf";
+  EXPECT_GE(ReadMap(same).ways.size(), 13U);
+}
+
+TEST(OsmPbf, NamesOpenStreetMapAsItsSource) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  WriteFileWhole(file, SmallPbf());
+  EXPECT_THAT(ReadMap(file).attribution, HasSubstr("OpenStreetMap contributors"));
+}
+
+TEST(OsmPbf, IsRefusedIfItIsCutOff) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory.path() / "map.osm.pbf";
+  const std::string whole = SmallPbf();
+  WriteFileWhole(file, whole.substr(0, whole.size() - 20));
+  try {
+    static_cast<void>(ReadMap(file));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("map.osm.pbf: must be "));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace railcast

@@ -1,0 +1,93 @@
+// From a plan to the packets: what is written to a capture, read again, and sent.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/extras/packets/pcap/pcap_reader.h"
+#include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/spinning/spinning_encoder.h"
+#include "core/io/recording/recording_kinds.h"
+#include "generator/extras/insert/packets/insertion.h"
+#include "tests/core/extras/packets/velodyne/made_scan.h"
+#include "tests/core/io/recording/read_all.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/extras/insert/packets/hand_edits.h"
+#include "tests/generator/extras/insert/packets/sent_as_written.h"
+#include "tests/generator/extras/insert/plan/plan_project.h"
+#include "tests/support/sensor_file.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+class InsertedCapture : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const MadeScan scan(ReadSensor(std::string(SensorOf(GetParam()))));
+    const ReturnMode mode = ReturnModeOfFormat(GetParam());
+    const auto encoder = MakeSpinningEncoder(*FindSpinningModel(GetParam()), scan.spec(), mode);
+    Datagrams datagrams;
+    for (const std::uint32_t i : {0U, 1U, 2U}) {
+      encoder->Encode(scan.MakeFrame(i, mode == ReturnMode::kDual ? 2 : 1), datagrams);
+    }
+    PcapWriter writer(capture(), 2368, 8308);
+    writer.Write(datagrams, datagrams.items);
+    writer.Finish();
+  }
+
+  [[nodiscard]] fs::path capture() const { return folder_.path() / "drive.pcap"; }
+
+  /// Puts a box around 6 m ahead of the sensor.
+  [[nodiscard]] InsertIntoFrame BoxAhead() const {
+    const std::string lidar = "\"lidar\": {\"file\": \"" RAILCAST_SOURCE_DIR "/scenarios/sensors/" +
+                              std::string(SensorOf(GetParam())) +
+                              ".json\", \"receiver\": {\"return_mode\": \"" +
+                              std::string(NameOf(ReturnModeOfFormat(GetParam()))) + "\"}}, ";
+    const fs::path plan = WritePlan(
+        folder_.path(), R"({"poses": "standing"})",
+        R"(, "objects": [{"type": "box", "name": "crate", "size_m": [1, 2, 6], "s_m": 6, "d_m": 0, "h_m": 0}])",
+        lidar);
+    return MakeInsertion(plan, capture());
+  }
+
+  TemporaryDirectory folder_;
+};
+
+TEST_P(InsertedCapture, IsReadAgainAsItWasInserted) {
+  const InsertIntoFrame insert = BoxAhead();
+  const auto frames = CopyWithEdits(capture(), folder_.path() / "out", insert);
+  const auto read = ReadAll(folder_.path() / "out/drive.pcap");
+  ASSERT_EQ(read.size(), frames.size());
+  std::size_t num_added = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame& expected = frames[i].recorded.frame;
+    ASSERT_EQ(read[i].frame.num_slots(), expected.num_slots());
+    for (const SlotEdit& edit : frames[i].edits) num_added += edit.is_added ? 1 : 0;
+    for (std::size_t slot = 0; slot < expected.num_slots(); ++slot) {
+      const float got_m = read[i].frame.range_m[slot];
+      ASSERT_EQ(std::isnan(got_m), std::isnan(expected.range_m[slot])) << slot;
+      if (std::isnan(got_m)) continue;
+      // Half a unit of VLP-32C's distances.
+      ASSERT_NEAR(got_m, expected.range_m[slot], 0.0021F) << slot;
+    }
+  }
+  EXPECT_GT(num_added, 100U);
+}
+
+// What is sent live is what is written to the file.
+TEST_P(InsertedCapture, IsSentAsItIsWritten) {
+  ExpectSentAsWritten(capture(), folder_.path() / "out", BoxAhead());
+}
+
+INSTANTIATE_TEST_SUITE_P(Velodyne,
+                         InsertedCapture,
+                         testing::Values("vlp16", "vlp16-dual", "vlp32c"));
+
+}  // namespace
+}  // namespace railcast

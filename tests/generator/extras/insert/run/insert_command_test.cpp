@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "core/io/write_file.h"
+#include "tests/core/io/default_signals.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/extras/insert/run/made_insertion.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+namespace fs = std::filesystem;
+
+class InsertCommand : public testing::Test {
+ protected:
+  /// Makes the recording and the plan.
+  void Make(std::uint32_t num_frames) {
+    MadeSequenceSpec made = RunWith("pcd", "");
+    made.num_frames = num_frames;
+    (void)MakeSequence(run(), made);
+    (void)WriteRunPlan(folder_.path(), kBox);
+  }
+
+  [[nodiscard]] fs::path run() const { return folder_.path() / "run"; }
+  [[nodiscard]] fs::path plan() const { return folder_.path() / "plan.json"; }
+  [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
+  [[nodiscard]] Ended Insert(const std::string& options) const {
+    return Generate("insert " + run().string() + " " + plan().string() + " " + options + " 2>&1");
+  }
+  /// What it says of the recording before it begins.
+  static constexpr const char* kRemark = "intensities: reflectances, 1 = white\n";
+
+  TemporaryDirectory folder_;
+};
+
+TEST_F(InsertCommand, TellsWithCheckWhatThePlanMeetsAndWritesNothing) {
+  Make(2);
+  const Ended ended = Insert("--check");
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_TRUE(ended.said.starts_with(std::string(kRemark) +
+                                     "crate:\n  at chainage 300 m, 0 m left, 0 m above the rails"))
+      << ended.said;
+  EXPECT_NE(ended.said.find("aimed at in 2 of 2 frames"), std::string::npos) << ended.said;
+  EXPECT_FALSE(exists(out()));
+}
+
+TEST_F(InsertCommand, ChecksTheFramesThatAreWantedAndTakesNoOptionsForFiles) {
+  Make(3);
+  const Ended ended = Insert("--check --frames 1..1");
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.said.find("aimed at in 1 of 1 frames"), std::string::npos) << ended.said;
+  EXPECT_EQ(Insert("--check --frames 1..3").said,
+            std::string(kRemark) + "--frames: must be of the recording's 3 frames (got 1..3)\n");
+  EXPECT_EQ(Insert("--check --out " + (run() / "x").string()).status, 1);
+  EXPECT_EQ(Insert("--check --out " + out().string()).status, 0);
+  EXPECT_FALSE(exists(out()));
+  for (const std::string option : {"--format ply", "--points-alone", "--threads 1"}) {
+    const Ended refused = Insert("--check " + option);
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_NE(
+        refused.said.find(option.substr(0, option.find(' ')) + ": must not come with --check"),
+        std::string::npos)
+        << refused.said;
+  }
+}
+
+TEST_F(InsertCommand, WritesTheFramesThatAreWantedInTheFormatThatIsWanted) {
+  Make(3);
+  const Ended ended = Insert("--out " + out().string() + " --frames 1..2 --format ply");
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_TRUE(ended.said.ends_with(" points in 2 frames\nwritten to " + out().string() + "\n"))
+      << ended.said;
+  EXPECT_FALSE(exists(out() / "recording/frames/000000.ply"));
+  EXPECT_TRUE(exists(out() / "recording/frames/000001.ply"));
+  EXPECT_TRUE(exists(out() / "recording/frames/000002.ply"));
+  // Once more, it has nothing to do and says the same.
+  EXPECT_EQ(Insert("--out " + out().string() + " --frames 1..2 --format ply").said, ended.said);
+}
+
+TEST_F(InsertCommand, SaysInOneLineWhatIsWrong) {
+  Make(2);
+  const auto expect = [&](const std::string& options, const std::string& said) {
+    const Ended ended = Insert(options);
+    EXPECT_EQ(ended.status, 1) << options;
+    EXPECT_EQ(ended.said, said);
+  };
+  const std::string to_out = "--out " + out().string();
+  expect("", "--out: missing (only --check writes nothing)\n");
+  expect(to_out + " --frames 2..1",
+         "--frames: must be numbers of frames, first and last, such as 12..30 (got 2..1)\n");
+  expect(to_out + " --frames 0..2",
+         std::string(kRemark) + "--frames: must be of the recording's 2 frames (got 0..2)\n");
+  expect(
+      "--out " + (run() / "more").string(),
+      "--out: must not be in the recording's directory (got " + (run() / "more").string() + ")\n");
+  fs::copy_file(run().string() + ".json", plan(), fs::copy_options::overwrite_existing);
+  expect(to_out, plan().string() + ": /world/recording: missing\n" + plan().string() +
+                     ": /vehicle: must be left out of a plan, whose world is a recording\n");
+  EXPECT_FALSE(exists(out()));
+}
+
+TEST_F(InsertCommand, KeepsPositionsOfANationalGridByTheirOwnFormatAlone) {
+  const fs::path map = folder_.path() / "map.pcd";
+  WriteFileWhole(
+      map,
+      "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+      "POINTS 2\nDATA ascii\n494428.61 4877455.58 131.57\n494430.61 4877455.58 131.57\n");
+  (void)WriteRunPlan(folder_.path(), "", R"({"poses": "standing"})");
+  const std::string command =
+      "insert " + map.string() + " " + plan().string() + " --points-alone --out " + out().string();
+  const Ended ended = Generate(command + " --format pcd 2>&1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find("map.pcd: must keep its positions, which are far from 0 as in a "
+                            "national grid, by --format same (got pcd)\n"),
+            std::string::npos)
+      << ended.said;
+  EXPECT_FALSE(exists(out()));
+  EXPECT_EQ(Generate(command).status, 0);
+  EXPECT_EQ(ReadFileWhole(out() / "recording/map.pcd"), ReadFileWhole(map));
+}
+
+TEST_F(InsertCommand, LeavesNothingWhereThePlanDoesNotFitTheRecording) {
+  Make(2);
+  // The firings of a raster are not those of a spinning sensor.
+  std::string text = ReadFileWhole(plan());
+  text.replace(text.find("vir2rail"), std::string("vir2rail").size(), "vlp16");
+  WriteFileWhole(plan(), text);
+  const Ended ended = Insert("--out " + out().string());
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find("000000.pcd: its firings cannot be found: "), std::string::npos)
+      << ended.said;
+  EXPECT_FALSE(exists(out()));
+}
+
+TEST_F(InsertCommand, StopsAfterAFrameOnCtrlCAndContinues) {
+  Make(16);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    UseDefaultSignals();
+    ::execl(RAILCAST_GENERATE, RAILCAST_GENERATE, "insert", run().c_str(), plan().c_str(), "--out",
+            out().c_str(), "--threads", "1", nullptr);
+    ::_exit(127);
+  }
+  while (!exists(out() / "added/000001.pcd") && ::waitpid(child, nullptr, WNOHANG) == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+  EXPECT_FALSE(exists(out() / "manifest.json"));
+  const Ended continued = Insert("--out " + out().string());
+  EXPECT_EQ(continued.status, 0) << continued.said;
+  const fs::path whole = folder_.path() / "whole";
+  EXPECT_EQ(Insert("--out " + whole.string()).status, 0);
+  EXPECT_EQ(FilesOf(out()), FilesOf(whole));
+}
+
+}  // namespace
+}  // namespace railcast

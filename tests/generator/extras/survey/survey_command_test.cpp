@@ -1,0 +1,287 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/input_file.h"
+#include "core/base/text.h"
+#include "core/io/content_hash.h"
+#include "core/io/verify/verification.h"
+#include "core/io/write_file.h"
+#include "core/rail/survey/survey_file.h"
+#include "core/scenario/json_text.h"
+#include "generator/extras/survey/survey_beams.h"
+#include "railcast/scenario.h"
+#include "tests/core/io/cloud/made_las.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/generator/project_folder.h"
+#include "tests/generator/run_command.h"
+
+namespace railcast {
+namespace {
+
+/// A square of ground as a cloud in the axes of a national grid.
+std::string GroundCloud() {
+  constexpr int kEdge = 30;
+  std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(kEdge * kEdge) +
+                    "\nproperty double x\nproperty double y\nproperty double z\nend_header\n";
+  for (int i = 0; i < kEdge * kEdge; ++i) {
+    ply += std::to_string(3'400'000.0 + 0.1 * (i % kEdge)) + " " +
+           std::to_string(5'800'000.0 + 0.1 * (i / kEdge)) + " 412.5\n";
+  }
+  return ply;
+}
+
+TEST(SurveyCommand, TakesACloudInTheWorldsAxes) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 900U);
+  const auto cell = SurveyCellAt({3'400'001.0, 5'800'001.0});
+  for (const SurveyTile& tile : file.tiles()) {
+    if (tile.cell != cell) continue;
+    EXPECT_NEAR(GroundHeight_m(tile, {3'400'001.0, 5'800'001.0}).value(), 412.5, 1e-3);
+  }
+  EXPECT_FALSE(exists(directory.path() / "out" / "world.json"));
+}
+
+// A class of LAS becomes the label that scenarios have for the same thing.
+TEST(SurveyCommand, TakesPointsAndClassesOfLas) {
+  const TemporaryDirectory directory;
+  std::string las = MadeLas{.minor_version = 4, .format = 6}.Bytes(900);
+  for (std::size_t i = 0; i < 900; ++i) {
+    char* const point = &las[375 + 30 * i];
+    const std::array<std::int32_t, 3> position_mm = {static_cast<std::int32_t>(100 * (i % 30)),
+                                                     static_cast<std::int32_t>(100 * (i / 30)), 0};
+    std::memcpy(point, position_mm.data(), sizeof position_mm);
+    point[16] = 11;
+  }
+  WriteFileWhole(directory.path() / "road.las", las);
+  const Ended ended = Generate("survey " + (directory.path() / "road.las").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 900U);
+  EXPECT_EQ(file.labels().back(), "road");
+}
+
+// The first file's intensities alone would fit a byte.
+TEST(SurveyCommand, TakesOneScaleOfIntensitiesForAllFiles) {
+  const TemporaryDirectory directory;
+  create_directory(directory.path() / "site");
+  const auto write = [&](const std::string& name, std::uint16_t intensity, std::int32_t east_mm) {
+    std::string las = MadeLas{}.Bytes(900);
+    for (std::size_t i = 0; i < 900; ++i) {
+      const auto step = static_cast<std::int32_t>(i);
+      PutNumber(las, 227 + 20 * i, east_mm + 100 * (step % 30));
+      PutNumber(las, 231 + 20 * i, 100 * (step / 30));
+      PutNumber(las, 239 + 20 * i, intensity);
+    }
+    WriteFileWhole(directory.path() / "site" / name, las);
+  };
+  write("0.las", 200, 0);
+  write("1.las", 32'768, 50'000);
+  const Ended ended = Generate("survey " + (directory.path() / "site").string() +
+                               " --world-axes --out " + (directory.path() / "out").string());
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_THAT(ended.said,
+              testing::HasSubstr("white surfaces are taken to have an intensity of 65535, by the "
+                                 "highest one of all files; --white says it\n"));
+  SurveySource source{.recordings = {directory.path() / "site"}, .is_in_world = true};
+  source.guessed_white = GuessWhite(source).value();
+  SurveyLabels labels;
+  std::vector<float> reflectances;
+  VisitFrames(source, labels, [&](const SurveyFrame& frame) {
+    reflectances.push_back(frame.beams.front().reflectance);
+  });
+  EXPECT_THAT(reflectances, testing::ElementsAre(testing::FloatEq(200.0F / 65535.0F),
+                                                 testing::FloatEq(32768.0F / 65535.0F)));
+}
+
+TEST(SurveyCommand, WritesAWorldOfASensorThatStood) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const std::string cloud = (directory.path() / "ground.ply").string();
+  EXPECT_EQ(Generate("survey " + cloud + " --standing --out " + (directory.path() / "out").string())
+                .status,
+            1);  // Nothing is within 60 m of the sensor.
+}
+
+TEST(SurveyCommand, SaysThatPosesAreMissing) {
+  const TemporaryDirectory directory;
+  WriteFileWhole(directory.path() / "ground.ply", GroundCloud());
+  const Ended ended = Generate("survey " + (directory.path() / "ground.ply").string() + " --out " +
+                               (directory.path() / "out").string() + " 2>&1");
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.said.find(
+                "has no pose; must be given with --poses, with --standing if the "
+                "sensor did not move, or with --world-axes if the points are in the world's axes"),
+            std::string::npos)
+      << ended.said;
+}
+
+constexpr const char* kTwoPoses = "1 0 0 100 0 1 0 20 0 0 1 7\n1 0 0 104 0 1 0 20 0 0 1 7\n";
+
+/// Two clouds of the same square of ground 2 m below the sensor, from so far ahead of it on, and a
+/// file of poses.
+std::string WriteGroundSeenTwice(const std::filesystem::path& folder,
+                                 const std::string& poses,
+                                 double ahead_m = -1.0) {
+  std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 400\nproperty float x\n"
+      "property float y\nproperty float z\nend_header\n";
+  for (int i = 0; i < 400; ++i) {
+    ply += NumberText(ahead_m + 0.1 * (i % 20)) + " " + NumberText(0.1 * (i / 20)) + " -2\n";
+  }
+  create_directory(folder / "clouds");
+  WriteFileWhole(folder / "clouds" / "0.ply", ply);
+  WriteFileWhole(folder / "clouds" / "1.ply", ply);
+  WriteFileWhole(folder / "poses.txt", poses);
+  return "survey " + (folder / "clouds").string() + " --poses " + (folder / "poses.txt").string() +
+         " --out " + (folder / "out").string() + " 2>&1";
+}
+
+TEST(SurveyCommand, TakesPosesOfAFile) {
+  const TemporaryDirectory directory;
+  const Ended ended = Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses));
+  EXPECT_EQ(ended.status, 0) << ended.said;
+  EXPECT_TRUE(exists(directory.path() / "out" / "world.json"));
+  const SurveyFile file(directory.path() / "out" / "scene.survey");
+  EXPECT_EQ(file.num_surfels(), 800U);
+  for (const double x_m : {100.0, 104.0}) {
+    const Eigen::Vector2d place_m(x_m, 21.0);
+    for (const SurveyTile& tile : file.tiles()) {
+      if (tile.cell != SurveyCellAt(place_m)) continue;
+      EXPECT_NEAR(GroundHeight_m(tile, place_m).value(), 5.0, 1e-3);
+    }
+  }
+  EXPECT_THAT(ended.said, testing::HasSubstr("top of rail is taken to be 2 m below the sensor"));
+}
+
+TEST(SurveyCommand, AsksForTheSensorsHeightWhereNoGroundWasSeenBelowTheWay) {
+  const TemporaryDirectory directory;
+  // Without a place below which there is ground: 1 m ahead is more than a cell of 0.5 m.
+  const std::string command = WriteGroundSeenTwice(directory.path(), kTwoPoses, 1.0);
+  const Ended asked = Generate(command);
+  EXPECT_EQ(asked.status, 1);
+  EXPECT_EQ(asked.said,
+            "--sensor-height: must be given, since no ground was seen below the sensor's way by "
+            "which to tell the top of rail (got none)\n");
+  EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
+  const Ended told = Generate(command + " --sensor-height 1.5");
+  EXPECT_EQ(told.status, 0) << told.said;
+  EXPECT_THAT(told.said, testing::HasSubstr("top of rail is taken to be 1.5 m below the sensor"));
+}
+
+/// Makes one frame of a scenario of the folder as the sequence `name`.
+Ended MakeSurveyed(const std::filesystem::path& folder,
+                   const std::string& scenario,
+                   const std::string& name) {
+  const std::string scenarios = RAILCAST_SOURCE_DIR "/scenarios/";
+  WriteFileWhole(folder / "site.json",
+                 R"({"version": 1, "lidar": {"file": ")" + scenarios +
+                     R"(sensors/vlp16.json"}, "world": "out/world.json", "vehicle": )" +
+                     R"({"start_s_m": 60}, "materials": ")" + scenarios +
+                     R"(materials/railway.json", "labels": ")" + scenarios + R"(labels.json"})");
+  return Generate("sequence " + (folder / scenario).string() + " --frames 1 --out " +
+                  (folder / name).string() + " 2>&1");
+}
+
+TEST(SurveyCommand, MakesScenesThatSequencesKeep) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
+  const auto make = [&](const std::string& scenario, const std::string& name) {
+    const Ended ended = MakeSurveyed(directory.path(), scenario, name);
+    EXPECT_EQ(ended.status, 0) << ended.said;
+    return directory.path() / name;
+  };
+  const auto first = make("site.json", "first");
+  std::filesystem::remove_all(directory.path() / "out");
+  const auto again = make("first/scenario.resolved.json", "again");
+  for (const std::string name : {"frames/000000.pcd", "scenario.resolved.json", "manifest.json"}) {
+    EXPECT_EQ(ReadFileWhole(again / name), ReadFileWhole(first / name)) << name;
+  }
+}
+
+TEST(SurveyCommand, RecordsWhatTheSurveyIsMadeOf) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
+  const auto record = Json::parse(ReadFileWhole(directory.path() / "out" / "survey.json"));
+  const auto& made_of = record.at("made_of").at(0);
+  EXPECT_EQ(made_of.at("name"), "clouds");
+  EXPECT_EQ(made_of.at("files"), 2);
+  const std::string cloud = HashFile(directory.path() / "clouds" / "0.ply").hash;
+  EXPECT_EQ(made_of.at("xxh3"), ContentHash("0.ply\n" + cloud + "\n1.ply\n" + cloud + "\n"));
+  EXPECT_EQ(record.at("poses").at("name"), "poses.txt");
+  EXPECT_EQ(record.at("sensor_height_m"), 2.0);
+}
+
+TEST(SurveyCommand, MakesSurveysOfWhichNoChangedByteGoesUnnoticed) {
+  const TemporaryDirectory directory;
+  ASSERT_EQ(Generate(WriteGroundSeenTwice(directory.path(), kTwoPoses)).status, 0);
+  const auto out = directory.path() / "out";
+  const Verification whole = VerifySurvey(out);
+  EXPECT_THAT(whole.faults, testing::IsEmpty());
+  EXPECT_EQ(whole.num_files, 3U);
+  std::string scene = ReadFileWhole(out / "scene.survey");
+  const std::string hash = ContentHash(scene);
+  scene.back() = static_cast<char>(scene.back() ^ 1);
+  WriteFileWhole(out / "scene.survey", scene);
+  const std::string fault = (out / "scene.survey").string() + ": must have the hash " + hash +
+                            ", as survey.json says (got " + ContentHash(scene) + ")";
+  EXPECT_THAT(VerifySurvey(out).faults, testing::ElementsAre(fault));
+  const Ended refused = MakeSurveyed(directory.path(), "site.json", "made");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.said, fault + "\n");
+  std::filesystem::remove(out / "survey.json");
+  EXPECT_THAT(VerifySurvey(out).faults,
+              testing::ElementsAre((out / "survey.json").string() +
+                                   ": missing: the survey is unfinished, or of an older program"));
+}
+
+TEST(SurveyCommand, RefusesPosesThatAreNotThoseOfTheFrames) {
+  const std::string pose = "1 0 0 100 0 1 0 20 0 0 1 7\n";
+  const auto said = [](const std::string& poses) {
+    const TemporaryDirectory directory;
+    const Ended ended = Generate(WriteGroundSeenTwice(directory.path(), poses));
+    EXPECT_EQ(ended.status, 1);
+    EXPECT_FALSE(exists(directory.path() / "out" / "scene.survey"));
+    return ended.said;
+  };
+  EXPECT_THAT(said(pose), testing::HasSubstr("poses.txt: must have a pose for each frame (got 1 "
+                                             "poses and more frames)"));
+  EXPECT_THAT(
+      said(pose + pose + pose),
+      testing::HasSubstr("poses.txt: must have a pose for each frame (got 3 poses and 2 frames)"));
+  EXPECT_THAT(said(pose + "1 2 3\n"),
+              testing::HasSubstr("poses.txt:2: must be the 12 numbers of a pose"));
+}
+
+TEST(SurveyCommand, HoldsTimesOfPosesAgainstThoseOfFrames) {
+  const auto survey = [](const std::string& first_s, const std::string& second_s) {
+    const TemporaryDirectory directory;
+    const std::string command = WriteGroundSeenTwice(
+        directory.path(), first_s + " 100 20 7 0 0 0 1\n" + second_s + " 104 20 7 0 0 0 1\n");
+    const auto clouds = directory.path() / "clouds";
+    rename(clouds / "0.ply", clouds / "100.0.ply");
+    rename(clouds / "1.ply", clouds / "400.0.ply");
+    return Generate(command);
+  };
+  EXPECT_THAT(survey("100", "400").said, testing::Not(testing::HasSubstr("remark")));
+  const Ended other = survey("5000", "5300");
+  EXPECT_EQ(other.status, 0) << other.said;
+  EXPECT_THAT(other.said, testing::HasSubstr("remark times-relative: 2 frames"));
+  EXPECT_THAT(survey("100", "280").said,
+              testing::HasSubstr("must be as long after the first as those of the frames (got 180 "
+                                 "s for frame 1, which came after 300 s)"));
+}
+
+}  // namespace
+}  // namespace railcast
