@@ -16,7 +16,7 @@ class GpxReader final : public XmlMapReader {
 
   void Begin(const XmlElement& element) override;
   void End(std::string_view name, std::string_view text, std::uint64_t line) override;
-  RailMap Make() override { return MapOfLines(std::move(lines_), {}); }
+  RailMap Make() override { return MapOfLines(std::move(lines_), std::move(remarks_)); }
 
  private:
   [[nodiscard]] std::string_view parent() const {
@@ -26,8 +26,10 @@ class GpxReader final : public XmlMapReader {
   XmlFaults& faults_;
   std::vector<std::string> open_;  ///< Elements, outermost first.
   std::vector<MapLine> lines_;
+  std::vector<Remark> remarks_;
   std::size_t first_line_ = 0;  ///< Of the track or route that is open.
   std::string name_;            ///< Of the same.
+  bool has_fix_ = true;         ///< Whether the receiver had one at the last point.
   bool is_loose_ = false;       ///< Whether the last line's points are without a segment.
 };
 
@@ -59,6 +61,7 @@ void GpxReader::Begin(const XmlElement& element) {
                 "in <" + ShownText(parent()) + ">");
     return;
   }
+  has_fix_ = true;
   lines_.back().points_deg.push_back(*place_deg);
   lines_.back().heights_m.emplace_back();
 }
@@ -72,6 +75,13 @@ void GpxReader::End(std::string_view name, std::string_view text, std::uint64_t 
     if (!height_m && !is_none) faults_.Add(line, "ele", "must be a number of metres", Quoted(text));
     const bool has_point = !lines_.empty() && !lines_.back().heights_m.empty();
     if (within != "wpt" && has_point) lines_.back().heights_m.back() = height_m;
+  } else if (name == "fix" && within == "trkpt" && XmlTrimmed(text) == "none") {
+    has_fix_ = false;
+  } else if (name == "trkpt" && !has_fix_ && !lines_.empty() && !lines_.back().points_deg.empty()) {
+    remarks_.push_back(
+        {RemarkKind::kPointsWithheld, "line " + std::to_string(line), 1, "<fix> none"});
+    lines_.back().points_deg.pop_back();
+    lines_.back().heights_m.pop_back();
   } else if (name == "name" && (within == "trk" || within == "rte")) {
     name_ = XmlTrimmed(text);
   } else if ((name == "trk" || name == "rte") && !name_.empty()) {

@@ -329,9 +329,13 @@ void CheckFeatures(std::string_view header) {
   });
 }
 
-/// Visits the blocks of elements.
-void VisitBlocks(const std::filesystem::path& file,
-                 const std::function<void(std::string_view data)>& visit) {
+/// The type of blocks that hold elements.
+constexpr std::string_view kElements = "OSMData";
+
+/// Visits the blocks behind the header, with their types.
+void VisitBlocks(
+    const std::filesystem::path& file,
+    const std::function<void(const std::string& type, const std::string& blob)>& visit) {
   constexpr std::size_t kMostHeader = 64 << 10;  // By the format, as kMostBlob.
   constexpr std::size_t kMostBlob = 32 << 20;
   std::ifstream stream = OpenInput(file);
@@ -355,8 +359,11 @@ void VisitBlocks(const std::filesystem::path& file,
     });
     if (blob_size > kMostBlob) FailDamaged();
     const std::string blob = read(blob_size);
-    if (type == "OSMHeader") CheckFeatures(DataOfBlob(blob));
-    if (type == "OSMData") visit(DataOfBlob(blob));
+    if (type == "OSMHeader") {
+      CheckFeatures(DataOfBlob(blob));
+    } else {
+      visit(type, blob);
+    }
   }
 }
 
@@ -370,8 +377,16 @@ bool IsOsmPbf(std::string_view begin) {
 RailMap ReadOsmPbf(const std::filesystem::path& file) {
   return AtPlace(ShownPath(file) + ": ", [&] {
     OsmPbfReader reader;
-    VisitBlocks(file, [&](std::string_view data) { reader.ReadWays(data); });
-    VisitBlocks(file, [&](std::string_view data) { reader.ReadNodes(data); });
+    VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
+      if (type == kElements) {
+        reader.ReadWays(DataOfBlob(blob));
+      } else {
+        reader.maker().Tell(RemarkKind::kExtensionUnread, "", 1, "block " + Quoted(type));
+      }
+    });
+    VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
+      if (type == kElements) reader.ReadNodes(DataOfBlob(blob));
+    });
     return reader.maker().Make();
   });
 }

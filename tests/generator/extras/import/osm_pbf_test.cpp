@@ -90,6 +90,14 @@ TEST_F(OsmPbfWords, AreRefusedIfTheyNeedWhatIsNotRead) {
   }
 }
 
+TEST_F(OsmPbfWords, OfOtherBlocksAreTold) {
+  const RailMap map = Read(
+      "map.pbf", FileOfGroups(DenseNodes(3) + Way({1, 2, 3})) + FileBlock("Index", "anything"));
+  EXPECT_THAT(map.ways, SizeIs(1));
+  EXPECT_EQ(map.remarks,
+            (std::vector<Remark>{{RemarkKind::kExtensionUnread, "", 1, "block \"Index\""}}));
+}
+
 TEST_F(OsmPbfWords, AreRefusedIfABlobHasNoData) {
   const std::string header = BytesField(1, "OSMData") + VarintField(3, Varint(2));
   EXPECT_EQ(
