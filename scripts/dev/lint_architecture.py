@@ -80,6 +80,7 @@ LIBRARY_OWNERS = {
 PUBLIC_LIBRARIES = re.compile(r"Eigen/|[a-z_0-9]+$|std(?:def|int)\.h$")
 PUBLIC_IO_LIBRARIES = re.compile(PUBLIC_LIBRARIES.pattern + "|pcl/")
 
+PAGE_OF_ROOMS = "docs/architecture.md"
 LONG_FILE_LINES = 300
 MAX_FILE_LINES = 500
 
@@ -223,6 +224,21 @@ def lint_includes(sources):
                 yield f"{source.name}:{line}: {fault}"
 
 
+def lint_named_rooms(root):
+    """Yields the rooms that the table of docs/architecture.md does not name in the row of their folder, or of the one
+    that this folder stands in."""
+    page = root / PAGE_OF_ROOMS
+    if not page.exists():
+        return
+    rows = re.findall(r"^\| (`.*?) \| (.*) \|$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    for folder, order in ROOM_ORDERS.items():
+        text = "".join(cells for first, cells in rows
+                       if any(is_within(folder, name) for name in re.findall(r"`([\w/]+)`", first)))
+        for room in order:
+            if room not in (".", "extras") and f"`{room}`" not in text:
+                yield f"{PAGE_OF_ROOMS}:1: the table of folders names every room ({folder}/{room})"
+
+
 def lint_cycles(sources):
     """Yields every include that closes a cycle, with the cycle."""
     done, trail = set(), []
@@ -323,7 +339,7 @@ def lint(root):
     sources = read_sources(root)
     return [*lint_includes(sources), *lint_rooms(sources), *lint_cycles(sources), *lint_units(sources),
             *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root),
-            *lint_listed_sources(root)]
+            *lint_listed_sources(root), *lint_named_rooms(root)]
 
 
 def main(arguments):

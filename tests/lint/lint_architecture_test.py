@@ -26,6 +26,18 @@ def plant(root, files):
         path.write_text(text, encoding="utf-8")
 
 
+class NamedRooms(unittest.TestCase):
+
+    def test_a_room_that_the_table_of_folders_lacks_is_a_fault(self):
+        folder, first = "core/detect", lint_architecture.ROOM_ORDERS["core/detect"][0]
+        rows = {name: f"| `{name}` | {' '.join(f'`{room}`' for room in order)} |"
+                for name, order in lint_architecture.ROOM_ORDERS.items()}
+        self.assertEqual(faults_of({"docs/architecture.md": "\n".join(rows.values()) + "\n"}), [])
+        rows[folder] = rows[folder].replace(f"`{first}`", "")
+        self.assertEqual(faults_of({"docs/architecture.md": "\n".join(rows.values()) + "\n"}),
+                         [f"docs/architecture.md:1: the table of folders names every room ({folder}/{first})"])
+
+
 class IncludeDirection(unittest.TestCase):
 
     def test_a_folder_of_core_may_include_itself_and_those_before_it(self):

@@ -440,17 +440,6 @@ TEST_F(MapWords, OfMissingHeightsLeaveThemToTheOthers) {
   }
 }
 
-TEST_F(MapWords, OfPointsWithoutAFixLeaveThemOut) {
-  const RailMap map = Read("a.gpx",
-                           "<gpx><trk><trkseg><trkpt lat='48.2' lon='15.6'><fix>3d</fix></trkpt>\n"
-                           "<trkpt lat='0' lon='0'><fix>none</fix><ele>7</ele></trkpt>\n"
-                           "<trkpt lat='48.2' lon='15.61'/></trkseg></trk></gpx>");
-  ASSERT_THAT(map.nodes, SizeIs(2));
-  EXPECT_EQ(map.nodes[1].geographic_deg, Eigen::Vector2d(15.61, 48.2));
-  EXPECT_EQ(map.remarks,
-            (std::vector<Remark>{{RemarkKind::kPointsWithheld, "line 2", 1, "<fix> none"}}));
-}
-
 TEST_F(MapWords, OfHeightsThatAreNoneAreTold) {
   const std::string node = "<node id='8' lat='48.2' lon='15.68'><tag k='ele' v='820 ft'/></node>";
   const RailMap map = Read("a.osm", Xml(NodesInXml() + node + WayInXml({8, 1})));

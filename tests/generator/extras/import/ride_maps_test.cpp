@@ -69,6 +69,17 @@ TEST_F(RideMaps, OfGarminsRoutesHaveTheirShape) {
   EXPECT_EQ(NumbersOfNodes(map), std::vector<std::size_t>{4});
 }
 
+TEST_F(RideMaps, OfPointsWithoutAFixLeaveThemOut) {
+  const RailMap map = Read("a.gpx",
+                           "<gpx><trk><trkseg><trkpt lat='48.2' lon='15.6'><fix>3d</fix></trkpt>\n"
+                           "<trkpt lat='0' lon='0'><fix>none</fix><ele>7</ele></trkpt>\n"
+                           "<trkpt lat='48.2' lon='15.61'/></trkseg></trk></gpx>");
+  ASSERT_THAT(map.nodes, SizeIs(2));
+  EXPECT_EQ(map.nodes[1].geographic_deg, Eigen::Vector2d(15.61, 48.2));
+  EXPECT_EQ(map.remarks,
+            (std::vector<Remark>{{RemarkKind::kPointsWithheld, "line 2", 1, "<fix> none"}}));
+}
+
 TEST_F(RideMaps, AreReadInEncodingsOfOneByteAndOthersRefused) {
   const auto text = [](const std::string& encoding, const std::string& name) {
     return "<?xml version='1.0' encoding='" + encoding + "'?><gpx><trk><name>" + name +
