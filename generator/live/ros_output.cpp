@@ -4,7 +4,7 @@
 
 #include "core/extras/ros/messages/sensor_messages.h"
 #include "core/scenario/sensors.h"
-#include "generator/run/run_topics.h"
+#include "generator/extras/ros/run_topics.h"
 
 namespace railcast {
 namespace {

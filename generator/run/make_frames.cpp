@@ -14,10 +14,10 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/run/run_folder.h"
 #include "core/program/stop_signals.h"
+#include "generator/extras/ros/run_bag.h"
+#include "generator/extras/ros/run_topics.h"
 #include "generator/run/all_sensors.h"
-#include "generator/run/run_bag.h"
 #include "generator/run/run_directory.h"
-#include "generator/run/run_topics.h"
 #include "generator/run/stopping.h"
 
 namespace railcast {

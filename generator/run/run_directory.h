@@ -9,10 +9,10 @@
 #include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
+#include "generator/extras/osi/run_trace.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/line_ledger.h"
 #include "generator/run/run_plan.h"
-#include "generator/run/run_trace.h"
 #include "railcast/frame.h"
 
 namespace railcast {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/io/write_file.h"
-#include "generator/run/run_trace.h"
+#include "generator/extras/osi/run_trace.h"
 #include "tests/generator/extras/dataset/dataset_in_format.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "generator/run/run_trace.h"
+#include "generator/extras/osi/run_trace.h"
 
 #include <span>
 

@@ -422,7 +422,7 @@ TEST_F(OsiTraces, AreReadByOthersLibraries) {
   UseTraffic();
   const fs::path out = Make("mcap", "--format osi-mcap --frames 2");
   const Ended run =
-      RunCommand("node " RAILCAST_SOURCE_DIR "/tests/generator/sequence/read_trace.cjs " +
+      RunCommand("node " RAILCAST_SOURCE_DIR "/tests/generator/extras/osi/read_trace.cjs " +
                  (out / Trace(".mcap", "front", 2)).string());
   ASSERT_EQ(run.status, 0) << run.said;
   const auto found = nlohmann::json::parse(run.said);

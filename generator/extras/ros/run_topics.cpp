@@ -1,4 +1,4 @@
-#include "generator/run/run_topics.h"
+#include "generator/extras/ros/run_topics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "generator/run/run_bag.h"
+#include "generator/extras/ros/run_bag.h"
 
 #include <algorithm>
 #include <limits>
@@ -11,7 +11,7 @@
 #include "core/io/run/table_records.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
-#include "generator/run/run_topics.h"
+#include "generator/extras/ros/run_topics.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

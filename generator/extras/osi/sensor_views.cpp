@@ -1,4 +1,4 @@
-#include "generator/run/sensor_views.h"
+#include "generator/extras/osi/sensor_views.h"
 
 #include <algorithm>
 #include <cmath>

@@ -286,7 +286,7 @@ TEST_F(Bags, RefuseWhatTheyCannotHold) {
 // What Foxglove's libraries for Node.js read in a bag; null without them. They are looked for where
 // NODE_PATH says.
 nlohmann::json ReadByFoxglove(const fs::path& bag) {
-  const std::string script = RAILCAST_SOURCE_DIR "/tests/generator/sequence/read_bag.cjs";
+  const std::string script = RAILCAST_SOURCE_DIR "/tests/generator/extras/ros/read_bag.cjs";
   const Ended has_all = RunCommand(
       "node -e 'for (const name of [\"@mcap/core\", \"@mcap/nodejs\", \"@foxglove/rosmsg\", "
       "\"@foxglove/rosmsg2-serialization\", \"@foxglove/rosbag2\", \"@foxglove/wasm-zstd\", "
