@@ -14,10 +14,9 @@
 #include "core/fidelity/choice_report.h"
 #include "core/io/run/run_folder.h"
 #include "core/program/stop_signals.h"
-#include "generator/extras/ros/run_bag.h"
-#include "generator/extras/ros/run_topics.h"
 #include "generator/run/all_sensors.h"
 #include "generator/run/run_directory.h"
+#include "generator/run/run_extras.h"
 #include "generator/run/stopping.h"
 
 namespace railcast {
@@ -102,7 +101,7 @@ struct FrameSlot {
 /// stopped: of all of them, the frame that begins first is begun first.
 /// @param bag Of all frames; null = none.
 void MakeMissing(std::vector<SequenceUnderWay>& sequences,
-                 RunBag* bag,
+                 RunOutput* bag,
                  const SequenceHooks& hooks,
                  const FramesAtOnce& at_once) {
   std::uint32_t num_frames = 0;
@@ -157,7 +156,7 @@ void MakeMissing(std::vector<SequenceUnderWay>& sequences,
 /// Opens the sequences and, if they have one, their bag after the frames that both it and they
 /// hold.
 std::vector<SequenceUnderWay> OpenSequences(const std::vector<SensorSequence>& sensors,
-                                            RunBag* bag) {
+                                            RunOutput* bag) {
   std::vector most_done(sensors.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<std::string>> changed(sensors.size());
   for (bool is_first = true;; is_first = false) {
@@ -193,7 +192,7 @@ std::vector<SequenceUnderWay> OpenSequences(const std::vector<SensorSequence>& s
 /// @return The results in the order of the sequences.
 /// @param bag Of all frames; null = none.
 std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sensors,
-                                         RunBag* bag,
+                                         RunOutput* bag,
                                          const SequenceHooks& hooks,
                                          const FramesAtOnce& at_once) {
   std::vector<SequenceUnderWay> sequences = OpenSequences(sensors, bag);
@@ -216,24 +215,8 @@ std::vector<SequenceResult> RunSequences(const std::vector<SensorSequence>& sens
   return results;
 }
 
-/// The bag of a run; nothing if its format is none.
-std::optional<RunBag> BagOf(const FrameMaker& maker, const RunPlan& plan) {
-  const SequenceSpec& first = plan.sensors.front().spec;
-  if (first.bag.empty()) return std::nullopt;
-  const std::int64_t begin_ns = maker.pattern(0).StampNs(first.start_frame);
-  // Those of the sensor with most fields; frames leave out what they lack.
-  const auto num_fields = [](const SensorPlan& sensor) {
-    return sensor.spec.clouds.fields.names().size();
-  };
-  const SensorPlan& richest = *std::ranges::max_element(plan.sensors, {}, num_fields);
-  return std::make_optional<RunBag>(plan,
-                                    TopicsSpecOf(plan.scenario, *maker.StateAt(begin_ns).world,
-                                                 richest.spec.clouds, ros::ImageEncoding::kPng),
-                                    begin_ns);
-}
-
 /// Completes a run's bag with the vehicle's pose at the last firing of all frames.
-void FinishBag(const FrameMaker& maker, const RunPlan& plan, RunBag& bag) {
+void FinishBag(const FrameMaker& maker, const RunPlan& plan, RunOutput& bag) {
   std::int64_t stamp_ns = 0;
   std::int64_t end_ns = 0;
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
@@ -324,9 +307,10 @@ PlanResult MakeFrames(FrameMaker& maker, const RunPlan& plan, const SequenceHook
   const FramesAtOnce at_once = {maker.NumAtOnce(), [&](const std::function<void()>& work) {
                                   maker.simulator(0).Execute(work);
                                 }};
-  std::optional<RunBag> bag = BagOf(maker, plan);
+  const bool has_bag = !plan.sensors.front().spec.bag.empty();
+  const auto bag = has_bag ? RunExtras::Get().find_bag(maker, plan) : nullptr;
   PlanResult result;
-  result.sequences = RunSequences(sequences, bag ? &*bag : nullptr, hooks, at_once);
+  result.sequences = RunSequences(sequences, bag.get(), hooks, at_once);
   hooks.on_frames(result.sequences);
   if (!std::ranges::all_of(result.sequences, &SequenceResult::is_complete)) return result;
   if (bag && !bag->is_complete()) FinishBag(maker, plan, *bag);

@@ -79,11 +79,6 @@ std::vector<std::uint32_t> NumLinesOf(const SequenceSpec& spec, const FrameRecor
   return num_lines;
 }
 
-// Whether a trace has the message of the run's i-th frame.
-bool HasMessage(const osi::TraceContent& trace, std::uint32_t i, const FrameRecord& record) {
-  return i < trace.messages.size() && trace.messages[i].hash == record.clouds_hash;
-}
-
 /// The names of a run's files.
 class OwnNames {
  public:
@@ -122,7 +117,8 @@ class OwnNames {
 RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
     : spec_(std::move(spec)),
       most_done_(std::min(most_done, spec_.num_frames)),
-      lines_(spec_.directory, LineFileNames(spec_)) {
+      lines_(spec_.directory, LineFileNames(spec_)),
+      trace_(spec_.make_trace ? spec_.make_trace() : nullptr) {
   const fs::path run_file = spec_.directory / kRunFile;
   const fs::path manifest = spec_.directory / kManifestFile;
   const bool is_run = fs::exists(run_file);
@@ -142,7 +138,7 @@ RunDirectory::RunDirectory(SequenceSpec spec, std::uint32_t most_done)
   }
   WriteFixedFiles();
   CountFrames();
-  if (!spec_.trace.empty()) OpenTrace();
+  if (trace_) OpenTrace();
   lines_.Open(num_done_);
 }
 
@@ -169,14 +165,15 @@ void RunDirectory::CheckNames(bool is_run) const {
 }
 
 void RunDirectory::CountFrames() {
-  const bool has_trace = !spec_.trace.empty();
-  found_trace_ = has_trace ? RunTrace::Find(spec_.directory / spec_.trace) : osi::TraceContent();
+  if (trace_) found_trace_ = trace_->Find();
   counts_ = {};
   std::optional<FrameRecord> record;
   const auto read = [&](std::uint32_t i, std::string_view line) -> std::optional<LedgerItem> {
     record = ParseFrameLine(line);
     if (!record || record->frame != spec_.FrameAt(i)) return std::nullopt;
-    if (has_trace && !HasMessage(found_trace_, i, *record)) return std::nullopt;
+    if (trace_ && (i >= found_trace_.size() || found_trace_[i] != record->clouds_hash)) {
+      return std::nullopt;
+    }
     return LedgerItem{record->files, record->records_hash, NumLinesOf(spec_, *record)};
   };
   num_done_ = lines_.Count(most_done_, read, [&](std::string_view records) {
@@ -188,10 +185,10 @@ void RunDirectory::CountFrames() {
 }
 
 void RunDirectory::OpenTrace() {
-  trace_.emplace(spec_.directory / spec_.trace, spec_.trace_topic, found_trace_, num_done_);
-  if (trace_->num_messages() == num_done_) return;
+  const auto num_messages = static_cast<std::uint32_t>(trace_->Open(num_done_));
+  if (num_messages == num_done_) return;
   // The end of the last message is missing: its frame is made anew.
-  most_done_ = static_cast<std::uint32_t>(trace_->num_messages());
+  most_done_ = num_messages;
   CountFrames();
 }
 
@@ -281,9 +278,9 @@ void RunDirectory::Encode(const MadeFrame& made, EncodedFrame& encoded) const {
                     .records_hash = {},
                     .motion_lines = {},
                     .counts = CountFrame(frame, spec_.files.labels)};
-  if (spec_.sensor_view) {
-    encoded.sensor_view = spec_.sensor_view(made);
-    encoded.record.clouds_hash = ContentHash(encoded.sensor_view);
+  if (trace_) {
+    encoded.trace_message = trace_->Encode(made);
+    encoded.record.clouds_hash = ContentHash(encoded.trace_message);
   }
   for (const FrameFile& file : encoded.files) {
     encoded.record.files.push_back({file.name, ContentHash(file.bytes), file.bytes.size()});
@@ -303,7 +300,7 @@ void RunDirectory::Write(const EncodedFrame& frame) {
   for (const FrameFile& file : frame.files) {
     WriteFileWhole(spec_.directory / file.name, file.bytes);
   }
-  if (trace_) trace_->Append(record.stamp_ns, frame.sensor_view);
+  if (trace_) trace_->Append(record.stamp_ns, frame.trace_message);
   lines_.Append(RecordLines(frame), [&](std::string records_hash) {
     record.records_hash = std::move(records_hash);
     return HashedRecordLine(record);

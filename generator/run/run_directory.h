@@ -1,17 +1,18 @@
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/run/frame_record.h"
 #include "core/io/run/run_folder.h"
-#include "generator/extras/osi/run_trace.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/line_ledger.h"
+#include "generator/run/run_extras.h"
 #include "generator/run/run_plan.h"
 #include "railcast/frame.h"
 
@@ -28,9 +29,9 @@ void CheckIsSameRun(const SequenceSpec& spec, bool is_complete);
 /// A frame as it is written to a sequence directory.
 struct EncodedFrame {
   std::vector<FrameFile> files;
-  std::vector<ros::TopicMessage> messages;  ///< For the run's bag, if there is one.
-  std::string sensor_view;                  ///< For the sequence's trace, if there is one.
-  FrameRecord record;                       ///< Without records_hash.
+  std::any output;            ///< For the run's bag, if there is one.
+  std::string trace_message;  ///< For the sequence's trace, if there is one.
+  FrameRecord record;         ///< Without records_hash.
   PoseRecord pose;
   std::string objects_line;
   std::vector<std::string> motion_lines;  ///< Of each motion sensor.
@@ -42,7 +43,7 @@ struct EncodedFrame {
 /// poses.txt belongs to file n), `poses.csv`, `objects.jsonl`, `frames.jsonl`,
 /// `scenario.resolved.json`, `inputs/HASH/NAME` (the files that the scenario names), `labels.json`,
 /// `materials.json`, `camera/NAME/...` (if there is a camera), `motion/NAME.csv` (for each motion
-/// sensor), `commands.jsonl` (if the run replays any), the OSI trace (if the format is one),
+/// sensor), `commands.jsonl` (if the run replays any), the trace (if the format is one),
 /// `run.json` (identifies the run) and, once complete, `manifest.json`.
 ///
 /// A frame counts as done when its line in frames.jsonl is whole and its files, its lines and its
@@ -104,9 +105,9 @@ class RunDirectory {
   std::uint32_t num_done_ = 0;
   FrameCounts counts_;
   std::optional<PoseRecord> first_pose_;
-  LineLedger lines_;  ///< frames.jsonl is last.
-  osi::TraceContent found_trace_;
-  std::optional<RunTrace> trace_;
+  LineLedger lines_;                      ///< frames.jsonl is last.
+  std::unique_ptr<SequenceTrace> trace_;  ///< Null = none.
+  std::vector<std::string> found_trace_;  ///< Hashes of its messages.
 };
 
 }  // namespace railcast

@@ -25,11 +25,9 @@ RunRecord RunRecordOf(const SequenceSpec& spec) {
     run.inputs.push_back({input.name, input.hash, input.folder});
   }
   if (!spec.commands_jsonl.empty()) run.commands_hash = ContentHash(spec.commands_jsonl);
-  if (!spec.bag.empty()) {
-    run.fields = ros::TextOf(spec.clouds);
-    run.bag = {spec.bag, spec.cloud_topics, std::string(kBagLinesFile)};
-  } else if (spec.trace.empty() && !spec.files.format->dataset) {
-    run.fields = spec.files.fields.Text();
+  if (!spec.bag.empty()) run.bag = {spec.bag, spec.cloud_topics, std::string(kBagLinesFile)};
+  if (spec.trace.empty() && !spec.files.format->dataset) {
+    run.fields = spec.layout.empty() ? spec.files.fields.Text() : spec.layout;
   }
   if (spec.motion_sensors) {
     for (const MotionFile& file : MotionFilesOf(*spec.motion_sensors)) {

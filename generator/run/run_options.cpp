@@ -1,10 +1,11 @@
 #include "generator/run/run_options.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
-#include "core/extras/ros/messages/point_layout.h"
 #include "core/program/command_line.h"
+#include "generator/run/run_extras.h"
 #include "railcast/error.h"
 #include "railcast/io/cloud_files.h"
 
@@ -30,7 +31,8 @@ void AddRunChoices(ProgramOptions& command, RunChoices& choices) {
 }
 
 void CheckFields(const std::string& fields) {
-  if (ValueNamed<ros::PointLayout>(fields)) return;
+  const std::vector<std::string>& layouts = RunExtras::Get().layouts;
+  if (std::ranges::find(layouts, fields) != layouts.end()) return;
   try {
     static_cast<void>(FieldSelection(fields, true, true));
   } catch (const InputError& error) {

@@ -7,18 +7,14 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/extras/osi/sensor_view.h"
-#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/run/camera_files.h"
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/sequence_files.h"
-#include "core/io/run/trace_name.h"
 #include "core/io/unfinished_file.h"
 #include "core/io/write_file.h"
 #include "core/program/version.h"
 #include "core/scenario/track_limits.h"
-#include "core/simulate/returns.h"
 #include "core/trace/trace_program.h"
 
 namespace railcast {
@@ -29,53 +25,33 @@ bool IsNameOfAFolder(const std::string& name) {
          name.find('/') == std::string::npos;
 }
 
+// Checks that this build has what makes the format.
+void CheckHasExtra(const FrameFormat& format) {
+  const RunExtras& extras = RunExtras::Get();
+  const bool lacks_bags = !format.bag.empty() && extras.find_bag == nullptr;
+  if (!lacks_bags && (format.trace.empty() || extras.plan_trace != nullptr)) return;
+  throw InputError("--format " + std::string(format.name) + ": needs the extra " +
+                   (lacks_bags ? "ros" : "osi") + ", which this build does not have");
+}
+
 // Chooses what is stored of each point.
-void ChooseFields(const std::string& fields, bool has_velocity, SequenceSpec& spec) {
-  const FrameFormat& format = *spec.files.format;
+void ChooseFields(const std::string& fields, SensorPlan& sensor) {
+  const FrameFormat& format = *sensor.spec.files.format;
+  const RunExtras& extras = RunExtras::Get();
   if (!format.bag.empty()) {
-    spec.clouds = ros::ParseCloudSpec(fields, has_velocity, true);
-  } else if (ValueNamed<ros::PointLayout>(fields)) {
+    extras.plan_bag(fields, sensor);
+  } else if (std::ranges::find(extras.layouts, fields) != extras.layouts.end()) {
     throw InputError("--fields " + fields + ": must be with --format mcap or rosbag2 (got " +
                      std::string(format.name) + ")");
   } else {
-    spec.files.fields = FieldSelection(fields, has_velocity, true);
+    sensor.spec.files.fields =
+        FieldSelection(fields, sensor.scenario.lidar.velocity.has_value(), true);
   }
-}
-
-// Says where the clouds of a sensor are in the run's bag.
-void NameBag(const SensorPlan& sensor, const std::filesystem::path& run, SequenceSpec& spec) {
-  const std::string_view bag = spec.files.format->bag;
-  if (bag.empty()) return;
-  spec.bag = (run / bag).lexically_relative(spec.directory).generic_string();
-  const std::uint32_t num_returns = NumReturns(sensor.scenario.lidar.receiver.return_mode);
-  for (std::uint32_t i = 0; i < ros::NumClouds(spec.clouds.layout, num_returns); ++i) {
-    spec.cloud_topics.push_back(ros::PointsTopic(sensor.name, i));
-  }
-}
-
-// Checks that this program writes traces, and only then that all else is right for them.
-void CheckTrace(const RunChoices& choices) {
-  const std::string option = "--format " + choices.format + ": ";
-  AtPlace(option, [] { static_cast<void>(osi::ProtobufVersion()); });
-  if (choices.fields == "all") return;
-  throw InputError("--fields: OSI's are fixed, so it must be left out with --format " +
-                   choices.format + " (got " + choices.fields + ")");
-}
-
-// Names the trace of a sensor, of which the number of frames is known, and says what it holds.
-void PlanTrace(const FrameMaker& maker, std::size_t index, SensorPlan& sensor) {
-  SequenceSpec& spec = sensor.spec;
-  const std::string_view extension = spec.files.format->trace;
-  if (extension.empty()) return;
-  spec.trace = TraceName({osi::ProtobufVersion(), spec.num_frames, sensor.name, extension});
-  spec.trace_topic = (sensor.name.empty() ? "lidar" : sensor.name) + ".SensorView";
-  spec.sensor_view = MakeSensorViews(maker, sensor.scenario, index);
 }
 
 // Tells the fields of the track, if any are chosen, where the track is.
 void SetTrack(const FrameMaker& maker, const RunPlan& plan, SensorPlan& sensor) {
-  FieldSelection& fields =
-      sensor.spec.bag.empty() ? sensor.spec.files.fields : sensor.spec.clouds.fields;
+  FieldSelection& fields = sensor.spec.files.fields;
   if (!fields.NeedsTrack()) return;
   const ScenarioSpec& scenario = sensor.scenario;
   // The clouds of a bag share their fields, and these the sensor's place in the vehicle.
@@ -90,11 +66,15 @@ void SetTrack(const FrameMaker& maker, const RunPlan& plan, SensorPlan& sensor) 
                  VehicleFromSensor(scenario.lidar.mount)}));
 }
 
-// The sequence of a scenario with one sensor.
-SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
-                            const RunChoices& choices,
-                            const std::string& shown) {
-  SequenceSpec spec;
+// Plans the sequence of a sensor.
+// @param reduced The scenario with this sensor alone.
+SensorPlan PlanSensor(const std::string& name,
+                      ScenarioSpec reduced,
+                      const RunChoices& choices,
+                      const std::string& shown) {
+  SensorPlan sensor{name, std::move(reduced), {}};
+  const ScenarioSpec& scenario = sensor.scenario;
+  SequenceSpec& spec = sensor.spec;
   spec.directory = choices.directory;
   spec.version = ProgramVersion();
   spec.embree_version = EmbreeVersion();
@@ -102,8 +82,9 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
   spec.identity = IdentityOf(scenario);
   spec.seed = scenario.seed;
   spec.files.format = &ParseFrameFormat(choices.format);
-  if (!spec.files.format->trace.empty()) CheckTrace(choices);
-  ChooseFields(choices.fields, scenario.lidar.velocity.has_value(), spec);
+  CheckHasExtra(*spec.files.format);
+  if (!spec.files.format->trace.empty()) RunExtras::Get().check_trace(choices);
+  ChooseFields(choices.fields, sensor);
   const std::optional<DatasetLayout>& dataset = spec.files.format->dataset;
   const bool is_sensor_frame = scenario.output.frame == OutputFrame::kSensor &&
                                scenario.output.handedness == Handedness::kRight;
@@ -128,7 +109,7 @@ SequenceSpec SequenceSpecOf(const ScenarioSpec& scenario,
   spec.start_frame = choices.start_frame;
   spec.num_frames = choices.num_frames;
   spec.stride = choices.stride;
-  return spec;
+  return sensor;
 }
 
 // The last frame of a sensor's sequence.
@@ -212,11 +193,12 @@ RunPlan PlanRun(ScenarioSpec scenario, const RunChoices& choices, const std::str
       reduced.camera.reset();
       reduced.motion_sensors.reset();
     }
-    SequenceSpec spec = SequenceSpecOf(reduced, choices, shown);
+    SequenceSpec& spec =
+        plan.sensors.emplace_back(PlanSensor(name, std::move(reduced), choices, shown)).spec;
     if (!plan.scenario.lidars.empty()) spec.directory /= name;
-    SensorPlan& sensor =
-        plan.sensors.emplace_back(SensorPlan{name, std::move(reduced), std::move(spec)});
-    NameBag(sensor, plan.directory, sensor.spec);
+    const std::string_view bag = spec.files.format->bag;
+    if (bag.empty()) continue;
+    spec.bag = (plan.directory / bag).lexically_relative(spec.directory).generic_string();
   }
   return plan;
 }
@@ -274,7 +256,9 @@ void SetFrames(const FrameMaker& maker, RunPlan& plan) {
   }
   for (std::size_t i = 0; i < plan.sensors.size(); ++i) {
     CheckSameFiles(plan.sensors[i].scenario, plan.sensors[i].spec.identity);
-    PlanTrace(maker, i, plan.sensors[i]);
+    if (!plan.sensors[i].spec.files.format->trace.empty()) {
+      RunExtras::Get().plan_trace(maker, i, plan.sensors[i]);
+    }
     SetTrack(maker, plan, plan.sensors[i]);
   }
 }

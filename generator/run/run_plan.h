@@ -2,15 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/extras/ros/messages/point_layout.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/scenario/command_log.h"
-#include "generator/extras/osi/sensor_views.h"
 #include "generator/run/frame_maker.h"
+#include "generator/run/run_extras.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/material.h"
 #include "railcast/scenario.h"
@@ -43,16 +44,16 @@ struct SequenceSpec {
   /// The choice of fidelity auto; empty if the scenario does not use it.
   std::string fidelity_choice_json;
   FrameFileSpec files;
-  ros::CloudSpec clouds;  ///< Of the messages, if the format is a bag.
+  /// The layout of the points in the run's bag (RunExtras::layouts); empty = the fields above.
+  std::string layout{};
   /// The run's bag, relative to the directory, and the topics of the sensor's clouds in it; empty
   /// unless the format is one.
   std::string bag;
   std::vector<std::string> cloud_topics;
-  /// The OSI trace, relative to the directory, the topic of its messages, and what makes them;
-  /// empty unless the format is one.
+  /// The trace, relative to the directory, and what finds or begins it; empty unless the format is
+  /// one.
   std::string trace{};
-  std::string trace_topic{};
-  SensorViewMaker sensor_view{};
+  std::function<std::unique_ptr<SequenceTrace>()> make_trace{};
   std::string camera;            ///< Name of the scenario's camera; empty = it has none.
   std::string calibration_json;  ///< CalibrationJson() of the camera.
   /// Those whose samples belong to the frames; absent = none.
@@ -92,7 +93,8 @@ struct RunPlan {
 /// camera and the motion sensors, if there are any, belong to the first sensor's.
 /// @param shown The scenario's name in messages.
 /// @throws InputError if the format cannot hold the scenario's points, the fields or the
-///   instruction set do not fit, or a sensor's name cannot be that of a folder.
+///   instruction set do not fit, the build lacks what the format needs, or a sensor's name cannot
+///   be that of a folder.
 [[nodiscard]] RunPlan PlanRun(ScenarioSpec scenario,
                               const RunChoices& choices,
                               const std::string& shown);
@@ -115,7 +117,7 @@ void UseCommands(const std::filesystem::path& log, const ScenarioSpec& whole, Ru
 
 /// Completes a plan by what the simulators tell: the choices of frames are those of the first
 /// sensor, and the others make those of their frames that begin while its frames last.
-/// @param maker Must outlive the plan if its format is an OSI trace.
+/// @param maker Must outlive the plan if its format is a trace.
 /// @throws InputError if a file of the scenario has changed since it was read, a sensor has no such
 ///   frame, or a frame's stamp does not fit into 64 bits.
 void SetFrames(const FrameMaker& maker, RunPlan& plan);

@@ -1,17 +1,26 @@
-#include "generator/extras/ros/run_bag.h"
-
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/content_hash.h"
+#include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/table_records.h"
 #include "core/io/unfinished_file.h"
+#include "core/io/verify/bag_lines.h"
 #include "core/io/write_file.h"
+#include "core/simulate/returns.h"
 #include "generator/extras/ros/run_topics.h"
+#include "generator/run/frame_maker.h"
+#include "generator/run/run_directory.h"
+#include "generator/run/run_extras.h"
+#include "generator/run/run_plan.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
@@ -19,12 +28,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kJsonType = "application/json";
 /// The commit of what is said once, before the frames.
 constexpr std::uint64_t kFirstCommits = 1;
 
 void AttachFile(bag::BagWriter& writer, const std::string& name, const std::string& bytes) {
-  writer.Attach(name, std::string(kJsonType), std::as_bytes(std::span(bytes)));
+  writer.Attach(name, "application/json", std::as_bytes(std::span(bytes)));
 }
 
 // The bag as far as it was written by an interrupted run, after its first `max_commits` commits.
@@ -49,7 +57,46 @@ bool IsFinished(bool is_mcap, const fs::path& path) {
   return fs::exists(is_mcap ? path : path / "metadata.yaml");
 }
 
-}  // namespace
+/// The messages of all frames of a run. A commit of the bag is a frame, but for the first, which
+/// holds what is said once. Beside it stands what each commit holds (BagLines).
+class RunBag final : public RunOutput {
+ public:
+  RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_ns);
+
+  [[nodiscard]] std::uint64_t num_frames() const override { return num_frames_; }
+  [[nodiscard]] bool is_complete() const override { return is_complete_; }
+  [[nodiscard]] const fs::path& path() const override { return path_; }
+  [[nodiscard]] bool IsUnchanged() const override;
+  void Discard() override;
+  std::uint64_t Open(std::uint64_t num_frames) override;
+  void Encode(std::size_t sensor, const MadeFrame& made, EncodedFrame& encoded) const override;
+  void Write(const EncodedFrame& encoded) override;
+  void Finish(const RunPlan& plan,
+              std::int64_t end_ns,
+              const Transform& world_from_vehicle) override;
+
+ private:
+  void FindFrames(const fs::path& bag);
+  [[nodiscard]] bool HasOthers() const;
+  void RefuseStrangers() const;
+  void Put(const std::vector<ros::TopicMessage>& messages);
+
+  fs::path path_;
+  bool is_mcap_;
+  /// Names and texts of the files that are attached first.
+  std::vector<std::pair<std::string, std::string>> attachments_;
+  ros::FrameTopics topics_;
+  std::vector<bag::BagTopic> bag_topics_;
+  std::vector<std::uint64_t> topic_hashes_;
+  std::int64_t begin_ns_;
+  bool is_complete_ = false;
+  std::uint64_t num_frames_ = 0;
+  BagLines found_;      ///< Of an interrupted bag.
+  WholeCommits whole_;  ///< What there is of these.
+  std::vector<bag::BagAttachment> attached_;
+  std::optional<LineFile> lines_;
+  std::unique_ptr<bag::BagWriter> writer_;
+};
 
 RunBag::RunBag(const RunPlan& plan, ros::TopicsSpec topics, std::int64_t begin_ns)
     : path_(plan.directory / plan.sensors.front().spec.files.format->bag),
@@ -167,17 +214,18 @@ std::uint64_t RunBag::Open(std::uint64_t num_frames) {
 }
 
 void RunBag::Encode(std::size_t sensor, const MadeFrame& made, EncodedFrame& encoded) const {
-  encoded.messages = MessagesOf(topics_, sensor, made);
+  auto messages = MessagesOf(topics_, sensor, made);
   std::string clouds;
-  for (const ros::TopicMessage& message : encoded.messages) {
+  for (const ros::TopicMessage& message : messages) {
     if (topics_.topics()[message.topic].type.name != ros::PointCloud2::kName) continue;
     clouds.append(reinterpret_cast<const char*>(message.cdr.data()), message.cdr.size());
   }
   encoded.record.clouds_hash = ContentHash(clouds);
+  encoded.output = std::move(messages);
 }
 
 void RunBag::Write(const EncodedFrame& encoded) {
-  Put(encoded.messages);
+  Put(std::any_cast<const std::vector<ros::TopicMessage>&>(encoded.output));
   ++num_frames_;
 }
 
@@ -207,6 +255,46 @@ void RunBag::Finish(const RunPlan& plan, std::int64_t end_ns, const Transform& w
   lines_->Append(BagFilesLine(path_));
   lines_->Sync();
   is_complete_ = true;
+}
+
+// How the points of a sensor are stored.
+ros::CloudSpec PlannedClouds(const SequenceSpec& spec) {
+  if (spec.layout.empty()) return {ros::PointLayout::kRailcast, spec.files.fields};
+  return {ValueNamed<ros::PointLayout>(spec.layout).value(), {}};
+}
+
+void PlanBag(const std::string& fields, SensorPlan& sensor) {
+  const LidarSpec& lidar = sensor.scenario.lidar;
+  SequenceSpec& spec = sensor.spec;
+  const ros::CloudSpec clouds = ros::ParseCloudSpec(fields, lidar.velocity.has_value(), true);
+  spec.files.fields = clouds.fields;
+  if (clouds.layout != ros::PointLayout::kRailcast) spec.layout = NameOf(clouds.layout);
+  const std::uint32_t num = ros::NumClouds(clouds.layout, NumReturns(lidar.receiver.return_mode));
+  for (std::uint32_t i = 0; i < num; ++i) {
+    spec.cloud_topics.push_back(ros::PointsTopic(sensor.name, i));
+  }
+}
+
+std::unique_ptr<RunOutput> FindBag(const FrameMaker& maker, const RunPlan& plan) {
+  const std::int64_t begin_ns = maker.pattern(0).StampNs(plan.sensors.front().spec.start_frame);
+  // Those of the sensor with most fields; frames leave out what they lack.
+  const auto num_fields = [](const SensorPlan& sensor) {
+    return sensor.spec.files.fields.names().size();
+  };
+  const SensorPlan& richest = *std::ranges::max_element(plan.sensors, {}, num_fields);
+  return std::make_unique<RunBag>(
+      plan,
+      TopicsSpecOf(plan.scenario, *maker.StateAt(begin_ns).world, PlannedClouds(richest.spec),
+                   ros::ImageEncoding::kPng),
+      begin_ns);
+}
+
+}  // namespace
+
+void AddRos(RunExtras& extras) {
+  extras.layouts = NamesOf<ros::PointLayout>();
+  extras.plan_bag = PlanBag;
+  extras.find_bag = FindBag;
 }
 
 }  // namespace railcast

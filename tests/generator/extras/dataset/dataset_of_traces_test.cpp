@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "core/extras/osi/trace_file.h"
 #include "core/io/write_file.h"
-#include "generator/extras/osi/run_trace.h"
 #include "tests/generator/extras/dataset/dataset_in_format.h"
 
 namespace railcast {
@@ -36,7 +36,7 @@ TEST_P(DatasetOfTraces, SaysInItsIndexWhereTheMessagesAre) {
     const fs::path folder = Path("set") / frame.at("folder").get<std::string>();
     const std::string sensor = frame.at("sensor");
     EXPECT_THAT(trace, HasSubstr("_" + sensor + "."));
-    EXPECT_EQ(RunTrace::Find(folder / trace).messages.size(), sensor == "front" ? 2U : 4U);
+    EXPECT_EQ(osi::ReadTrace(folder / trace).messages.size(), sensor == "front" ? 2U : 4U);
   }
   EXPECT_EQ(num_lines, 3U * (2 + 4));
   EXPECT_THAT(FaultsOf("set"), IsEmpty());
