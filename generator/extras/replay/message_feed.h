@@ -13,7 +13,7 @@
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/dds/participant.h"
 #include "generator/extras/replay/replay_feed.h"
-#include "generator/live/ros_writers.h"
+#include "generator/extras/ros/ros_writers.h"
 
 namespace railcast {
 

@@ -1,4 +1,4 @@
-#include "generator/live/ros_writers.h"
+#include "generator/extras/ros/ros_writers.h"
 
 #include <utility>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "generator/extras/ros/ros_output.h"
 #include "generator/live/command_source.h"
-#include "generator/live/ros_output.h"
 
 namespace railcast {
 

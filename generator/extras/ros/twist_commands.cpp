@@ -1,11 +1,11 @@
-#include "generator/live/twist_commands.h"
+#include "generator/extras/ros/twist_commands.h"
 
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/extras/ros/messages/geometry_messages.h"
 #include "core/extras/ros/messages/message_type.h"
-#include "generator/live/twist_message.h"
+#include "generator/extras/ros/twist_message.h"
 
 namespace railcast {
 namespace {

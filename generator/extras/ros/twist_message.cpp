@@ -1,4 +1,4 @@
-#include "generator/live/twist_message.h"
+#include "generator/extras/ros/twist_message.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,4 @@
-#include "generator/live/step_topic.h"
+#include "generator/extras/ros/step_topic.h"
 
 #include <algorithm>
 #include <utility>

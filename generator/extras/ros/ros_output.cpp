@@ -1,4 +1,4 @@
-#include "generator/live/ros_output.h"
+#include "generator/extras/ros/ros_output.h"
 
 #include <utility>
 

@@ -285,7 +285,8 @@ TEST(Ros2Stream, IsDrivenByTheNodeThatBrakesAsByTheClient) {
   };
   const std::string by_node = report_of(
       "--protocol ros2 --domain " + domain + " --step-topic /step --commands-topic /brake",
-      "env PYTHONPATH=" RAILCAST_SOURCE_DIR "/tests/generator/live/ros_stand_in ROS_DOMAIN_ID=" +
+      "env PYTHONPATH=" RAILCAST_SOURCE_DIR
+      "/tests/generator/extras/ros/ros_stand_in ROS_DOMAIN_ID=" +
           domain +
           " RAILCAST_FAST_BRIDGE=" RAILCAST_FAST_BRIDGE " " RAILCAST_SOURCE_DIR
           "/examples/brake_node.py --points /coarse/points --step /step");

@@ -9,8 +9,8 @@
 #include "core/extras/ros/messages/frame_topics.h"
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
+#include "generator/extras/ros/ros_writers.h"
 #include "generator/live/live_run.h"
-#include "generator/live/ros_writers.h"
 #include "generator/run/frame_maker.h"
 
 namespace railcast {

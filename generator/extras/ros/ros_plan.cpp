@@ -1,4 +1,4 @@
-#include "generator/live/ros_plan.h"
+#include "generator/extras/ros/ros_plan.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "generator/live/ouster_service.h"
+#include "generator/extras/packets/ouster_service.h"
 
 #include <filesystem>
 #include <optional>

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "generator/extras/ros/ros_output.h"
 #include "generator/live/live_streams.h"
-#include "generator/live/ros_output.h"
 #include "generator/live/stream_options.h"
 #include "railcast/scenario.h"
 
