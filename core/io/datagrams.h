@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,24 @@ class FrameEncoder {
 
  private:
   std::int64_t clock_ahead_ns_{};
+};
+
+/// A file that datagrams are captured into as they are due.
+class DatagramFile {
+ public:
+  virtual ~DatagramFile() = default;
+
+  /// Sets how far the stamps are ahead of simulation time, as FrameEncoder::SetClockAhead() does.
+  virtual void SetClockAhead(std::int64_t ahead_ns) = 0;
+  /// Appends these datagrams.
+  /// @throws InputError if the system refuses, as on a full disk. The file must then not be used
+  ///   any more.
+  virtual void Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items) = 0;
+  /// Completes the file.
+  /// @throws InputError if the system refuses.
+  virtual void Finish() = 0;
+  /// The file that holds the datagrams until Finish().
+  [[nodiscard]] virtual std::filesystem::path unfinished() const = 0;
 };
 
 }  // namespace railcast

@@ -7,13 +7,11 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/extras/packets/ouster/ouster_encoder.h"
-#include "core/extras/packets/spinning/spinning_encoder.h"
-#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/program/stop_signals.h"
 #include "core/scenario/sensors.h"
 #include "core/scenario/track_limits.h"
+#include "generator/live/live_extras.h"
 #include "generator/run/stopping.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
@@ -77,21 +75,15 @@ SensorStream::SensorStream(SensorStreamSpec spec,
     });
   }
   if (spec_.pcap) {
-    capture_ = std::make_unique<PcapWriter>(*spec_.pcap, DefaultPort(spec_.protocol),
-                                            PositionPort(spec_.protocol).value_or(0),
-                                            GoesByIpv6(spec_.to));
+    capture_ = LiveExtras::Get().packets.value().open_capture(*spec_.pcap, spec_.protocol,
+                                                              GoesByIpv6(spec_.to));
   }
 }
 
-std::unique_ptr<FrameEncoder> MakePacketEncoder(Protocol protocol, const LidarSpec& lidar) {
-  if (protocol == Protocol::kOuster) return MakeOusterEncoder(lidar);
-  const SpinningModel* const model = FindSpinningModel(NameOf(protocol));
-  Check(model != nullptr, "the packets of the protocol are known");
-  return MakeSpinningEncoder(*model, lidar.scan, lidar.receiver.return_mode);
-}
-
 std::unique_ptr<FrameEncoder> SensorStream::MakeEncoder(std::uint32_t run) const {
-  if (spec_.protocol != Protocol::kRailcast) return MakePacketEncoder(spec_.protocol, lidar_);
+  if (spec_.protocol != Protocol::kRailcast) {
+    return LiveExtras::Get().packets.value().make_encoder(spec_.protocol, lidar_);
+  }
   return std::make_unique<StreamEncoder>(pattern_, StreamSpec{.fields = spec_.fields,
                                                               .has_all_slots = spec_.has_all_slots,
                                                               .output = output_,
@@ -110,20 +102,20 @@ void SensorStream::SetUtcAhead(std::int64_t ahead_ns) {
                           (is_ours ? kSimulationEpoch_s * kNsPerS : 0));
   // Later, another thread may be writing.
   if (!has_capture_clock_)
-    UseCapture([&](PcapWriter& capture) { capture.SetClockAhead(ahead_ns); });
+    UseCapture([&](DatagramFile& capture) { capture.SetClockAhead(ahead_ns); });
   has_capture_clock_ = true;
 }
 
 void SensorStream::Send(const Datagrams& datagrams, std::span<const Datagrams::Item> items) {
   if (sender_) sender_->Send(datagrams, items);
-  UseCapture([&](PcapWriter& capture) {
+  UseCapture([&](DatagramFile& capture) {
     capture.Write(datagrams, items);
     num_captured_ += items.size();
   });
 }
 
 void SensorStream::Finish() {
-  UseCapture([](PcapWriter& capture) { capture.Finish(); });
+  UseCapture([](DatagramFile& capture) { capture.Finish(); });
 }
 
 template <typename Work>

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
 #include "generator/extras/ros/ros_output.h"
@@ -82,12 +81,6 @@ struct SensorStreamSpec {
 /// Whether the frames of a sensor have any.
 [[nodiscard]] bool HasReaders(const SensorStreamSpec& stream);
 
-/// Makes the encoder of a real sensor's packets.
-/// @param protocol Neither railcast nor ros2.
-/// @throws InputError if the sensor does not fit the protocol.
-[[nodiscard]] std::unique_ptr<FrameEncoder> MakePacketEncoder(Protocol protocol,
-                                                              const LidarSpec& lidar);
-
 /// Encodes one sensor's frames and hands them to its receivers and to a capture file. If the system
 /// refuses to write the capture, as on a full disk, the capture ends, but receivers continue to get
 /// all frames.
@@ -135,11 +128,11 @@ class SensorStream {
   OutputSpec output_;
   const ScanPattern& pattern_;
   std::unique_ptr<FrameEncoder> encoder_;
-  std::unique_ptr<UdpSender> sender_;    ///< Null if there are no receivers.
-  std::unique_ptr<PcapWriter> capture_;  ///< Null if there is no capture.
-  bool has_capture_clock_ = false;       ///< Whether the capture's stamps were set ahead.
-  std::uint64_t num_captured_{};         ///< Datagrams captured.
-  mutable std::mutex mutex_;             ///< Guards capture_fault_.
+  std::unique_ptr<UdpSender> sender_;      ///< Null if there are no receivers.
+  std::unique_ptr<DatagramFile> capture_;  ///< Null if there is no capture.
+  bool has_capture_clock_ = false;         ///< Whether the capture's stamps were set ahead.
+  std::uint64_t num_captured_{};           ///< Datagrams captured.
+  mutable std::mutex mutex_;               ///< Guards capture_fault_.
   std::optional<std::string> capture_fault_;
 };
 

@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/run/scenario_identity.h"
 #include "core/io/stream/stream_encoder.h"
 #include "core/io/write_file.h"
@@ -18,12 +16,12 @@
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
-#include "generator/extras/packets/ouster_service.h"
 #include "generator/extras/ros/ros_output.h"
 #include "generator/extras/ros/ros_plan.h"
 #include "generator/extras/ros/step_topic.h"
 #include "generator/extras/ros/twist_commands.h"
 #include "generator/live/command_channel.h"
+#include "generator/live/live_extras.h"
 #include "generator/live/live_health.h"
 #include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
@@ -127,6 +125,12 @@ void CheckClock(const StreamOptions& options, const std::vector<SensorStreamSpec
   }
 }
 
+void CheckIsBuilt(Protocol protocol) {
+  if (protocol == Protocol::kRailcast || LiveExtras::Get().packets) return;
+  throw InputError("protocol " + std::string(NameOf(protocol)) +
+                   ": needs the extra packets, which this build does not have");
+}
+
 std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                                           const ScenarioSpec& scenario) {
   std::vector<SensorStreamSpec> streams;
@@ -136,6 +140,7 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
     const bool has_velocity = sensor.lidar.velocity.has_value();
     const Protocol protocol =
         options.protocol ? ValueNamed<Protocol>(*options.protocol).value() : interfaces.protocol;
+    CheckIsBuilt(protocol);
     streams.push_back({.name = name,
                        .sensor = static_cast<std::uint16_t>(streams.size()),
                        .protocol = protocol,
@@ -162,35 +167,6 @@ std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
                      std::string(NameOf(streams.front().protocol)) + ")");
   }
   return streams;
-}
-
-void WriteCalibration(const std::filesystem::path& file,
-                      const ScenarioSpec& scenario,
-                      const std::vector<SensorStreamSpec>& streams) {
-  if (streams.size() != 1 || streams.front().protocol != Protocol::kHdl64e) {
-    throw InputError("--calibration: is for one sensor of protocol hdl64e (got " +
-                     (streams.size() == 1 ? std::string(NameOf(streams.front().protocol))
-                                          : std::to_string(streams.size()) + " sensors") +
-                     ")");
-  }
-  // The protocol fits only spinning scans, which was checked when its stream was made.
-  const ScenarioSpec alone = PickSensor(scenario, streams.front().name);
-  WriteFileWhole(file, CalibrationXml(std::get<SpinningSpec>(alone.lidar.scan.pattern)));
-}
-
-/// Writes the correction file of an AT128 beside its capture, which cannot be read without.
-void WriteCorrectionBeside(const SensorStreamSpec& stream, const LidarSpec& lidar) {
-  if (!stream.pcap || stream.protocol != Protocol::kAt128) return;
-  std::filesystem::path file = *stream.pcap;
-  file.replace_extension(".dat");
-  // That the scan is one of these was checked when its stream was made.
-  const std::string bytes = ReadFileWhole(std::get<FiringTableSpec>(lidar.scan.pattern).file);
-  if (std::filesystem::exists(file) && ReadFileWhole(file) != bytes) {
-    throw InputError(ShownPath(file) +
-                     ": must not be there, or be the scan's correction file, which is written "
-                     "beside the capture");
-  }
-  WriteFileWhole(file, bytes);
 }
 
 /// Returns a number that distinguishes this start from earlier ones. A run that is only captured
@@ -284,15 +260,6 @@ std::unique_ptr<HttpServer> OpenHealth(const StreamOptions& options, const LiveH
   return server;
 }
 
-std::unique_ptr<HttpServer> OpenHttp(const StreamOptions& options,
-                                     const std::vector<SensorStreamSpec>& plan,
-                                     const ScenarioSpec& scenario) {
-  if (!options.http) return nullptr;
-  auto server = ServeOuster(*options.http, plan, scenario);
-  std::cout << "HTTP at " << EndpointText(server->at()) << "\n";
-  return server;
-}
-
 void BeginRos(const StreamOptions& options, RosOutput* ros) {
   if (ros == nullptr) return;
   if (StatesTimeOfDay(options)) ros->SetClockAhead(UtcNow_ns());
@@ -363,13 +330,8 @@ int RunStream(const StreamOptions& options) {
   // checked.
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       HearsCommands(options) ? std::nullopt : spec.duration_ns);
-  if (options.calibration) WriteCalibration(*options.calibration, scenario, plan);
-  for (const SensorStreamSpec& stream : plan) {
-    const LidarSpec lidar = PickSensor(scenario, stream.name).lidar;
-    WriteMetadataBeside(stream, lidar);
-    WriteCorrectionBeside(stream, lidar);
-  }
-  const auto http = OpenHttp(options, plan, scenario);
+  const auto& packets = LiveExtras::Get().packets;
+  const auto http = packets ? packets->accompany(options, scenario, plan) : nullptr;
   LiveHealth health;
   const auto health_server = OpenHealth(options, health);
   const auto channel = OpenChannel(options, scenario.models);

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/program/command_line.h"
+#include "generator/live/live_extras.h"
 #include "generator/live/stamp_clock.h"
 #include "railcast/effects.h"
 #include "railcast/scenario.h"
@@ -62,20 +63,7 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
           "of sensors that PTP synchronises atomic time, which is 37 s ahead")
       .Check(Named(NamesOf<StampClock>()))
       .ShowDefault();
-  stream
-      .AddOption("--pcap", options.pcap,
-                 "Capture file to write; without --to, nothing is sent and the file is written as "
-                 "fast as the machine can compute it")
-      .Check(NonEmpty());
-  stream
-      .AddOption("--calibration", options.calibration,
-                 "With protocol hdl64e: file to write the calibration to, which receivers need")
-      .Check(NonEmpty());
-  stream
-      .AddOption("--http", options.http,
-                 "With protocol ouster: HOST:PORT of this machine at which to answer what drivers "
-                 "ask a sensor; default: none; 127.0.0.1:8080 is for this machine only")
-      .Check(NonEmpty());
+  if (const auto& packets = LiveExtras::Get().packets) packets->add_options(stream, options);
   stream
       .AddOption("--health-port", options.health_port,
                  "TCP port of 127.0.0.1 at which to answer GET /health and GET /metrics; default: "

@@ -15,7 +15,7 @@
 #include "core/io/stream/stream_encoder.h"
 #include "core/scenario/sensors.h"
 #include "core/simulate/returns.h"
-#include "generator/live/live_streams.h"
+#include "generator/live/live_extras.h"
 
 namespace railcast {
 namespace {
@@ -71,7 +71,7 @@ std::unique_ptr<FrameEncoder> PacketEncoderFor(const FrameSource& source, Protoc
                      info.kind + ")");
   }
   CheckHasFirings(source.first(), info.scenario->lidar, protocol);
-  return MakePacketEncoder(protocol, info.scenario->lidar);
+  return LiveExtras::Get().packets.value().make_encoder(protocol, info.scenario->lidar);
 }
 
 std::unique_ptr<FrameEncoder> EncoderFor(const FrameSource& source,

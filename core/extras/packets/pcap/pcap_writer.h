@@ -20,7 +20,7 @@ namespace railcast {
 /// While it grows the file is named `file` + kUnfinishedSuffix; Finish() syncs and renames it. An
 /// interrupted run leaves the file under its unfinished name; it can be read up to its last whole
 /// packet.
-class PcapWriter {
+class PcapWriter final : public DatagramFile {
  public:
   /// @param data_port, position_port The ports of the two kinds of datagrams.
   /// @throws InputError if the file cannot be created, or as FileToReplace does.
@@ -28,25 +28,16 @@ class PcapWriter {
              std::uint16_t data_port,
              std::uint16_t position_port,
              bool is_ipv6 = false);
-  ~PcapWriter();
+  ~PcapWriter() override;
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
 
-  /// Sets how far the stamps are ahead of simulation time, as FrameEncoder::SetClockAhead() does.
-  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
-
-  /// Appends these datagrams.
-  /// @throws InputError if the system refuses, as on a full disk, or at times after the 32 unsigned
-  ///   bits of classic captures' seconds. The unfinished file then holds
-  ///   what earlier calls wrote, and the writer must not be used any more.
-  void Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items);
-
-  /// Completes the file.
-  /// @throws InputError if the system refuses.
-  void Finish();
-
-  /// The file that holds the packets until Finish().
-  [[nodiscard]] std::filesystem::path unfinished() const;
+  void SetClockAhead(std::int64_t ahead_ns) override { clock_ahead_ns_ = ahead_ns; }
+  /// @throws InputError also at times after the 32 unsigned bits of classic captures' seconds. The
+  ///   unfinished file then holds what earlier calls wrote.
+  void Write(const Datagrams& datagrams, std::span<const Datagrams::Item> items) override;
+  void Finish() override;
+  [[nodiscard]] std::filesystem::path unfinished() const override;
 
  private:
   struct Dump;
