@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/ros/dds/participant.h"
 #include "core/program/options.h"
 #include "generator/live/command_channel.h"
 #include "railcast/scenario.h"
@@ -32,25 +31,11 @@ struct RosOptions {
 /// Adds the options `--commands-port`, `--commands-from` and `--lockstep`.
 void AddCommandOptions(ProgramOptions& command, CommandOptions& options);
 
-/// Adds the options `--domain`, `--interface` and `--receive-buffers`.
-void AddRosOptions(ProgramOptions& command, RosOptions& options);
-
 /// Opens the port of the commands; null if there is none.
 /// @param models As CommandChannel takes them.
 /// @throws InputError "--commands-port: ..." if it cannot be listened at.
 [[nodiscard]] std::unique_ptr<CommandChannel> OpenChannel(
     const CommandOptions& options, const std::vector<ModelSpec>& models = {});
-
-/// How the options, the scenario's interfaces and the environment say to take part in a domain.
-/// @throws InputError if the environment names no domain.
-[[nodiscard]] dds::ParticipantSpec ParticipantOf(const RosOptions& options, const Ros2Spec& spec);
-
-/// Joins a domain.
-/// @throws InputError "protocol ros2: ..." as dds::Join() does.
-[[nodiscard]] std::unique_ptr<dds::Participant> JoinDomain(const dds::ParticipantSpec& spec);
-
-/// Returns "domain 42, on loopback".
-[[nodiscard]] std::string PlaceText(const dds::ParticipantSpec& spec);
 
 /// Returns a number that distinguishes this start from earlier ones, in protocol railcast.
 [[nodiscard]] std::uint32_t NextRunNumber();

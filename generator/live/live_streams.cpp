@@ -188,8 +188,8 @@ void LiveStreams::WarmUp(const std::function<bool()>& is_stopped) {
   watch(false);
 }
 
-void LiveStreams::Publish(RosOutput* ros) {
-  ros_ = ros;
+void LiveStreams::Publish(LiveTopics* topics) {
+  topics_ = topics;
 }
 
 void LiveStreams::MakeFrame(SensorStream& stream, std::uint32_t frame, Datagrams& datagrams) {
@@ -215,7 +215,7 @@ std::vector<LiveSensor> LiveStreams::Sensors() {
                      const Datagrams& datagrams,
                      std::span<const Datagrams::Item> items) { stream.Send(datagrams, items); }});
   }
-  if (ros_ != nullptr) std::ranges::move(ros_->Sensors(), std::back_inserter(sensors));
+  if (topics_ != nullptr) std::ranges::move(topics_->Sensors(), std::back_inserter(sensors));
   if (!camera_) return sensors;
   const ScanPattern& pattern = maker_.pattern(0);
   CameraStream& camera = *camera_;
@@ -249,12 +249,12 @@ void LiveStreams::SetClocks(std::int64_t now_ns, std::int64_t lead_ns) {
   const std::int64_t time_0_ns = (now_ns + lead_ns - first_ns) / kNsPerUs * kNsPerUs;
   for (const auto& stream : streams_) stream->SetUtcAhead(time_0_ns - kSimulationEpoch_s * kNsPerS);
   if (camera_) camera_->SetClockAhead(time_0_ns);
-  if (ros_ != nullptr) ros_->SetClockAhead(time_0_ns);
+  if (topics_ != nullptr) topics_->SetClockAhead(time_0_ns);
 }
 
 void LiveStreams::Finish() {
   for (const auto& stream : streams_) stream->Finish();
-  if (ros_ != nullptr) ros_->Finish();
+  if (topics_ != nullptr) topics_->Finish();
 }
 
 std::vector<std::string> LiveStreams::CaptureFaults() const {
@@ -268,7 +268,7 @@ std::vector<std::string> LiveStreams::CaptureFaults() const {
 std::vector<UdpSender::Counts> LiveStreams::Delivered() const {
   std::vector<UdpSender::Counts> delivered;
   for (const auto& stream : streams_) delivered.push_back(stream->delivered());
-  if (ros_ != nullptr) std::ranges::move(ros_->Delivered(), std::back_inserter(delivered));
+  if (topics_ != nullptr) std::ranges::move(topics_->Delivered(), std::back_inserter(delivered));
   if (camera_) delivered.push_back(camera_->delivered());
   return delivered;
 }

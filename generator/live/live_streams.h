@@ -12,7 +12,6 @@
 
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
-#include "generator/extras/ros/ros_output.h"
 #include "generator/live/live_run.h"
 #include "generator/live/stamp_clock.h"
 #include "generator/run/frame_maker.h"
@@ -25,6 +24,8 @@
 #include "railcast/simulator.h"
 
 namespace railcast {
+
+class LiveTopics;
 
 /// Renders the images of a scenario's camera and sends them to its receivers.
 class CameraStream {
@@ -137,7 +138,7 @@ class SensorStream {
 };
 
 /// All sensors of one vehicle and the destinations of their frames; they share one world and one
-/// clock. Frames of protocol ros2 go to a RosOutput, all others over UDP. If the scenario has a
+/// clock. Frames of protocol ros2 go to LiveTopics, all others over UDP. If the scenario has a
 /// camera with receivers, its images accompany the frames of the first sensor, unless nothing is
 /// sent.
 class LiveStreams {
@@ -157,9 +158,9 @@ class LiveStreams {
 
   [[nodiscard]] FrameMaker& maker() { return maker_; }
 
-  /// Publishes the frames of the sensors of protocol ros2 by this output from now on.
-  /// @param ros Made with maker(), must outlive this object; null where no sensor is of ros2.
-  void Publish(RosOutput* ros);
+  /// Publishes the frames of the sensors of protocol ros2 on these topics from now on.
+  /// @param topics Opened with maker(), must outlive this object; null where no sensor is of ros2.
+  void Publish(LiveTopics* topics);
 
   /// Does slow work beforehand, so that it makes no frame late: builds the scene of frame 0 and, if
   /// the scenario asks for it, makes fidelity auto's choice. From now on the building of scenes is
@@ -194,7 +195,7 @@ class LiveStreams {
 
   FrameMaker maker_;
   std::vector<std::unique_ptr<SensorStream>> streams_;  ///< Those of UDP.
-  RosOutput* ros_ = nullptr;
+  LiveTopics* topics_ = nullptr;
   std::unique_ptr<CameraStream> camera_;  ///< Null if no images are sent.
   std::vector<Frame> frames_;             ///< By sensor.
   std::uint32_t run_;

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -16,10 +15,6 @@
 #include "core/scenario/sensors.h"
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
-#include "generator/extras/ros/ros_output.h"
-#include "generator/extras/ros/ros_plan.h"
-#include "generator/extras/ros/step_topic.h"
-#include "generator/extras/ros/twist_commands.h"
 #include "generator/live/command_channel.h"
 #include "generator/live/live_extras.h"
 #include "generator/live/live_health.h"
@@ -126,9 +121,13 @@ void CheckClock(const StreamOptions& options, const std::vector<SensorStreamSpec
 }
 
 void CheckIsBuilt(Protocol protocol) {
-  if (protocol == Protocol::kRailcast || LiveExtras::Get().packets) return;
-  throw InputError("protocol " + std::string(NameOf(protocol)) +
-                   ": needs the extra packets, which this build does not have");
+  const LiveExtras& extras = LiveExtras::Get();
+  const bool is_for_ros = protocol == Protocol::kRos2;
+  const bool has_packets = extras.packets.has_value();
+  if (protocol == Protocol::kRailcast || (is_for_ros ? extras.ros.has_value() : has_packets))
+    return;
+  throw InputError("protocol " + std::string(NameOf(protocol)) + ": needs the extra " +
+                   (is_for_ros ? "ros" : "packets") + ", which this build does not have");
 }
 
 std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,
@@ -176,14 +175,14 @@ std::uint32_t RunNumber(const StreamOptions& options) {
 }
 
 std::string Describe(const std::vector<SensorStreamSpec>& streams,
-                     const std::optional<RosOutputSpec>& ros,
+                     const std::optional<TopicsPlan>& topics,
                      const ScenarioSpec& scenario) {
   std::string text;
   for (const SensorStreamSpec& stream : streams) {
     const bool is_for_ros = stream.protocol == Protocol::kRos2;
     text += stream.name + ": " + std::string(NameOf(stream.protocol));
     for (const Endpoint& to : stream.to) text += " to " + EndpointText(to);
-    if (is_for_ros) text += " in " + PlaceText(ros->participant);
+    if (is_for_ros) text += " in " + topics->place;
     if (!is_for_ros && stream.to.empty()) text += " to no receiver";
     if (stream.pcap) text += ", into " + ShownPath(*stream.pcap);
     text += "\n";
@@ -215,31 +214,6 @@ LiveRunSpec RunSpecOf(const StreamOptions& options, const ScenarioSpec& scenario
   return spec;
 }
 
-std::unique_ptr<RosOutput> OpenRos(const std::optional<RosOutputSpec>& spec,
-                                   std::unique_ptr<dds::Participant> participant,
-                                   FrameMaker& maker) {
-  if (!spec) return nullptr;
-  return AtPlace("protocol ros2: ",
-                 [&] { return std::make_unique<RosOutput>(*spec, std::move(participant), maker); });
-}
-
-std::unique_ptr<TwistCommands> OpenTwists(const StreamOptions& options,
-                                          const ScenarioSpec& scenario,
-                                          RosOutput* ros) {
-  if (!options.commands_topic) return nullptr;
-  const double deceleration_mps2 = scenario.interfaces.ros2.value_or(Ros2Spec{}).deceleration_mps2;
-  return AtPlace("--commands-topic: ", [&] {
-    return std::make_unique<TwistCommands>(ros->participant(), *options.commands_topic,
-                                           deceleration_mps2);
-  });
-}
-
-std::unique_ptr<StepTopic> OpenSteps(const StreamOptions& options, RosOutput* ros) {
-  if (!options.step_topic) return nullptr;
-  return AtPlace("--step-topic: ",
-                 [&] { return std::make_unique<StepTopic>(*ros, *options.step_topic); });
-}
-
 /// Those that there are.
 std::vector<CommandSource*> SourcesOf(std::initializer_list<CommandSource*> all) {
   std::vector<CommandSource*> sources;
@@ -260,19 +234,19 @@ std::unique_ptr<HttpServer> OpenHealth(const StreamOptions& options, const LiveH
   return server;
 }
 
-void BeginRos(const StreamOptions& options, RosOutput* ros) {
-  if (ros == nullptr) return;
-  if (StatesTimeOfDay(options)) ros->SetClockAhead(UtcNow_ns());
-  ros->Begin();
+/// Opens the topics of the sensors of protocol ros2 and tells what holds for the run; null if there
+/// are none.
+std::unique_ptr<LiveTopics> BeginTopics(const StreamOptions& options,
+                                        const std::optional<TopicsPlan>& plan,
+                                        FrameMaker& maker) {
+  if (!plan) return nullptr;
+  auto topics = plan->open(maker);
+  if (StatesTimeOfDay(options)) topics->SetClockAhead(UtcNow_ns());
+  topics->Begin();
+  return topics;
 }
 
-void ReportSteps(const StepTopic* steps) {
-  if (steps == nullptr || steps->faults().count == 0) return;
-  std::cout << "steps on " << steps->topic() << ": " << steps->faults().count
-            << " refused; the last one: " << ShownLines(steps->faults().last) << "\n";
-}
-
-void ReportCommands(const CommandChannel* channel, const TwistCommands* twists) {
+void ReportCommands(const CommandChannel* channel, const LiveTopics* topics) {
   if (channel != nullptr && channel->num_strangers() > 0) {
     std::cout << "commands from others than the peer: " << channel->num_strangers()
               << ", dropped\n";
@@ -280,12 +254,7 @@ void ReportCommands(const CommandChannel* channel, const TwistCommands* twists) 
   if (channel != nullptr && channel->num_answers() > 0) {
     std::cout << "answers that came back as commands: " << channel->num_answers() << ", dropped\n";
   }
-  if (twists == nullptr) return;
-  const TwistCommands::Counts& counts = twists->counts();
-  std::cout << "commands on " << twists->topic() << ": " << counts.done << " done, "
-            << counts.refused << " refused";
-  if (counts.refused > 0) std::cout << "; the last one: " << ShownLines(counts.last_fault);
-  std::cout << "\n";
+  if (topics != nullptr) std::cout << topics->CommandsText();
 }
 
 /// Prints the outcome of the run, writes its summary and returns the exit status.
@@ -322,32 +291,30 @@ int RunStream(const StreamOptions& options) {
   CheckOptionsTogether(options, SensorNames(scenario).size());
   if (options.summary) CheckCanWrite(*options.summary);
   const std::vector<SensorStreamSpec> plan = PlanStreams(options, scenario);
-  const std::optional<RosOutputSpec> ros_plan = PlanRos(options, scenario, plan);
-  auto participant = ros_plan ? JoinDomain(ros_plan->participant) : nullptr;
+  const LiveExtras& extras = LiveExtras::Get();
+  const auto topics_plan = extras.ros ? extras.ros->plan(options, scenario, plan) : std::nullopt;
   const LiveRunSpec spec = RunSpecOf(options, scenario);
   const std::string isa = AtPlace("--", [&] { return IsaInUse(options.isa); });
   // With commands, the journeys of moving objects are not known in advance, so they are not
   // checked.
   LiveStreams streams(scenario, plan, options.num_threads, RunNumber(options), isa,
                       HearsCommands(options) ? std::nullopt : spec.duration_ns);
-  const auto& packets = LiveExtras::Get().packets;
-  const auto http = packets ? packets->accompany(options, scenario, plan) : nullptr;
+  const auto http = extras.packets ? extras.packets->accompany(options, scenario, plan) : nullptr;
   LiveHealth health;
   const auto health_server = OpenHealth(options, health);
   const auto channel = OpenChannel(options, scenario.models);
-  const auto ros = OpenRos(ros_plan, std::move(participant), streams.maker());
-  const auto twists = OpenTwists(options, scenario, ros.get());
-  const auto steps = OpenSteps(options, ros.get());
-  streams.Publish(ros.get());
-  BeginRos(options, ros.get());
+  const auto topics = BeginTopics(options, topics_plan, streams.maker());
+  streams.Publish(topics.get());
   std::optional<CommandLoop> commands;
   if (HearsCommands(options)) {
-    commands.emplace(streams.maker(), SourcesOf({steps.get(), channel.get(), twists.get()}),
+    commands.emplace(streams.maker(),
+                     SourcesOf({topics ? topics->steps() : nullptr, channel.get(),
+                                topics ? topics->commands() : nullptr}),
                      options.lockstep, options.commands_log, IdentityOf(scenario).scenario_hash);
   }
   CatchStopSignals();
   streams.WarmUp(StopRequested);
-  std::cout << ShownLines(Describe(plan, ros_plan, scenario)) << std::flush;
+  std::cout << ShownLines(Describe(plan, topics_plan, scenario)) << std::flush;
 
   RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options, health);
   SetClocks(streams, options, spec.lead_ns);
@@ -356,8 +323,7 @@ int RunStream(const StreamOptions& options) {
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
   surroundings.End();
-  ReportCommands(channel.get(), twists.get());
-  ReportSteps(steps.get());
+  ReportCommands(channel.get(), topics.get());
   return ReportRun(result, streams, options);
 }
 
@@ -369,7 +335,9 @@ void AddStream(ProgramOptions& app, ProgramCommand& command) {
       app.AddCommand("stream", "Send frames over UDP at the pace of real sensors until Ctrl-C");
   AddStreamOptions(stream, *options);
   stream.WhenParsed([&command, options] {
-    if (options->fields && !IsForRos(*options->fields)) CheckFields(*options->fields);
+    const auto& ros = LiveExtras::Get().ros;
+    const bool is_for_ros = options->fields && ros && ros->has_fields(*options->fields);
+    if (options->fields && !is_for_ros) CheckFields(*options->fields);
     command = [options](const std::string&) { return RunStream(*options); };
   });
 }

@@ -74,14 +74,7 @@ void AddStreamOptions(ProgramOptions& stream, StreamOptions& options) {
       .AddOption("--commands-log", options.commands_log,
                  "File to log the commands to, which `sequence --commands` can replay")
       .Check(NonEmpty());
-  AddRosOptions(stream, options);
-  stream.AddOption("--commands-topic", options.commands_topic,
-                   "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
-                   "receive commands, such as /brake; default: none");
-  stream.AddOption("--step-topic", options.step_topic,
-                   "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
-                   "which to receive the stamp of each frame that is done with, such as /step; "
-                   "the next frame waits for it");
+  if (const auto& ros = LiveExtras::Get().ros) ros->add_options(stream, options);
   stream
       .AddOption("--duration", options.duration_s,
                  "Seconds of simulation time after which to end; default: run until stopped")

@@ -21,6 +21,7 @@
 #include "generator/extras/replay/packet_feed.h"
 #include "generator/extras/replay/replay_options.h"
 #include "generator/extras/replay/replay_run.h"
+#include "generator/extras/ros/ros_options.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_summary.h"
 

@@ -6,6 +6,7 @@
 #include "core/base/text.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/program/command_line.h"
+#include "generator/extras/ros/ros_options.h"
 
 namespace railcast {
 namespace {

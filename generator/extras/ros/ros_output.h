@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/extras/ros/dds/participant.h"
@@ -10,21 +12,28 @@
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
 #include "generator/extras/ros/ros_writers.h"
+#include "generator/live/live_extras.h"
 #include "generator/live/live_run.h"
 #include "generator/run/frame_maker.h"
 
 namespace railcast {
 
-/// What sensors of protocol ros2 tell, and where.
+class StepTopic;
+class TwistCommands;
+
+/// What sensors of protocol ros2 tell, and where, and which commands are heard.
 struct RosOutputSpec {
   dds::ParticipantSpec participant;
   ros::CloudSpec clouds;
   std::vector<std::size_t> sensors;  ///< Their numbers on the vehicle.
+  std::optional<std::string> commands_topic;
+  double deceleration_mps2{};  ///< Of these commands.
+  std::optional<std::string> step_topic;
 };
 
 /// Publishes the frames of a vehicle's sensors, its motion and the objects in sight on topics of
 /// ROS 2: the same bytes that `sequence` writes into bags.
-class RosOutput {
+class RosOutput final : public LiveTopics {
  public:
   /// @param participant As dds::Join() made it of the spec.
   /// @param maker Must outlive this object.
@@ -32,27 +41,29 @@ class RosOutput {
   RosOutput(const RosOutputSpec& spec,
             std::unique_ptr<dds::Participant> participant,
             FrameMaker& maker);
+  ~RosOutput() override;
+
+  /// Hears commands and steps from now on.
+  /// @throws InputError "--commands-topic: ..." as Participant::AddReader() does.
+  void Listen(const RosOutputSpec& spec);
 
   [[nodiscard]] dds::Participant& participant() { return writers_.participant(); }
-  /// Tells the name of the node and what holds for the whole run, once all topics are there.
-  void Begin();
+  void Begin() override;
 
-  /// Sets how far the stamps of all messages are ahead of simulation time: time 0 since 1970 where
-  /// they state the time of day. They are not ahead unless set.
-  void SetClockAhead(std::int64_t ahead_ns) { clock_ahead_ns_ = ahead_ns; }
+  void SetClockAhead(std::int64_t ahead_ns) override { clock_ahead_ns_ = ahead_ns; }
   [[nodiscard]] std::int64_t clock_ahead_ns() const { return clock_ahead_ns_; }
 
   /// Whether somebody reads a sensor's clouds.
   [[nodiscard]] bool HasReaders() const;
 
-  /// Returns the sensors for RunLive(), valid as long as this object.
-  [[nodiscard]] std::vector<LiveSensor> Sensors();
+  [[nodiscard]] std::vector<LiveSensor> Sensors() override;
 
-  /// Waits a second at most for readers that have not received everything.
-  void Finish();
-  /// Numbers of messages, in the order of Sensors().
-  /// @pre Nothing is being sent.
-  [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const;
+  void Finish() override;
+  [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const override;
+
+  [[nodiscard]] CommandSource* steps() override;
+  [[nodiscard]] CommandSource* commands() override;
+  [[nodiscard]] std::string CommandsText() const override;
 
  private:
   struct Sensor {
@@ -67,6 +78,8 @@ class RosOutput {
   RosWriters writers_;  ///< Of topics_.
   std::vector<Sensor> sensors_;
   std::int64_t clock_ahead_ns_{};
+  std::unique_ptr<TwistCommands> twists_;  ///< Null where none are heard.
+  std::unique_ptr<StepTopic> steps_;       ///< Likewise.
 };
 
 }  // namespace railcast

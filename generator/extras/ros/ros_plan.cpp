@@ -1,11 +1,21 @@
-#include "generator/extras/ros/ros_plan.h"
+// What protocol ros2 adds to live runs.
 
 #include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/io/stream/stream_encoder.h"
+#include "core/scenario/sensors.h"
+#include "generator/extras/ros/ros_options.h"
+#include "generator/extras/ros/ros_output.h"
+#include "generator/live/live_extras.h"
+#include "generator/live/live_streams.h"
+#include "generator/live/stream_options.h"
 
 namespace railcast {
 namespace {
@@ -43,13 +53,32 @@ void CheckTopic(const std::string& option,
                    example + " (got \"" + ShownText(*topic) + "\")");
 }
 
-}  // namespace
+void AddTopicOptions(ProgramOptions& stream, StreamOptions& options) {
+  AddRosOptions(stream, options);
+  stream.AddOption("--commands-topic", options.commands_topic,
+                   "With protocol ros2: topic of geometry_msgs/msg/TwistStamped on which to "
+                   "receive commands, such as /brake; default: none");
+  stream.AddOption("--step-topic", options.step_topic,
+                   "With protocol ros2 and --lockstep: topic of builtin_interfaces/msg/Time on "
+                   "which to receive the stamp of each frame that is done with, such as /step; "
+                   "the next frame waits for it");
+}
 
-bool IsForRos(const std::string& fields) {
+bool NamesLayout(const std::string& fields) {
   return ValueNamed<ros::PointLayout>(fields).has_value();
 }
 
-std::optional<RosOutputSpec> PlanRos(const StreamOptions& options,
+std::unique_ptr<LiveTopics> OpenRosOutput(const RosOutputSpec& spec,
+                                          std::unique_ptr<dds::Participant> participant,
+                                          FrameMaker& maker) {
+  auto output = AtPlace("protocol ros2: ", [&] {
+    return std::make_unique<RosOutput>(spec, std::move(participant), maker);
+  });
+  output->Listen(spec);
+  return output;
+}
+
+std::optional<TopicsPlan> PlanTopics(const StreamOptions& options,
                                      const ScenarioSpec& scenario,
                                      const std::vector<SensorStreamSpec>& streams) {
   RosOutputSpec spec;
@@ -68,8 +97,23 @@ std::optional<RosOutputSpec> PlanRos(const StreamOptions& options,
   });
   spec.clouds = options.fields ? ros::ParseCloudSpec(*options.fields, has_velocity)
                                : ros::CloudSpec{.fields = UsualFields(has_velocity)};
-  spec.participant = ParticipantOf(options, scenario.interfaces.ros2.value_or(Ros2Spec{}));
-  return spec;
+  const Ros2Spec interface = scenario.interfaces.ros2.value_or(Ros2Spec{});
+  spec.participant = ParticipantOf(options, interface);
+  spec.commands_topic = options.commands_topic;
+  spec.deceleration_mps2 = interface.deceleration_mps2;
+  spec.step_topic = options.step_topic;
+  // A std::function can be copied, what it holds is shared.
+  auto joined = std::make_shared<std::unique_ptr<dds::Participant>>(JoinDomain(spec.participant));
+  return TopicsPlan{.place = PlaceText(spec.participant),
+                    .open = [spec, joined = std::move(joined)](FrameMaker& maker) {
+                      return OpenRosOutput(spec, std::move(*joined), maker);
+                    }};
+}
+
+}  // namespace
+
+void AddRos(LiveExtras& extras) {
+  extras.ros = {.add_options = AddTopicOptions, .has_fields = NamesLayout, .plan = PlanTopics};
 }
 
 }  // namespace railcast
