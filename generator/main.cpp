@@ -1,6 +1,8 @@
 #include "generator/commands.h"
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "core/base/error.h"
 
@@ -25,25 +27,18 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
 #else
 
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  // What works on recordings is linked with PCL.
-  const auto add_of_recordings = [&](const std::string& name, const std::string& description) {
-    railcast::AddOwnProgram({name, description, "railcast-recordings", "railcast"}, app, command);
+  const auto add_own = [&](std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names) {
+      railcast::AddOwnProgram(railcast::OwnProgramOf(name), app, command);
+    }
   };
-  add_of_recordings("insert", railcast::kInsertDescription);
-  add_of_recordings("convert", railcast::kConvertDescription);
+  add_own({"insert", "convert"});
   railcast::AddStream(app, command);
-  add_of_recordings("replay", railcast::kReplayDescription);
+  add_own({"replay"});
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
-  add_of_recordings("dataset", railcast::kDatasetDescription);
-  add_of_recordings("merge", railcast::kMergeDescription);
-  add_of_recordings("survey", railcast::kSurveyDescription);
-#ifdef RAILCAST_HAS_IMPORT
-  // GDAL, with all that it can read, takes a tenth of a second to load.
-  railcast::AddOwnProgram(
-      {"import", railcast::kImportDescription, "railcast-import", "railcast-import"}, app, command);
-#endif
+  add_own({"dataset", "merge", "survey", "import"});
 }
 
 #endif

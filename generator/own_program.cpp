@@ -20,7 +20,7 @@ std::filesystem::path FindProgram(const OwnProgram& own) {
   for (const std::filesystem::path& program : {built, installed}) {
     if (std::filesystem::exists(program)) return program;
   }
-  throw InputError("railcast-generate: " + own.command + " is a program of its own, " +
+  throw InputError(std::string("railcast-generate: ") + own.command + " is a program of its own, " +
                    installed.string() + ", which is not installed (Debian package " + own.package +
                    ")");
 }

@@ -25,7 +25,7 @@ ROOM_ORDERS = {
     "core/extras/packets": "velodyne spinning pcap ouster".split(),
     "core/extras/ros": "messages mcap bag dds".split(),
     "generator": ". run check sequence live trace world extras python".split(),
-    "generator/extras": "ros osi packets insert replay dataset convert survey import".split(),
+    "generator/extras": ". ros osi packets insert replay dataset convert survey import".split(),
     "generator/extras/insert": ". plan firings clouds packets run".split(),
     "generator/extras/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report limits pictures stats inspect compare detectability frontier receive . extras".split(),

@@ -101,8 +101,11 @@ def read_help(words, text):
 
 
 def ask(program, subcommands=()):
-    """Returns the command of `program` (a path), with all below it."""
-    said = subprocess.run([str(program), *subcommands, "--help"], check=True, capture_output=True, text=True).stdout
-    command, names = read_help([pathlib.Path(program).name, *subcommands], said)
-    command.subcommands = [ask(program, (*subcommands, name)) for name in names]
+    """Returns the command of `program` (a path), with all below it; None if it belongs to an extra that is not there."""
+    answer = subprocess.run([str(program), *subcommands, "--help"], check=False, capture_output=True, text=True)
+    if "which is not installed" in answer.stderr:
+        return None
+    answer.check_returncode()
+    command, names = read_help([pathlib.Path(program).name, *subcommands], answer.stdout)
+    command.subcommands = list(filter(None, (ask(program, (*subcommands, name)) for name in names)))
     return command

@@ -11,7 +11,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/stop_signals.h"
-#include "generator/commands.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/convert/convert.h"
 #include "generator/extras/insert/run/insert_run.h"
 #include "generator/sequence/summary.h"
@@ -65,7 +65,7 @@ int RunConvertCommand(ConvertOptions options) {
 void AddConvert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ConvertOptions>();
   ConvertChoices& choices = options->choices;
-  ProgramOptions convert = app.AddCommand("convert", kConvertDescription);
+  ProgramOptions convert = app.AddCommand("convert", OwnProgramOf("convert").description);
   convert.AddOption("RECORDING", choices.recording, "What railcast-analyze reads, or a data set")
       .Required()
       .Check(NonEmpty());

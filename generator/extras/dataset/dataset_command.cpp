@@ -15,8 +15,8 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
-#include "generator/commands.h"
 #include "generator/empty_folder.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/dataset/dataset_report.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
 #include "generator/extras/dataset/run_dataset.h"
@@ -153,7 +153,7 @@ int RunMerge(const MergeOptions& options) {
 
 void AddDataset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DatasetOptions>();
-  ProgramOptions dataset = app.AddCommand("dataset", kDatasetDescription);
+  ProgramOptions dataset = app.AddCommand("dataset", OwnProgramOf("dataset").description);
   dataset.AddOption("RECIPE", options->recipe, "Recipe file").Required().Check(NonEmpty());
   dataset.AddOption("--out", options->choices.directory, "Folder to write the data set to")
       .Required()
@@ -179,7 +179,7 @@ void AddDataset(ProgramOptions& app, ProgramCommand& command) {
 
 void AddMerge(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<MergeOptions>();
-  ProgramOptions merge = app.AddCommand("merge", kMergeDescription);
+  ProgramOptions merge = app.AddCommand("merge", OwnProgramOf("merge").description);
   merge.AddOption("SHARD", options->shards, "Folders that dataset --shard made, all of them")
       .Required()
       .Check(NonEmpty());

@@ -21,8 +21,8 @@
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
-#include "generator/commands.h"
 #include "generator/empty_folder.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/import/import_files.h"
 #include "generator/extras/import/lines/divided_line.h"
 #include "generator/extras/import/lines/imported_line.h"
@@ -437,7 +437,7 @@ void AddImport(ProgramOptions& app, ProgramCommand& command) {
   constexpr NumberRule kSpeed{1.0, 1000.0};   // In km/h.
   constexpr NumberRule kDegrees{-180.0, 180.0};
   const auto options = std::make_shared<ImportCommandOptions>();
-  ProgramOptions subcommand = app.AddCommand("import", kImportDescription);
+  ProgramOptions subcommand = app.AddCommand("import", OwnProgramOf("import").description);
   subcommand
       .AddOption("MAP", options->map,
                  "Overpass JSON, .osm, .pbf, GeoJSON, GPX, KML or railML 3 with tracks as lines")

@@ -1,5 +1,5 @@
 // The program that `railcast-generate import` runs.
-#include "generator/commands.h"
+#include "generator/extras/commands.h"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
-#include "generator/commands.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/insert/packets/insertion.h"
 #include "generator/extras/replay/frame_feeds.h"
 #include "generator/extras/replay/message_feed.h"
@@ -179,7 +179,7 @@ int RunReplayCommand(const ReplayOptions& options) {
 
 void AddReplay(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReplayOptions>();
-  ProgramOptions replay = app.AddCommand("replay", kReplayDescription);
+  ProgramOptions replay = app.AddCommand("replay", OwnProgramOf("replay").description);
   AddReplayOptions(replay, *options);
   replay.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunReplayCommand(*options); };

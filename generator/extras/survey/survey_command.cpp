@@ -18,8 +18,8 @@
 #include "core/program/version.h"
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
-#include "generator/commands.h"
 #include "generator/empty_folder.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/survey/survey.h"
 
 namespace railcast {
@@ -208,7 +208,7 @@ void AddSourceOptions(ProgramOptions& command, SurveyCommandOptions& options) {
 
 void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
-  ProgramOptions survey = app.AddCommand("survey", kSurveyDescription);
+  ProgramOptions survey = app.AddCommand("survey", OwnProgramOf("survey").description);
   AddSourceOptions(survey, *options);
   AddCaptureSensor(survey, options->choice.sensor);
   survey.AddOption("--out", options->out, "New or empty folder to write to")

@@ -10,7 +10,7 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/stop_signals.h"
-#include "generator/commands.h"
+#include "generator/extras/commands.h"
 #include "generator/extras/insert/insert_plan.h"
 #include "generator/extras/insert/plan/plan_check.h"
 #include "generator/extras/insert/run/insert_run.h"
@@ -67,7 +67,7 @@ int RunInsertCommand(InsertOptions options) {
 void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<InsertOptions>();
   InsertChoices& choices = options->choices;
-  ProgramOptions insert = app.AddCommand("insert", kInsertDescription);
+  ProgramOptions insert = app.AddCommand("insert", OwnProgramOf("insert").description);
   insert.AddOption("RECORDING", choices.recording, "What railcast-analyze reads")
       .Required()
       .Check(NonEmpty());

@@ -1,5 +1,5 @@
 // The program that railcast-generate runs for what works on recordings.
-#include "generator/commands.h"
+#include "generator/extras/commands.h"
 
 namespace {
 
