@@ -24,26 +24,12 @@ namespace railcast {
 void AddStats(ProgramOptions& app, ProgramCommand& command);
 /// Says what a recording is, what is wrong with it, and what it is fit for.
 void AddInspect(ProgramOptions& app, ProgramCommand& command);
-/// Writes what a reader of a data set must know before using it.
-void AddCard(ProgramOptions& app, ProgramCommand& command);
 /// Measures how far two recordings are apart, or what each effect of a scenario changes.
 void AddCompare(ProgramOptions& app, ProgramCommand& command);
 /// Compares the distance at which objects are detected with the distance a train needs to stop.
 void AddDetect(ProgramOptions& app, ProgramCommand& command);
-/// Evaluates an object detector, the reference one or that of files, on sequences.
-void AddEvaluate(ProgramOptions& app, ProgramCommand& command);
-/// Charts how far along its track a scenario's vehicle sees, beside its braking distance.
-void AddSight(ProgramOptions& app, ProgramCommand& command);
-/// Simulates the approaches of a recipe and reports probabilities of detection.
-void AddStudy(ProgramOptions& app, ProgramCommand& command);
-/// Writes what an assessor files of a finished study.
-void AddDossier(ProgramOptions& app, ProgramCommand& command);
-/// Estimates the sensor models' parameters from recordings.
-void AddFit(ProgramOptions& app, ProgramCommand& command);
 /// Charts speed against accuracy on a scenario.
 void AddFrontier(ProgramOptions& app, ProgramCommand& command);
-/// Compares a real sensor's recording with what a preset would have measured in its place.
-void AddPreset(ProgramOptions& app, ProgramCommand& command);
 /// Compares a sequence directory with the hashes that it was written with.
 void AddVerify(ProgramOptions& app, ProgramCommand& command);
 /// Counts, and on request records, a live stream in the railcast protocol until a signal ends it.

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/card/dataset_card.h"
 #include "analysis/report/formats.h"
@@ -55,8 +56,6 @@ int RunCard(const CardOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddCard(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<CardOptions>();
   ProgramOptions card = app.AddCommand("card",
@@ -73,6 +72,12 @@ void AddCard(ProgramOptions& app, ProgramCommand& command) {
   card.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunCard(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddCard(AnalysisExtras& extras) {
+  extras.commands["card"] = AddCard;
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/detect_options.h"
 #include "analysis/extras/detectors/cluster_detector.h"
@@ -163,8 +164,6 @@ void AddDetectorOptions(ProgramOptions& evaluate, EvaluateOptions& options) {
       .ShowDefault();
 }
 
-}  // namespace
-
 void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<EvaluateOptions>();
   ProgramOptions evaluate = app.AddCommand(
@@ -188,6 +187,12 @@ void AddEvaluate(ProgramOptions& app, ProgramCommand& command) {
   evaluate.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunEvaluate(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddDetectors(AnalysisExtras& extras) {
+  extras.commands["evaluate"] = AddEvaluate;
 }
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/dossier/dossier_report.h"
 #include "analysis/extras/study/finished_study.h"
@@ -38,8 +39,6 @@ int RunDossierCommand(const DossierOptions& options, const std::string& command_
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddDossier(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DossierOptions>();
   ProgramOptions dossier = app.AddCommand(
@@ -54,6 +53,12 @@ void AddDossier(ProgramOptions& app, ProgramCommand& command) {
   dossier.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunDossierCommand(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddDossier(AnalysisExtras& extras) {
+  extras.commands["dossier"] = AddDossier;
 }
 
 }  // namespace railcast

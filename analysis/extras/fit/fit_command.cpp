@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/fit/fit.h"
 #include "analysis/extras/fit/fit_report.h"
@@ -171,8 +172,6 @@ void AddKnowledgeOptions(ProgramOptions& fit, FitOptions& options) {
       .Check(Number({1e-3, 5000.0}));
 }
 
-}  // namespace
-
 void AddFit(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<FitOptions>();
   ProgramOptions fit =
@@ -189,6 +188,12 @@ void AddFit(ProgramOptions& app, ProgramCommand& command) {
   fit.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunFit(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddFit(AnalysisExtras& extras) {
+  extras.commands["fit"] = AddFit;
 }
 
 }  // namespace railcast

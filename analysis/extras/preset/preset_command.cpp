@@ -1,6 +1,7 @@
 #include <memory>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/preset/preset_comparison.h"
 #include "analysis/report/output.h"
@@ -40,8 +41,6 @@ int RunPreset(const PresetOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<PresetOptions>();
   ProgramOptions preset = app.AddCommand(
@@ -66,6 +65,12 @@ void AddPreset(ProgramOptions& app, ProgramCommand& command) {
   preset.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunPreset(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddPreset(AnalysisExtras& extras) {
+  extras.commands["preset"] = AddPreset;
 }
 
 }  // namespace railcast

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/detect_options.h"
 #include "analysis/extras/sight/sight.h"
@@ -45,8 +46,6 @@ int RunSight(const SightOptions& options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddSight(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SightOptions>();
   ProgramOptions sight = app.AddCommand(
@@ -81,6 +80,12 @@ void AddSight(ProgramOptions& app, ProgramCommand& command) {
   sight.WhenParsed([&command, options] {
     command = [options](const std::string& line) { return RunSight(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddSight(AnalysisExtras& extras) {
+  extras.commands["sight"] = AddSight;
 }
 
 }  // namespace railcast

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
 #include "analysis/extras/study/kept_files.h"
 #include "analysis/extras/study/run_study.h"
@@ -83,8 +84,6 @@ int RunStudyCommand(StudyOptions options, const std::string& command_line) {
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddStudy(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<StudyOptions>();
   ProgramOptions study = app.AddCommand(
@@ -108,6 +107,12 @@ void AddStudy(ProgramOptions& app, ProgramCommand& command) {
     if (!options->shard.empty()) options->choices.shard = ParseShard(options->shard).value();
     command = [options](const std::string& line) { return RunStudyCommand(*options, line); };
   });
+}
+
+}  // namespace
+
+void AddStudy(AnalysisExtras& extras) {
+  extras.commands["study"] = AddStudy;
 }
 
 }  // namespace railcast
