@@ -4,12 +4,9 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/base/text.h"
 #include "core/extras/ros/messages/sensor_messages.h"
 #include "core/scenario/sensors.h"
 #include "generator/extras/ros/run_topics.h"
-#include "generator/extras/ros/step_topic.h"
-#include "generator/extras/ros/twist_commands.h"
 
 namespace railcast {
 namespace {
@@ -61,43 +58,19 @@ RosOutput::RosOutput(const RosOutputSpec& spec,
   for (const std::size_t number : spec.sensors) sensors_.push_back({number, {}, {}});
 }
 
-RosOutput::~RosOutput() = default;
-
 void RosOutput::Listen(const RosOutputSpec& spec) {
   if (spec.commands_topic) {
     twists_ = AtPlace("--commands-topic: ", [&] {
-      return std::make_unique<TwistCommands>(participant(), *spec.commands_topic,
-                                             spec.deceleration_mps2);
+      return HearTwists(participant(), *spec.commands_topic, spec.deceleration_mps2);
     });
   }
   if (spec.step_topic) {
-    steps_ = AtPlace("--step-topic: ",
-                     [&] { return std::make_unique<StepTopic>(*this, *spec.step_topic); });
+    steps_ = AtPlace("--step-topic: ", [&] { return HearSteps(*this, *spec.step_topic); });
   }
-}
-
-CommandSource* RosOutput::steps() {
-  return steps_.get();
-}
-
-CommandSource* RosOutput::commands() {
-  return twists_.get();
 }
 
 std::string RosOutput::CommandsText() const {
-  std::string text;
-  if (twists_) {
-    const TwistCommands::Counts& counts = twists_->counts();
-    text += "commands on " + twists_->topic() + ": " + std::to_string(counts.done) + " done, " +
-            std::to_string(counts.refused) + " refused";
-    if (counts.refused > 0) text += "; the last one: " + ShownLines(counts.last_fault);
-    text += "\n";
-  }
-  if (steps_ && steps_->faults().count > 0) {
-    text += "steps on " + steps_->topic() + ": " + std::to_string(steps_->faults().count) +
-            " refused; the last one: " + ShownLines(steps_->faults().last) + "\n";
-  }
-  return text;
+  return (twists_ ? twists_->Text() : "") + (steps_ ? steps_->Text() : "");
 }
 
 void RosOutput::Begin() {

@@ -18,9 +18,6 @@
 
 namespace railcast {
 
-class StepTopic;
-class TwistCommands;
-
 /// What sensors of protocol ros2 tell, and where, and which commands are heard.
 struct RosOutputSpec {
   dds::ParticipantSpec participant;
@@ -29,6 +26,14 @@ struct RosOutputSpec {
   std::optional<std::string> commands_topic;
   double deceleration_mps2{};  ///< Of these commands.
   std::optional<std::string> step_topic;
+};
+
+/// Commands that nodes of ROS 2 give on a topic. Nobody gets an answer; the end of a run counts
+/// them.
+class TopicCommands : public CommandSource {
+ public:
+  /// A line on what came; empty where there is nothing to say.
+  [[nodiscard]] virtual std::string Text() const = 0;
 };
 
 /// Publishes the frames of a vehicle's sensors, its motion and the objects in sight on topics of
@@ -41,7 +46,6 @@ class RosOutput final : public LiveTopics {
   RosOutput(const RosOutputSpec& spec,
             std::unique_ptr<dds::Participant> participant,
             FrameMaker& maker);
-  ~RosOutput() override;
 
   /// Hears commands and steps from now on.
   /// @throws InputError "--commands-topic: ..." as Participant::AddReader() does.
@@ -61,8 +65,8 @@ class RosOutput final : public LiveTopics {
   void Finish() override;
   [[nodiscard]] std::vector<UdpSender::Counts> Delivered() const override;
 
-  [[nodiscard]] CommandSource* steps() override;
-  [[nodiscard]] CommandSource* commands() override;
+  [[nodiscard]] CommandSource* steps() override { return steps_.get(); }
+  [[nodiscard]] CommandSource* commands() override { return twists_.get(); }
   [[nodiscard]] std::string CommandsText() const override;
 
  private:
@@ -78,8 +82,28 @@ class RosOutput final : public LiveTopics {
   RosWriters writers_;  ///< Of topics_.
   std::vector<Sensor> sensors_;
   std::int64_t clock_ahead_ns_{};
-  std::unique_ptr<TwistCommands> twists_;  ///< Null where none are heard.
-  std::unique_ptr<StepTopic> steps_;       ///< Likewise.
+  std::unique_ptr<TopicCommands> twists_;  ///< Null where none are heard.
+  std::unique_ptr<TopicCommands> steps_;   ///< Likewise.
 };
+
+/// Hears commands that nodes of ROS 2 give on a topic of geometry_msgs/msg/TwistStamped.
+/// @param participant Must outlive the result.
+/// @param topic "/brake"
+/// @param deceleration_mps2 As CommandOfTwist() takes it.
+/// @throws InputError as Participant::AddReader() does.
+[[nodiscard]] std::unique_ptr<TopicCommands> HearTwists(dds::Participant& participant,
+                                                        const std::string& topic,
+                                                        double deceleration_mps2);
+
+/// Hears steps that a node of ROS 2 gives on a topic of builtin_interfaces/msg/Time, by the stamps
+/// of the frames that it is done with.
+///
+/// The next frames come once a message has said that those before them are done with: a stamp not
+/// before theirs. A message that comes twice therefore does not let two frames come, and a later
+/// time than that of any frame lets frames come until then. The first frames wait for any message,
+/// and until somebody reads clouds, so that they are not lost.
+/// @param ros Must outlive the result.
+/// @throws InputError as Participant::AddReader() does.
+[[nodiscard]] std::unique_ptr<TopicCommands> HearSteps(RosOutput& ros, const std::string& topic);
 
 }  // namespace railcast
