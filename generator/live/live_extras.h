@@ -74,7 +74,7 @@ class LiveTopics {
 /// How the sensors of protocol ros2 will publish, in a domain that was joined.
 struct TopicsPlan {
   std::string place;  ///< "domain 42, on loopback"
-  /// Opens the topics of the frames, which the maker must outlive. To be called once.
+  /// Opens the topics. To be called once; the maker must outlive the result.
   /// @throws InputError if a topic cannot be opened.
   std::function<std::unique_ptr<LiveTopics>(FrameMaker& maker)> open;
 };
