@@ -12,7 +12,6 @@
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
 #include "core/io/cloud/track_fields.h"
-#include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/source_choice.h"

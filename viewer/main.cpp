@@ -8,7 +8,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/capture_sensor.h"
 #include "core/io/recording/source_choice.h"
 #include "core/program/command_line.h"
 #include "core/program/program.h"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/io/recording/capture_sensor.h"
 #include "core/program/command_line.h"
 #include "viewer/frames/field_values.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/recording/source_choice.h"
 #include "core/program/options.h"
 #include "viewer/composition/compose.h"
 #include "viewer/draw/cameras.h"

@@ -11,6 +11,7 @@
 #include "core/base/text_encoding.h"
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/io/recording/capture_sensor.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/recording/turn_reader.h"
 #include "core/io/write_file.h"
 

@@ -1,5 +1,3 @@
-#include <arpa/inet.h>
-
 #include <algorithm>
 #include <array>
 #include <deque>
@@ -208,34 +206,6 @@ CaptureSensor FindSensor(const DatagramPlace& place) {
       holds + "; must be one of them (got " +
       (place.sensor->port == 0 ? AddressText(place.sensor->address) : EndpointText(*place.sensor)) +
       ")");
-}
-
-std::optional<Endpoint> ParseSender(std::string_view text) {
-  std::string host(text);
-  std::string_view port;
-  const std::size_t bracket = text.find(']');
-  const bool is_in_brackets = text.starts_with('[') && bracket != std::string_view::npos;
-  const std::size_t colon = is_in_brackets ? text.find(':', bracket) : text.rfind(':');
-  const bool has_port = is_in_brackets || text.find(':') == colon;
-  if (has_port && colon != std::string_view::npos) {
-    if (is_in_brackets && colon != bracket + 1) return std::nullopt;
-    port = text.substr(colon + 1);
-    host.resize(colon);
-  }
-  if (is_in_brackets) host = host.substr(1, bracket - 1);
-  Endpoint sender;
-  if (!port.empty() || host.size() < text.size() - (is_in_brackets ? 2U : 0U)) {
-    const auto number = ParseNumber<std::uint16_t>(port);
-    if (!number || *number == 0) return std::nullopt;
-    sender.port = *number;
-  }
-  in_addr ipv4{};
-  if (::inet_pton(AF_INET, host.c_str(), &ipv4) == 1) {
-    sender.address = IpAddress(ntohl(ipv4.s_addr));
-    return sender;
-  }
-  if (::inet_pton(AF_INET6, host.c_str(), sender.address.bytes.data()) == 1) return sender;
-  return std::nullopt;
 }
 
 }  // namespace railcast

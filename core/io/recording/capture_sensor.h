@@ -119,8 +119,4 @@ struct DatagramPlace;
 /// @throws InputError as above, or with one line that names them.
 [[nodiscard]] CaptureSensor FindSensor(const DatagramPlace& place);
 
-/// Reads "192.168.1.201", "192.168.1.201:2368" or, of IPv6, "fe80::1" and "[fe80::1]:2368"; port 0
-/// is any. Nothing of what is no address in numbers.
-[[nodiscard]] std::optional<Endpoint> ParseSender(std::string_view text);
-
 }  // namespace railcast

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "railcast/io/endpoint.h"
 
 namespace railcast {
 
@@ -18,5 +22,9 @@ struct SourceChoice {
 /// @throws InputError if something is chosen that is for no source.
 [[nodiscard]] std::vector<std::filesystem::path> WithChoice(
     std::vector<std::filesystem::path> sources, const SourceChoice& choice);
+
+/// Reads "192.168.1.201", "192.168.1.201:2368" or, of IPv6, "fe80::1" and "[fe80::1]:2368"; port 0
+/// is any. Nothing of what is no address in numbers.
+[[nodiscard]] std::optional<Endpoint> ParseSender(std::string_view text);
 
 }  // namespace railcast

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/io/recording/source_choice.h"
 #include "core/io/write_file.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/io/message_of.h"
