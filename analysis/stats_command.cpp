@@ -11,6 +11,7 @@
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/cloud/track_fields.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"

@@ -2,7 +2,6 @@
 #include <string>
 
 #include "analysis/inspect/inspection.h"
-#include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "analysis/stats/statistics.h"
 #include "core/base/text.h"
-#include "core/io/recording/packet_order.h"
-#include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/turn_reader.h"
+#include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/packets/recording/packet_order.h"
+#include "core/extras/packets/recording/turn_reader.h"
 
 namespace railcast {
 

@@ -22,7 +22,7 @@ ROOM_ORDERS = {
     "core/io": ". image cloud record run net stream recording verify".split(),
     # An extra names here the extras that it uses: those before it.
     "core/extras": "packets ros osi recipe".split(),
-    "core/extras/packets": "velodyne spinning pcap ouster".split(),
+    "core/extras/packets": "velodyne spinning pcap ouster recording".split(),
     "core/extras/ros": "messages mcap bag dds".split(),
     "generator": ". run check sequence live trace world extras python".split(),
     "generator/extras": ". ros osi packets insert replay dataset convert survey import".split(),

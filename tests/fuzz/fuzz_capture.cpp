@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/packets/recording/packet_recording.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
-#include "core/io/recording/packet_recording.h"
-#include "core/io/recording/recording_kinds.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {

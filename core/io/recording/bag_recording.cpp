@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/cdr.h"
 #include "core/io/recording/cloud_frame.h"

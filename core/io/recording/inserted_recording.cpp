@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/record/read_record.h"

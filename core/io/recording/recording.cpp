@@ -9,6 +9,7 @@
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/unread_formats.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"

@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/recording.h"

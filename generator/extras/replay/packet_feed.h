@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/io/recording/packet_recording.h"
+#include "core/extras/packets/recording/packet_recording.h"
 #include "generator/extras/replay/replay_feed.h"
 #include "railcast/io/stream.h"
 

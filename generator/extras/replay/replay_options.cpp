@@ -4,7 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/program/command_line.h"
 #include "generator/extras/ros/ros_options.h"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "generator/extras/insert/inserted_frame.h"
 #include "generator/extras/insert/packets/turn_editor.h"
 #include "railcast/io/recording.h"

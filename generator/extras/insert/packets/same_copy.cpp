@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/input_file.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/write_file.h"
 #include "generator/extras/insert/packets/packet_outputs.h"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/packet_order.h"
-#include "core/io/recording/turn_reader.h"
+#include "core/extras/packets/recording/packet_order.h"
+#include "core/extras/packets/recording/turn_reader.h"
 #include "generator/extras/insert/inserted_frame.h"
 
 namespace railcast {

@@ -15,6 +15,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/recording/found_sensor.h"
 #include "core/io/recording/plausibility.h"
 #include "core/io/recording/recording_kinds.h"

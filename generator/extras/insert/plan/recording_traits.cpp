@@ -2,6 +2,7 @@
 #include <map>
 #include <string>
 
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/recording_kinds.h"

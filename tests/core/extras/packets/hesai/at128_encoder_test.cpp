@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/base/units.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/io/field_layout.h"
-#include "core/io/recording/capture_sensor.h"
 #include "tests/core/extras/packets/hesai/sent_turns.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"

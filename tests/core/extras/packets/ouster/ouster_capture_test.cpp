@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"

@@ -14,7 +14,7 @@
 #include "core/base/input_file.h"
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/pcap/pcap_writer.h"
-#include "core/io/recording/capture_sensor.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 #include "core/io/write_file.h"
 #include "generator/extras/insert/packets/same_copy.h"
 #include "tests/core/extras/packets/hesai/sent_turns.h"

@@ -11,7 +11,6 @@
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
-#include "core/io/recording/recording_kinds.h"
 #include "generator/extras/insert/packets/insertion.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/recording/read_all.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/extras/packets/pcap/pcap_reader.h"
-#include "core/io/recording/packet_recording.h"
+#include "core/extras/packets/recording/packet_recording.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/generator/extras/insert/packets/hand_edits.h"
 #include "tests/generator/extras/insert/packets/sent_as_written.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/extras/packets/pcap/pcap_reader.h"
-#include "core/io/recording/packet_recording.h"
+#include "core/extras/packets/recording/packet_recording.h"
 #include "generator/extras/insert/packets/insertion.h"
 #include "tests/generator/extras/insert/packets/hand_edits.h"
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/capture_sensor.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/packets/recording/capture_sensor.h"
+#include "core/extras/packets/recording/turn_reader.h"
 #include "core/io/recording/source_choice.h"
-#include "core/io/recording/turn_reader.h"
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"

@@ -1,4 +1,4 @@
-#include "core/io/recording/packet_order.h"
+#include "core/extras/packets/recording/packet_order.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/io/recording/capture_sensor.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/input_file.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
-#include "core/io/recording/recording_kinds.h"
 #include "railcast/scenario.h"
 #include "tests/core/io/message_of.h"
 #include "tests/support/sensor_file.h"

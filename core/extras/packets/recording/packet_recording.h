@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/io/recording/capture_sensor.h"
-#include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/turn_reader.h"
+#include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/packets/recording/capture_sensor.h"
+#include "core/extras/packets/recording/turn_reader.h"
 #include "railcast/io/endpoint.h"
 
 namespace railcast {

@@ -11,8 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/io/recording/capture_sensor.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 
 namespace railcast {
 namespace {

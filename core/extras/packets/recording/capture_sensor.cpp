@@ -1,4 +1,4 @@
-#include "core/io/recording/capture_sensor.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 
 #include <algorithm>
 #include <array>
@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/base/text.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/recording/plausibility.h"
-#include "core/io/recording/recording_kinds.h"
 #include "core/scan/spinning_pattern.h"
 #include "core/scenario/json_rules.h"
 

@@ -1,4 +1,4 @@
-#include "core/io/recording/turn_beams.h"
+#include "core/extras/packets/recording/turn_beams.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "core/io/recording/packet_order.h"
+#include "core/extras/packets/recording/packet_order.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ bool AreNear(std::int64_t azimuth, std::int64_t other) {
   return std::min(StepTo(azimuth, other), StepTo(other, azimuth)) < kNear;
 }
 
-void AddTo(PacketTally& sum, const PacketTally& tally) {
+void AddTally(PacketTally& sum, const PacketTally& tally) {
   if (tally.number == 0) return;
   sum.first = sum.number == 0 ? tally.first : std::min(sum.first, tally.first);
   sum.number += tally.number;
@@ -235,7 +235,7 @@ void PacketOrder::EndSilences(const Held& next) {
   std::erase_if(silences_, [&](Silence& silence) {
     const bool is_within = StepTo(silence.middle(), mark.first_azimuth) <= span;
     if (!is_within || --silence.num_turns > 0) return false;
-    AddTo(lost_, silence.lost);
+    AddTally(lost_, silence.lost);
     return true;
   });
 }
@@ -244,7 +244,7 @@ void PacketOrder::AddSilence(Silence silence) {
   const auto known =
       std::ranges::find_if(silences_, [&](const Silence& other) { return other.IsNear(silence); });
   if (known == silences_.end()) return silences_.push_back(std::move(silence));
-  AddTo(known->lost, silence.lost);
+  AddTally(known->lost, silence.lost);
   if (std::abs(silence.order - known->order) < kLessThanTurn_ns) return;
   known->order = silence.order;
   // By then, it is a window even if something is sent there afterwards.
@@ -255,7 +255,7 @@ void PacketOrder::AddSilence(Silence silence) {
 PacketTally PacketOrder::lost() const {
   PacketTally lost = lost_;
   for (const Silence& silence : silences_) {
-    if (!silence.is_window()) AddTo(lost, silence.lost);
+    if (!silence.is_window()) AddTally(lost, silence.lost);
   }
   return lost;
 }

@@ -1,11 +1,11 @@
-#include "core/io/recording/turn_reader.h"
+#include "core/extras/packets/recording/turn_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "core/base/text.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
 
 namespace railcast {
 namespace {

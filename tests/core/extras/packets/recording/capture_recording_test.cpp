@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
 #include "core/extras/packets/spinning/spinning_model.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/io/recording/capture_sensor.h"
 #include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"

@@ -1,4 +1,4 @@
-#include "core/io/recording/packet_recording.h"
+#include "core/extras/packets/recording/packet_recording.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "core/io/recording/capture_metadata.h"
+#include "core/extras/packets/recording/capture_metadata.h"
 
 #include <vector>
 

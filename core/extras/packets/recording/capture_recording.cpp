@@ -1,4 +1,4 @@
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/packets/recording/capture_recording.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,9 +10,9 @@
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/extras/packets/pcap/pcap_reader.h"
-#include "core/io/recording/capture_sensor.h"
+#include "core/extras/packets/recording/capture_sensor.h"
+#include "core/extras/packets/recording/turn_reader.h"
 #include "core/io/recording/source_choice.h"
-#include "core/io/recording/turn_reader.h"
 #include "core/io/write_file.h"
 
 namespace railcast {

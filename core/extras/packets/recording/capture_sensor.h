@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/extras/packets/ouster/ouster_decoder.h"
+#include "core/extras/packets/recording/capture_metadata.h"
+#include "core/extras/packets/recording/turn_beams.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
-#include "core/io/recording/capture_metadata.h"
-#include "core/io/recording/turn_beams.h"
 #include "core/io/sensor_turn.h"
 #include "railcast/io/endpoint.h"
 #include "railcast/io/recording.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/extras/packets/pcap/pcap_reader.h"
-#include "core/io/recording/capture_sensor.h"
-#include "core/io/recording/packet_order.h"
+#include "core/extras/packets/recording/capture_sensor.h"
+#include "core/extras/packets/recording/packet_order.h"
 
 namespace railcast {
 
