@@ -23,7 +23,7 @@ ROOM_ORDERS = {
     # An extra names here the extras that it uses: those before it.
     "core/extras": "packets ros osi recipe".split(),
     "core/extras/packets": "velodyne spinning pcap ouster recording".split(),
-    "core/extras/ros": "messages mcap bag dds".split(),
+    "core/extras/ros": "messages mcap bag dds recording".split(),
     "generator": ". run check sequence live trace world extras python".split(),
     "generator/extras": ". ros osi packets insert replay dataset convert survey import".split(),
     "generator/extras/insert": ". plan firings clouds packets run".split(),

@@ -6,6 +6,7 @@
 
 #include "analysis/extras/study/approach_record.h"
 #include "analysis/extras/study/study_directory.h"
+#include "core/extras/ros/bag/bag_lines.h"
 #include "core/io/run/convert_record.h"
 #include "core/io/run/dataset_record.h"
 #include "core/io/run/dataset_report_record.h"
@@ -15,7 +16,6 @@
 #include "core/io/run/sensors_record.h"
 #include "core/io/run/survey_record.h"
 #include "core/io/run/table_records.h"
-#include "core/io/verify/bag_lines.h"
 #include "core/io/write_file.h"
 #include "core/scenario/archive.h"
 

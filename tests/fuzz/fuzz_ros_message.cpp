@@ -10,7 +10,7 @@
 #include "core/extras/ros/messages/geometry_messages.h"
 #include "core/extras/ros/messages/scene_messages.h"
 #include "core/extras/ros/messages/sensor_messages.h"
-#include "core/io/recording/packet_messages.h"
+#include "core/extras/ros/recording/packet_messages.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast::ros {

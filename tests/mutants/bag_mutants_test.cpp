@@ -8,7 +8,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/extras/ros/bag/sqlite_database.h"
-#include "tests/core/io/recording/made_bag.h"
+#include "tests/core/extras/ros/recording/made_bag.h"
 #include "tests/mutants/made_scan_points.h"
 #include "tests/mutants/mutants.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/datagrams.h"
-#include "core/io/recording/recording_kinds.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast {

@@ -11,6 +11,7 @@
 #include "core/base/unread_formats.h"
 #include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/ros/bag/bag.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sensors_record.h"
@@ -123,17 +124,6 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
 }
 
 }  // namespace
-
-std::optional<BagSource> FindBag(const std::filesystem::path& source) {
-  if (bag::IsBag(source)) return BagSource{source};
-  const std::string& text = source.native();
-  for (std::size_t mark = text.find(kTopicMark); mark != std::string::npos;
-       mark = text.find(kTopicMark, mark + 1)) {
-    const std::filesystem::path bag = text.substr(0, mark);
-    if (bag::IsBag(bag)) return BagSource{bag, text.substr(mark + 1)};
-  }
-  return std::nullopt;
-}
 
 std::filesystem::path TopicOfBag(const std::filesystem::path& bag, const std::string& topic) {
   const std::string mark(kTopicMark, 0, kTopicMark.size() - (topic.starts_with('/') ? 1 : 0));

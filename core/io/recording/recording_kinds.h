@@ -1,67 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/extras/packets/recording/capture_recording.h"
 #include "railcast/io/recording.h"
 
 namespace railcast {
 
-namespace bag {
-struct BagTopic;
-}
-
 /// Stands between the path of a bag and the name of one of its topics.
 inline constexpr std::string_view kTopicMark = ":/";
-
-/// A bag and one of its topics.
-struct BagSource {
-  std::filesystem::path bag;
-  std::string topic{};  ///< Empty: the only one that can be opened.
-};
-
-/// Finds the bag that `source` names, with or without a topic behind it. Returns nothing if it
-/// names none.
-[[nodiscard]] std::optional<BagSource> FindBag(const std::filesystem::path& source);
-
-/// Returns the index of the topic to open.
-/// @param topic Empty: the only one that can be opened.
-/// @throws InputError as OpenBagRecording().
-[[nodiscard]] std::size_t PickTopic(const std::vector<bag::BagTopic>& topics,
-                                    const std::filesystem::path& bag,
-                                    const std::string& topic);
-
-/// Whether the messages of a topic are clouds of Livox's drivers.
-[[nodiscard]] bool IsOfLivox(const bag::BagTopic& topic);
-
-/// Opens a topic of a bag: clouds (sensor_msgs/msg/PointCloud2 or Livox's) with the poses that its
-/// transforms say, or the packets of a sensor whose captures can be opened, as ROS drivers record
-/// them.
-/// @param source As messages and RecordingInfo name it: the bag, with the topic if that was given.
-/// @param topic Empty: the only one that can be opened.
-/// @throws InputError with one line that lists the topics if there is no such topic, or if several
-///   are there and none is given.
-[[nodiscard]] std::unique_ptr<Recording> OpenBagRecording(const std::filesystem::path& source,
-                                                          const std::filesystem::path& bag,
-                                                          const std::string& topic);
-
-/// Opens the packets of a sensor in the only topic of a bag that can be opened.
-/// @throws InputError as OpenBagRecording(), or if that topic holds clouds.
-[[nodiscard]] std::unique_ptr<DatagramSource> OpenBagPackets(const std::filesystem::path& bag);
-
-/// Finds the packets of a sensor in a topic of a bag. Returns nothing if the topic holds clouds.
-/// @throws InputError as OpenBagRecording().
-[[nodiscard]] std::optional<DatagramPlace> FindBagPackets(const std::filesystem::path& bag,
-                                                          const std::string& topic);
-
-/// Whether the messages of a topic hold points: clouds, or the packets of a sensor.
-[[nodiscard]] bool HoldsPoints(const bag::BagTopic& topic);
 
 /// Whether a file's extension is that of a cloud: .pcd, .ply, .bin (KITTI's) or .las, in any case.
 [[nodiscard]] bool IsCloudFile(const std::filesystem::path& file);

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/extras/ros/bag/bag_lines.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/sequence_check.h"
@@ -14,7 +15,6 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/run/sequence_files.h"
 #include "core/io/unfinished_file.h"
-#include "core/io/verify/bag_lines.h"
 #include "core/io/verify/findings.h"
 #include "core/io/verify/frame_clouds.h"
 #include "core/io/write_file.h"

@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/ros/messages/message_type.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/ros/recording/bag_recording.h"
 
 namespace railcast {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/packets/recording/packet_recording.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/write_file.h"
 #include "core/program/command_line.h"

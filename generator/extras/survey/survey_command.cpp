@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/content_hash.h"
 #include "core/io/record/record_text.h"
 #include "core/io/recording/recording_kinds.h"

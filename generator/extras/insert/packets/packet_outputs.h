@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "generator/extras/insert/inserted_frame.h"
 #include "generator/extras/insert/recorded_firings.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/base/input_file.h"
 #include "core/extras/packets/recording/capture_recording.h"
-#include "core/io/recording/recording_kinds.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/write_file.h"
 #include "generator/extras/insert/packets/packet_outputs.h"
 

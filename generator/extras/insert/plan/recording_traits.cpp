@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/extras/packets/recording/capture_recording.h"
+#include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/recording_kinds.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "core/extras/ros/messages/sensor_messages.h"
+#include "core/extras/ros/recording/packet_messages.h"
 #include "core/io/cloud/cloud.h"
-#include "core/io/recording/packet_messages.h"
 
 namespace railcast {
 

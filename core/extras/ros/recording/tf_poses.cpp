@@ -1,4 +1,4 @@
-#include "core/io/recording/tf_poses.h"
+#include "core/extras/ros/recording/tf_poses.h"
 
 #include <algorithm>
 #include <array>

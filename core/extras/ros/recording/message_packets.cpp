@@ -1,4 +1,4 @@
-#include "core/io/recording/message_packets.h"
+#include "core/extras/ros/recording/message_packets.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/extras/ros/messages/cdr.h"
-#include "core/io/recording/packet_messages.h"
+#include "core/extras/ros/recording/packet_messages.h"
 
 namespace railcast {
 namespace {

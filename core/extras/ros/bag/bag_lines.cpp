@@ -1,4 +1,4 @@
-#include "core/io/verify/bag_lines.h"
+#include "core/extras/ros/bag/bag_lines.h"
 
 #include <algorithm>
 #include <array>

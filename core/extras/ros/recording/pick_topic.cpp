@@ -9,8 +9,9 @@
 #include "core/base/unread_formats.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/sensor_messages.h"
-#include "core/io/recording/message_packets.h"
-#include "core/io/recording/packet_messages.h"
+#include "core/extras/ros/recording/bag_recording.h"
+#include "core/extras/ros/recording/message_packets.h"
+#include "core/extras/ros/recording/packet_messages.h"
 #include "core/io/recording/recording_kinds.h"
 
 namespace railcast {
@@ -47,6 +48,17 @@ void CheckIsOne(const std::vector<bag::BagTopic>& topics,
 }
 
 }  // namespace
+
+std::optional<BagSource> FindBag(const std::filesystem::path& source) {
+  if (bag::IsBag(source)) return BagSource{source};
+  const std::string& text = source.native();
+  for (std::size_t mark = text.find(kTopicMark); mark != std::string::npos;
+       mark = text.find(kTopicMark, mark + 1)) {
+    const std::filesystem::path bag = text.substr(0, mark);
+    if (bag::IsBag(bag)) return BagSource{bag, text.substr(mark + 1)};
+  }
+  return std::nullopt;
+}
 
 bool IsOfLivox(const bag::BagTopic& topic) {
   const auto& older = ros::LivoxCloud::kOlderNames;

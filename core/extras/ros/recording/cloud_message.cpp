@@ -1,4 +1,4 @@
-#include "core/io/recording/cloud_message.h"
+#include "core/extras/ros/recording/cloud_message.h"
 
 #include <algorithm>
 #include <array>

@@ -1,3 +1,5 @@
+#include "core/extras/ros/recording/bag_recording.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,15 +12,12 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/extras/packets/recording/capture_recording.h"
-#include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/cdr.h"
+#include "core/extras/ros/recording/cloud_message.h"
+#include "core/extras/ros/recording/message_packets.h"
+#include "core/extras/ros/recording/packet_messages.h"
+#include "core/extras/ros/recording/tf_poses.h"
 #include "core/io/recording/cloud_frame.h"
-#include "core/io/recording/cloud_message.h"
-#include "core/io/recording/message_packets.h"
-#include "core/io/recording/packet_messages.h"
-#include "core/io/recording/recording_kinds.h"
-#include "core/io/recording/tf_poses.h"
 #include "core/scenario/ouster_metadata.h"
 
 namespace railcast {
