@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -10,10 +11,9 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/text.h"
-#include "core/extras/packets/recording/capture_recording.h"
-#include "core/extras/ros/bag/bag.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/record/read_record.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/camera_files.h"
@@ -79,22 +79,21 @@ RecordedFrame ReadInsertedFrame(const InsertedContext& context,
   return recorded;
 }
 
-/// The capture or the bag of an insertion, with the topic, metadata or sensor that it was opened
-/// with.
+/// The copy of an insertion's recording, with what it was opened with behind its name: a topic,
+/// metadata or a sensor.
 fs::path CopyIn(const fs::path& folder, const std::string& opened) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& copy = entry.path();
-    const bool is_bag = bag::IsBag(copy);
-    if (!is_bag && !FindCapture(copy)) continue;
+    const auto& kinds = RecordingExtras::Get().kinds;
+    const auto kind =
+        std::ranges::find_if(kinds, [&](const RecordingKind& one) { return one.is_of(copy); });
+    if (kind == kinds.end()) continue;
     const std::string begin = copy.filename().string() + ":";
     const std::size_t mark = opened.rfind(begin);
     if (mark == std::string::npos) return copy;
     const std::string rest = opened.substr(mark + begin.size());
-    if (is_bag) return copy.string() + ":" + rest;
-    const auto [metadata, sensor] = SplitCaptureSuffix(rest);
-    std::string source = copy.string();
-    if (!metadata.empty()) source += ":" + (folder / fs::path(metadata).filename()).string();
-    return sensor.empty() ? source : source + ":" + sensor;
+    return copy.string() +
+           (kind->behind_copy == nullptr ? ":" + rest : kind->behind_copy(folder, rest));
   }
   throw InputError(ShownPath(folder) + ": must hold the recording that something was put into");
 }

@@ -4,14 +4,13 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/text_encoding.h"
 #include "core/base/unread_formats.h"
-#include "core/extras/packets/recording/capture_recording.h"
-#include "core/extras/ros/bag/bag.h"
-#include "core/extras/ros/recording/bag_recording.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/run/dataset_files.h"
 #include "core/io/run/sensors_record.h"
@@ -21,6 +20,16 @@
 
 namespace railcast {
 namespace {
+
+/// Opens a source as the first kind of the extras' that it is of; null if it is of none.
+std::unique_ptr<Recording> OpenAsKind(RecordingKind::Open RecordingKind::*open,
+                                      const std::filesystem::path& source) {
+  for (const RecordingKind& kind : RecordingExtras::Get().kinds) {
+    if (kind.*open == nullptr) continue;
+    if (auto recording = (kind.*open)(source)) return recording;
+  }
+  return nullptr;
+}
 
 /// Throws an error that names what to open instead if the directory is of a run of several sensors.
 void CheckIsOfOneSensor(const std::filesystem::path& directory) {
@@ -59,7 +68,7 @@ std::unique_ptr<Recording> OpenDirectory(const std::filesystem::path& directory)
                      ShownPath(directory / SequenceFolderOf(0)));
   }
   if (auto clouds = OpenCloudsIn(directory)) return clouds;
-  if (bag::IsBag(directory)) return OpenBagRecording(directory, directory, "");
+  if (auto found = OpenAsKind(&RecordingKind::open, directory)) return found;
   RefuseUnread(directory);
   throw InputError(ShownPath(directory) + ": must be a sequence or hold " +
                    ReadableExtensions(true, {".las"}) + " files (got neither)");
@@ -98,15 +107,13 @@ std::unique_ptr<Recording> OpenColumns(const std::filesystem::path& source,
 }
 
 std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
-  if (auto capture = OpenCaptureWithMetadata(source)) return capture;
+  if (auto found = OpenAsKind(&RecordingKind::open_more, source)) return found;
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(source, error);
   if (!exists(status)) {
     const auto [clouds, columns] = KittiSourceOf(source);
     if (!columns.empty()) return OpenColumns(source, clouds);
-    if (const auto found = FindBag(source)) {
-      return OpenBagRecording(source, found->bag, found->topic);
-    }
+    if (auto found = OpenAsKind(&RecordingKind::open_part, source)) return found;
     throw FileError(source, error ? error.value() : ENOENT);
   }
   if (is_directory(status)) return OpenDirectory(source);
@@ -114,13 +121,14 @@ std::unique_ptr<Recording> OpenAny(const std::filesystem::path& source) {
   if (const std::string advice = AdviceOnFile(source); !advice.empty()) {
     throw InputError(ShownPath(source) + ": " + advice);
   }
-  const std::string extension = LowerCase(source.extension().string());
-  if (extension == ".pcap" || extension == ".pcapng") return OpenCapture(source);
   if (IsCloudFile(source)) return OpenClouds(source, "point cloud file", {source});
-  if (bag::IsBag(source)) return OpenBagRecording(source, source, "");
+  if (auto found = OpenAsKind(&RecordingKind::open, source)) return found;
+  std::vector<std::string> extensions = {".las"};
+  for (const RecordingKind& kind : RecordingExtras::Get().kinds) {
+    extensions.insert(extensions.end(), kind.extensions.begin(), kind.extensions.end());
+  }
   throw InputError(ShownPath(source) + ": must be a directory or a " +
-                   ReadableExtensions(true, {".las", ".pcap", ".pcapng", ".mcap", ".db3"}) +
-                   " file");
+                   ReadableExtensions(true, extensions) + " file");
 }
 
 }  // namespace
@@ -131,7 +139,7 @@ std::filesystem::path TopicOfBag(const std::filesystem::path& bag, const std::st
 }
 
 bool IsBagOfTopics(const std::filesystem::path& source) {
-  return bag::IsBag(source);
+  return RecordingExtras::Get().IsOf("--topic", source);
 }
 
 std::unique_ptr<Recording> OpenRecording(const std::filesystem::path& source) {

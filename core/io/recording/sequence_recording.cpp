@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,15 +14,12 @@
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/extras/ros/bag/bag.h"
-#include "core/extras/ros/messages/cdr.h"
-#include "core/extras/ros/messages/point_layout.h"
-#include "core/extras/ros/recording/cloud_message.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/kitti.h"
 #include "core/io/cloud/kitti_names.h"
 #include "core/io/content_hash.h"
 #include "core/io/recording/cloud_frame.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sensor_axes.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/sequence_lines.h"
@@ -68,57 +66,18 @@ void RecomputeRanges(Frame& frame) {
   }
 }
 
-/// A message of a run's bag.
-struct CloudInBag {
-  std::string bag;
-  std::vector<std::byte> cdr;
-};
-
-/// The clouds of a run's bag, which has one for each of the run's frames.
-class CloudsOfBag {
- public:
-  /// @throws InputError "bag: rule" if its clouds cannot be put into the slots of the scan.
-  explicit CloudsOfBag(const SequenceSummary& summary)
-      : file_((summary.directory / summary.run.bag.value().path).lexically_normal()) {
-    if (!exists(file_)) file_ += kUnfinishedSuffix;
-    if (ros::ParseCloudSpec(summary.run.fields, true, true).layout != ros::PointLayout::kRailcast) {
-      throw InputError(ShownPath(summary.directory) + ": must have railcast's fields (got " +
-                       summary.run.fields + "); open " + ShownPath(file_) + " instead");
-    }
-    reader_ = bag::OpenBag(file_);
-    const auto& topics = reader_->topics();
-    const auto found =
-        std::ranges::find(topics, summary.run.bag->topics.front(), &bag::BagTopic::name);
-    if (found == topics.end()) {
-      throw InputError(ShownPath(file_) + ": must have the topic " +
-                       ShownText(summary.run.bag->topics.front()));
-    }
-    reader_->Select({static_cast<std::size_t>(found - topics.begin())});
-  }
-
-  /// @throws InputError "bag: rule" if there is no further cloud.
-  [[nodiscard]] CloudInBag Next() {
-    const auto message = reader_->Next();
-    if (!message) throw InputError(ShownPath(file_) + ": must have a cloud for each frame");
-    return {ShownPath(file_), {message->data.begin(), message->data.end()}};
-  }
-
- private:
-  std::filesystem::path file_;
-  std::unique_ptr<bag::BagReader> reader_;
-};
-
 RecordedFrame ReadCloudInBag(const SequenceContext& context,
                              const CloudInBag& cloud,
                              const std::string& known_hash,
                              bool& has_ranges) {
-  const std::string_view bytes(reinterpret_cast<const char*>(cloud.cdr.data()), cloud.cdr.size());
+  const std::string_view bytes(reinterpret_cast<const char*>(cloud.bytes.data()),
+                               cloud.bytes.size());
   if (ContentHash(bytes) != known_hash) {
     throw InputError(cloud.bag + ": must have the clouds of which " + std::string(kFramesFile) +
                      " states the hashes");
   }
   return AtPlace(cloud.bag + ": ", [&] {
-    const Cloud points = MakeCloud(ros::FromCdr<ros::PointCloud2>(cloud.cdr));
+    const Cloud points = cloud.parse(cloud.bytes);
     has_ranges = points.Find("range_m") != nullptr;
     return MakeScanFrame(points, cloud.bag, context.pattern, true);
   });
@@ -211,7 +170,8 @@ class SequenceRecording : public Recording {
                         .pattern = BuildScanPattern(lidar.scan),
                         .output = info_.scenario->output,
                         .vehicle_from_sensor = VehicleFromSensor(lidar.mount)});
-    if (summary.run.bag) clouds_.emplace(summary);
+    if (!summary.run.bag) return;
+    clouds_ = NeedExtra(RecordingExtras::Get().clouds_of_bag, directory, "ros")(summary);
   }
 
   [[nodiscard]] const RecordingInfo& info() const override { return info_; }
@@ -220,7 +180,7 @@ class SequenceRecording : public Recording {
     auto lines = lines_.Next();
     if (!lines) return std::nullopt;
     std::shared_ptr<const CloudInBag> cloud;
-    if (clouds_) cloud = std::make_shared<const CloudInBag>(clouds_->Next());
+    if (clouds_) cloud = std::make_shared<const CloudInBag>(clouds_());
     return [context = context_, lines = std::move(*lines), cloud = std::move(cloud)] {
       return WithinMemory([&] { return ReadingFrameText(context->directory, lines); },
                           [&] { return ReadFrame(*context, lines, cloud.get()); });
@@ -246,7 +206,7 @@ class SequenceRecording : public Recording {
   RecordingInfo info_;
   std::shared_ptr<const SequenceContext> context_;
   FrameLineReader lines_;
-  std::optional<CloudsOfBag> clouds_;  ///< If the run's clouds are in a bag.
+  std::function<CloudInBag()> clouds_;  ///< If the run's clouds are in a bag.
 };
 
 /// The clouds of a sequence in KITTI's format: read like any KITTI clouds, but checked against

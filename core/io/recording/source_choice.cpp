@@ -4,8 +4,8 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "railcast/io/recording.h"
 
@@ -50,7 +50,7 @@ void UseColumns(const std::string& columns, std::vector<std::filesystem::path>& 
 void UseSensor(const std::string& sensor, std::vector<std::filesystem::path>& sources) {
   std::size_t num_captures = 0;
   for (std::filesystem::path& source : sources) {
-    if (!FindCapture(source)) continue;
+    if (!RecordingExtras::Get().IsOf("--sensor", source)) continue;
     source += ":" + sensor;
     ++num_captures;
   }

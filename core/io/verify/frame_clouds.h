@@ -51,29 +51,4 @@ struct CloudsOfFrame {
   std::string place;  ///< Of the line: "out/frames.jsonl:3".
 };
 
-/// Compares the clouds in a bag with those of a sequence's frames.
-/// @param topics Those of the sensor's clouds.
-/// @param faults Gets a line for each frame whose clouds are missing or others, and for each cloud
-///   that belongs to no frame.
-/// @throws InputError if the bag cannot be read.
-void CompareWithBag(const std::filesystem::path& bag,
-                    const std::vector<std::string>& topics,
-                    const std::vector<CloudsOfFrame>& frames,
-                    ErrorList& faults);
-
-/// Adds a fault if a file is an MCAP file without its end.
-/// @throws InputError if it cannot be read.
-void CheckHasItsEnd(const std::filesystem::path& file, ErrorList& faults);
-
-/// Compares the messages of an OSI trace with a sequence's frames.
-/// @param is_finished Whether the run is: otherwise the trace may hold a frame more, and end within
-///   a message.
-/// @param faults Gets a line for each frame whose message is missing or another, and for what
-///   belongs to no frame.
-/// @throws InputError if the trace cannot be opened.
-void CompareWithTrace(const std::filesystem::path& trace,
-                      const std::vector<CloudsOfFrame>& frames,
-                      bool is_finished,
-                      ErrorList& faults);
-
 }  // namespace railcast

@@ -7,9 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/extras/ros/bag/bag_lines.h"
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/content_hash.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/run/motion_files.h"
 #include "core/io/run/run_folder.h"
@@ -277,11 +277,8 @@ void Verifier::CheckBag() {
   fs::path bag = (summary_.directory / summary_.run.bag->path).lexically_normal();
   const fs::path unfinished = bag.string() + std::string(kUnfinishedSuffix);
   if (!fs::exists(bag) && fs::exists(unfinished)) bag = unfinished;
-  // Bags of 0.2 have no such file.
-  if (!summary_.run.bag->lines.empty())
-    Try([&] { CompareWithBagLines(bag, is_finished, faults_); });
-  CompareWithBag(bag, summary_.run.bag->topics, clouds_, faults_);
-  if (is_finished) CheckHasItsEnd(bag, faults_);
+  const auto verify = NeedExtra(RecordingExtras::Get().verify_bag, bag, "ros");
+  verify(bag, *summary_.run.bag, clouds_, is_finished, faults_);
   ++result_.num_files;
   if (fs::is_regular_file(bag)) result_.num_bytes += fs::file_size(bag);
 }
@@ -290,7 +287,8 @@ void Verifier::CheckTrace() {
   known_.insert(summary_.run.trace);
   fs::path trace = summary_.directory / summary_.run.trace;
   if (!fs::exists(trace) && !summary_.manifest) trace += kUnfinishedSuffix;
-  CompareWithTrace(trace, clouds_, summary_.manifest.has_value(), faults_);
+  const auto verify = NeedExtra(RecordingExtras::Get().verify_trace, trace, "osi");
+  verify(trace, clouds_, summary_.manifest.has_value(), faults_);
   ++result_.num_files;
   result_.num_bytes += fs::file_size(trace);
 }

@@ -175,6 +175,7 @@ DatagramPlace PlaceOfCapture(const std::function<std::FILE*()>& open,
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
+  if (!IsCaptureName(file) || is_directory(file)) return nullptr;
   return OpenDatagrams(PlaceOfFile(file, file, MetadataBeside(file)));
 }
 

@@ -22,6 +22,7 @@ namespace railcast {
 /// the last turn are usually cut short. That of an AT128 needs the sensor's correction file beside
 /// it, with the capture's name and the extension .dat. Other and damaged datagrams are skipped and
 /// counted. Packets that segmentation offload merged into one datagram are cut apart.
+/// Returns null if the file has another extension.
 /// @throws InputError with one line that says what was found if that is no sensor, or names them if
 ///   there are several; reading throws it, too, where a merged datagram ends within a packet.
 [[nodiscard]] std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file);
