@@ -11,8 +11,8 @@
 #include "analysis/report/provenance.h"
 #include "analysis/stats/dataset_overview.h"
 #include "analysis/stats/statistics.h"
-#include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/cloud/track_fields.h"
+#include "core/io/recording/recording_extras.h"
 #include "core/io/recording/recording_kinds.h"
 #include "core/io/recording/sequence_check.h"
 #include "core/io/recording/source_choice.h"
@@ -270,15 +270,14 @@ int RunStats(const StatsOptions& options, const std::string& command_line) {
 
 void AddStats(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<StatsOptions>();
+  std::string kinds;
+  for (const RecordingKind& kind : RecordingExtras::Get().kinds) kinds += kind.help() + ", ";
   ProgramOptions stats = app.AddCommand(
       "stats", "Dropout, density against range, noise, intensity and coverage of point clouds");
   stats
-      .AddOption(
-          "SOURCE", options->sources,
-          "Sequence directory, .pcd or .ply file, directory of such files, .pcap capture of " +
-              ReadableSensorsText() +
-              ", bag of ROS 2 (.mcap, .db3 or rosbag2's directory), or a folder of KITTI's layout "
-              "or a data set; several are summed up")
+      .AddOption("SOURCE", options->sources,
+                 "Sequence directory, .pcd or .ply file, directory of such files, " + kinds +
+                     "or a folder of KITTI's layout or a data set; several are summed up")
       .Required();
   AddSourceChoice(stats, options->choice);
   stats

@@ -1,15 +1,14 @@
-#include <cstdint>
 #include <utility>
 
 #include "analysis/stats/statistics.h"
 #include "core/base/text.h"
-#include "core/extras/packets/recording/capture_recording.h"
-#include "core/extras/packets/recording/packet_order.h"
-#include "core/extras/packets/recording/turn_reader.h"
+#include "core/io/recording/recording_extras.h"
 
 namespace railcast {
 
 std::optional<Section> CaptureSection(const std::vector<std::filesystem::path>& sources) {
+  const auto count = RecordingExtras::Get().count_packets;
+  if (count == nullptr) return std::nullopt;
   Table table{.key = "capture_sensors",
               .title = "Sensors of the capture",
               .note =
@@ -20,16 +19,10 @@ std::optional<Section> CaptureSection(const std::vector<std::filesystem::path>& 
                                    "doubled: Doubled; out_of_order: Out of order; late: Late; "
                                    "damaged: Damaged; refused: Refused")};
   for (const std::filesystem::path& source : sources) {
-    const auto capture = FindCapture(source);
-    if (!capture) continue;
-    for (const TurnReader& reader : CountPackets(*capture)) {
-      const PacketOrder& order = reader.order();
-      table.rows.push_back(
-          {ShownPath(capture->file), reader.sensor().name, reader.sensor().address,
-           PortsText(reader.sensor()), std::uint64_t{reader.num_taken()},
-           std::uint64_t{reader.lost().number}, std::uint64_t{order.doubled().number},
-           std::uint64_t{order.reordered().number}, std::uint64_t{order.late().number},
-           std::uint64_t{reader.damaged().number}, std::uint64_t{reader.refused().number}});
+    for (const SensorPackets& sensor : count(source)) {
+      table.rows.push_back({ShownPath(sensor.capture), sensor.name, sensor.address, sensor.ports,
+                            sensor.taken, sensor.lost, sensor.doubled, sensor.reordered,
+                            sensor.late, sensor.damaged, sensor.refused});
     }
   }
   if (table.rows.empty()) return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -27,8 +28,10 @@ struct RecordingKind {
   /// @throws InputError as OpenRecording().
   using Open = std::unique_ptr<Recording> (*)(const std::filesystem::path& source);
 
+  std::string (*help)() = nullptr;        ///< Names it in help: ".pcap capture of VLP-16 or QT64".
   std::string_view option{};              ///< Picks one of what it holds: "--sensor".
   std::vector<std::string> extensions{};  ///< Of its files, as messages name them.
+  /// Whether a source is of the kind, by its name or by what it holds.
   bool (*is_of)(const std::filesystem::path& source) = nullptr;
   Open open = nullptr;       ///< A file or a directory.
   Open open_more = nullptr;  ///< A file that has more behind its name; asked before all else.
@@ -48,10 +51,23 @@ struct CloudInBag {
   Cloud (*parse)(std::span<const std::byte> bytes) = nullptr;
 };
 
+/// A sensor in a capture, and the numbers of its packets as PacketOrder and TurnReader count them.
+struct SensorPackets {
+  std::filesystem::path capture;
+  std::string name;
+  std::string address;
+  std::string ports;  ///< That they went to.
+  std::uint64_t taken{}, lost{}, doubled{}, reordered{}, late{}, damaged{}, refused{};
+};
+
 /// What extras add to the kinds of recordings, and to what is known of a run's files. What this
 /// build lacks is null.
 struct RecordingExtras {
   std::vector<RecordingKind> kinds;
+
+  /// Counts the packets of each sensor in a capture; empty if `source` is none.
+  /// @throws InputError if it cannot be read.
+  std::vector<SensorPackets> (*count_packets)(const std::filesystem::path& source) = nullptr;
 
   /// Opens the clouds of a run's bag, which has one for each of the run's frames; each call of what
   /// is returned returns the next one.

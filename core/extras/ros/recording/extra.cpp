@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <memory>
+#include <string>
 
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/recording/bag_of_run.h"
@@ -21,11 +22,13 @@ std::unique_ptr<Recording> OpenTopicOfBag(const std::filesystem::path& source) {
 }  // namespace
 
 void AddRos(RecordingExtras& extras) {
-  extras.kinds.push_back({.option = "--topic",
-                          .extensions = {".mcap", ".db3"},
-                          .is_of = bag::IsBag,
-                          .open = OpenWholeBag,
-                          .open_part = OpenTopicOfBag});
+  extras.kinds.push_back(
+      {.help = [] { return std::string("bag of ROS 2 (.mcap, .db3 or rosbag2's directory)"); },
+       .option = "--topic",
+       .extensions = {".mcap", ".db3"},
+       .is_of = bag::IsBag,
+       .open = OpenWholeBag,
+       .open_part = OpenTopicOfBag});
   extras.clouds_of_bag = CloudsOfBag;
   extras.verify_bag = VerifyBag;
 }
