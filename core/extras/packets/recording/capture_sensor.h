@@ -13,7 +13,6 @@
 
 #include "core/extras/packets/ouster/ouster_decoder.h"
 #include "core/extras/packets/recording/capture_metadata.h"
-#include "core/extras/packets/recording/turn_beams.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/io/sensor_turn.h"
 #include "railcast/io/endpoint.h"
@@ -21,6 +20,17 @@
 #include "railcast/lidar.h"
 
 namespace railcast {
+
+/// Gives the beam of a row, 0 the lowest, from the aims of a firing cycle's loops. What has a point
+/// has it on this beam: the decoders compute the same.
+using BeamOfAims = std::function<RecordedBeam(std::span<const TurnAim> loops, std::uint32_t row)>;
+
+[[nodiscard]] BeamOfAims BeamsOfSpinning(const SpinningModel& model);
+[[nodiscard]] BeamOfAims BeamsOfOuster(const OusterMetadata& metadata);
+
+/// Gives the beams of a turn's frame: RecordedFrame::beam_of.
+[[nodiscard]] std::function<RecordedBeam(std::uint32_t row, std::uint32_t column)> BeamsOfTurn(
+    const SensorTurn& turn, const BeamOfAims& beam_of);
 
 /// The rows of a sensor's frames.
 struct TurnShape {

@@ -1,4 +1,4 @@
-#include "core/extras/packets/recording/turn_beams.h"
+#include "core/extras/packets/recording/capture_sensor.h"
 
 #include <cmath>
 #include <cstddef>
