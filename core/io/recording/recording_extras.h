@@ -28,17 +28,18 @@ struct RecordingKind {
   /// @throws InputError as OpenRecording().
   using Open = std::unique_ptr<Recording> (*)(const std::filesystem::path& source);
 
-  std::string (*help)() = nullptr;        ///< Names it in help: ".pcap capture of VLP-16 or QT64".
-  std::string_view option{};              ///< Picks one of what it holds: "--sensor".
-  std::vector<std::string> extensions{};  ///< Of its files, as messages name them.
+  std::string (*help)();                ///< Names it in help: ".pcap capture of VLP-16 or QT64".
+  std::string_view option;              ///< Picks one of what it holds: "--sensor".
+  std::vector<std::string> extensions;  ///< Of its files, as messages name them.
   /// Whether a source is of the kind, by its name or by what it holds.
-  bool (*is_of)(const std::filesystem::path& source) = nullptr;
-  Open open = nullptr;       ///< A file or a directory.
+  bool (*is_of)(const std::filesystem::path& source);
+  Open open;                 ///< A file or a directory.
   Open open_more = nullptr;  ///< A file that has more behind its name; asked before all else.
   Open open_part = nullptr;  ///< A part of a file; asked if nothing has the name of `source`.
-  /// Returns what stands behind the name of a copy, with its colon.
+  /// Returns what stands behind the name of a copy, with its colon; null: the same as behind that
+  /// of the recording.
   /// @param folder Holds the copy, and those of the files that `behind` names.
-  /// @param behind What stands behind the recording's name and its colon; null: the same.
+  /// @param behind What stands behind the recording's name and its colon.
   std::string (*behind_copy)(const std::filesystem::path& folder,
                              const std::string& behind) = nullptr;
 };
