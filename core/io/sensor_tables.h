@@ -21,9 +21,6 @@ struct SensorTableName {
 };
 [[nodiscard]] std::vector<SensorTableName> SensorTableNames();
 
-/// The text of spinning/packets.json: the packets of these sensors.
-[[nodiscard]] std::string_view PacketTable();
-
 /// The whole text of the file of a sensor that calls itself so: "VLP-16". Absent if the program
 /// holds none.
 [[nodiscard]] std::optional<std::string_view> SensorFileOf(std::string_view product);

@@ -162,6 +162,9 @@ inline constexpr std::uint8_t kFirstAndLastMode = 0x3B;
 /// All models.
 [[nodiscard]] const std::vector<SpinningModel>& SpinningModels();
 
+/// The text of packets.json, of which these are.
+[[nodiscard]] std::string_view PacketTable();
+
 /// The model whose packets a protocol sends, or null if it is not one of these sensors'.
 [[nodiscard]] const SpinningModel* FindSpinningModel(std::string_view protocol);
 
