@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/error.h"
 #include "core/scene/object_pieces.h"
 #include "core/simulate/swaying.h"
 #include "railcast/simulator.h"
@@ -112,6 +113,7 @@ SceneStore::StoredObject SceneStore::MakeObject(const SceneObject& object) {
 }
 
 Surface SceneStore::MakeSurface(const Part& part, std::uint32_t instance, bool is_ego) const {
+  Check(part.material < materials_.size(), "a simulator has all materials of its world");
   return {.label = part.label,
           .instance = instance,
           .reflectivity = static_cast<float>(materials_[part.material].reflectivity),

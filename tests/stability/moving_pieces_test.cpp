@@ -12,9 +12,9 @@
 #include "core/base/units.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/simulator.h"
 #include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
-#include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/triangle_search.h"
 
@@ -56,8 +56,9 @@ RangeErrors ErrorsOn(const ObjectSpec& spec) {
   WorldSpec bare = BareWithSecondTrack(scenario.world);
   bare.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, 700.0, 300.0}}};
   bare.objects = {spec};
-  const auto world = std::make_shared<const RailWorld>(
-      bare, scenario.vehicle, LabelTable(scenario.labels), MaterialLibrary(scenario.materials), 7);
+  const MaterialLibrary materials(scenario.materials);
+  const auto world = std::make_shared<const RailWorld>(bare, scenario.vehicle,
+                                                       LabelTable(scenario.labels), materials, 7);
   const SceneObject& object = world->objects().front();
   EXPECT_GT(object.pieces.size(), 1U);
   const ScanPattern pattern = MakeRaster(36.0, 24.0, 0.2);
@@ -67,7 +68,8 @@ RangeErrors ErrorsOn(const ObjectSpec& spec) {
       VehicleFromSensorAimedAt(world->WorldFromVehicle(0).inverse() *
                                    (world->WorldFromObject(0, stamp_ns) * Vector3(0, 0, 1.0)),
                                3.0);
-  const Frame frame = ScanOnce(world, pattern, simulator, kPassingFrame);
+  Frame frame;
+  Simulator(world, pattern, materials, simulator, 0).Scan(kPassingFrame, frame);
   const Transform world_from_sensor = world->WorldFromVehicle(0) * simulator.vehicle_from_sensor;
   const std::vector<Transform> at_stamp = world->WorldFromPieces(0, stamp_ns);
   RangeErrors errors;

@@ -7,7 +7,7 @@
 namespace railcast {
 namespace {
 
-std::string ValueText(const Json& value) {
+std::string IdentityText(const Json& value) {
   if (value.is_null()) return "nothing";
   if (value.is_string()) return ShownText(value.get_ref<const std::string&>());
   return value.is_primitive() ? value.dump() : value.type_name();
@@ -20,8 +20,8 @@ std::string ProgramDifference(const std::string& key,
                               const FolderIdentity& identity) {
   const bool is_isa = key == "isa";
   const std::string what = is_isa ? "instruction set" : key == "embree" ? "Embree" : "railcast";
-  const std::string got = ValueText(found) + " (got " + ValueText(ours) + "); ";
-  const std::string same = is_isa ? "add --isa " + ValueText(found) : "use that one";
+  const std::string got = IdentityText(found) + " (got " + IdentityText(ours) + "); ";
+  const std::string same = is_isa ? "add --isa " + IdentityText(found) : "use that one";
   if (identity.is_complete) {
     return "is complete, made " + std::string(is_isa ? "with " : "by ") + what + " " + got + same +
            ", or " + identity.advice;
@@ -43,7 +43,7 @@ const Json& MemberOf(const Json& object, const std::string& key) {
 }
 
 std::string ValuesText(const std::string& name, const Json& found, const Json& ours) {
-  return "its " + name + " is " + ValueText(found) + " (got " + ValueText(ours) + ")";
+  return "its " + name + " is " + IdentityText(found) + " (got " + IdentityText(ours) + ")";
 }
 
 bool TakeFolder(const FolderIdentity& ours, const std::string& run, const DifferenceText& text_of) {

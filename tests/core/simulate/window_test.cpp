@@ -192,8 +192,10 @@ TEST(WindowSource, DrivingForwardBuildsEachChunkAndEachWindowOnce) {
   for (int home = 0; home < 20; ++home) {
     for (int frame = 0; frame < 5; ++frame) {
       EXPECT_NE(line.windows.Get(home), nullptr);
-      line.windows.Prepare(home + 1);
-      WaitUntil([&] { return line.world->num_windows >= home + 2; });
+      WaitUntil([&] {
+        line.windows.Prepare(home + 1);  // Ignored until the thread is done with the previous one.
+        return line.world->num_windows >= home + 2;
+      });
     }
   }
   EXPECT_NE(line.windows.Get(20), nullptr);

@@ -30,9 +30,10 @@ constexpr const char* kPadded = "FIELDS x _ n _\nSIZE 4 1 2 1\nTYPE F U U U\nCOU
 
 TEST(PcdReader, SkipsFieldsOfCountZero) {
   const std::string lines = "0.5 7 1 1\n1.5 8 2 2\n";
-  const CloudFile read = ParsePcdFile("a.pcd", PcdText(kPadded, lines));
+  const std::string text = PcdText(kPadded, lines);
+  const CloudFile read = ParsePcdFile("a.pcd", text);
   EXPECT_THAT(PcdValues(read.cloud, "n"), ElementsAre(7, 8));
-  EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{PcdText(kPadded, lines)});
+  EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{text});
   EXPECT_EQ(MessageOf([&] {
               (void)ParsePcdFile("a.pcd", PcdText("FIELDS x\nSIZE 4\nTYPE F\nCOUNT 0\n", "\n\n"));
             }),

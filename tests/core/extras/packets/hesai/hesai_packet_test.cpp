@@ -215,7 +215,7 @@ std::string WhyNoCapture(const std::string& name) {
   return std::filesystem::exists(file) ? "" : file + " is not there";
 }
 
-Packets RealPackets(const std::string& name) {
+Packets RealPacketsOf(const std::string& name) {
   if (const std::string file = RealCaptureFile(name); !file.empty()) return PacketsOf(file);
   const TemporaryDirectory folder;
   return PacketsOf(CaptureOfHesaiBag(name, folder));
@@ -227,7 +227,7 @@ TEST_P(SpinningPacketOf, ARealCaptureIsRemadeByteByByte) {
   const std::string name = GetParam().name;
   const auto& [_, first, per_cycle, num_expected] = GetParam();
   if (const std::string why = WhyNoCapture(name); !why.empty()) GTEST_SKIP() << why;
-  const Packets packets = RealPackets(name);
+  const Packets packets = RealPacketsOf(name);
   const bool is_dated = !name.starts_with("v");
   const SpinningModel& model =
       is_dated ? ModelOfSize(name, packets[0].size()) : *FindSpinningModel(name);
@@ -271,7 +271,7 @@ INSTANTIATE_TEST_SUITE_P(Captures,
 // A QT128's: of the blocks, of the functional safety without its version, of the rest.
 TEST(HesaiCrc, IsThatOfEveryPacketOfARealSensor) {
   if (const std::string why = WhyNoHesaiBag("qt128"); !why.empty()) GTEST_SKIP() << why;
-  const Packets packets = RealPackets("qt128");
+  const Packets packets = RealPacketsOf("qt128");
   ASSERT_EQ(packets.size(), 1800U);
   for (const std::vector<char>& packet : packets) {
     const std::span<const char> bytes(packet);

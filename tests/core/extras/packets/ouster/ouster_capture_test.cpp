@@ -18,7 +18,7 @@
 namespace railcast {
 namespace {
 
-std::size_t NumPoints(const Frame& frame) {
+std::size_t NumOusterPoints(const Frame& frame) {
   std::size_t num = 0;
   for (const float x : frame.x) num += std::isnan(x) ? 0 : 1;
   return num;
@@ -57,7 +57,7 @@ TEST(OusterRecording, HasAGridOfBeamsAndColumnsWithAllThatPixelsSay) {
       num_ranges += layout.PixelOf(packet, i / 128, i % 128).returns[0].range_mm > 0 ? 1 : 0;
     }
   }
-  EXPECT_EQ(NumPoints(frame), num_ranges);
+  EXPECT_EQ(NumOusterPoints(frame), num_ranges);
 }
 
 TEST(OusterRecording, TakesTheMetadataThatAreNamedBehindTheCapture) {
