@@ -12,10 +12,10 @@
 #include "core/base/units.h"
 #include "core/scenario/object_types.h"
 #include "railcast/rail_world.h"
+#include "railcast/simulator.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/stability/regime.h"
 #include "tests/support/bare_line.h"
-#include "tests/support/scan_once.h"
 #include "tests/support/sensor_sector.h"
 
 namespace railcast {
@@ -106,7 +106,9 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
     spec.vehicle_from_sensor = VehicleFromSensorAimedAt(
         world->WorldFromVehicle(time_ns).inverse() * MiddleOf(*world, 0, time_ns).point_world,
         kSensorAbove_m);
-    return ScanOnce(world, pattern, spec, frame_index);
+    Frame frame;
+    Simulator(world, pattern, materials_, spec, 0).Scan(frame_index, frame);
+    return frame;
   }
 
   void ExpectItIsReturned(bool moves) const {
