@@ -103,10 +103,10 @@ TEST(KittiReader, ReadsTheColumnsThatAreChosen) {
   ASSERT_NE(nuscenes.Find("ring"), nullptr);
   VisitField(nuscenes, *nuscenes.Find("ring"),
              [](std::size_t i, auto value) { ASSERT_EQ(static_cast<std::size_t>(value), i % 16); });
-  const CloudFile doubles = ParseKittiColumns("a.bin", BinRoom<double>(4), {}, "float64");
+  const std::string bytes = BinRoom<double>(4);
+  const CloudFile doubles = ParseKittiColumns("a.bin", bytes, {}, "float64");
   EXPECT_EQ(doubles.cloud.Find("x")->type, NumberType::kDouble);
-  EXPECT_EQ(Rewritten(doubles, {doubles.cloud.data, std::vector<std::uint32_t>(640)}).at(0),
-            BinRoom<double>(4));
+  EXPECT_EQ(Rewritten(doubles, {doubles.cloud.data, std::vector<std::uint32_t>(640)}).at(0), bytes);
   EXPECT_NE(ParseKittiColumns("a.bin", BinRoom<float>(7), {}, "7").cloud.Find("number_7"), nullptr);
   EXPECT_TRUE(IsKittiColumns("16"));
   for (const char* const none : {"", "2", "17", "kitti", "5x"}) EXPECT_FALSE(IsKittiColumns(none));

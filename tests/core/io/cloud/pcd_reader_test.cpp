@@ -77,10 +77,11 @@ TEST(PcdReader, ReadsACloudWithoutPoints) {
 TEST(PcdReader, KeepsAllDigitsOfTextWhateverItsSizeSays) {
   const std::string fields = "FIELDS x intensity\nSIZE 4 4\nTYPE F F\nCOUNT 1 1\n";
   const std::string lines = "456789.15 40000\n456790.12 50000.0\n";
-  const CloudFile read = ParsePcdFile("a.pcd", PcdText(fields, lines));
+  const std::string text = PcdText(fields, lines);
+  const CloudFile read = ParsePcdFile("a.pcd", text);
   EXPECT_THAT(PcdValues(read.cloud, "x"), ElementsAre(456789.15, 456790.12));
   EXPECT_EQ(read.cloud.Find("intensity")->type, NumberType::kFloat);  // It holds these.
-  EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{PcdText(fields, lines)});
+  EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{text});
 }
 
 TEST(PcdReader, SaysThatItDoesNotUseTheViewpoint) {
