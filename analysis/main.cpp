@@ -2,12 +2,12 @@
 
 #include "analysis/analysis_extras.h"
 #include "analysis/commands.h"
-#include "core/base/error.h"
 
 namespace {
 
 /// Adds a command of an extra. In a build without it, the command says so.
-void AddOfExtra(const std::string& name,
+void AddOfExtra(const std::string& extra,
+                const std::string& name,
                 railcast::ProgramOptions& app,
                 railcast::ProgramCommand& command) {
   const auto& commands = railcast::AnalysisExtras::Get().commands;
@@ -15,28 +15,23 @@ void AddOfExtra(const std::string& name,
     found->second(app, command);
     return;
   }
-  app.AddForeignCommand(name, "Not installed").WhenParsed([&command, name] {
-    command = [name](const std::string&) -> int {
-      throw railcast::InputError("railcast-analyze: " + name +
-                                 " belongs to an extra, which is not installed");
-    };
-  });
+  railcast::AddMissingCommand(name, extra, app, command);
 }
 
 void AddCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   app.RequireCommand();
   railcast::AddStats(app, command);
   railcast::AddInspect(app, command);
-  AddOfExtra("card", app, command);
+  AddOfExtra("card", "card", app, command);
   railcast::AddCompare(app, command);
   railcast::AddDetect(app, command);
-  AddOfExtra("evaluate", app, command);
-  AddOfExtra("sight", app, command);
-  AddOfExtra("study", app, command);
-  AddOfExtra("dossier", app, command);
-  AddOfExtra("fit", app, command);
+  AddOfExtra("detectors", "evaluate", app, command);
+  AddOfExtra("sight", "sight", app, command);
+  AddOfExtra("study", "study", app, command);
+  AddOfExtra("dossier", "dossier", app, command);
+  AddOfExtra("fit", "fit", app, command);
   railcast::AddFrontier(app, command);
-  AddOfExtra("preset", app, command);
+  AddOfExtra("preset", "preset", app, command);
   railcast::AddReceive(app, command);
   railcast::AddVerify(app, command);
 }

@@ -18,7 +18,7 @@ struct OwnProgram {
   const char* command;
   const char* description;
   const char* program;  ///< Stands beside railcast-generate.
-  const char* package;  ///< Of Debian.
+  const char* extra;    ///< That has the command.
 };
 
 /// All of them, whether or not they are there.
@@ -26,24 +26,24 @@ inline constexpr auto kOwnPrograms = std::to_array<OwnProgram>(
     {{"insert",
       "Put objects and weather into a recording; run the same command again to continue an "
       "interrupted run",
-      "railcast-recordings", "railcast"},
+      "railcast-recordings", "insert"},
      {"convert",
       "Write a recording or a data set in another format; run the same command again to continue "
       "an interrupted run",
-      "railcast-recordings", "railcast"},
+      "railcast-recordings", "convert"},
      {"replay", "Send a recording at its own pace, faster, or step by step", "railcast-recordings",
-      "railcast"},
+      "replay"},
      {"dataset",
       "Write labelled frames of many scenarios, drawn as a recipe says; run the same command again "
       "to continue an interrupted run",
-      "railcast-recordings", "railcast"},
+      "railcast-recordings", "dataset"},
      {"merge",
       "Make one data set of the folders of all its shards, with the bytes of a run without shards",
-      "railcast-recordings", "railcast"},
+      "railcast-recordings", "dataset"},
      {"survey", "Make the scene of a scenario from recordings with poses or from survey clouds",
-      "railcast-recordings", "railcast"},
+      "railcast-recordings", "survey"},
      {"import", "Fit the lines of a map and write them as alignments", "railcast-import",
-      "railcast-import"}});
+      "import"}});
 
 [[nodiscard]] constexpr const OwnProgram& OwnProgramOf(std::string_view command) {
   return *std::ranges::find(kOwnPrograms, command, &OwnProgram::command);

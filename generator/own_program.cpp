@@ -20,9 +20,7 @@ std::filesystem::path FindProgram(const OwnProgram& own) {
   for (const std::filesystem::path& program : {built, installed}) {
     if (std::filesystem::exists(program)) return program;
   }
-  throw InputError(std::string("railcast-generate: ") + own.command + " is a program of its own, " +
-                   installed.string() + ", which is not installed (Debian package " + own.package +
-                   ")");
+  throw LacksExtra(std::string("railcast-generate ") + own.command, own.extra);
 }
 
 /// @param arguments What follows the command.

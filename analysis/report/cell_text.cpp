@@ -70,7 +70,7 @@ std::string Plain(double value) {
   return text;
 }
 
-std::string Interval(const std::string& low, const std::string& high) {
+std::string IntervalText(const std::string& low, const std::string& high) {
   return Joined({"[", low, ", ", high, "]"});
 }
 
@@ -95,18 +95,18 @@ CellText EstimateText(const Estimate& estimate) {
         std::clamp(Magnitude(largest) - Magnitude(half_width) + kIntervalDigits, 1, kMaxDigits);
     const auto printed = [&](double value) { return Printed("%.*e", digits - 1, value); };
     text.value = printed(estimate.value);
-    text.interval = Interval(printed(estimate.low), printed(estimate.high));
+    text.interval = IntervalText(printed(estimate.low), printed(estimate.high));
     return text;
   }
   if (half_width <= 0.0) {
     text.value = Plain(estimate.value);
-    text.interval = Interval(Plain(estimate.low), Plain(estimate.high));
+    text.interval = IntervalText(Plain(estimate.low), Plain(estimate.high));
     return text;
   }
   const int decimals =
       std::min(kIntervalDigits - 1 - Magnitude(half_width), kMaxDigits - 1 - Magnitude(largest));
   text.value = Rounded(estimate.value, decimals);
-  text.interval = Interval(Rounded(estimate.low, decimals), Rounded(estimate.high, decimals));
+  text.interval = IntervalText(Rounded(estimate.low, decimals), Rounded(estimate.high, decimals));
   return text;
 }
 

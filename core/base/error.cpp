@@ -75,4 +75,12 @@ bool UnknownPlaces::IsKnown(std::string_view pointer) const {
   }
 }
 
+InputError LacksExtra(const std::string& what, const std::string& extra) {
+  std::string option = extra;
+  std::ranges::transform(option, option.begin(), [](char c) { return c - 'a' + 'A'; });
+  return InputError(what + ": needs the extra " + extra +
+                    ", which is not installed (Debian package railcast-" + extra +
+                    "; to build it, -D RAILCAST_BUILD_" + option + "=ON)");
+}
+
 }  // namespace railcast

@@ -92,6 +92,10 @@ auto Attempt(const std::string& place, ErrorList& errors, const Make& make)
   }
 }
 
+/// Returns what says that this railcast lacks an extra, and how it comes.
+/// @param what What needs it: "a.mcap".
+[[nodiscard]] InputError LacksExtra(const std::string& what, const std::string& extra);
+
 /// JSON pointers of values that are unknown because they contain a fault. Rules are applied to
 /// known values only, so that one fault does not cause further messages.
 class UnknownPlaces {

@@ -190,4 +190,13 @@ int ProgramMain(const ProgramSpec& spec, int argc, char** argv) {
       spec.name, [&] { return ParseAndRun(spec, argc, argv); }, std::cerr);
 }
 
+void AddMissingCommand(const std::string& name,
+                       const std::string& extra,
+                       ProgramOptions& app,
+                       ProgramCommand& command) {
+  app.AddForeignCommand(name, "Not installed").WhenParsed([&command, name, extra] {
+    command = [name, extra](const std::string& /*all*/) -> int { throw LacksExtra(name, extra); };
+  });
+}
+
 }  // namespace railcast

@@ -50,6 +50,12 @@ inline constexpr int kExitInterrupted = 130;  ///< The status of shells after Ct
 /// @throws InputError on bad input.
 using ProgramCommand = std::function<int(const std::string& command_line)>;
 
+/// Adds a command of an extra that this railcast lacks: it says so.
+void AddMissingCommand(const std::string& name,
+                       const std::string& extra,
+                       ProgramOptions& app,
+                       ProgramCommand& command);
+
 /// What distinguishes one program from another.
 struct ProgramSpec {
   std::string name;         ///< For example "railcast-view".

@@ -1,17 +1,23 @@
 // The program that railcast-generate runs for what works on recordings.
-#include "generator/extras/commands.h"
+#include <string_view>
+
+#include "generator/commands.h"
+#include "generator/extras/recording_commands.h"
 
 namespace {
 
 void AddCommandsOfRecordings(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
   app.RequireCommand();
   app.AddFlag("-v,--verbose", "Print details of each step");
-  railcast::AddInsert(app, command);
-  railcast::AddConvert(app, command);
-  railcast::AddReplay(app, command);
-  railcast::AddDataset(app, command);
-  railcast::AddMerge(app, command);
-  railcast::AddSurvey(app, command);
+  const auto& built = railcast::RecordingCommands::Get().commands;
+  for (const railcast::OwnProgram& own : railcast::kOwnPrograms) {
+    if (own.program != std::string_view("railcast-recordings")) continue;
+    if (const auto found = built.find(own.command); found != built.end()) {
+      found->second(app, command);
+    } else {
+      railcast::AddMissingCommand(own.command, own.extra, app, command);
+    }
+  }
 }
 
 }  // namespace

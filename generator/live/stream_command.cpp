@@ -126,8 +126,7 @@ void CheckIsBuilt(Protocol protocol) {
   const bool has_packets = extras.packets.has_value();
   if (protocol == Protocol::kRailcast || (is_for_ros ? extras.ros.has_value() : has_packets))
     return;
-  throw InputError("protocol " + std::string(NameOf(protocol)) + ": needs the extra " +
-                   (is_for_ros ? "ros" : "packets") + ", which this build does not have");
+  throw LacksExtra("protocol " + std::string(NameOf(protocol)), is_for_ros ? "dds" : "packets");
 }
 
 std::vector<SensorStreamSpec> PlanStreams(const StreamOptions& options,

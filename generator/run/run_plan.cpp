@@ -30,8 +30,7 @@ void CheckHasExtra(const FrameFormat& format) {
   const RunExtras& extras = RunExtras::Get();
   const bool lacks_bags = !format.bag.empty() && extras.find_bag == nullptr;
   if (!lacks_bags && (format.trace.empty() || extras.plan_trace != nullptr)) return;
-  throw InputError("--format " + std::string(format.name) + ": needs the extra " +
-                   (lacks_bags ? "ros" : "osi") + ", which this build does not have");
+  throw LacksExtra("--format " + std::string(format.name), lacks_bags ? "ros" : "osi");
 }
 
 // Chooses what is stored of each point.

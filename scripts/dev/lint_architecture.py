@@ -20,12 +20,12 @@ ROOM_ORDERS = {
                  "world".split(),
     "core/detect": "base kernels clutter detector beam effects".split(),
     "core/io": ". image cloud record run net stream recording verify".split(),
-    # An extra names here the extras that it uses: those before it.
-    "core/extras": "packets ros osi recipe".split(),
+    # Of those before it, an extra includes those that its CMakeLists.txt names (lint_extras).
+    "core/extras": "packets ros dds osi recipe".split(),
     "core/extras/packets": "velodyne spinning pcap ouster recording".split(),
-    "core/extras/ros": "messages mcap bag dds recording".split(),
+    "core/extras/ros": "messages mcap bag recording".split(),
     "generator": ". run check sequence live trace world extras python".split(),
-    "generator/extras": ". ros osi packets insert replay dataset convert survey import".split(),
+    "generator/extras": ". packets ros dds osi insert replay dataset convert survey import".split(),
     "generator/extras/insert": ". plan firings clouds packets run".split(),
     "generator/extras/import": "map fit heights lines network structures .".split(),
     "analysis": "estimate report limits pictures stats inspect compare detectability frontier receive . extras".split(),
@@ -67,8 +67,8 @@ LIBRARY_OWNERS = {
     "CLI11": (r"CLI/", ("core/program",)),
     "Mustache": (r"kainjow/", ("analysis/report",)),
     "spdlog": (r"spdlog/", PROGRAMS),
-    "Cyclone DDS": (r"dds/", ("core/extras/ros/dds",)),
-    "protobuf": (r"google/protobuf/|osi_sensor_view\.pb\.h", ("core/extras/osi",)),
+    "Cyclone DDS": (r"dds/", ("core/extras/dds",)),
+    "protobuf": (r"google/protobuf/|osi_sensor_view\.pb\.h", ("generator/extras/osi",)),
     "SQLite": (r"sqlite3\.h$", ("core/extras/ros/bag",)),
     "libsystemd": (r"systemd/", ("generator/live",)),
     "NLopt": (r"nlopt\.hpp$", ("analysis/estimate",)),
@@ -94,7 +94,10 @@ TYPE_DEFINITION = re.compile(
     r"|using\s+(\w+)\s*=)", re.MULTILINE)
 
 # Sources compiled as one library; release builds compile several of them in one translation unit.
-LIBRARIES = ("core/c", "core/io", "core/points", "core/extras", "core/program", "core", *PROGRAMS)
+# Each extra is a library of its own.
+LIBRARIES = ("core/c", "core/io", "core/points", "core/program", "core", "generator/python", *PROGRAMS)
+EXTRA = re.compile(r"(core|generator|analysis)/extras/(\w+)/")
+USED_EXTRAS = re.compile(r"^railcast_extra\(\s*USES ((?:\w+/\w+\s+)+)", re.MULTILINE)
 ANONYMOUS_FUNCTION = re.compile(
     r"^(?!using|return|template|TEST|struct|class|enum)(?:\[\[\w+\]\] )?[\w:<>,&*][\w:<>,&* ]*?[ *&](\w+)\(",
     re.MULTILINE)
@@ -295,7 +298,8 @@ def lint_anonymous_names(sources):
     for source in sources.values():
         if source.is_header or is_within(source.folder, "tests"):
             continue
-        library = next(name for name in LIBRARIES if is_within(source.folder, name))
+        extra = EXTRA.match(source.name)
+        library = extra[0] if extra else next(name for name in LIBRARIES if is_within(source.folder, name))
         for block in ANONYMOUS_NAMESPACE.finditer(source.text):
             for pattern in (ANONYMOUS_FUNCTION, ANONYMOUS_CONSTANT):
                 for match in pattern.finditer(block[0]):
@@ -313,6 +317,26 @@ def count_lines(root):
     counts = [(path.relative_to(root).as_posix(), len(path.read_text("utf-8").splitlines()))
               for path in paths]
     return sorted(counts, key=lambda count: (-count[1], count[0]))
+
+
+def lint_extras(root, sources):
+    """Yields what extras include of other extras that their CMakeLists.txt does not name, nor those that it names."""
+    used = {}
+    for path in root.glob("*/extras/*/CMakeLists.txt"):
+        match = USED_EXTRAS.search(path.read_text(encoding="utf-8"))
+        folder, _, name = path.parent.relative_to(root).parts
+        used[f"{folder}/{name}"] = match[1].split() if match else []
+
+    def reached(extra):
+        return {extra}.union(*(reached(other) for other in used.get(extra, [])))
+
+    for source in sources.values():
+        extra = EXTRA.match(source.name)
+        for line, own, _ in source.includes:
+            other = own and EXTRA.match(own)
+            if extra and other and f"{other[1]}/{other[2]}" not in reached(f"{extra[1]}/{extra[2]}"):
+                yield (f"{source.name}:{line}: an extra's CMakeLists.txt names the extras that it uses "
+                       f"({other[1]}/{other[2]})")
 
 
 def lint_sizes(root):
@@ -338,7 +362,7 @@ def lint(root):
     """Every fault of the tree at `root`."""
     sources = read_sources(root)
     return [*lint_includes(sources), *lint_rooms(sources), *lint_cycles(sources), *lint_units(sources),
-            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root),
+            *lint_unique_types(sources), *lint_anonymous_names(sources), *lint_sizes(root), *lint_extras(root, sources),
             *lint_listed_sources(root), *lint_named_rooms(root)]
 
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/scenario/command.h"
-#include "generator/extras/ros/twist_message.h"
+#include "generator/extras/dds/twist_message.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace railcast {

@@ -102,6 +102,20 @@ class IncludeDirection(unittest.TestCase):
                                   '#include <pcl/io/pcd_io.h>\n#include <OpenMesh/Core/IO/MeshIO.hh>\n',
         }), [])
 
+    def test_an_extra_includes_what_those_use_that_its_list_names(self):
+        files = {
+            "core/extras/packets/pcap/a.h": "",
+            "core/extras/ros/bag/b.h": '#include "core/extras/packets/pcap/a.h"\n',
+            "core/extras/ros/CMakeLists.txt": "railcast_extra(\n  USES core/packets\n  SOURCES b.cpp)\n",
+            "generator/extras/ros/c.cpp": '#include "core/extras/packets/pcap/a.h"\n',
+            "generator/extras/ros/CMakeLists.txt": "railcast_extra(\n  USES core/ros\n  SOURCES c.cpp)\n",
+        }
+        self.assertEqual(faults_of(files), [])
+        files["core/extras/ros/CMakeLists.txt"] = "railcast_extra(\n  SOURCES b.cpp)\n"
+        self.assertEqual(faults_of(files), [
+            "core/extras/ros/bag/b.h:1: an extra's CMakeLists.txt names the extras that it uses (core/packets)",
+            "generator/extras/ros/c.cpp:1: an extra's CMakeLists.txt names the extras that it uses (core/packets)"])
+
     def test_our_own_files_are_included_from_the_root(self):
         self.assertEqual(faults_of({"core/base/error.cpp": '#include "error.h"\n'}), [
             'core/base/error.cpp:1: our own files are included from the root ("error.h")'])

@@ -116,8 +116,7 @@ template <typename Function>
                                   const std::filesystem::path& file,
                                   const std::string& extra) {
   if (added != nullptr) return added;
-  throw InputError(ShownPath(file) + ": needs the extra " + extra +
-                   ", which this build does not have");
+  throw LacksExtra(ShownPath(file), extra);
 }
 
 }  // namespace railcast

@@ -11,9 +11,10 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/stop_signals.h"
-#include "generator/extras/commands.h"
+#include "generator/commands.h"
 #include "generator/extras/convert/convert.h"
 #include "generator/extras/insert/run/insert_run.h"
+#include "generator/extras/recording_commands.h"
 #include "generator/sequence/summary.h"
 
 namespace railcast {
@@ -60,8 +61,6 @@ int RunConvertCommand(ConvertOptions options) {
   return kExitInterrupted;
 }
 
-}  // namespace
-
 void AddConvert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ConvertOptions>();
   ConvertChoices& choices = options->choices;
@@ -91,6 +90,12 @@ void AddConvert(ProgramOptions& app, ProgramCommand& command) {
   convert.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunConvertCommand(*options); };
   });
+}
+
+}  // namespace
+
+void AddConvert(RecordingCommands& extras) {
+  extras.commands["convert"] = AddConvert;
 }
 
 }  // namespace railcast

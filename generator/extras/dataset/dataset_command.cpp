@@ -15,11 +15,12 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
+#include "generator/commands.h"
 #include "generator/empty_folder.h"
-#include "generator/extras/commands.h"
 #include "generator/extras/dataset/dataset_report.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
 #include "generator/extras/dataset/run_dataset.h"
+#include "generator/extras/recording_commands.h"
 #include "generator/run/run_options.h"
 
 namespace railcast {
@@ -149,8 +150,6 @@ int RunMerge(const MergeOptions& options) {
   return kExitSuccess;
 }
 
-}  // namespace
-
 void AddDataset(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<DatasetOptions>();
   ProgramOptions dataset = app.AddCommand("dataset", OwnProgramOf("dataset").description);
@@ -187,6 +186,13 @@ void AddMerge(ProgramOptions& app, ProgramCommand& command) {
   merge.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunMerge(*options); };
   });
+}
+
+}  // namespace
+
+void AddDataset(RecordingCommands& extras) {
+  extras.commands["dataset"] = AddDataset;
+  extras.commands["merge"] = AddMerge;
 }
 
 }  // namespace railcast

@@ -21,8 +21,8 @@
 #include "core/base/text.h"
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
+#include "generator/commands.h"
 #include "generator/empty_folder.h"
-#include "generator/extras/commands.h"
 #include "generator/extras/import/import_files.h"
 #include "generator/extras/import/lines/divided_line.h"
 #include "generator/extras/import/lines/imported_line.h"
@@ -429,8 +429,6 @@ void AddHeightOptions(ProgramOptions& subcommand,
       .Excludes(heights);
 }
 
-}  // namespace
-
 void AddImport(ProgramOptions& app, ProgramCommand& command) {
   constexpr NumberRule kLength{1.0, 1e6};     // In m.
   constexpr NumberRule kSigma{0.001, 100.0};  // In m.
@@ -478,4 +476,18 @@ void AddImport(ProgramOptions& app, ProgramCommand& command) {
   });
 }
 
+void AddCommand(ProgramOptions& app, ProgramCommand& command) {
+  app.RequireCommand();
+  AddImport(app, command);
+}
+
+}  // namespace
 }  // namespace railcast
+
+int main(int argc, char** argv) {
+  return railcast::ProgramMain({.name = "railcast-generate",
+                                .description = "Makes railcast's alignments and worlds from maps.",
+                                .footer = railcast::kExitStatusText,
+                                .add = railcast::AddCommand},
+                               argc, argv);
+}

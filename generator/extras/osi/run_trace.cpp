@@ -15,7 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/extras/osi/sensor_view.h"
+#include "generator/extras/osi/sensor_view.h"
 #include "core/extras/osi/trace_file.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/io/run/run_folder.h"
@@ -250,9 +250,6 @@ void OsiTrace::Close() {
 }
 
 void CheckTrace(const RunChoices& choices) {
-  // Whether this program writes traces, and only then whether all else is right for them.
-  const std::string option = "--format " + choices.format + ": ";
-  AtPlace(option, [] { static_cast<void>(osi::ProtobufVersion()); });
   if (choices.fields == "all") return;
   throw InputError("--fields: OSI's are fixed, so it must be left out with --format " +
                    choices.format + " (got " + choices.fields + ")");

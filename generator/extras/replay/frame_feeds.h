@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/ros/dds/participant.h"
+#include "core/extras/dds/participant.h"
 #include "core/extras/ros/messages/point_layout.h"
 #include "generator/extras/replay/replay_feed.h"
-#include "generator/extras/ros/ros_writers.h"
+#include "generator/extras/dds/ros_writers.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "railcast/io/stream.h"

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/extras/ros/bag/bag.h"
-#include "core/extras/ros/dds/participant.h"
+#include "core/extras/dds/participant.h"
 #include "generator/extras/replay/replay_feed.h"
-#include "generator/extras/ros/ros_writers.h"
+#include "generator/extras/dds/ros_writers.h"
 
 namespace railcast {
 

@@ -15,14 +15,15 @@
 #include "core/program/program.h"
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
-#include "generator/extras/commands.h"
+#include "generator/commands.h"
+#include "generator/extras/dds/ros_options.h"
 #include "generator/extras/insert/packets/insertion.h"
+#include "generator/extras/recording_commands.h"
 #include "generator/extras/replay/frame_feeds.h"
 #include "generator/extras/replay/message_feed.h"
 #include "generator/extras/replay/packet_feed.h"
 #include "generator/extras/replay/replay_options.h"
 #include "generator/extras/replay/replay_run.h"
-#include "generator/extras/ros/ros_options.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_summary.h"
 
@@ -176,8 +177,6 @@ int RunReplayCommand(const ReplayOptions& options) {
   return ReportReplay(result, *feed, options);
 }
 
-}  // namespace
-
 void AddReplay(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<ReplayOptions>();
   ProgramOptions replay = app.AddCommand("replay", OwnProgramOf("replay").description);
@@ -185,6 +184,12 @@ void AddReplay(ProgramOptions& app, ProgramCommand& command) {
   replay.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunReplayCommand(*options); };
   });
+}
+
+}  // namespace
+
+void AddReplay(RecordingCommands& extras) {
+  extras.commands["replay"] = AddReplay;
 }
 
 }  // namespace railcast

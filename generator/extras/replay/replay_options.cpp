@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/extras/packets/recording/capture_recording.h"
 #include "core/program/command_line.h"
-#include "generator/extras/ros/ros_options.h"
+#include "generator/extras/dds/ros_options.h"
 
 namespace railcast {
 namespace {

@@ -20,8 +20,9 @@
 #include "core/program/version.h"
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
+#include "generator/commands.h"
 #include "generator/empty_folder.h"
-#include "generator/extras/commands.h"
+#include "generator/extras/recording_commands.h"
 #include "generator/extras/survey/survey.h"
 
 namespace railcast {
@@ -206,8 +207,6 @@ void AddSourceOptions(ProgramOptions& command, SurveyCommandOptions& options) {
       .Check(Number({1e-6, 1e6}));
 }
 
-}  // namespace
-
 void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<SurveyCommandOptions>();
   ProgramOptions survey = app.AddCommand("survey", OwnProgramOf("survey").description);
@@ -246,6 +245,12 @@ void AddSurvey(ProgramOptions& app, ProgramCommand& command) {
       return RunSurvey(*options);
     };
   });
+}
+
+}  // namespace
+
+void AddSurvey(RecordingCommands& extras) {
+  extras.commands["survey"] = AddSurvey;
 }
 
 }  // namespace railcast

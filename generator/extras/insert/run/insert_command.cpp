@@ -10,10 +10,11 @@
 #include "core/program/command_line.h"
 #include "core/program/program.h"
 #include "core/program/stop_signals.h"
-#include "generator/extras/commands.h"
+#include "generator/commands.h"
 #include "generator/extras/insert/insert_plan.h"
 #include "generator/extras/insert/plan/plan_check.h"
 #include "generator/extras/insert/run/insert_run.h"
+#include "generator/extras/recording_commands.h"
 #include "generator/run/run_plan.h"
 #include "generator/sequence/summary.h"
 #include "railcast/io/cloud_files.h"
@@ -62,8 +63,6 @@ int RunInsertCommand(InsertOptions options) {
   return kExitInterrupted;
 }
 
-}  // namespace
-
 void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   const auto options = std::make_shared<InsertOptions>();
   InsertChoices& choices = options->choices;
@@ -102,6 +101,12 @@ void AddInsert(ProgramOptions& app, ProgramCommand& command) {
   insert.WhenParsed([&command, options] {
     command = [options](const std::string&) { return RunInsertCommand(*options); };
   });
+}
+
+}  // namespace
+
+void AddInsert(RecordingCommands& extras) {
+  extras.commands["insert"] = AddInsert;
 }
 
 }  // namespace railcast

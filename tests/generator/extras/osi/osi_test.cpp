@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/osi/sensor_view.h"
+#include "generator/extras/osi/sensor_view.h"
 #include "core/extras/osi/trace_file.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/mcap/byte_file.h"
@@ -19,8 +19,8 @@
 #include "core/extras/ros/mcap/record_codec.h"
 #include "core/extras/ros/mcap/record_scan.h"
 #include "core/io/write_file.h"
-#include "tests/core/extras/osi/example_view.h"
-#include "tests/core/extras/osi/true_messages.h"
+#include "tests/generator/extras/osi/example_view.h"
+#include "tests/generator/extras/osi/true_messages.h"
 #include "tests/core/io/damage.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/generator/sequence/sequence_runs.h"

@@ -1,0 +1,6 @@
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(SQLite3 REQUIRED)
+find_library(LZ4_LIBRARY lz4 REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+railcast_import(lz4 ${LZ4_LIBRARY})
+railcast_import(zstd ${ZSTD_LIBRARY})
