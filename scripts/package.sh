@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the Debian packages railcast, railcast-import, railcast-viewer, python3-railcast and railcast-dev, and checks
-# them with lintian: package.sh [BUILD_DIR]. Without BUILD_DIR, installs missing packages and builds the preset `package`.
+# Makes the Debian packages railcast, railcast-extras, railcast-import, railcast-viewer, python3-railcast, railcast-dev and
+# railcast-all, and checks them with lintian: package.sh [BUILD_DIR]. Without BUILD_DIR, installs missing packages and
+# builds the preset `package`.
 # The packages are written to BUILD_DIR/packages.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

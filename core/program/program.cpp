@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string_view>
@@ -163,6 +164,14 @@ int ParseAndRun(const ProgramSpec& spec, int argc, char** argv) {
   return command(CommandLine(spec.name, argc, argv));
 }
 
+// Returns if there are none, as from the program of the extras itself.
+void RunWithExtras(const std::string& program, char** argv) {
+  std::error_code error;
+  const auto own = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto other = own.parent_path().parent_path() / "libexec/railcast" / program;
+  ::execv(other.c_str(), argv);
+}
+
 }  // namespace
 
 int RunProgram(const std::string& program,
@@ -186,6 +195,7 @@ int RunProgram(const std::string& program,
 }
 
 int ProgramMain(const ProgramSpec& spec, int argc, char** argv) {
+  RunWithExtras(spec.name, argv);
   return RunProgram(
       spec.name, [&] { return ParseAndRun(spec, argc, argv); }, std::cerr);
 }

@@ -67,7 +67,8 @@ struct ProgramSpec {
 };
 
 /// The body of every program's `main`: parses the command line, explains what is wrong with it, or
-/// runs the command and reports how it ended.
+/// runs the command and reports how it ended. Where the extras are installed, their program of the
+/// same name, in libexec/railcast, takes the place of this one: it has what this one lacks.
 /// @return The exit status.
 ///
 ///     int main(int argc, char** argv) {

@@ -21,17 +21,20 @@ if(RAILCAST_BUILD_IO AND NOT CMAKE_CROSSCOMPILING)
   add_custom_target(railcast_manuals ALL DEPENDS ${manuals}/stamp)
   add_dependencies(installed railcast_manuals)
 
-  # railcast_install_manuals(COMPONENT PROGRAM [EXCLUDED_PAGES])
+  # railcast_install_manuals(COMPONENT PROGRAM): all pages but those of extras' commands.
   function(railcast_install_manuals component program)
     install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT ${component}
-            FILES_MATCHING PATTERN "${program}*" PATTERN "${ARGN}" EXCLUDE)
+            FILES_MATCHING PATTERN "${program}*" REGEX "${extra_pages}" EXCLUDE)
     install(FILES ${manuals}/bash/${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
             COMPONENT ${component})
     install(FILES ${manuals}/zsh/_${program} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions
             COMPONENT ${component})
   endfunction()
   set(import_page railcast-generate-import.1.gz)
-  railcast_install_manuals(programs railcast-generate ${import_page})
+  set(extra_pages "-(insert|convert|replay|dataset|merge|survey|import|card|evaluate|sight|study|dossier|fit|preset)\\.1")
+  railcast_install_manuals(programs railcast-generate)
+  install(DIRECTORY ${manuals}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT extras
+          FILES_MATCHING REGEX "${extra_pages}" PATTERN ${import_page} EXCLUDE)
   railcast_install_manuals(programs railcast-analyze)
   if(RAILCAST_BUILD_IMPORT)
     install(FILES ${manuals}/man1/${import_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT import)
@@ -93,15 +96,15 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENTS_ALL "")
 
-# railcast_package(NAME SECTION "DESCRIPTION" DEPENDS ... RECOMMENDS ... COMPONENTS ...): the description's first line
+# railcast_package(NAME SECTION "DESCRIPTION" DEPENDS ... RECOMMENDS ... PROVIDES ... COMPONENTS ...): the description's first line
 # is its summary.
 macro(railcast_package name section description)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;RECOMMENDS;SUGGESTS;SCRIPTS;COMPONENTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "DEPENDS;RECOMMENDS;SUGGESTS;PROVIDES;SCRIPTS;COMPONENTS" ${ARGN})
   string(TOUPPER ${name} group)
   set(CPACK_DEBIAN_${group}_PACKAGE_NAME ${name})
   set(CPACK_DEBIAN_${group}_PACKAGE_SECTION ${section})
   set(CPACK_DEBIAN_${group}_DESCRIPTION "${description}")
-  foreach(relation IN ITEMS DEPENDS RECOMMENDS SUGGESTS)
+  foreach(relation IN ITEMS DEPENDS RECOMMENDS SUGGESTS PROVIDES)
     list(JOIN ARG_${relation} ", " CPACK_DEBIAN_${group}_PACKAGE_${relation})
   endforeach()
   set(CPACK_DEBIAN_${group}_PACKAGE_CONTROL_EXTRA ${ARG_SCRIPTS})
@@ -116,11 +119,28 @@ if(RAILCAST_BUILD_IO)
   railcast_package(
     railcast science "LiDAR simulation for railways: programs
  Makes labelled point clouds of railway scenes from JSON scenarios: as files
- (PCD, PLY, KITTI, MCAP), or live in the packets of real sensors.
+ (PCD, PLY, KITTI), or live over UDP.
  railcast-generate makes frames; railcast-analyze measures and compares them."
     RECOMMENDS gnuplot-nox
-    SUGGESTS railcast-import railcast-viewer python3-railcast weasyprint
+    SUGGESTS railcast-all
     COMPONENTS programs)
+endif()
+get_property(extras GLOBAL PROPERTY RAILCAST_EXTRAS)
+if(extras)
+  # Whoever asks for one extra, as railcast-ros, gets the programs that have them all.
+  list(TRANSFORM extras REPLACE "^[a-z]+/(.+)$" "railcast-\\1")
+  list(REMOVE_DUPLICATES extras)
+  list(REMOVE_ITEM extras railcast-import)
+  list(TRANSFORM extras APPEND " (= ${package_version})" OUTPUT_VARIABLE provided)
+  railcast_package(
+    railcast-extras science "LiDAR simulation for railways: extras
+ Adds to railcast: things put into recordings, conversion, replay, data sets,
+ scenes from recordings, bags and topics of ROS 2, packets of real sensors,
+ traces of OSI, studies with their dossiers, and evaluation of detectors."
+    DEPENDS "railcast (= ${package_version})"
+    PROVIDES ${provided}
+    SUGGESTS weasyprint
+    COMPONENTS extras)
 endif()
 if(RAILCAST_BUILD_IMPORT)
   railcast_package(
@@ -148,6 +168,14 @@ if(RAILCAST_BUILD_PYTHON)
     SCRIPTS ${packaging}/python/postinst ${packaging}/python/prerm
     COMPONENTS python)
 endif()
+set(all_packages ${package_groups})
+list(TRANSFORM all_packages APPEND " (= ${package_version})")
+railcast_package(
+  railcast-all metapackages "LiDAR simulation for railways: everything
+ This metapackage brings the programs of railcast, all of their extras, the
+ viewer and the Python module."
+  DEPENDS ${all_packages}
+  COMPONENTS everything)
 set(assimp_package "")
 if(RAILCAST_BUILD_ASSIMP)
   set(assimp_package libassimp-dev zlib1g-dev)  # The former names the latter's library.

@@ -38,7 +38,7 @@ mkdir -p "$work"
 
 "$source_dir/scripts/package.sh" "$build"
 packages=("$build"/packages/*.deb)
-for package in railcast railcast-import railcast-viewer python3-railcast railcast-dev; do
+for package in railcast railcast-extras railcast-import railcast-viewer python3-railcast railcast-dev railcast-all; do
   compgen -G "$build/packages/${package}_*.deb" >/dev/null || fail "there is no package $package"
 done
 
@@ -64,14 +64,22 @@ inside sh -c 'apt-get install -q -y --no-install-recommends /packages/railcast_*
   fail "railcast is not installed: see $work/apt.log"
 echo "railcast brings $(($(num_packages) - num_before - 1)) packages"
 (($(num_packages) - num_before <= 30)) || fail "railcast brings too many packages"
-if inside dpkg-query -W -f='${Package}\n' | grep -E '^lib(pcl-(io|visualization)|vtk|gdal)'; then fail "railcast needs these packages"; fi
+if inside dpkg-query -W -f='${Package}\n' | grep -E '^lib(pcl-(io|visualization)|vtk|gdal|sqlite|ddsc|cyclonedds|protobuf|pcap)'; then fail "railcast needs these packages"; fi
 scenarios=/usr/share/railcast/scenarios
 inside railcast-generate sequence "$scenarios/st_gallen_approach.json" --out /root/demo --frames 2
 inside railcast-analyze verify /root/demo
 inside railcast-analyze stats /root/demo --format text >"$work/stats.txt"
 grep -q "person" "$work/stats.txt" || fail "stats does not mention the person: see $work/stats.txt"
-said=$(inside railcast-generate import map.osm --out /root/lines 2>&1) && fail "import ran without its package"
-[[ "$said" == *"which is not installed (Debian package railcast-import)" ]] || fail "import said: $said"
+says_what_it_lacks() {
+  local extra=$1 said
+  shift
+  said=$(inside "$@" 2>&1) && fail "$* ran without its package"
+  [[ "$said" == *"needs the extra $extra, which is not installed (Debian package railcast-$extra;"* ]] || fail "$* said: $said"
+}
+says_what_it_lacks import railcast-generate import map.osm --out /root/lines
+says_what_it_lacks ros railcast-generate sequence "$scenarios/minimal.json" --out /root/bag --format mcap
+says_what_it_lacks insert railcast-generate insert /root/demo plan.json --out /root/inserted
+says_what_it_lacks study railcast-analyze study study.json --out /root/study
 for page in railcast-generate railcast-generate-sequence railcast-analyze-stats; do
   zcat "$root/usr/share/man/man1/$page.1.gz" | grep -q '^\.SH NAME' || fail "$page has no manual page"
 done
@@ -90,6 +98,9 @@ import railcast
 frame = railcast.Simulator(railcast.SCENARIOS / 'st_gallen_approach.json').scan(30)
 assert len(frame.points()) > 1000
 print(railcast.__file__)" | grep -qx /usr/lib/python3/dist-packages/railcast/__init__.py || fail "python3-railcast"
+inside railcast-generate sequence "$scenarios/minimal.json" --out /root/bag --frames 1 --format mcap
+inside railcast-analyze stats /root/bag --format text >/dev/null
+inside railcast-analyze study --help | grep -q '^Simulate the approaches' || fail "study does not run"
 inside railcast-generate import --help | grep -q '^Fit the lines of a map' || fail "import does not run"
 
 # An example is compiled against railcast-dev.

@@ -37,7 +37,7 @@ RecordingLook LookAt(std::vector<RecordedFrame> frames, std::size_t most = 100) 
   return Inspect(recording, most);
 }
 
-std::string TextOf(const RecordingLook& look) {
+std::string LookText(const RecordingLook& look) {
   RecordingInfo info;
   info.kind = "directory of point clouds";
   return ReportText(MakeInspectionReport(look, info, "railcast-analyze inspect"));
@@ -72,8 +72,8 @@ TEST(GuessSensor, IsNotSureOfRingsThatNoPresetHas) {
     ring.elevation_deg.Add(turned_deg);
   }
   EXPECT_GT(GuessSensor(look.rings).front().error_deg, kLikelyGuess_deg);
-  EXPECT_THAT(TextOf(look), HasSubstr("no preset"));
-  EXPECT_THAT(TextOf(look), HasSubstr("16 rings from -15 to 15 deg, step 0."));
+  EXPECT_THAT(LookText(look), HasSubstr("no preset"));
+  EXPECT_THAT(LookText(look), HasSubstr("16 rings from -15 to 15 deg, step 0."));
 }
 
 TEST(Inspect, CountsFramesAndLooksAtNoMoreThanAskedFor) {
@@ -90,7 +90,7 @@ TEST(Inspect, FindsGapsAndDoubledAndTurnedBackStamps) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i].frame.stamp_ns = times_ms[i] * 1'000'000;
   }
-  const std::string text = TextOf(LookAt(std::move(frames)));
+  const std::string text = LookText(LookAt(std::move(frames)));
   EXPECT_THAT(text, testing::ContainsRegex("gaps +1 "));
   EXPECT_THAT(text, testing::ContainsRegex("doubled stamps +1\n"));
   EXPECT_THAT(text, testing::ContainsRegex("stamps before the one before them +1\n"));
@@ -105,7 +105,7 @@ TEST(Inspect, FindsADeadAndAWeakRing) {
       if (i % 4 != 0) frame.x[9 * frame.width() + i] = kNaN;
     }
   }
-  const std::string text = TextOf(LookAt(std::move(frames)));
+  const std::string text = LookText(LookAt(std::move(frames)));
   EXPECT_THAT(text, testing::ContainsRegex("dead, with under 1 % of the median's points +1 +3\n"));
   EXPECT_THAT(text, testing::ContainsRegex("weak, [^\n]* points +1 +9\n"));
 }
@@ -120,7 +120,7 @@ TEST(Inspect, FindsABlockedSector) {
       if (azimuth_deg > 29.0 && azimuth_deg < 46.0) frame.x[i] = kNaN;
     }
   }
-  EXPECT_THAT(TextOf(LookAt(std::move(frames))), HasSubstr("30 to 45 deg"));
+  EXPECT_THAT(LookText(LookAt(std::move(frames))), HasSubstr("30 to 45 deg"));
 }
 
 TEST(Inspect, FindsPosesThatJump) {
@@ -134,7 +134,7 @@ TEST(Inspect, FindsPosesThatJump) {
     std::vector<float>& x_m = frames[i].frame.x;
     for (std::size_t k = 0; k < x_m.size(); ++k) x_m[k] = k % 20 == 0 ? x_m[k] : kNaN;
   }
-  const std::string text = TextOf(LookAt(std::move(frames)));
+  const std::string text = LookText(LookAt(std::move(frames)));
   EXPECT_THAT(text, testing::ContainsRegex("highest speed from frame to frame +4960 m/s +a jump"));
 }
 
@@ -153,7 +153,7 @@ TEST(JobsOf, TellsWhatIsMissingForWhat) {
   EXPECT_EQ(FitnessFor("weather", loose), Fitness::kNo);
   EXPECT_EQ(FitnessFor("insert", loose), Fitness::kWithOption);
   EXPECT_EQ(FitnessFor("fit", loose), Fitness::kNo);
-  EXPECT_THAT(TextOf(loose), HasSubstr("it has no rings"));
+  EXPECT_THAT(LookText(loose), HasSubstr("it has no rings"));
 }
 
 TEST(JobsOf, IsNoForEverythingWithoutAPoint) {

@@ -15,7 +15,7 @@
 namespace railcast {
 namespace {
 
-constexpr double kRange_m = 400.0;
+constexpr double kSeenUpTo_m = 400.0;
 constexpr double kEye_m = 2.5;
 
 /// A bare line without plants, wires and relief. The vehicle stands at 100 m, its sensor over the
@@ -31,7 +31,7 @@ ScenarioSpec BareLine(ScenarioSpec scenario) {
   scenario.vehicle.start_s_m = 100.0;
   scenario.vehicle.pivot_distance_m = 0.0;
   scenario.lidar.mount.position_m = {0.0, 0.0, kEye_m};
-  scenario.lidar.range_max_m = kRange_m;
+  scenario.lidar.range_max_m = kSeenUpTo_m;
   return scenario;
 }
 
@@ -46,7 +46,7 @@ TEST(Sight, ReachesToTheRangeOnStraightLevelTrack) {
   EXPECT_NEAR(places[0].chainage_m, 100.0, 1e-6);
   for (const Sight& sight : places[0].sights) {
     EXPECT_EQ(sight.end, SightEnd::kRange);
-    EXPECT_DOUBLE_EQ(sight.distance_m, kRange_m);
+    EXPECT_DOUBLE_EQ(sight.distance_m, kSeenUpTo_m);
   }
 }
 

@@ -16,12 +16,12 @@
 namespace railcast {
 namespace {
 
-constexpr float kNoPoint = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNotMeasured = std::numeric_limits<float>::quiet_NaN();
 
 std::uint16_t AzimuthIn(std::span<const char> packet, std::size_t block) {
   return LoadAt<std::uint16_t>(packet.data() + block * kBlockSize + kAzimuthPlace);
 }
-std::uint16_t DistanceIn(std::span<const char> packet, std::size_t block, std::size_t place) {
+std::uint16_t DistanceAt(std::span<const char> packet, std::size_t block, std::size_t place) {
   return LoadAt<std::uint16_t>(packet.data() + block * kBlockSize + kReturnsPlace +
                                place * kReturnSize);
 }
@@ -104,8 +104,8 @@ TEST(VelodyneEncoder, WritesBlocksAsTheManualShowsThem) {
   EXPECT_EQ(TimeIn(packet), 0U);
   EXPECT_EQ(static_cast<unsigned char>(packet[1204]), 0x37);
   EXPECT_EQ(static_cast<unsigned char>(packet[1205]), 0x22);
-  EXPECT_EQ(DistanceIn(packet, 3, 2), 20'000);
-  EXPECT_EQ(DistanceIn(packet, 3, 18), 20'625);
+  EXPECT_EQ(DistanceAt(packet, 3, 2), 20'000);
+  EXPECT_EQ(DistanceAt(packet, 3, 18), 20'625);
 }
 
 TEST(VelodyneEncoder, PutsTheUpperHalfOfHdl64eIntoBlocksOfTheirOwn) {
@@ -136,7 +136,7 @@ std::array<int, 4> DualBlocks(std::vector<std::pair<float, float>> returns) {
   EXPECT_EQ(static_cast<unsigned char>(packet[kModePlace]), 0x39);
   EXPECT_EQ(AzimuthIn(packet, 0), AzimuthIn(packet, 1));
   EXPECT_NE(AzimuthIn(packet, 1), AzimuthIn(packet, 2));
-  return {DistanceIn(packet, 0, 16), ReflectivityIn(packet, 0, 16), DistanceIn(packet, 1, 16),
+  return {DistanceAt(packet, 0, 16), ReflectivityIn(packet, 0, 16), DistanceAt(packet, 1, 16),
           ReflectivityIn(packet, 1, 16)};
 }
 
@@ -151,7 +151,7 @@ TEST(VelodyneEncoder, PutsTheSecondStrongestWhereTheStrongestIsTheLast) {
 }
 
 TEST(VelodyneEncoder, RepeatsTheOnlyReturn) {
-  EXPECT_THAT(DualBlocks({{20.0F, 0.5F}, {kNoPoint, kNoPoint}}),
+  EXPECT_THAT(DualBlocks({{20.0F, 0.5F}, {kNotMeasured, kNotMeasured}}),
               testing::ElementsAre(10000, 50, 10000, 50));
   EXPECT_THAT(DualBlocks({{20.0F, 0.5F}}), testing::ElementsAre(10000, 50, 10000, 50));
   // The last return lies beyond the format's range.
@@ -159,7 +159,7 @@ TEST(VelodyneEncoder, RepeatsTheOnlyReturn) {
               testing::ElementsAre(10000, 50, 10000, 50));
   EXPECT_THAT(DualBlocks({{131.08F, 0.5F}, {20.0F, 0.2F}}),
               testing::ElementsAre(10000, 20, 10000, 20));
-  EXPECT_THAT(DualBlocks({{kNoPoint, kNoPoint}, {kNoPoint, kNoPoint}}),
+  EXPECT_THAT(DualBlocks({{kNotMeasured, kNotMeasured}, {kNotMeasured, kNotMeasured}}),
               testing::ElementsAre(0, 0, 0, 0));
 }
 
@@ -167,12 +167,12 @@ TEST(VelodyneEncoder, RefusesDistancesThatTheFormatCannotSay) {
   const MadeScan scan(ReadSensor("vlp32c"));
   Frame frame = scan.MakeFrame(0);
   // VLP-32C counts units of 4 mm, of which 65535 are 262.14 m. Laser 0 is the lowest row.
-  const std::vector<float> ranges_m = {262.14F, 262.143F, 0.002F, 0.0F, -1.0F, kNoPoint, 1e30F};
+  const std::vector<float> ranges_m = {262.14F, 262.143F, 0.002F, 0.0F, -1.0F, kNotMeasured, 1e30F};
   std::copy(ranges_m.begin(), ranges_m.end(), frame.range_m.begin());
   const Datagrams datagrams = EncodeAll("vlp32c", scan, {frame});
   std::vector<int> distances;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
-    distances.push_back(DistanceIn(DataPackets(datagrams)[0], i, 0));
+    distances.push_back(DistanceAt(DataPackets(datagrams)[0], i, 0));
   }
   EXPECT_THAT(distances, testing::ElementsAre(65535, 0, 1, 0, 0, 0, 0));
   EXPECT_EQ(ReflectivityIn(DataPackets(datagrams)[0], 1, 0), 0);
@@ -261,7 +261,7 @@ TEST(VelodyneEncoder, SaysItsTimeOnceASecond) {
 }
 
 TEST(Reflectivity, IsPercentForDiffuseSurfacesAndLogarithmicForRetroreflectors) {
-  EXPECT_EQ(ReflectivityByte(kNoPoint), 0);
+  EXPECT_EQ(ReflectivityByte(kNotMeasured), 0);
   EXPECT_EQ(ReflectivityByte(-0.1F), 0);
   EXPECT_EQ(ReflectivityByte(0.0F), 0);
   EXPECT_EQ(ReflectivityByte(0.104F), 10);
