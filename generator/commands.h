@@ -45,7 +45,7 @@ inline constexpr auto kOwnPrograms = std::to_array<OwnProgram>(
      {"import", "Fit the lines of a map and write them as alignments", "railcast-import",
       "import"}});
 
-[[nodiscard]] constexpr const OwnProgram& OwnProgramOf(std::string_view command) {
+[[nodiscard]] consteval const OwnProgram& OwnProgramOf(std::string_view command) {
   return *std::ranges::find(kOwnPrograms, command, &OwnProgram::command);
 }
 

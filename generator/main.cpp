@@ -2,7 +2,6 @@
 
 #include <initializer_list>
 #include <string>
-#include <string_view>
 
 #include "core/base/error.h"
 
@@ -27,18 +26,18 @@ void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& c
 #else
 
 void AddOtherCommands(railcast::ProgramOptions& app, railcast::ProgramCommand& command) {
-  const auto add_own = [&](std::initializer_list<std::string_view> names) {
-    for (const std::string_view name : names) {
-      railcast::AddOwnProgram(railcast::OwnProgramOf(name), app, command);
-    }
+  using railcast::OwnProgramOf;
+  const auto add_own = [&](std::initializer_list<railcast::OwnProgram> programs) {
+    for (const railcast::OwnProgram& own : programs) railcast::AddOwnProgram(own, app, command);
   };
-  add_own({"insert", "convert"});
+  add_own({OwnProgramOf("insert"), OwnProgramOf("convert")});
   railcast::AddStream(app, command);
-  add_own({"replay"});
+  add_own({OwnProgramOf("replay")});
   railcast::AddCheck(app, command);
   railcast::AddWorld(app, command);
   railcast::AddTrace(app, command);
-  add_own({"dataset", "merge", "survey", "import"});
+  add_own({OwnProgramOf("dataset"), OwnProgramOf("merge"), OwnProgramOf("survey"),
+           OwnProgramOf("import")});
 }
 
 #endif

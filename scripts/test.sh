@@ -15,7 +15,7 @@ results="$PWD/build/$preset/Testing/results"
 if command -v npm >/dev/null; then
   readers="$PWD/build/bag_readers"
   mkdir -p "$readers"
-  cp tests/generator/sequence/package.json "$readers"
+  cp tests/generator/extras/package.json "$readers"
   npm install --prefix "$readers" --no-audit --no-fund --no-package-lock --silent ||
     echo "test.sh: npm could not install the readers of bags"
   export NODE_PATH="$readers/node_modules"

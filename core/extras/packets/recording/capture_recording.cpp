@@ -118,9 +118,12 @@ CaptureMetadata MetadataBeside(const std::filesystem::path& file) {
   return beside;
 }
 
+/// Bags of ROS 2, which are folders, may have such a name, too.
 bool IsCaptureName(const std::filesystem::path& file) {
   const std::string extension = LowerCase(file.extension().string());
-  return extension == ".pcap" || extension == ".pcapng";
+  std::error_code error;
+  return (extension == ".pcap" || extension == ".pcapng") &&
+         !std::filesystem::is_directory(file, error);
 }
 
 /// Finds a capture with metadata, a sensor or both behind it: "drive.pcap:os.json:192.168.1.201".
@@ -175,7 +178,7 @@ DatagramPlace PlaceOfCapture(const std::function<std::FILE*()>& open,
 }
 
 std::unique_ptr<Recording> OpenCapture(const std::filesystem::path& file) {
-  if (!IsCaptureName(file) || is_directory(file)) return nullptr;
+  if (!IsCaptureName(file)) return nullptr;
   return OpenDatagrams(PlaceOfFile(file, file, MetadataBeside(file)));
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -377,16 +378,20 @@ bool IsOsmPbf(std::string_view begin) {
 RailMap ReadOsmPbf(const std::filesystem::path& file) {
   return AtPlace(ShownPath(file) + ": ", [&] {
     OsmPbfReader reader;
+    std::map<std::string, std::uint64_t> unread;  // Numbers of blocks, by their type.
     VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
       if (type == kElements) {
         reader.ReadWays(DataOfBlob(blob));
       } else {
-        reader.maker().Tell(RemarkKind::kExtensionUnread, "", 1, "block " + Quoted(type));
+        ++unread[type];
       }
     });
     VisitBlocks(file, [&](const std::string& type, const std::string& blob) {
       if (type == kElements) reader.ReadNodes(DataOfBlob(blob));
     });
+    for (const auto& [type, number] : unread) {
+      reader.maker().Tell(RemarkKind::kExtensionUnread, "", number, "block " + Quoted(type));
+    }
     return reader.maker().Make();
   });
 }

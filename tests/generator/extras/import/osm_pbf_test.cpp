@@ -91,11 +91,12 @@ TEST_F(OsmPbfWords, AreRefusedIfTheyNeedWhatIsNotRead) {
 }
 
 TEST_F(OsmPbfWords, OfOtherBlocksAreTold) {
-  const RailMap map = Read(
-      "map.pbf", FileOfGroups(DenseNodes(3) + Way({1, 2, 3})) + FileBlock("Index", "anything"));
+  const RailMap map =
+      Read("map.pbf", FileOfGroups(DenseNodes(3) + Way({1, 2, 3})) +
+                          FileBlock("Index", "anything") + FileBlock("Index", "more"));
   EXPECT_THAT(map.ways, SizeIs(1));
   EXPECT_EQ(map.remarks,
-            (std::vector<Remark>{{RemarkKind::kExtensionUnread, "", 1, "block \"Index\""}}));
+            (std::vector<Remark>{{RemarkKind::kExtensionUnread, "", 2, "block \"Index\""}}));
 }
 
 TEST_F(OsmPbfWords, AreRefusedIfABlobHasNoData) {

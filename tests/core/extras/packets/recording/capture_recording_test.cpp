@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
+#include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/packets/recording/capture_sensor.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
 #include "core/extras/packets/spinning/spinning_model.h"
@@ -118,6 +119,14 @@ std::size_t NumPoints(const Frame& frame) {
 }
 
 // Nebula counts 14,831 points in the fourth turn.
+TEST(CaptureRecording, IsNoFolderOfSuchAName) {
+  const TemporaryDirectory directory;
+  const auto bag = directory.path() / "drive.pcap";
+  std::filesystem::create_directory(bag);
+  EXPECT_FALSE(FindCapture(bag));
+  EXPECT_FALSE(FindCapture(bag.string() + ":/points"));
+}
+
 TEST(CaptureRecording, OfARealVlp16HasFourTurnsInDualMode) {
   const auto file = CaptureFile("vlp16_dual.pcap");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
