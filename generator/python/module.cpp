@@ -62,6 +62,7 @@ void AddConstants(py::module_& module) {
     outcomes[py::str(std::string(kOutcomeNames[i]))] = i;
   }
   module.attr("OUTCOMES") = outcomes;
+  module.attr("EXTRAS") = py::str(RAILCAST_EXTRAS).attr("split")();
   module.attr("__version__") = ProgramVersion();
 }
 

@@ -27,8 +27,8 @@ import wheel_libraries
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS = ("railcast-generate", "railcast-analyze")
 RUN_BY_PROGRAMS = ("railcast-recordings",)  # Found beside them.
-# The manual pages are installed with the programs.
-TARGETS = ("railcast_python", *PROGRAMS, "railcast_manuals")
+# The scenarios are installed with the product's programs, manual pages with all; those with all extras are in the wheel.
+TARGETS = ("railcast_python", *PROGRAMS, *(f"{name}-product" for name in PROGRAMS), "railcast_manuals")
 CONFIGURATION = {
     "CMAKE_BUILD_TYPE": "Release",
     "CMAKE_UNITY_BUILD": "ON",
@@ -120,7 +120,7 @@ def write_wheel(path, tree):
 def gather(build_folder, tree):
     """Copies what is in the wheel to `tree`; returns its programs and libraries, and the licences of the latter."""
     prefix = tree / "prefix"
-    for component in ("python", "programs"):
+    for component in ("python", "programs", "extras"):
         run("cmake", "--install", build_folder, "--component", component, "--prefix", prefix)
     init, = prefix.rglob("railcast/__init__.py")
     package = tree / "railcast"
@@ -129,9 +129,7 @@ def gather(build_folder, tree):
     shutil.move(prefix / "share" / "railcast" / "scenarios", package / "scenarios")
     (package / "bin").mkdir()
     binaries = list(package.glob("*.so"))
-    for name in PROGRAMS:
-        binaries.append(pathlib.Path(shutil.move(prefix / "bin" / name, package / "bin" / name)))
-    for name in RUN_BY_PROGRAMS:
+    for name in (*PROGRAMS, *RUN_BY_PROGRAMS):
         binaries.append(pathlib.Path(shutil.move(prefix / "libexec" / "railcast" / name, package / "bin" / name)))
     shutil.rmtree(prefix)
     libraries = tree / "railcast.libs"

@@ -62,6 +62,9 @@ class Wheel(unittest.TestCase):
         self.assertIn("whole", run(self.environment / "bin" / "railcast-analyze", "verify", out))
         self.assertIn("Usage: ", run(self.environment / "bin" / "railcast-generate", "insert", "--help"))
 
+    def test_it_says_what_extras_it_has(self):
+        self.assertIn("ros", run(self.python, "-c", "import railcast; print(railcast.EXTRAS)"))
+
     def test_its_libraries_are_inside(self):
         package, = self.environment.glob("lib/python3*/site-packages/railcast")
         libraries = list(package.with_name("railcast.libs").iterdir())

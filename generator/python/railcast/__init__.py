@@ -6,12 +6,12 @@
 
 SCENARIOS is the folder of the scenarios that come with railcast. open() reads recordings, Simulator makes frames in
 memory, and Dataset gives frames of recordings by index, as loaders for training want them. Faults in a user's input
-raise InputError.
+raise InputError. EXTRAS names those whose recordings open() reads, beside the product's: "packets", "ros", "osi".
 """
 
 import pathlib
 
-from ._railcast import OUTCOMES, Frame, InputError, Object, Rails, Recording, Simulator, __version__, open
+from ._railcast import EXTRAS, OUTCOMES, Frame, InputError, Object, Rails, Recording, Simulator, __version__, open
 from .dataset import Dataset
 
 
@@ -27,6 +27,6 @@ def _folder_of_scenarios():
 SCENARIOS: pathlib.Path = _folder_of_scenarios()
 
 __all__ = [
-    "OUTCOMES", "Dataset", "Frame", "InputError", "Object", "Rails", "Recording", "SCENARIOS",
-    "Simulator", "__version__", "open"
+    "EXTRAS", "OUTCOMES", "Dataset", "Frame", "InputError", "Object", "Rails", "Recording", "SCENARIOS", "Simulator",
+    "__version__", "open"
 ]

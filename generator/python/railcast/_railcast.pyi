@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+EXTRAS: list[str]
 OUTCOMES: dict[str, int]
 __version__: str
 
