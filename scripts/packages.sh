@@ -10,16 +10,12 @@ first_packages=(
   libeigen3-dev
   libembree-dev
   libjpeg-dev
-  liblz4-dev
   liblzf-dev
   libpng-dev
   librandom123-dev
-  libsqlite3-dev
-  libssl-dev  # SHA-256 of the types of messages.
   libtbb-dev
   libxxhash-dev
   libyaml-cpp-dev
-  libzstd-dev
   ninja-build
   nlohmann-json3-dev
   zlib1g-dev
@@ -31,7 +27,6 @@ second_packages=(
   libboost-dev
   libkainjow-mustache-dev
   libnlopt-cxx-dev
-  libpcap-dev
   libpcl-dev
   libvtk9-dev
   libx11-dev
@@ -61,9 +56,14 @@ build_packages=(
   libfastcdr-dev
   libfastrtps-dev
   libgdal-dev
+  liblz4-dev
+  libpcap-dev
   libproj-dev
   libprotobuf-dev
+  libsqlite3-dev
+  libssl-dev  # SHA-256 of the types of messages.
   libsystemd-dev  # Says to systemd that a stream is ready.
+  libzstd-dev
   pkg-config
   protobuf-compiler
   pybind11-dev
