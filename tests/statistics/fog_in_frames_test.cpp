@@ -70,7 +70,7 @@ FogShare MeasureFog(SimulatorSpec spec) {
   return share;
 }
 
-// The table of docs/effects.md. Between two sets of 16 seeds the shares differ by some 0.02; the
+// Among them the figures of docs/effects.md. Between two sets of 16 seeds the shares differ by some 0.02; the
 // seeds are fixed, so that only single beams may differ between instruction sets.
 TEST(FogInFrames, HasTheSharesAndRangesOfTheTable) {
   struct Row {

@@ -12,7 +12,7 @@
 namespace railcast {
 namespace {
 
-// Rounding of the tables of docs/physics.md 3.1, which give three decimals.
+// Rounding of the expected values, computed by docs/physics.md 3.1 apart from this code.
 constexpr double kHalfOfTheLastDigit = 0.00051;
 
 LaneOptics Diffuse(double slope_deg) {
@@ -95,7 +95,7 @@ TEST(Ggx, FallsWithIncidenceAsPublished) {
       const double reflectance = static_cast<double>(
           baseline::MonostaticGgx(static_cast<float>(std::cos(RadFromDeg(kAngles_deg[k]))), 0.6F,
                                   static_cast<float>(row.roughness * row.roughness)));
-      // The table of docs/physics.md 3.2 gives two digits.
+      // Computed by docs/physics.md 3.2 apart from this code, to two digits.
       EXPECT_NEAR(reflectance / row.reflectance[k], 1.0, 0.05)
           << row.roughness << " " << kAngles_deg[k];
     }

@@ -218,7 +218,7 @@ TEST(PulseStretch, DrawsThePeakOfGrazedGroundToWhereItsPulsesPileUp) {
   }
 }
 
-// Values from the table of docs/physics.md 3.4.
+// Values computed by docs/physics.md 3.4 apart from this code.
 TEST(PulseStretch, FadesGrazedGround) {
   struct Row {
     double height_m, range_m, share;
