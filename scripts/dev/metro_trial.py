@@ -1,4 +1,4 @@
-"""The table of docs/evaluate.md of the ten objects of a metro trial, of the CSV files of their study."""
+"""The table of docs/results/metro.md of the ten objects of a metro trial, of the CSV files of their study."""
 
 import csv
 
