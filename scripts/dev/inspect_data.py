@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Inspects the recordings of a folder: inspect_data.py BUILD_DIR DATA [--write].
 
-The table in docs/inspect.md must be what was found; --write writes it. Ends with 77 if DATA is not there.
+The table in docs/results/inspected.md must be what was found; --write writes it. Ends with 77 if DATA is not there.
 """
 
 import json
@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 SKIPPED = 77  # For ctest.
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "inspect.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/results/inspected.md"
 BEGIN, END = "<!-- table -->\n", "<!-- end of table -->\n"
 HEAD = ("| recording | what | sensor | frames | insert | weather | survey | fit | remarks |\n"
         "|---|---|---|---|---|---|---|---|---|\n")
