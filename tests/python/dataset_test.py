@@ -61,7 +61,7 @@ class Samples(unittest.TestCase):
         self.assertEqual(sample["box_labels"].tolist(), [dataset.labels[thing.label] for thing in seen])
 
     def write_index(self, folder):
-        """The keys of index.jsonl that matter here, as docs/dataset.md has them."""
+        """The keys of index.jsonl that matter here, as docs/records.md has them."""
         lines = [{"folder": name, "split": split, "sensor": sensor}
                  for name, split, sensor in (("a", "train", "front"), ("b", "val", "roof")) for _ in range(FRAMES)]
         (folder / "index.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines), "utf-8")
