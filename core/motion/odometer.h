@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/rail/line/track_length.h"
+#include "core/rail/line/track_course.h"
 #include "railcast/motion_sensors.h"
 #include "railcast/rail_world.h"
 

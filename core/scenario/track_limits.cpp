@@ -11,7 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/line/track_length.h"
+#include "core/rail/line/track_course.h"
 #include "core/rail/network/route.h"
 #include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/train_places.h"

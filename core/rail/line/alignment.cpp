@@ -1,5 +1,3 @@
-#include "railcast/alignment.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,7 +11,7 @@
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/plan_course.h"
-#include "core/rail/line/plan_spline.h"
+#include "railcast/alignment.h"
 
 namespace railcast {
 namespace {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/base/units.h"
-#include "core/rail/line/track_length.h"
 
 namespace railcast {
 namespace {

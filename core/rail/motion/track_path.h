@@ -27,8 +27,6 @@ struct TrackPose {
   bool is_midway{};
 };
 
-class TrackLength;
-
 /// The motion of an object or vehicle along a route.
 class TrackPath {
  public:

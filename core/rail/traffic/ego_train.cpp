@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/rail/line/track_length.h"
+#include "core/rail/line/track_course.h"
 #include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/train_places.h"
 #include "core/scene/shapes.h"

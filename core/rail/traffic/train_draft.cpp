@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/line/track_length.h"
+#include "core/rail/line/track_course.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/traffic/object_way.h"

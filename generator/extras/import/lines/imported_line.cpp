@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/line/plan_spline.h"
+#include "core/rail/line/plan_course.h"
 #include "generator/extras/import/fit/line_fit.h"
 #include "generator/extras/import/fit/plan_window.h"
 #include "generator/extras/import/lines/line_tags.h"

@@ -1,4 +1,4 @@
-#include "core/rail/line/plan_spline.h"
+#include "core/rail/line/plan_course.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

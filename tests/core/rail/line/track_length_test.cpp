@@ -1,4 +1,4 @@
-#include "core/rail/line/track_length.h"
+#include "core/rail/line/track_course.h"
 
 #include <gtest/gtest.h>
 
