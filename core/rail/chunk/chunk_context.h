@@ -6,8 +6,7 @@
 
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/network/diamond_rails.h"
-#include "core/rail/network/turnout_rails.h"
+#include "core/rail/network/junction_rails.h"
 #include "core/rail/network/world_tracks.h"
 #include "railcast/alignment.h"
 #include "railcast/transform.h"

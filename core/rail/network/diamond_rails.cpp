@@ -1,5 +1,3 @@
-#include "core/rail/network/diamond_rails.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,7 +5,7 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/network/turnout_rails.h"
+#include "core/rail/network/junction_rails.h"
 
 namespace railcast {
 namespace {
@@ -20,31 +18,23 @@ constexpr double kObtuseGuard_m = 1.5;
 class CrossedRail {
  public:
   CrossedRail(const DiamondCourses& diamond, bool on_second, bool is_left)
-      : on_second_(on_second),
-        is_left_(is_left),
-        middle_s_m_(diamond.site.s_m),
-        own_(on_second ? diamond.second : diamond.first, is_left),
-        acute_(on_second ? diamond.first : diamond.second, !is_left),
-        obtuse_(on_second ? diamond.first : diamond.second, is_left) {}
-
-  /// The first track comes from the right. Its left rail therefore meets the other track first.
-  [[nodiscard]] bool IsRising() const { return on_second_ != is_left_; }
+      : frog_(AcuteFrog(diamond, on_second, is_left)) {}
 
   [[nodiscard]] std::optional<CrossedRailPlaces> Places() const {
-    const FrogRail acute = AcuteFrog();
-    const auto spread_m = [&](double s_m) { return acute.Spread_m(s_m); };
-    const auto obtuse_m = [&](double s_m) { return ObtuseSpread_m(s_m); };
+    const auto spread_m = [&](double s_m) { return frog_.Spread_m(s_m); };
+    const auto obtuse_m = [&](double s_m) { return frog_.SpreadBeside_m(s_m); };
+    const double middle_s_m = frog_.from_s_m;
     const double onwards = IsRising() ? 1.0 : -1.0;
     const auto outwards = [&](double value_m) {
-      return Where(spread_m, value_m, middle_s_m_, -onwards);
+      return Where(spread_m, value_m, middle_s_m, -onwards);
     };
     // In the middle, the obtuse frog is decimetres away.
     constexpr double kBeside_m = 1.0;
     const auto before = [&](double value_m) {
-      return Where(obtuse_m, value_m, middle_s_m_ + onwards * kBeside_m, -onwards);
+      return Where(obtuse_m, value_m, middle_s_m + onwards * kBeside_m, -onwards);
     };
     const auto behind = [&](double value_m) {
-      return Where(obtuse_m, value_m, middle_s_m_ - onwards * kBeside_m, onwards);
+      return Where(obtuse_m, value_m, middle_s_m - onwards * kBeside_m, onwards);
     };
     const std::array<std::optional<double>, 8> found = {outwards(-kNoseSpread_m),
                                                         outwards(-kNoseTipWidth_m),
@@ -63,34 +53,31 @@ class CrossedRail {
 
   void AddTo(std::vector<TurnoutRail>& rails) const {
     const CrossedRailPlaces places = KnownPlaces();
-    const FrogRail acute = AcuteFrog();
-    const auto along_m = [&](double s_m) { return acute.AlongOf_m(s_m); };
-    rails.push_back(acute.Nose(along_m(places.nose_s_m), along_m(places.whole_s_m)));
-    rails.push_back(
-        acute.Wing(along_m(places.throat_s_m), along_m(places.nose_s_m) + kWingBeyondNose_m));
-    rails.push_back(Piece(RailRole::kClosure, places.throat_s_m, places.planed_s_m));
-    TurnoutRail planed = Piece(RailRole::kNose, places.planed_s_m, places.tip_s_m);
-    (IsRising() ? planed.ends_openly : planed.begins_openly) = true;
-    planed.width_m = [self = *this](double s_m) {
-      const double spread_m = self.ObtuseSpread_m(self.own_.At(s_m).s_m);
+    const double nose_m = frog_.AlongOf_m(places.nose_s_m);
+    rails.push_back(frog_.Nose(nose_m, frog_.AlongOf_m(places.whole_s_m)));
+    rails.push_back(frog_.Wing(frog_.AlongOf_m(places.throat_s_m), nose_m + kWingBeyondNose_m));
+    rails.push_back(frog_.Piece(RailRole::kClosure, places.throat_s_m, places.planed_s_m));
+    TurnoutRail planed = frog_.Piece(RailRole::kNose, places.planed_s_m, places.tip_s_m);
+    frog_.ShowEnd(planed, false);
+    planed.width_m = [frog = frog_](double s_m) {
+      const double spread_m = frog.SpreadBeside_m(frog.own.At(s_m).s_m);
       return std::max(kNoseTipWidth_m, spread_m - kFrogFlangeway_m);
     };
     rails.push_back(std::move(planed));
     // Half of the knuckle, which the other track's rail continues on the other side.
-    TurnoutRail knuckle = Piece(RailRole::kWing, places.obtuse_s_m, places.clear_s_m);
-    (IsRising() ? knuckle.begins_openly : knuckle.ends_openly) = true;
+    TurnoutRail knuckle = frog_.Piece(RailRole::kWing, places.obtuse_s_m, places.clear_s_m);
+    frog_.ShowEnd(knuckle, true);
     rails.push_back(std::move(knuckle));
   }
 
   void AddTo(std::vector<CheckRail>& rails) const {
     const CrossedRailPlaces places = KnownPlaces();
-    const FrogRail acute = AcuteFrog();
-    rails.push_back(acute.CheckRailOpposite(acute.AlongOf_m(places.nose_s_m)));
+    rails.push_back(frog_.CheckRailOpposite(frog_.AlongOf_m(places.nose_s_m)));
     // Two of them meet in each obtuse frog, below the knuckle.
     const double from_s_m = places.tip_s_m + (IsRising() ? -kObtuseGuard_m : kObtuseGuard_m);
-    rails.push_back({.follows_branch = on_second_,
-                     .is_left = is_left_,
-                     .range = FramesBetween(from_s_m, places.obtuse_s_m),
+    rails.push_back({.follows_branch = frog_.follows_branch,
+                     .is_left = frog_.is_left,
+                     .range = frog_.own.FramesBetween(from_s_m, places.obtuse_s_m),
                      .flangeway_m = kFrogFlangeway_m,
                      .flares_at_begin = IsRising(),
                      .flares_at_end = !IsRising()});
@@ -98,7 +85,7 @@ class CrossedRail {
 
   [[nodiscard]] ChainageRange Extent() const {
     const CrossedRailPlaces places = KnownPlaces();
-    return FramesBetween(places.whole_s_m, places.clear_s_m);
+    return frog_.own.FramesBetween(places.whole_s_m, places.clear_s_m);
   }
 
  private:
@@ -130,36 +117,23 @@ class CrossedRail {
     return *places;
   }
 
-  [[nodiscard]] FrogRail AcuteFrog() const {
-    return {.own = own_,
-            .other = acute_,
-            .follows_branch = on_second_,
-            .is_left = is_left_,
-            .from_s_m = middle_s_m_,
-            .opens_ahead = !IsRising()};
-  }
-  /// From this rail's gauge line to the same side's of the other track: positive before the obtuse
-  /// frog.
-  [[nodiscard]] double ObtuseSpread_m(double s_m) const {
-    return (is_left_ ? 1.0 : -1.0) * (obtuse_.LateralAt_m(s_m) - own_.LateralAt_m(s_m));
-  }
-  [[nodiscard]] ChainageRange FramesBetween(double one_s_m, double other_s_m) const {
-    const double first_m = own_.FrameAt_m(one_s_m);
-    const double last_m = own_.FrameAt_m(other_s_m);
-    return {.begin_s_m = std::min(first_m, last_m), .end_s_m = std::max(first_m, last_m)};
-  }
-  [[nodiscard]] TurnoutRail Piece(RailRole role, double one_s_m, double other_s_m) const {
-    TurnoutRail piece = AcuteFrog().Piece(role, 0.0, 0.0);
-    piece.range = FramesBetween(one_s_m, other_s_m);
-    return piece;
+  static FrogRail AcuteFrog(const DiamondCourses& diamond, bool on_second, bool is_left) {
+    const TrackCourse& own = on_second ? diamond.second : diamond.first;
+    const TrackCourse& other = on_second ? diamond.first : diamond.second;
+    return {.own = {own, is_left},
+            .other = {other, !is_left},
+            .beside = {other, is_left},
+            .follows_branch = on_second,
+            .is_left = is_left,
+            .from_s_m = diamond.site.s_m,
+            // The first track comes from the right. Its left rail therefore meets the other track
+            // first, and distances count against the direction in which a rail passes its frogs.
+            .opens_ahead = on_second == is_left};
   }
 
-  bool on_second_;
-  bool is_left_;
-  double middle_s_m_;
-  GaugeLine own_;
-  GaugeLine acute_;   ///< With which it crosses in the acute frog.
-  GaugeLine obtuse_;  ///< With which it crosses in the obtuse frog.
+  [[nodiscard]] bool IsRising() const { return !frog_.opens_ahead; }
+
+  FrogRail frog_;
 };
 
 std::array<CrossedRail, 4> FourRails(const DiamondCourses& diamond) {

@@ -1,5 +1,3 @@
-#include "core/rail/network/diamond_site.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,7 +7,8 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/network/diamond_rails.h"
+#include "core/rail/network/junction_rails.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 
 namespace railcast {
@@ -66,9 +65,8 @@ class DiamondFinder {
   [[nodiscard]] std::optional<std::size_t> Track(std::size_t entry) {
     const std::optional<std::size_t> track = TrackIndex(world_, spec_.tracks[entry]);
     if (!track) {
-      faults_.Add(
-          pointer_ + "/tracks/" + std::to_string(entry),
-          "must be one of " + NamesOfTracks(world_) + " (got " + Quoted(spec_.tracks[entry]) + ")");
+      AddUnknownTrack(world_, pointer_ + "/tracks/" + std::to_string(entry), spec_.tracks[entry],
+                      faults_);
     }
     return track;
   }

@@ -1,5 +1,3 @@
-#include "core/rail/network/independent_course.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +9,8 @@
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/plan_course.h"
-#include "core/rail/network/branch_course.h"
+#include "core/rail/network/network_draft.h"
+#include "core/rail/network/turnout_place.h"
 
 namespace railcast {
 namespace {

@@ -78,6 +78,11 @@ struct NetworkDraft {
   return !track.begin && !track.end && track.elements.empty() && track.offsets_m.empty();
 }
 
+/// The pointer of a track of the world: "/world/tracks/2".
+[[nodiscard]] inline std::string TrackPointer(std::size_t index) {
+  return "/world/tracks/" + std::to_string(index);
+}
+
 /// Index of the track of that name; absent if there is none.
 [[nodiscard]] inline std::optional<std::size_t> TrackIndex(const WorldSpec& world,
                                                            const std::string& name) {

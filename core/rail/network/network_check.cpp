@@ -11,7 +11,7 @@
 
 #include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/network/diamond_site.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/network/world_tracks.h"
 
@@ -19,10 +19,6 @@ namespace railcast {
 namespace {
 
 constexpr double kSampling_m = 1.0;
-
-std::string TrackPointer(std::size_t index) {
-  return "/world/tracks/" + std::to_string(index);
-}
 
 void CheckExtent(const WorldSpec& world,
                  std::size_t index,

@@ -11,8 +11,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/rail/line/track_course.h"
-#include "core/rail/network/diamond_site.h"
-#include "core/rail/network/independent_course.h"
 #include "core/rail/network/turnout_place.h"
 
 namespace railcast {
@@ -109,17 +107,13 @@ class NetworkMaker {
  private:
   enum class State { kUntouched, kInWork, kDone };
 
-  [[nodiscard]] static std::string PlaceOf(std::size_t index) {
-    return "/world/tracks/" + std::to_string(index);
-  }
-
   void Visit(std::size_t index) {
     if (states_[index] != State::kUntouched) return;
     states_[index] = State::kInWork;
     const TrackSpec& track = world_.tracks[index];
     if (IsParallel(track)) {
       draft_.courses[index] = ParallelCourse(index);
-    } else if (faults_.AreKnown({PlaceOf(index)})) {
+    } else if (faults_.AreKnown({TrackPointer(index)})) {
       draft_.courses[index] = BranchedCourse(index);
     }
     states_[index] = State::kDone;
@@ -127,7 +121,7 @@ class NetworkMaker {
 
   [[nodiscard]] std::optional<TrackCourse> ParallelCourse(std::size_t index) const {
     const TrackSpec& track = world_.tracks[index];
-    const std::string place = PlaceOf(index);
+    const std::string place = TrackPointer(index);
     if (!faults_.AreKnown({place + "/offset_m", place + "/start_s_m", place + "/end_s_m"})) {
       return std::nullopt;
     }
@@ -140,12 +134,10 @@ class NetworkMaker {
   [[nodiscard]] std::optional<TurnoutPlace> PlaceOfTurnout(std::size_t index,
                                                            const TurnoutSpec& spec,
                                                            bool opens_ahead) {
-    const std::string pointer = PlaceOf(index) + (opens_ahead ? "/begin" : "/end");
+    const std::string pointer = TrackPointer(index) + (opens_ahead ? "/begin" : "/end");
     const std::optional<std::size_t> track = TrackIndex(world_, spec.track);
     if (!track) {
-      if (!AreNamesKnown(world_, faults_)) return std::nullopt;
-      faults_.Add(pointer + "/track",
-                  "must be one of " + NamesOfTracks(world_) + " (got " + Quoted(spec.track) + ")");
+      AddUnknownTrack(world_, pointer + "/track", spec.track, faults_);
       return std::nullopt;
     }
     Visit(*track);
@@ -175,7 +167,7 @@ class NetworkMaker {
       return std::nullopt;
     }
     IndependentCourse made =
-        MakeIndependentCourse({PlaceOf(index), track, begin, end, length_m_}, faults_);
+        MakeIndependentCourse({TrackPointer(index), track, begin, end, length_m_}, faults_);
     for (const std::optional<TurnoutSite>& turnout : {made.begin, made.end}) {
       if (!made.course || !turnout) continue;
       TurnoutSite site = *turnout;
@@ -223,7 +215,7 @@ void CheckOverlaps(const WorldSpec& world, const NetworkDraft& draft, WorldFault
             kTouching_m) {
           continue;
         }
-        faults.Add("/world/tracks/" + std::to_string(other.turnout->branch) +
+        faults.Add(TrackPointer(other.turnout->branch) +
                        (other.turnout->opens_ahead() ? "/begin" : "/end"),
                    "must not overlap the turnout of track " +
                        Quoted(world.tracks[one.turnout->branch].name) + " on track " +

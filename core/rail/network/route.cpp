@@ -11,8 +11,6 @@
 namespace railcast {
 namespace {
 
-constexpr const char* kTracksPlace = "/world/tracks/";
-
 /// A change from one track to another.
 struct Change {
   std::size_t turnout{};
@@ -63,9 +61,8 @@ class RouteMaker {
       const std::optional<std::size_t> track = TrackIndex(world_, spec_.tracks[i]);
       if (!track) {
         are_known = false;
-        if (!faults_.AreKnown({PointerOf(i)}) || !AreNamesKnown(world_, faults_)) continue;
-        faults_.Add(PointerOf(i), "must be one of " + NamesOfTracks(world_) + " (got " +
-                                      Quoted(spec_.tracks[i]) + ")");
+        if (!faults_.AreKnown({PointerOf(i)})) continue;
+        AddUnknownTrack(world_, PointerOf(i), spec_.tracks[i], faults_);
         continue;
       }
       tracks_.push_back(*track);
@@ -189,7 +186,7 @@ void CheckPositions(const WorldSpec& world,
     const std::optional<TurnoutSpec>& given = turnout.opens_ahead() ? branch.begin : branch.end;
     const bool is_ahead = spec.runs_back ? turnout.s_m <= from_s_m : turnout.s_m >= from_s_m;
     if (!is_ahead || !given->position || *given->position == passage.position) continue;
-    faults.Add(kTracksPlace + std::to_string(turnout.branch) +
+    faults.Add(TrackPointer(turnout.branch) +
                    (turnout.opens_ahead() ? "/begin/position" : "/end/position"),
                "must be " + Quoted(std::string(NameOf(passage.position))) + ", as " + spec.pointer +
                    " needs it",

@@ -64,7 +64,7 @@ TrackSpread SpreadOf(const WorldTracks& tracks, const StretchSpec& stretch, doub
 }
 
 std::string TrackPointer(const TrackSpec& track, const WorldSpec& world) {
-  return "/world/tracks/" + std::to_string(&track - world.tracks.data());
+  return TrackPointer(static_cast<std::size_t>(&track - world.tracks.data()));
 }
 
 std::optional<TrackExtent> ExtentOf(const WorldSpec& world,
@@ -88,9 +88,7 @@ const TrackSpec* CheckTrackPlace(const WorldSpec& world,
   if (!faults.AreKnown({place.track_pointer})) return nullptr;
   const TrackSpec* track = FindTrack(world, place.track);
   if (track == nullptr) {
-    if (!AreNamesKnown(world, faults)) return nullptr;
-    faults.Add(place.track_pointer,
-               "must be one of " + NamesOfTracks(world) + " (got " + Quoted(place.track) + ")");
+    AddUnknownTrack(world, place.track_pointer, place.track, faults);
     return nullptr;
   }
   const std::optional<TrackExtent> extent = ExtentOf(world, *track, line, faults);

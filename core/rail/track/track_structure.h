@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/rail/chunk/chunk_context.h"
-#include "core/rail/network/turnout_rails.h"
+#include "core/rail/network/junction_rails.h"
 #include "core/rail/track/track_models.h"
 #include "railcast/scene.h"
 

@@ -49,7 +49,7 @@ std::optional<CatenaryPlan> DraftCatenary(const WorldSpec& world,
                                           WorldFaults& faults) {
   if (!faults.AreKnown({"/world/catenary"})) return std::nullopt;
   for (std::size_t i = 0; i < world.tracks.size(); ++i) {
-    const std::string place = "/world/tracks/" + std::to_string(i);
+    const std::string place = TrackPointer(i);
     if (!faults.AreKnown({place + "/electrified"})) return std::nullopt;
   }
   const auto make = [&]() -> std::optional<CatenaryPlan> {
@@ -71,7 +71,7 @@ std::optional<StripWidth> DraftStripWidth(const WorldSpec& world,
   if (!alignment || !faults.AreKnown({"/world/terrain/half_width_m"})) return std::nullopt;
   const StripWidth width(*alignment, world.terrain.half_width_m);
   for (std::size_t i = 0; width.narrows() && i < world.tracks.size(); ++i) {
-    const std::string place = "/world/tracks/" + std::to_string(i) + "/offset_m";
+    const std::string place = TrackPointer(i) + "/offset_m";
     const std::optional<TrackCourse>& course = network.courses[i];
     if (!course || !faults.AreKnown({place})) continue;
     double room_m = std::numeric_limits<double>::infinity();

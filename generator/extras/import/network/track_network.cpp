@@ -8,7 +8,7 @@
 
 #include "core/rail/landform/landform.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/network/independent_course.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/world_tracks.h"
 #include "generator/extras/import/fit/plan_model.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/rail/line/plan_course.h"
-#include "core/rail/network/branch_course.h"
+#include "core/rail/network/turnout_place.h"
 #include "generator/extras/import/fit/plan_window.h"
 
 namespace railcast {

@@ -11,8 +11,8 @@
 
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/motion/track_path.h"
+#include "core/rail/network/junction_rails.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/network/turnout_rails.h"
 #include "core/rail/track/cross_section.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_line.h"

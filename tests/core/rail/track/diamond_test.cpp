@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/network/diamond_rails.h"
-#include "core/rail/network/diamond_site.h"
+#include "core/rail/network/junction_rails.h"
 #include "core/rail/network/network_check.h"
 #include "core/rail/network/network_draft.h"
 #include "tests/core/rail/test_line.h"

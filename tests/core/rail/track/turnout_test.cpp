@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
+#include "core/rail/network/junction_rails.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/network/turnout_rails.h"
 #include "core/rail/track/switch_parts.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_line.h"
