@@ -13,8 +13,7 @@
 #include "core/base/text.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/route.h"
-#include "core/rail/traffic/ego_train.h"
-#include "core/rail/traffic/train_places.h"
+#include "core/rail/traffic/trains.h"
 #include "core/scene/object_contacts.h"
 
 namespace railcast {

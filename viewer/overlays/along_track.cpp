@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/rail/clearance/clear_space.h"
-#include "core/rail/clearance/vehicle_outline.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/io/recording.h"
 #include "railcast/rail_world.h"

@@ -38,7 +38,7 @@ struct PathPoint {
 };
 
 /// A way across the tracks, from the object's own place (ObjectSpec::s_m, d_m) to one point after
-/// the other (core/rail/motion/path_course.h).
+/// the other (core/rail/motion/path_way.h).
 struct PathSpec {
   std::vector<PathPoint> points;
   double speed_mps{};  ///< > 0.

@@ -7,7 +7,6 @@
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/catenary/wire_span.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/clearance/system_height.h"

@@ -1,13 +1,85 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/rail/catenary/catenary_plan.h"
+#include "core/rail/catenary/independent_wires.h"
 #include "core/rail/chunk/chunk_context.h"
 #include "railcast/scene.h"
 
 namespace railcast {
+
+/// Lowest height of a wire's end above the contact height where it is anchored, and that of the
+/// messenger above its height at supports.
+inline constexpr double kAnchoredContact_m = 0.5;
+inline constexpr double kAnchoredMessenger_m = 0.4;
+
+/// Where the wires of a track end a span.
+struct WireEnd {
+  double s_m{};
+  Vector3 contact_m;  ///< Of the contact wire, in the world.
+  double system_height_m{};
+};
+
+/// The wires of one track between two supports, in world coordinates.
+class WireSpanShape {
+ public:
+  /// @param axis Above which the contact wire keeps its height.
+  WireSpanShape(const Alignment& alignment,
+                WireAxis axis,
+                const WireEnd& first,
+                const WireEnd& last)
+      : alignment_(&alignment),
+        axis_(std::move(axis)),
+        first_(first),
+        last_(last),
+        length_m_(last.s_m - first.s_m) {}
+
+  [[nodiscard]] double first_s_m() const { return first_.s_m; }
+  [[nodiscard]] double length_m() const { return length_m_; }
+  [[nodiscard]] Vector3 Contact(double fraction) const;
+  [[nodiscard]] Vector3 Messenger(double fraction) const;
+  /// Whether the track lies higher or lower than the alignment at one of the places `step_m` apart.
+  [[nodiscard]] bool IsLifted(double step_m) const;
+
+  /// The span in world coordinates. The wind moves all its wires alike, since droppers join them.
+  [[nodiscard]] WireSpan InWind(std::uint32_t number) const;
+  /// How far this one is left of another between the same supports, at a fraction of the span.
+  [[nodiscard]] double LeftOf_m(const WireSpanShape& other, double fraction) const;
+
+ private:
+  [[nodiscard]] Vector3 Chord(double fraction) const {
+    return first_.contact_m + fraction * (last_.contact_m - first_.contact_m);
+  }
+
+  const Alignment* alignment_;
+  WireAxis axis_;
+  WireEnd first_;
+  WireEnd last_;
+  double length_m_;
+};
+
+/// The wires of a track in the span behind a support.
+struct SpanOfTrack {
+  std::size_t track{};
+  WireSpanShape shape;
+  /// Whether it only leads to the mast at which the wires are anchored.
+  bool is_anchored{};
+};
+
+/// All wires in the span from a support to the next. The wires of a branch are led on by one span
+/// before the first support that carries them, and behind the last, and end at a mast there:
+/// that for which they pass above the fewest other wires, and then the nearest.
+[[nodiscard]] std::vector<SpanOfTrack> SpansBehind(const ChunkContext& context,
+                                                   const CatenaryPlan& plan,
+                                                   std::size_t support);
+
+/// Fractions of span `index` at which a wire that is led to its mast passes above it, or it above
+/// another. No dropper may be there.
+[[nodiscard]] std::vector<double> CrossingsOf(const std::vector<SpanOfTrack>& spans,
+                                              std::size_t index);
 
 /// Makes all conductors of the chunk (docs/physics.md 7.2). They extend half the overlap beyond its
 /// ends.

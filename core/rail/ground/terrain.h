@@ -19,7 +19,7 @@ namespace railcast {
 /// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
 /// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
 ///
-/// Behind retaining walls the ground is as high as their tops (retained_ground.h). The step is
+/// Behind retaining walls the ground is as high as their tops (ground_rise.h). The step is
 /// inside the wall, in cells of its own; chunks near such walls have all columns in their coarser
 /// forms.
 ///

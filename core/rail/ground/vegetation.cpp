@@ -1,5 +1,3 @@
-#include "core/rail/ground/vegetation.h"
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -11,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/rail/base/noise_field.h"
 #include "core/rail/clearance/cleared.h"
+#include "core/rail/ground/plant_models.h"
 #include "core/rail/landform/ground_rise.h"
 #include "railcast/world_spec.h"
 

@@ -1,5 +1,3 @@
-#include "core/rail/landform/elevation_grid.h"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,6 +9,7 @@
 #include "core/base/input_file.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
+#include "core/rail/landform/landform.h"
 
 namespace railcast {
 namespace {

@@ -1,10 +1,9 @@
-#include "core/rail/landform/tunnel_hills.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 
+#include "core/rail/landform/ground_rise.h"
 #include "core/rail/landform/landform.h"
 
 namespace railcast {

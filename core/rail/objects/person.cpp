@@ -12,7 +12,6 @@
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
 #include "core/rail/objects/person_body.h"
-#include "core/rail/objects/person_shape.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

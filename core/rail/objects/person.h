@@ -5,7 +5,6 @@
 
 #include "core/rail/objects/object_surfaces.h"
 #include "core/rail/objects/person_body.h"
-#include "core/rail/objects/person_gait.h"
 #include "railcast/objects.h"
 #include "railcast/scene.h"
 

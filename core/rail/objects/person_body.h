@@ -5,7 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/rail/base/rail_surfaces.h"
 #include "railcast/objects.h"
+#include "railcast/scene.h"
 #include "railcast/transform.h"
 
 namespace railcast {
@@ -122,11 +124,103 @@ void StandOn(const BodyMeasures& body,
 /// Arms hanging beside a trunk that is upright, and legs stretched.
 [[nodiscard]] PersonPose StandingPose(const BodyMeasures& body);
 
-/// Any posture but walking (person_gait.h). The ground is somewhere near z = 0: the caller shifts
+/// Any posture but walking (WalkingGait). The ground is somewhere near z = 0: the caller shifts
 /// the lowest point there.
 /// - crouching: on both flat feet with the hands between the knees;
 /// - sitting: on the ground with the knees drawn up and the hands on them;
 /// - lying: on the back, the head towards -x.
 [[nodiscard]] PersonPose PoseOf(Posture posture, const BodyMeasures& body);
+
+/// How a person walks at a steady speed on level ground.
+///
+/// Model: a foot stands on the ground during 62 % of the cycle, in which its sole rolls without
+/// slipping, first about the heel, then flat, then about ball and tip; it then swings forwards just
+/// above the ground. The angle of the foot against the ground is that of the mean of healthy adults
+/// at their natural pace, less at the toes, which do not bend (Winter, "Biomechanics and Motor
+/// Control of Human Gait", 1991: hip, knee and ankle angles; here as points of a smooth curve). The
+/// pelvis rides on a vaulting arc as high as the stretched leg permits. Hip, knee and ankle follow:
+/// their extremes differ from Winter's by up to 15 degrees (tested). The arms swing against the
+/// legs (Murray et al., 1967, "Patterns of Sagittal Rotation of the Upper Limbs in Walking").
+///
+/// Parameters: the walking ratio, step length over cadence, is 0.0065 m per step a minute for
+/// adults (Sekiya and Nagasaki, 1998), which with the cadence gives the stride at the speed. For
+/// other heights H it is scaled by (H / 1.70 m)^1.5, by which steps grow as H and their rate as
+/// H^-0.5. Strides are at most 0.9 H, above which the rate alone grows.
+///
+/// Validity: 0.5 to 2 m/s. Nobody runs. Below half its steady speed, and always below 0.5 m/s, the
+/// strides shrink until the person stands at speed 0; then the feet slip.
+class WalkingGait {
+ public:
+  /// @pre `steady_speed_mps` > 0.
+  WalkingGait(const BodyMeasures& body, double steady_speed_mps);
+
+  /// Distance in which the left foot comes to the ground twice.
+  [[nodiscard]] double stride_length_m() const { return stride_length_m_; }
+
+  /// The pose after `distance_m` at `speed_mps` >= 0. At distance 0 the left heel comes to the
+  /// ground. Origin: on the ground below the pelvis, which moves at the person's speed.
+  [[nodiscard]] PersonPose PoseAt(double distance_m, double speed_mps) const;
+
+  /// A pose with every limb as far forward or backward as it ever gets.
+  [[nodiscard]] PersonPose WidestPose() const;
+
+ private:
+  struct FootPlace {
+    double x_m{}, z_m{};  ///< Of the ankle.
+    double pitch_rad{};   ///< Positive: toes up.
+  };
+  /// `phase` counts cycles from the foot's contact; `share` of a full stride.
+  [[nodiscard]] FootPlace FootAt(double phase, double share) const;
+  [[nodiscard]] double HipHeight_m(double phase) const;
+  /// How far a stretch of ground the foot's ankle is from where it is with the sole flat.
+  [[nodiscard]] FootPlace Rolled(double pitch_rad) const;
+  [[nodiscard]] double AnkleHeightOnGround_m(double pitch_rad) const;
+  void PlaceFoot(std::size_t side, const FootPlace& foot, double offset_m, PersonPose& pose) const;
+
+  BodyMeasures body_;
+  Sole sole_;
+  double stride_length_m_{};
+  double full_stride_speed_mps_{};  ///< From which on strides are full.
+  double mean_hip_m_{};
+  double hip_amplitude_m_{};
+};
+
+/// How the parts of a person are covered.
+struct PersonDress {
+  SurfaceClass skin, hair, sleeves, torso, legs, shoes;
+  SurfaceClass band, helmet;  ///< Only if it wears them.
+  bool has_bands = false;     ///< EN ISO 20471: round and over the torso and round the legs.
+  bool has_helmet = false;
+};
+
+/// The solid of every bone, each in the bone's frame (person_body.h). Trunk, head and limbs are
+/// lofts through superellipses whose half axes are working values near the medians of DIN 33402-2
+/// (head 155 x 195 mm, hips 355 mm, shoulders over the arms 470 mm for a man of 1.75 m), scaled by
+/// the body's girths; limbs end in domes about their joints.
+struct PersonBones {
+  struct Limbs {
+    Model upper_arm, forearm, thigh, shank, foot;
+  };
+  Model pelvis, chest, head;
+  Limbs limbs;  ///< The same on both sides.
+};
+
+/// Height of the top of the helmet as a multiple of the body's height.
+[[nodiscard]] double HelmetHeight(Physique physique);
+
+[[nodiscard]] PersonBones MakePersonBones(const BodyMeasures& body,
+                                          Physique physique,
+                                          const PersonDress& dress);
+
+/// Parts of MakePersonBones().
+void AddTrunk(const BodyMeasures& body,
+              Physique physique,
+              const PersonDress& dress,
+              PersonBones& bones);
+void AddHead(const BodyMeasures& body,
+             Physique physique,
+             const PersonDress& dress,
+             PersonBones& bones);
+void AddLimbs(const BodyMeasures& body, const PersonDress& dress, PersonBones& bones);
 
 }  // namespace railcast

@@ -1,5 +1,3 @@
-#include "core/rail/objects/person_gait.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/error.h"
+#include "core/rail/objects/person_body.h"
 
 namespace railcast {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/rail/structures/building.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "core/base/units.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/landform/ground_rise.h"
+#include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "core/scene/polygon.h"

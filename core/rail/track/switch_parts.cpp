@@ -1,5 +1,3 @@
-#include "core/rail/track/switch_parts.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,6 +8,7 @@
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/track_structure.h"
 
 namespace railcast {
 namespace {

@@ -9,7 +9,6 @@
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/switch_parts.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

@@ -13,8 +13,8 @@
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/objects/table_models.h"
-#include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/object_way.h"
+#include "core/rail/traffic/trains.h"
 
 namespace railcast {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/rail/traffic/train_draft.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -12,8 +10,9 @@
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
+#include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
-#include "core/rail/traffic/train_places.h"
+#include "core/rail/traffic/trains.h"
 
 namespace railcast {
 namespace {

@@ -1,7 +1,6 @@
 #include "core/rail/world/gauge_entries.h"
 
 #include <oneapi/tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <type_traits>
@@ -13,7 +12,7 @@
 #include "core/rail/network/route.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/traffic/train_places.h"
+#include "core/rail/traffic/trains.h"
 #include "core/rail/world/gauge_probe.h"
 
 namespace railcast {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/rail/clearance/clear_space.h"
-#include "core/rail/clearance/vehicle_outline.h"
 #include "core/rail/line/line_place.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/world/gauge_entries.h"

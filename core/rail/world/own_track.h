@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/clearance/vehicle_outline.h"
+#include "core/rail/clearance/clear_space.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"

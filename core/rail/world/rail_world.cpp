@@ -1,5 +1,3 @@
-#include "railcast/rail_world.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +16,8 @@
 #include "core/rail/chunk/chunk_context.h"
 #include "core/rail/chunk/chunk_grid.h"
 #include "core/rail/clearance/cleared.h"
+#include "core/rail/ground/plant_models.h"
 #include "core/rail/ground/terrain.h"
-#include "core/rail/ground/vegetation.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/motion/differentiated.h"
 #include "core/rail/motion/ride.h"
@@ -31,14 +29,13 @@
 #include "core/rail/survey/surveyed_scene.h"
 #include "core/rail/track/track_models.h"
 #include "core/rail/track/track_structure.h"
-#include "core/rail/traffic/ego_train.h"
 #include "core/rail/traffic/map_placing.h"
 #include "core/rail/traffic/object_way.h"
-#include "core/rail/traffic/train_places.h"
+#include "core/rail/traffic/trains.h"
 #include "core/rail/world/coarser_surfaces.h"
-#include "core/rail/world/world_check.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scene/rotation_between.h"
+#include "railcast/rail_world.h"
 
 namespace railcast {
 namespace {

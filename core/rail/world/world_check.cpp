@@ -1,5 +1,3 @@
-#include "core/rail/world/world_check.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,10 +7,10 @@
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/objects/table_models.h"
 #include "core/rail/structures/structures.h"
-#include "core/rail/traffic/ego_train.h"
+#include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
-#include "core/rail/traffic/train_draft.h"
-#include "core/rail/traffic/train_places.h"
+#include "core/rail/traffic/trains.h"
+#include "core/rail/world/world_draft.h"
 
 namespace railcast {
 namespace {

@@ -18,9 +18,8 @@
 #include "core/rail/network/yard.h"
 #include "core/rail/objects/table_models.h"
 #include "core/rail/traffic/map_placing.h"
+#include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
-#include "core/rail/traffic/train_draft.h"
-#include "core/rail/world/world_check.h"
 
 namespace railcast {
 namespace {

@@ -2,12 +2,15 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/rail/base/world_faults.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/landform/strip_width.h"
 #include "core/rail/motion/track_path.h"
+#include "core/rail/network/world_tracks.h"
 #include "core/rail/survey/surveyed_scene.h"
 #include "core/rail/traffic/object_draft.h"
 #include "railcast/alignment.h"
@@ -48,5 +51,22 @@ struct WorldDraft {
 
 /// The places of all moving booms on their tracks, two for each level crossing.
 [[nodiscard]] std::vector<TrackPath> BoomPaths(const WorldDraft& draft);
+
+/// Checks a world and its vehicle for consistency with each other and with the line. Faults are
+/// lines like `/world/objects/3/track: must be one of "main", "siding" (got "sidng")`. Speed
+/// profiles are checked separately (SpeedProfile), and so is the network (DraftNetwork,
+/// CheckNetwork).
+/// @param line Infinite measures if the line is unknown.
+void CheckWorld(const WorldSpec& world,
+                const VehicleSpec& vehicle,
+                const LineOfTracks& line,
+                WorldFaults& faults);
+
+/// Checks the place of one object. Faults are lines that begin with `pointer`.
+void CheckObject(const WorldSpec& world,
+                 const ObjectSpec& object,
+                 const std::string& pointer,
+                 const LineOfTracks& line,
+                 WorldFaults& faults);
 
 }  // namespace railcast

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/rail/clearance/vehicle_outline.h"
-
 namespace railcast {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "core/rail/clearance/vehicle_outline.h"
+#include "core/rail/clearance/clear_space.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

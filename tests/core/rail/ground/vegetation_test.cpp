@@ -1,4 +1,4 @@
-#include "core/rail/ground/vegetation.h"
+#include "core/rail/ground/plant_models.h"
 #include "core/rail/landform/ground_rise.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/rail/landform/elevation_grid.h"
+#include "core/rail/landform/landform.h"
 
 #include <gtest/gtest.h>
 

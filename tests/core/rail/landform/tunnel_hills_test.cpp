@@ -1,5 +1,5 @@
 // The ground above and before tunnels.
-#include "core/rail/landform/tunnel_hills.h"
+#include "core/rail/landform/ground_rise.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
 
 namespace railcast {

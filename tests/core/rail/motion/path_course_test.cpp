@@ -1,4 +1,4 @@
-#include "core/rail/motion/path_course.h"
+#include "core/rail/motion/path_way.h"
 
 #include <gtest/gtest.h>
 

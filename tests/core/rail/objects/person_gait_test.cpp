@@ -1,4 +1,4 @@
-#include "core/rail/objects/person_gait.h"
+#include "core/rail/objects/person_body.h"
 
 #include <gtest/gtest.h>
 

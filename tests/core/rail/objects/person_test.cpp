@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "core/rail/objects/person_shape.h"
+#include "core/rail/objects/person_body.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
 
@@ -109,7 +109,7 @@ TEST(MakePerson, IsMadeOfFewClosedAndSoundSurfaces) {
 
 TEST(MakePerson, HasTheProportionsOfAnAdult) {
   // Drillis and Contini (1966): chin 0.870, fingertips 0.377, foot length 0.152 (a shoe is one or
-  // two centimetres longer); breadths by DIN 33402-2 as in person_shape.h. The arms are slightly
+  // two centimetres longer); breadths by DIN 33402-2 as in person_body.h. The arms are slightly
   // bent and spread, which lifts the fingertips by up to 1 %.
   const Model man = Standing(Physique::kMan);
   constexpr double kHeight_m = 1.75;

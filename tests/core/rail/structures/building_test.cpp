@@ -1,4 +1,4 @@
-#include "core/rail/structures/building.h"
+#include "core/rail/structures/lineside_models.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,6 @@
 #include "core/rail/line/rail_section.h"
 #include "core/rail/network/junction_rails.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/track/switch_parts.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/track/cut_rails.h"

@@ -1,5 +1,5 @@
-#include "core/rail/world/world_check.h"
 #include "core/rail/network/network_draft.h"
+#include "core/rail/world/world_draft.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
