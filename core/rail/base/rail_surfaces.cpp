@@ -129,6 +129,12 @@ Part& PartOf(const SurfaceClass& surface, Model& model) {
   return model.parts.back();
 }
 
+void AppendModel(const Model& other, const Transform& model_from_other, Model& model) {
+  for (const Part& part : other.parts) {
+    MeshOf({part.material, part.label}, model).Append(part.mesh, model_from_other);
+  }
+}
+
 RailSurfaces::RailSurfaces(const LabelTable& labels, const MaterialLibrary& materials) {
   ErrorList errors;
   LookUp(kSurfaceRows, labels, materials, *this, errors);

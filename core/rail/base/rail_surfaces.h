@@ -6,6 +6,7 @@
 #include "railcast/frame.h"
 #include "railcast/material.h"
 #include "railcast/scene.h"
+#include "railcast/transform.h"
 
 namespace railcast {
 
@@ -78,6 +79,9 @@ struct RailSurfaces {
 [[nodiscard]] inline Mesh& MeshOf(const SurfaceClass& surface, Model& model) {
   return PartOf(surface, model).mesh;
 }
+
+/// Adds another model's parts to those of the same surfaces.
+void AppendModel(const Model& other, const Transform& model_from_other, Model& model);
 
 /// Whether the railway itself or one of its models has surfaces of the material.
 [[nodiscard]] bool IsRailMaterial(std::string_view name);

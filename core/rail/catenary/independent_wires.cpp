@@ -91,10 +91,8 @@ IndependentWires::IndependentWires(const WorldTracks& tracks, const Alignment& a
       step_m_(tracks.world.catenary.max_span_m / static_cast<double>(kStepsOfASpan)) {
   const std::vector<TrackSpec>& specs = tracks.world.tracks;
   for (const TrackSpec& track : specs) {
-    const auto other = [&](const std::optional<TurnoutSpec>& turnout) {
-      return turnout ? TrackIndex(tracks.world, turnout->track) : std::nullopt;
-    };
-    turnouts_.push_back({other(track.begin), other(track.end)});
+    turnouts_.push_back(
+        {TrackOfTurnout(tracks.world, track.begin), TrackOfTurnout(tracks.world, track.end)});
     axes_.emplace_back(tracks, axes_.size());
   }
   for (std::size_t k = 0; k < specs.size(); ++k) {

@@ -15,12 +15,10 @@
 
 #include "core/base/units.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/ground/plant_parts.h"
 
 namespace railcast {
 namespace {
 
-constexpr double kGoldenAngle_rad = 2.39996;  ///< Angle between successive leaves of many plants.
 constexpr double kRoot_m = 0.3;
 
 struct TreeForm {

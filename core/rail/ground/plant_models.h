@@ -1,11 +1,14 @@
 #pragma once
 
 #include <tbb/collaborative_call_once.h>
+
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,7 @@
 namespace railcast {
 
 inline constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+inline constexpr double kGoldenAngle_rad = 2.39996;  ///< Between successive leaves of many plants.
 
 /// Sequence of random numbers for the shape of one plant.
 class PlantDice {
@@ -123,5 +127,34 @@ class PlantsOnDemand {
 ///
 /// Random numbers are keyed by (seed, chunk, plant), so chunks do not depend on each other.
 void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk& chunk);
+
+/// Trunk, branch or twig: a tapering tube about a line.
+struct Stem {
+  std::vector<Vector3> line;
+  double foot_radius_m{};
+  double tip_radius_m{};
+  int sides{};
+};
+
+/// Stems as tubes.
+[[nodiscard]] Mesh WoodOf(std::span<const Stem> stems);
+
+/// Stems with tubes of four sides instead of trunks, and with flat triangles of about `width_m` at
+/// their foot instead of branches and twigs thinner than twice that. There are as many of them as
+/// have the same area in projection, on average over all directions.
+[[nodiscard]] Mesh FlattenedWood(std::span<const Stem> stems, double width_m);
+
+/// How leaves are merged.
+struct LeafMerger {
+  std::size_t num = 1;    ///< Leaves that become one.
+  double widening = 1.0;  ///< Of its width; the rest of its area is due to its length.
+  double area = 1.0;      ///< Of the area of all; below 1 for leaves that hide each other less.
+};
+
+/// Of leaves that are next to each other, one, enlarged about its centre. Which one is drawn at
+/// equal steps of the sum of their areas, so that they stay as evenly distributed as they were, in
+/// the same directions.
+/// @param leaves Triangles without common corners, the third of which is the tip.
+[[nodiscard]] Mesh MergedLeaves(const Mesh& leaves, const LeafMerger& merger);
 
 }  // namespace railcast

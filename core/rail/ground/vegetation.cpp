@@ -1,3 +1,5 @@
+#include "core/rail/ground/plant_models.h"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -9,7 +11,6 @@
 #include "core/base/random.h"
 #include "core/rail/base/noise_field.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/ground/plant_models.h"
 #include "core/rail/landform/ground_rise.h"
 #include "railcast/world_spec.h"
 
@@ -21,10 +22,25 @@ namespace {
 /// it. A share of the land of VegetationSpec::woods_share is wooded; the edges are ragged.
 class Woods {
  public:
-  Woods(const VegetationSpec& spec, std::uint64_t seed);
+  Woods(const VegetationSpec& spec, std::uint64_t seed)
+      : share_(spec.woods_share),
+        size_m_(spec.woods_size_m),
+        outline_(seed, RandomUse::kWoods, 0),
+        edge_(seed, RandomUse::kWoods, 1) {}
 
   /// Whether a tree at a place of the world stands in a wood. @param draw Uniform in [0, 1).
-  [[nodiscard]] bool HaveTreeAt(const Eigen::Vector2d& place_m, float draw) const;
+  [[nodiscard]] bool HaveTreeAt(const Eigen::Vector2d& place_m, float draw) const {
+    if (share_ >= 1.0) return true;
+    if (share_ <= 0.0) return false;
+    /// Width of the edge, as a share of the land: trees become fewer over it.
+    constexpr double kEdge = 0.1;
+    const Eigen::Vector2d at = place_m / size_m_;
+    const double noise =
+        std::sqrt(0.5) * (outline_.At(at.x(), at.y()) + edge_.At(3.0 * at.x(), 3.0 * at.y()));
+    // The noise is about normal, so that this is about uniform in [0, 1].
+    const double rank = 0.5 * std::erfc(noise * std::numbers::sqrt2 / 2.0);
+    return rank + kEdge * (static_cast<double>(draw) - 0.5) < share_;
+  }
 
  private:
   double share_;
@@ -32,28 +48,6 @@ class Woods {
   NoiseField outline_;
   NoiseField edge_;
 };
-
-Woods::Woods(const VegetationSpec& spec, std::uint64_t seed)
-    : share_(spec.woods_share),
-      size_m_(spec.woods_size_m),
-      outline_(seed, RandomUse::kWoods, 0),
-      edge_(seed, RandomUse::kWoods, 1) {}
-
-bool Woods::HaveTreeAt(const Eigen::Vector2d& place_m, float draw) const {
-  if (share_ >= 1.0) return true;
-  if (share_ <= 0.0) return false;
-  /// Width of the edge, as a share of the land: trees become fewer over it.
-  constexpr double kEdge = 0.1;
-  const Eigen::Vector2d at = place_m / size_m_;
-  const double noise =
-      std::sqrt(0.5) * (outline_.At(at.x(), at.y()) + edge_.At(3.0 * at.x(), 3.0 * at.y()));
-  // The noise is about normal, so that this is about uniform in [0, 1].
-  const double rank = 0.5 * std::erfc(noise * std::numbers::sqrt2 / 2.0);
-  return rank + kEdge * (static_cast<double>(draw) - 0.5) < share_;
-}
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr std::array<double, 2> kBothSidesOfTrack = {-1.0, 1.0};
 
 double Uniform(std::uint32_t word, double low, double high) {
   return low + (high - low) * static_cast<double>(UnitFloat(word));
@@ -223,8 +217,13 @@ void AddBushes(const ChunkContext& context,
           });
 }
 
-/// Pose of a patch on the mean slope of the ground below it.
-Eigen::Affine3d LaidOut(const ChunkContext& context, double s_m, double d_m, double yaw_rad) {
+/// Adds a patch of grass, turned by `yaw_rad`, on the mean slope of the ground below it.
+void AddPatch(const ChunkContext& context,
+              const PlantModel& patch,
+              const GroundPlace& place,
+              double yaw_rad,
+              Chunk& chunk) {
+  const auto [s_m, d_m] = place;
   constexpr double kReach_m = 0.35 * kGrassPatch_m;
   const Vector3 back_m = GroundPoint(context, s_m - kReach_m, d_m);
   const Vector3 ahead_m = GroundPoint(context, s_m + kReach_m, d_m);
@@ -236,7 +235,11 @@ Eigen::Affine3d LaidOut(const ChunkContext& context, double s_m, double d_m, dou
   rotation.col(0) = (ahead_m - back_m - normal * normal.dot(ahead_m - back_m)).normalized();
   rotation.col(1) = normal.cross(rotation.col(0));
   const Vector3 middle_m = 0.25 * (back_m + ahead_m + right_m + left_m);
-  return Eigen::Translation3d(middle_m) * rotation * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ());
+  chunk.placements.push_back({.model = patch.model,
+                              .chunk_from_model = Eigen::Translation3d(middle_m) * rotation *
+                                                  Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()),
+                              .instance = 0,
+                              .coarser = patch.coarser});
 }
 
 void AddGrass(const ChunkContext& context,
@@ -264,13 +267,9 @@ void AddGrass(const ChunkContext& context,
       // repetition.
       const double yaw_rad =
           0.25 * kTurn_rad * std::floor(Uniform(words[0], 0.0, 4.0)) + Uniform(words[1], -0.2, 0.2);
-      const PlantModel& patch = plants.grass[words[2] % plants.grass.size()];
       const double d_m = strip.side * (first_m + spacing_m * row);
       if (cleared.Cover(s_m, d_m)) continue;
-      chunk.placements.push_back({.model = patch.model,
-                                  .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad),
-                                  .instance = 0,
-                                  .coarser = patch.coarser});
+      AddPatch(context, plants.grass[words[2] % plants.grass.size()], {s_m, d_m}, yaw_rad, chunk);
     }
   }
 }
@@ -302,12 +301,8 @@ void AddFadingGrass(const ChunkContext& context,
       const double d_m = strip.side * (strip.inner_m + beyond_m);
       if (strip.inner_m + beyond_m > strip.outer_m) continue;
       if (cleared.Cover(s_m, d_m) || !IsOnGround(context, s_m, d_m)) continue;
-      const PlantModel& patch = plants.grass[words[3] % plants.grass.size()];
-      const double yaw_rad = Uniform(words[3], 0.0, kTurn_rad);
-      chunk.placements.push_back({.model = patch.model,
-                                  .chunk_from_model = LaidOut(context, s_m, d_m, yaw_rad),
-                                  .instance = 0,
-                                  .coarser = patch.coarser});
+      AddPatch(context, plants.grass[words[3] % plants.grass.size()], {s_m, d_m},
+               Uniform(words[3], 0.0, kTurn_rad), chunk);
     }
   }
 }
@@ -317,7 +312,7 @@ void AddFadingGrass(const ChunkContext& context,
 void AddVegetation(const ChunkContext& context, const PlantModels& plants, Chunk& chunk) {
   const VegetationSpec& spec = context.spec.vegetation;
   const double edge_m = context.spec.terrain.half_width_m;
-  for (const double side : kBothSidesOfTrack) {
+  for (const double side : {-1.0, 1.0}) {
     AddTrees(context, plants, {side, spec.tree_min_distance_m, 2.0 * edge_m}, chunk);
     AddBushes(context, plants, {side, spec.bush_min_distance_m, 2.0 * edge_m}, chunk);
     if (!spec.grass) continue;

@@ -1,3 +1,5 @@
+#include "core/rail/landform/landform.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -9,7 +11,6 @@
 #include "core/base/input_file.h"
 #include "core/base/out_of_memory.h"
 #include "core/base/text.h"
-#include "core/rail/landform/landform.h"
 
 namespace railcast {
 namespace {

@@ -1,9 +1,10 @@
+#include "core/rail/landform/ground_rise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 
-#include "core/rail/landform/ground_rise.h"
 #include "core/rail/landform/landform.h"
 
 namespace railcast {

@@ -1,3 +1,5 @@
+#include "railcast/alignment.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +13,6 @@
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/line/plan_course.h"
-#include "railcast/alignment.h"
 
 namespace railcast {
 namespace {

@@ -1,3 +1,5 @@
+#include "core/rail/network/junction_rails.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -5,7 +7,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/rail/network/junction_rails.h"
 
 namespace railcast {
 namespace {

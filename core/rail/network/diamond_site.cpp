@@ -1,3 +1,5 @@
+#include "core/rail/network/network_draft.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,7 +10,6 @@
 
 #include "core/base/text.h"
 #include "core/rail/network/junction_rails.h"
-#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 
 namespace railcast {

@@ -1,3 +1,5 @@
+#include "core/rail/network/network_draft.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 #include "core/base/units.h"
 #include "core/rail/line/alignment_course.h"
 #include "core/rail/line/plan_course.h"
-#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 
 namespace railcast {

@@ -1,10 +1,11 @@
+#include "core/rail/network/junction_rails.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/rail/line/rail_section.h"
-#include "core/rail/network/junction_rails.h"
 
 namespace railcast {
 namespace {

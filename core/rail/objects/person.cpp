@@ -91,10 +91,7 @@ void AddSuitcase(const PersonSpec& look,
     MeshOf(surfaces.tyre, suitcase)
         .Append(MakeLuggageWheel({0.0, side * 0.19, 0.0}, kSuitcaseWheel_m, 0.02, 12));
   }
-  const Transform placed = PersonFromSuitcase(look, body);
-  for (const Part& part : suitcase.parts) {
-    MeshOf({part.material, part.label}, model).Append(part.mesh, placed);
-  }
+  AppendModel(suitcase, PersonFromSuitcase(look, body), model);
 }
 
 void AddCarrycot(const Vector3& middle_m, const PersonSurfaces& surfaces, Model& model) {
@@ -235,23 +232,17 @@ PersonDress DressOf(const PersonSpec& look, const PersonSurfaces& surfaces) {
   return dress;
 }
 
-void AppendBone(const Model& other, const Transform& model_from_other, Model& model) {
-  for (const Part& part : other.parts) {
-    MeshOf({part.material, part.label}, model).Append(part.mesh, model_from_other);
-  }
-}
-
 Model Assembled(const PersonBones& bones, const PersonPose& pose) {
   Model person{.name = "person", .parts = {}};
-  AppendBone(bones.pelvis, pose.pelvis, person);
-  AppendBone(bones.chest, pose.chest, person);
-  AppendBone(bones.head, pose.head, person);
+  AppendModel(bones.pelvis, pose.pelvis, person);
+  AppendModel(bones.chest, pose.chest, person);
+  AppendModel(bones.head, pose.head, person);
   for (const PersonPose::Limbs& limbs : pose.sides) {
-    AppendBone(bones.limbs.upper_arm, limbs.upper_arm, person);
-    AppendBone(bones.limbs.forearm, limbs.forearm, person);
-    AppendBone(bones.limbs.thigh, limbs.thigh, person);
-    AppendBone(bones.limbs.shank, limbs.shank, person);
-    AppendBone(bones.limbs.foot, limbs.foot, person);
+    AppendModel(bones.limbs.upper_arm, limbs.upper_arm, person);
+    AppendModel(bones.limbs.forearm, limbs.forearm, person);
+    AppendModel(bones.limbs.thigh, limbs.thigh, person);
+    AppendModel(bones.limbs.shank, limbs.shank, person);
+    AppendModel(bones.limbs.foot, limbs.foot, person);
   }
   return person;
 }
@@ -316,8 +307,8 @@ std::vector<Model> MakePersonPieces(const PersonSurfaces& surfaces, const Person
   // The trunk's bones do not move against each other.
   const PersonPose pose = StandingPose(body);
   Model trunk = bones.pelvis;
-  AppendBone(bones.chest, pose.pelvis.inverse() * pose.chest, trunk);
-  AppendBone(bones.head, pose.pelvis.inverse() * pose.head, trunk);
+  AppendModel(bones.chest, pose.pelvis.inverse() * pose.chest, trunk);
+  AppendModel(bones.head, pose.pelvis.inverse() * pose.head, trunk);
   std::vector<Model> pieces = {std::move(trunk)};
   const PersonBones::Limbs& limbs = bones.limbs;
   for (std::size_t side = 0; side < 2; ++side) {

@@ -212,15 +212,4 @@ struct PersonBones {
                                           Physique physique,
                                           const PersonDress& dress);
 
-/// Parts of MakePersonBones().
-void AddTrunk(const BodyMeasures& body,
-              Physique physique,
-              const PersonDress& dress,
-              PersonBones& bones);
-void AddHead(const BodyMeasures& body,
-             Physique physique,
-             const PersonDress& dress,
-             PersonBones& bones);
-void AddLimbs(const BodyMeasures& body, const PersonDress& dress, PersonBones& bones);
-
 }  // namespace railcast

@@ -1,3 +1,5 @@
+#include "core/rail/objects/person_body.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <numbers>
 
 #include "core/base/error.h"
-#include "core/rail/objects/person_body.h"
 
 namespace railcast {
 namespace {

@@ -1,10 +1,13 @@
+#include "core/rail/objects/person_body.h"
+
 #include <algorithm>
-#include <numbers>
+#include <iterator>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/loft.h"
-#include "core/rail/objects/person_body.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {
@@ -17,68 +20,64 @@ constexpr int kTorsoSides = 24;
 constexpr double kTableWaist_m = 0.149;
 constexpr double kTableNeck_m = 0.403;
 
-const std::vector<LoftSection>& PelvisSections(Physique physique) {
-  static const std::vector<LoftSection> man = {{-0.112, 0.0, 0.0, 0.0},
-                                               {-0.100, 0.055, 0.065, 0.080},
-                                               {-0.080, 0.082, 0.098, 0.130},
-                                               {-0.040, 0.100, 0.126, 0.168, 0.0, 2.4},
-                                               {0.000, 0.105, 0.130, 0.177, 0.0, 2.4},
-                                               {0.040, 0.106, 0.118, 0.176, 0.0, 2.4},
-                                               {0.090, 0.108, 0.100, 0.166, 0.0, 2.4},
-                                               {0.149, 0.110, 0.092, 0.157, 0.0, 2.4},
-                                               {0.185, 0.098, 0.082, 0.142},
-                                               {0.205, 0.060, 0.050, 0.090},
-                                               {0.213, 0.0, 0.0, 0.0}};
-  static const std::vector<LoftSection> woman = {{-0.112, 0.0, 0.0, 0.0},
-                                                 {-0.100, 0.055, 0.070, 0.085},
-                                                 {-0.080, 0.085, 0.108, 0.140},
-                                                 {-0.040, 0.102, 0.138, 0.184, 0.0, 2.3},
-                                                 {0.000, 0.106, 0.138, 0.192, 0.0, 2.3},
-                                                 {0.040, 0.104, 0.118, 0.184, 0.0, 2.3},
-                                                 {0.090, 0.098, 0.096, 0.163, 0.0, 2.3},
-                                                 {0.149, 0.092, 0.084, 0.144, 0.0, 2.3},
-                                                 {0.185, 0.082, 0.074, 0.130},
-                                                 {0.205, 0.050, 0.045, 0.080},
-                                                 {0.213, 0.0, 0.0, 0.0}};
-  return physique == Physique::kWoman ? woman : man;
-}
+constexpr LoftSection kManPelvisSections[] = {{-0.112, 0.0, 0.0, 0.0},
+                                              {-0.100, 0.055, 0.065, 0.080},
+                                              {-0.080, 0.082, 0.098, 0.130},
+                                              {-0.040, 0.100, 0.126, 0.168, 0.0, 2.4},
+                                              {0.000, 0.105, 0.130, 0.177, 0.0, 2.4},
+                                              {0.040, 0.106, 0.118, 0.176, 0.0, 2.4},
+                                              {0.090, 0.108, 0.100, 0.166, 0.0, 2.4},
+                                              {0.149, 0.110, 0.092, 0.157, 0.0, 2.4},
+                                              {0.185, 0.098, 0.082, 0.142},
+                                              {0.205, 0.060, 0.050, 0.090},
+                                              {0.213, 0.0, 0.0, 0.0}};
 
-const std::vector<LoftSection>& ChestSections(Physique physique) {
-  static const std::vector<LoftSection> man = {{-0.055, 0.0, 0.0, 0.0},
-                                               {-0.045, 0.060, 0.050, 0.090},
-                                               {-0.025, 0.098, 0.082, 0.142},
-                                               {0.000, 0.110, 0.092, 0.157, 0.0, 2.4},
-                                               {0.060, 0.111, 0.096, 0.160, 0.0, 2.4},
-                                               {0.120, 0.115, 0.106, 0.167, 0.0, 2.4},
-                                               {0.180, 0.122, 0.113, 0.174, 0.0, 2.5},
-                                               {0.240, 0.124, 0.119, 0.178, 0.0, 2.6},
-                                               {0.295, 0.113, 0.120, 0.181, 0.0, 2.6},
-                                               {0.335, 0.097, 0.114, 0.188, -0.004, 2.5},
-                                               {0.362, 0.080, 0.102, 0.186, -0.008, 2.4},
-                                               {0.382, 0.069, 0.090, 0.172, -0.012, 2.2},
-                                               {0.402, 0.061, 0.077, 0.128, -0.012, 2.1},
-                                               {0.420, 0.058, 0.067, 0.088, -0.008, 2.0},
-                                               {0.436, 0.056, 0.062, 0.066, -0.002, 2.0},
+constexpr LoftSection kWomanPelvisSections[] = {{-0.112, 0.0, 0.0, 0.0},
+                                                {-0.100, 0.055, 0.070, 0.085},
+                                                {-0.080, 0.085, 0.108, 0.140},
+                                                {-0.040, 0.102, 0.138, 0.184, 0.0, 2.3},
+                                                {0.000, 0.106, 0.138, 0.192, 0.0, 2.3},
+                                                {0.040, 0.104, 0.118, 0.184, 0.0, 2.3},
+                                                {0.090, 0.098, 0.096, 0.163, 0.0, 2.3},
+                                                {0.149, 0.092, 0.084, 0.144, 0.0, 2.3},
+                                                {0.185, 0.082, 0.074, 0.130},
+                                                {0.205, 0.050, 0.045, 0.080},
+                                                {0.213, 0.0, 0.0, 0.0}};
+
+constexpr LoftSection kManChestSections[] = {{-0.055, 0.0, 0.0, 0.0},
+                                             {-0.045, 0.060, 0.050, 0.090},
+                                             {-0.025, 0.098, 0.082, 0.142},
+                                             {0.000, 0.110, 0.092, 0.157, 0.0, 2.4},
+                                             {0.060, 0.111, 0.096, 0.160, 0.0, 2.4},
+                                             {0.120, 0.115, 0.106, 0.167, 0.0, 2.4},
+                                             {0.180, 0.122, 0.113, 0.174, 0.0, 2.5},
+                                             {0.240, 0.124, 0.119, 0.178, 0.0, 2.6},
+                                             {0.295, 0.113, 0.120, 0.181, 0.0, 2.6},
+                                             {0.335, 0.097, 0.114, 0.188, -0.004, 2.5},
+                                             {0.362, 0.080, 0.102, 0.186, -0.008, 2.4},
+                                             {0.382, 0.069, 0.090, 0.172, -0.012, 2.2},
+                                             {0.402, 0.061, 0.077, 0.128, -0.012, 2.1},
+                                             {0.420, 0.058, 0.067, 0.088, -0.008, 2.0},
+                                             {0.436, 0.056, 0.062, 0.066, -0.002, 2.0},
+                                             {0.438, 0.0, 0.0, 0.0, -0.002}};
+
+constexpr LoftSection kWomanChestSections[] = {{-0.055, 0.0, 0.0, 0.0},
+                                               {-0.045, 0.050, 0.045, 0.080},
+                                               {-0.025, 0.082, 0.074, 0.130},
+                                               {0.000, 0.092, 0.084, 0.144, 0.0, 2.3},
+                                               {0.060, 0.096, 0.090, 0.143, 0.0, 2.3},
+                                               {0.120, 0.108, 0.098, 0.148, 0.0, 2.4},
+                                               {0.170, 0.140, 0.104, 0.155, 0.0, 2.5},
+                                               {0.210, 0.148, 0.108, 0.159, 0.0, 2.5},
+                                               {0.250, 0.126, 0.110, 0.162, 0.0, 2.5},
+                                               {0.295, 0.101, 0.110, 0.165, 0.0, 2.5},
+                                               {0.335, 0.087, 0.104, 0.172, -0.004, 2.4},
+                                               {0.362, 0.073, 0.094, 0.170, -0.008, 2.3},
+                                               {0.382, 0.062, 0.082, 0.156, -0.012, 2.2},
+                                               {0.402, 0.054, 0.069, 0.114, -0.012, 2.1},
+                                               {0.420, 0.051, 0.060, 0.077, -0.008, 2.0},
+                                               {0.436, 0.049, 0.055, 0.057, -0.002, 2.0},
                                                {0.438, 0.0, 0.0, 0.0, -0.002}};
-  static const std::vector<LoftSection> woman = {{-0.055, 0.0, 0.0, 0.0},
-                                                 {-0.045, 0.050, 0.045, 0.080},
-                                                 {-0.025, 0.082, 0.074, 0.130},
-                                                 {0.000, 0.092, 0.084, 0.144, 0.0, 2.3},
-                                                 {0.060, 0.096, 0.090, 0.143, 0.0, 2.3},
-                                                 {0.120, 0.108, 0.098, 0.148, 0.0, 2.4},
-                                                 {0.170, 0.140, 0.104, 0.155, 0.0, 2.5},
-                                                 {0.210, 0.148, 0.108, 0.159, 0.0, 2.5},
-                                                 {0.250, 0.126, 0.110, 0.162, 0.0, 2.5},
-                                                 {0.295, 0.101, 0.110, 0.165, 0.0, 2.5},
-                                                 {0.335, 0.087, 0.104, 0.172, -0.004, 2.4},
-                                                 {0.362, 0.073, 0.094, 0.170, -0.008, 2.3},
-                                                 {0.382, 0.062, 0.082, 0.156, -0.012, 2.2},
-                                                 {0.402, 0.054, 0.069, 0.114, -0.012, 2.1},
-                                                 {0.420, 0.051, 0.060, 0.077, -0.008, 2.0},
-                                                 {0.436, 0.049, 0.055, 0.057, -0.002, 2.0},
-                                                 {0.438, 0.0, 0.0, 0.0, -0.002}};
-  return physique == Physique::kWoman ? woman : man;
-}
 
 // Bands of a waistcoat, above the waist of a man of 1.75 m. EN ISO 20471 wants bands of 50 mm, two
 // round the torso and one over each shoulder.
@@ -100,80 +99,58 @@ bool IsBand(double z_m, int side) {
   return IsWithin(z_m, kShoulderTop_m) && in_half >= 2 && in_half <= 9;
 }
 
-std::vector<LoftSection> WithBandEdges(std::vector<LoftSection> sections) {
-  for (const double z_m : {kWaistBand_m[0], kWaistBand_m[1], kChestBand_m[0], kChestBand_m[1]}) {
-    sections = WithSectionAt(z_m, std::move(sections));
-  }
-  return sections;
-}
-
 constexpr int kHeadSides = 20;
 
 // Heights above the neck's joint, of a man of 1.75 m.
 constexpr double kTableCrown_m = 0.2725;
 constexpr double kTableHelmet_m = 0.3075;
 
-const std::vector<LoftSection>& NeckSections() {
-  static const std::vector<LoftSection> sections = {{-0.040, 0.0, 0.0, 0.0},
-                                                    {-0.030, 0.050, 0.056, 0.058},
-                                                    {0.020, 0.050, 0.055, 0.055, 0.004, 2.0},
-                                                    {0.075, 0.050, 0.062, 0.055, 0.010, 2.0},
-                                                    {0.110, 0.0, 0.0, 0.0, 0.010}};
-  return sections;
-}
+constexpr LoftSection kNeckSections[] = {{-0.040, 0.0, 0.0, 0.0},
+                                         {-0.030, 0.050, 0.056, 0.058},
+                                         {0.020, 0.050, 0.055, 0.055, 0.004, 2.0},
+                                         {0.075, 0.050, 0.062, 0.055, 0.010, 2.0},
+                                         {0.110, 0.0, 0.0, 0.0, 0.010}};
 
-const std::vector<LoftSection>& HeadSections() {
-  static const std::vector<LoftSection> sections = {{0.036, 0.0, 0.0, 0.0, 0.058},
-                                                    {0.041, 0.026, 0.030, 0.026, 0.058},
-                                                    {0.053, 0.046, 0.062, 0.046, 0.046},
-                                                    {0.070, 0.062, 0.078, 0.056, 0.032},
-                                                    {0.092, 0.074, 0.086, 0.064, 0.024},
-                                                    {0.112, 0.078, 0.092, 0.069, 0.021},
-                                                    {0.136, 0.077, 0.097, 0.073, 0.020},
-                                                    {0.154, 0.077, 0.098, 0.075, 0.020},
-                                                    {0.166, 0.081, 0.099, 0.0765, 0.020},
-                                                    {0.196, 0.081, 0.099, 0.0775, 0.018},
-                                                    {0.222, 0.074, 0.094, 0.073, 0.016, 2.1},
-                                                    {0.243, 0.060, 0.080, 0.062, 0.013, 2.0},
-                                                    {0.259, 0.042, 0.057, 0.045, 0.010, 2.0},
-                                                    {0.269, 0.020, 0.028, 0.022, 0.008, 2.0},
-                                                    {kTableCrown_m, 0.0, 0.0, 0.0, 0.006}};
-  return sections;
-}
+constexpr LoftSection kHeadSections[] = {{0.036, 0.0, 0.0, 0.0, 0.058},
+                                         {0.041, 0.026, 0.030, 0.026, 0.058},
+                                         {0.053, 0.046, 0.062, 0.046, 0.046},
+                                         {0.070, 0.062, 0.078, 0.056, 0.032},
+                                         {0.092, 0.074, 0.086, 0.064, 0.024},
+                                         {0.112, 0.078, 0.092, 0.069, 0.021},
+                                         {0.136, 0.077, 0.097, 0.073, 0.020},
+                                         {0.154, 0.077, 0.098, 0.075, 0.020},
+                                         {0.166, 0.081, 0.099, 0.0765, 0.020},
+                                         {0.196, 0.081, 0.099, 0.0775, 0.018},
+                                         {0.222, 0.074, 0.094, 0.073, 0.016, 2.1},
+                                         {0.243, 0.060, 0.080, 0.062, 0.013, 2.0},
+                                         {0.259, 0.042, 0.057, 0.045, 0.010, 2.0},
+                                         {0.269, 0.020, 0.028, 0.022, 0.008, 2.0},
+                                         {kTableCrown_m, 0.0, 0.0, 0.0, 0.006}};
 
-const std::vector<LoftSection>& NoseSections() {
-  static const std::vector<LoftSection> sections = {{0.103, 0.0, 0.0, 0.0, 0.098},
-                                                    {0.107, 0.016, 0.020, 0.016, 0.100},
-                                                    {0.114, 0.021, 0.020, 0.017, 0.100},
-                                                    {0.130, 0.011, 0.020, 0.011, 0.098},
-                                                    {0.156, 0.0, 0.0, 0.0, 0.094}};
-  return sections;
-}
+constexpr LoftSection kNoseSections[] = {{0.103, 0.0, 0.0, 0.0, 0.098},
+                                         {0.107, 0.016, 0.020, 0.016, 0.100},
+                                         {0.114, 0.021, 0.020, 0.017, 0.100},
+                                         {0.130, 0.011, 0.020, 0.011, 0.098},
+                                         {0.156, 0.0, 0.0, 0.0, 0.094}};
 
 /// Hair down to the neck.
-const std::vector<LoftSection>& LongHairSections() {
-  static const std::vector<LoftSection> sections = {
-      {-0.035, 0.0, 0.0, 0.0, -0.050},      {-0.020, 0.020, 0.030, 0.055, -0.050},
-      {0.040, 0.034, 0.052, 0.073, -0.040}, {0.110, 0.050, 0.066, 0.084, -0.030},
-      {0.170, 0.060, 0.074, 0.088, -0.022}, {0.220, 0.066, 0.072, 0.084, -0.014},
-      {0.252, 0.052, 0.060, 0.062, -0.006}, {0.268, 0.024, 0.030, 0.030, 0.002},
-      {kTableCrown_m, 0.0, 0.0, 0.0, 0.004}};
-  return sections;
-}
+constexpr LoftSection kLongHairSections[] = {
+    {-0.035, 0.0, 0.0, 0.0, -0.050},      {-0.020, 0.020, 0.030, 0.055, -0.050},
+    {0.040, 0.034, 0.052, 0.073, -0.040}, {0.110, 0.050, 0.066, 0.084, -0.030},
+    {0.170, 0.060, 0.074, 0.088, -0.022}, {0.220, 0.066, 0.072, 0.084, -0.014},
+    {0.252, 0.052, 0.060, 0.062, -0.006}, {0.268, 0.024, 0.030, 0.030, 0.002},
+    {kTableCrown_m, 0.0, 0.0, 0.0, 0.004}};
 
 /// EN 397: an industrial safety helmet with a peak.
-const std::vector<LoftSection>& HelmetSections() {
-  static const std::vector<LoftSection> sections = {{0.183, 0.0, 0.0, 0.0, 0.015},
-                                                    {0.184, 0.132, 0.122, 0.100, 0.015},
-                                                    {0.192, 0.130, 0.120, 0.098, 0.015},
-                                                    {0.202, 0.105, 0.114, 0.093, 0.015, 2.1},
-                                                    {0.235, 0.098, 0.106, 0.086, 0.013, 2.1},
-                                                    {0.268, 0.078, 0.086, 0.070, 0.011, 2.0},
-                                                    {0.292, 0.050, 0.056, 0.046, 0.009, 2.0},
-                                                    {0.303, 0.024, 0.027, 0.022, 0.008, 2.0},
-                                                    {kTableHelmet_m, 0.0, 0.0, 0.0, 0.007}};
-  return sections;
-}
+constexpr LoftSection kHelmetSections[] = {{0.183, 0.0, 0.0, 0.0, 0.015},
+                                           {0.184, 0.132, 0.122, 0.100, 0.015},
+                                           {0.192, 0.130, 0.120, 0.098, 0.015},
+                                           {0.202, 0.105, 0.114, 0.093, 0.015, 2.1},
+                                           {0.235, 0.098, 0.106, 0.086, 0.013, 2.1},
+                                           {0.268, 0.078, 0.086, 0.070, 0.011, 2.0},
+                                           {0.292, 0.050, 0.056, 0.046, 0.009, 2.0},
+                                           {0.303, 0.024, 0.027, 0.022, 0.008, 2.0},
+                                           {kTableHelmet_m, 0.0, 0.0, 0.0, 0.007}};
 
 /// Whether a face of the head, at a height of the table, is covered with hair.
 bool IsHair(double z_m, int side) {
@@ -197,49 +174,34 @@ constexpr int kLegSides = 14;
 
 /// Heights in this and the following tables are shares of the length of the bone, from -1 at the
 /// joint farther from the trunk to 0; depths and widths are at a girth of 1.
-const std::vector<LoftSection>& UpperArmSections() {
-  static const std::vector<LoftSection> sections = {
-      {-1.00, 0.044, 0.045, 0.041}, {-0.80, 0.046, 0.047, 0.043}, {-0.50, 0.052, 0.051, 0.047},
-      {-0.25, 0.057, 0.058, 0.051}, {-0.08, 0.055, 0.057, 0.050}, {0.00, 0.050, 0.052, 0.045}};
-  return sections;
-}
+constexpr LoftSection kUpperArmSections[] = {
+    {-1.00, 0.044, 0.045, 0.041}, {-0.80, 0.046, 0.047, 0.043}, {-0.50, 0.052, 0.051, 0.047},
+    {-0.25, 0.057, 0.058, 0.051}, {-0.08, 0.055, 0.057, 0.050}, {0.00, 0.050, 0.052, 0.045}};
 
-const std::vector<LoftSection>& ForearmSections() {
-  static const std::vector<LoftSection> sections = {{-0.97, 0.034, 0.033, 0.029},
-                                                    {-0.70, 0.037, 0.036, 0.033},
-                                                    {-0.40, 0.043, 0.043, 0.040},
-                                                    {-0.15, 0.047, 0.047, 0.043},
-                                                    {0.00, 0.044, 0.046, 0.042}};
-  return sections;
-}
+constexpr LoftSection kForearmSections[] = {{-0.97, 0.034, 0.033, 0.029},
+                                            {-0.70, 0.037, 0.036, 0.033},
+                                            {-0.40, 0.043, 0.043, 0.040},
+                                            {-0.15, 0.047, 0.047, 0.043},
+                                            {0.00, 0.044, 0.046, 0.042}};
 
-const std::vector<LoftSection>& ThighSections() {
-  static const std::vector<LoftSection> sections = {
-      {-1.00, 0.059, 0.060, 0.056}, {-0.85, 0.063, 0.064, 0.060}, {-0.60, 0.075, 0.075, 0.069},
-      {-0.35, 0.088, 0.092, 0.079}, {-0.15, 0.096, 0.106, 0.085}, {0.00, 0.098, 0.118, 0.085}};
-  return sections;
-}
+constexpr LoftSection kThighSections[] = {
+    {-1.00, 0.059, 0.060, 0.056}, {-0.85, 0.063, 0.064, 0.060}, {-0.60, 0.075, 0.075, 0.069},
+    {-0.35, 0.088, 0.092, 0.079}, {-0.15, 0.096, 0.106, 0.085}, {0.00, 0.098, 0.118, 0.085}};
 
-const std::vector<LoftSection>& ShankSections() {
-  static const std::vector<LoftSection> sections = {
-      {-0.96, 0.056, 0.060, 0.050}, {-0.92, 0.050, 0.056, 0.048}, {-0.75, 0.046, 0.054, 0.047},
-      {-0.50, 0.049, 0.063, 0.051}, {-0.30, 0.052, 0.070, 0.055}, {-0.12, 0.055, 0.064, 0.055},
-      {0.00, 0.058, 0.060, 0.056}};
-  return sections;
-}
+constexpr LoftSection kShankSections[] = {
+    {-0.96, 0.056, 0.060, 0.050}, {-0.92, 0.050, 0.056, 0.048}, {-0.75, 0.046, 0.054, 0.047},
+    {-0.50, 0.049, 0.063, 0.051}, {-0.30, 0.052, 0.070, 0.055}, {-0.12, 0.055, 0.064, 0.055},
+    {0.00, 0.058, 0.060, 0.056}};
 
 /// Below the wrist, as shares of the hand's length; a relaxed mitten, curved forwards.
-const std::vector<LoftSection>& HandSections() {
-  static const std::vector<LoftSection> sections = {{-1.00, 0.0, 0.0, 0.0, 0.022},
-                                                    {-0.95, 0.016, 0.020, 0.009, 0.020},
-                                                    {-0.75, 0.029, 0.031, 0.014, 0.014},
-                                                    {-0.50, 0.040, 0.038, 0.017, 0.006, 2.6},
-                                                    {-0.25, 0.038, 0.036, 0.019, 0.004, 2.6},
-                                                    {-0.05, 0.027, 0.027, 0.020},
-                                                    {0.12, 0.025, 0.025, 0.020},
-                                                    {0.16, 0.0, 0.0, 0.0}};
-  return sections;
-}
+constexpr LoftSection kHandSections[] = {{-1.00, 0.0, 0.0, 0.0, 0.022},
+                                         {-0.95, 0.016, 0.020, 0.009, 0.020},
+                                         {-0.75, 0.029, 0.031, 0.014, 0.014},
+                                         {-0.50, 0.040, 0.038, 0.017, 0.006, 2.6},
+                                         {-0.25, 0.038, 0.036, 0.019, 0.004, 2.6},
+                                         {-0.05, 0.027, 0.027, 0.020},
+                                         {0.12, 0.025, 0.025, 0.020},
+                                         {0.16, 0.0, 0.0, 0.0}};
 
 /// A cross-section of a shoe: from the sole to the top, as shares of the shoe's length.
 struct ShoeSection {
@@ -257,11 +219,11 @@ Model MakeHandAndForearm(const BodyMeasures& body, const PersonDress& dress) {
   const double girth = body.limb_girth;
   Model forearm;
   AddLoft(
-      WithDomes(0.0, 0.045 * girth, Stretched(ForearmSections(), {girth, girth, body.forearm_m})),
+      WithDomes(0.0, 0.045 * girth, Stretched(kForearmSections, {girth, girth, body.forearm_m})),
       kArmSides, dress.sleeves, forearm);
   Transform wrist = Transform::Identity();
   wrist.translation().z() = -body.forearm_m;
-  AddLoft(Stretched(HandSections(), {girth, girth, body.hand_m}), kArmSides, dress.skin, forearm,
+  AddLoft(Stretched(kHandSections, {girth, girth, body.hand_m}), kArmSides, dress.skin, forearm,
           wrist);
   const auto on_hand = [&](double x_m, double y_m, double share) {
     return Vector3(girth * x_m, girth * y_m, -body.forearm_m - share * body.hand_m);
@@ -276,7 +238,7 @@ Model MakeHandAndForearm(const BodyMeasures& body, const PersonDress& dress) {
 }
 
 Model MakeShank(const BodyMeasures& body, const PersonDress& dress) {
-  std::vector<LoftSection> table = ShankSections();
+  std::vector<LoftSection> table(std::begin(kShankSections), std::end(kShankSections));
   // Two bands of 60 mm on a shank of 0.43 m, 70 mm apart.
   constexpr double kBands[2][2] = {{-0.30, -0.16}, {-0.60, -0.46}};
   if (dress.has_bands) {
@@ -326,8 +288,6 @@ Model MakeShoe(const BodyMeasures& body, const PersonDress& dress) {
   return foot;
 }
 
-}  // namespace
-
 void AddTrunk(const BodyMeasures& body,
               Physique physique,
               const PersonDress& dress,
@@ -335,11 +295,19 @@ void AddTrunk(const BodyMeasures& body,
   const auto scale = [&](double length_m, double table_m) {
     return Vector3(body.trunk_girth, body.trunk_girth, length_m / table_m);
   };
-  AddLoft(Stretched(PelvisSections(physique), scale(body.waist_m - body.hip_m, kTableWaist_m)),
-          kTorsoSides, dress.legs, bones.pelvis);
+  using Sections = std::span<const LoftSection>;
+  const bool is_woman = physique == Physique::kWoman;
+  const Sections pelvis = is_woman ? Sections(kWomanPelvisSections) : kManPelvisSections;
+  const Sections chest = is_woman ? Sections(kWomanChestSections) : kManChestSections;
+  AddLoft(Stretched(pelvis, scale(body.waist_m - body.hip_m, kTableWaist_m)), kTorsoSides,
+          dress.legs, bones.pelvis);
 
-  const std::vector<LoftSection>& plain = ChestSections(physique);
-  const std::vector<LoftSection> table = dress.has_bands ? WithBandEdges(plain) : plain;
+  std::vector<LoftSection> table(chest.begin(), chest.end());
+  if (dress.has_bands) {
+    for (const double z_m : {kWaistBand_m[0], kWaistBand_m[1], kChestBand_m[0], kChestBand_m[1]}) {
+      table = WithSectionAt(z_m, std::move(table));
+    }
+  }
   const auto surface = [&](int gap, int side) {
     const auto lower = static_cast<std::size_t>(gap);
     const double z_m = 0.5 * (table[lower].z_m + table[lower + 1].z_m);
@@ -350,46 +318,46 @@ void AddTrunk(const BodyMeasures& body,
           bones.chest);
 }
 
-double HelmetHeight(Physique physique) {
-  const BodyMeasures body = MeasuresOf(physique, 1.0);
-  return body.neck_m + (1.0 - body.neck_m) * kTableHelmet_m / kTableCrown_m;
-}
-
 void AddHead(const BodyMeasures& body,
              Physique physique,
              const PersonDress& dress,
              PersonBones& bones) {
   const Vector3 scale(body.head_girth, body.head_girth,
                       (body.height_m - body.neck_m) / kTableCrown_m);
-  AddLoft(Stretched(NeckSections(), scale), 14, dress.skin, bones.head);
-  const std::vector<LoftSection>& table = HeadSections();
+  AddLoft(Stretched(kNeckSections, scale), 14, dress.skin, bones.head);
   const auto surface = [&](int gap, int side) {
-    const auto lower = static_cast<std::size_t>(gap);
-    const double z_m = 0.5 * (table[lower].z_m + table[lower + 1].z_m);
+    const double z_m = 0.5 * (kHeadSections[gap].z_m + kHeadSections[gap + 1].z_m);
     return IsHair(z_m, side) ? dress.hair : dress.skin;
   };
-  AddLoft(Stretched(table, scale), kHeadSides, surface, bones.head);
-  AddLoft(Stretched(NoseSections(), scale), 8, dress.skin, bones.head);
+  AddLoft(Stretched(kHeadSections, scale), kHeadSides, surface, bones.head);
+  AddLoft(Stretched(kNoseSections, scale), 8, dress.skin, bones.head);
   AddEars(scale, dress.skin, bones.head);
   if (physique == Physique::kWoman) {
-    AddLoft(Stretched(LongHairSections(), scale), 16, dress.hair, bones.head);
+    AddLoft(Stretched(kLongHairSections, scale), 16, dress.hair, bones.head);
   }
   if (dress.has_helmet) {
-    AddLoft(Stretched(HelmetSections(), scale), kHeadSides, dress.helmet, bones.head);
+    AddLoft(Stretched(kHelmetSections, scale), kHeadSides, dress.helmet, bones.head);
   }
 }
 
 void AddLimbs(const BodyMeasures& body, const PersonDress& dress, PersonBones& bones) {
   const double girth = body.limb_girth;
   AddLoft(WithDomes(0.042 * girth, 0.022 * girth,
-                    Stretched(UpperArmSections(), {girth, girth, body.upper_arm_m})),
+                    Stretched(kUpperArmSections, {girth, girth, body.upper_arm_m})),
           kArmSides, dress.sleeves, bones.limbs.upper_arm);
   bones.limbs.forearm = MakeHandAndForearm(body, dress);
   AddLoft(WithDomes(0.055 * girth, 0.075 * girth,
-                    Stretched(ThighSections(), {girth, girth, body.thigh_m()})),
+                    Stretched(kThighSections, {girth, girth, body.thigh_m()})),
           kLegSides, dress.legs, bones.limbs.thigh);
   bones.limbs.shank = MakeShank(body, dress);
   bones.limbs.foot = MakeShoe(body, dress);
+}
+
+}  // namespace
+
+double HelmetHeight(Physique physique) {
+  const BodyMeasures body = MeasuresOf(physique, 1.0);
+  return body.neck_m + (1.0 - body.neck_m) * kTableHelmet_m / kTableCrown_m;
 }
 
 PersonBones MakePersonBones(const BodyMeasures& body, Physique physique, const PersonDress& dress) {

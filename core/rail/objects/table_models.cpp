@@ -84,11 +84,9 @@ RailVehicleMeasures MeasuresOf(const ObjectType& type) {
 Model WholeOf(const Model& body, const Model& bogie, double pivot_distance_m) {
   Model whole = body;
   for (const double end : {-1.0, 1.0}) {
-    const Transform whole_from_bogie =
-        MakeTransform(Eigen::Matrix3d::Identity(), {end * pivot_distance_m / 2.0, 0, 0});
-    for (const Part& part : bogie.parts) {
-      MeshOf({part.material, part.label}, whole).Append(part.mesh, whole_from_bogie);
-    }
+    AppendModel(bogie,
+                MakeTransform(Eigen::Matrix3d::Identity(), {end * pivot_distance_m / 2.0, 0, 0}),
+                whole);
   }
   return whole;
 }

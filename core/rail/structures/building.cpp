@@ -1,3 +1,5 @@
+#include "core/rail/structures/lineside_models.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include "core/base/units.h"
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/landform/ground_rise.h"
-#include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "core/scene/polygon.h"
@@ -203,7 +204,7 @@ void AddStructure(const ChunkContext& context, const BuildingSpec& building, Chu
   const Transform chunk_from_building =
       MakeTransform(Eigen::Matrix3d::Identity(), {0.0, 0.0, lowest_m});
   AppendModel(MakeBuilding(shape, context.surfaces.structures.lineside), chunk_from_building,
-              chunk);
+              chunk.ground);
 }
 
 std::vector<ClearedArea> ClearedBy(const BuildingSpec& building) {

@@ -94,7 +94,8 @@ void AddFacing(const ChunkContext& context, const Spec& spec, Chunk& chunk) {
   const StructureTrack track(context, spec.track);
   if (!track.Holds(spec.s_m)) return;
   AppendModel(ModelOf(spec, context.surfaces.structures.lineside),
-              AtTopOfRail(track, FacingPlace(spec, DefaultsOf(spec.kind).distance_m)), chunk);
+              AtTopOfRail(track, FacingPlace(spec, DefaultsOf(spec.kind).distance_m)),
+              chunk.ground);
 }
 
 /// The areas that something round a place clears.
@@ -123,7 +124,7 @@ void AddStructure(const ChunkContext& context, const BaliseSpec& balise, Chunk& 
   const SleeperSeat seat = SeatOf(track.spec().sleeper);
   AppendModel(MakeBalise(context.surfaces.structures.lineside),
               track.Canted(s_m) * Eigen::Translation3d(0.0, 0.0, seat.top_m - seat.middle_drop_m),
-              chunk);
+              chunk.ground);
 }
 
 void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chunk& chunk) {
@@ -132,7 +133,7 @@ void AddStructure(const ChunkContext& context, const DerailerSpec& derailer, Chu
   const double yaw_rad = derailer.side == TrackSide::kLeft ? 0.0 : std::numbers::pi;
   AppendModel(
       MakeDerailer(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
-      track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
+      track.Canted(derailer.s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk.ground);
 }
 
 void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& chunk) {
@@ -142,7 +143,7 @@ void AddStructure(const ChunkContext& context, const RelayBoxSpec& box, Chunk& c
                                    context.surfaces.structures.lineside);
   AppendModel(model,
               OnGround(context, track, FrontToTrack(box.s_m, box.side, box.distance_m), model),
-              chunk);
+              chunk.ground);
 }
 
 void AddStructure(const ChunkContext& context, const FurnitureSpec& furniture, Chunk& chunk) {
@@ -156,7 +157,7 @@ void AddStructure(const ChunkContext& context, const FurnitureSpec& furniture, C
   } else {
     pose = OnGround(context, track, place, model);
   }
-  AppendModel(model, pose, chunk);
+  AppendModel(model, pose, chunk.ground);
 }
 
 void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk& chunk) {
@@ -168,7 +169,7 @@ void AddStructure(const ChunkContext& context, const BufferStopSpec& stop, Chunk
   const double yaw_rad = is_end ? 0.0 : std::numbers::pi;
   AppendModel(
       MakeBufferStop(context.surfaces.structures.lineside, RailShift_m(context.spec.alignment)),
-      track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk);
+      track.Canted(face_s_m) * Eigen::AngleAxisd(yaw_rad, Vector3::UnitZ()), chunk.ground);
 }
 
 std::vector<ClearedArea> ClearedBy(const SignalSpec& signal) {

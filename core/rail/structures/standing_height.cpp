@@ -113,13 +113,6 @@ constexpr std::array kCorners = {Eigen::AlignedBox2d::BottomLeft, Eigen::Aligned
 
 }  // namespace
 
-void AppendModel(const Model& model, const Transform& chunk_from_model, Chunk& chunk) {
-  for (const Part& part : model.parts) {
-    MeshOf({.material = part.material, .label = part.label}, chunk.ground)
-        .Append(part.mesh, chunk_from_model);
-  }
-}
-
 Transform AtTopOfRail(const StructureTrack& track, const LinesidePlace& place) {
   Transform pose = track.Upright(place.s_m);
   pose.translation() = pose * Vector3(0.0, place.d_m, 0.0);

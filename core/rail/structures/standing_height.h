@@ -9,9 +9,6 @@
 
 namespace railcast {
 
-/// Adds a model to the chunk's own surfaces.
-void AppendModel(const Model& model, const Transform& chunk_from_model, Chunk& chunk);
-
 /// A place beside a track, for what stands upright.
 struct LinesidePlace {
   double s_m{};

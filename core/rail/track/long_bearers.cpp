@@ -1,3 +1,5 @@
+#include "core/rail/track/track_structure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -6,7 +8,6 @@
 
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/track_structure.h"
 
 namespace railcast {
 namespace {

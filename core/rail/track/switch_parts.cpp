@@ -1,3 +1,5 @@
+#include "core/rail/track/track_structure.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +10,6 @@
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
-#include "core/rail/track/track_structure.h"
 
 namespace railcast {
 namespace {

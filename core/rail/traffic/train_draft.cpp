@@ -1,3 +1,5 @@
+#include "core/rail/traffic/object_draft.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -10,7 +12,6 @@
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
 

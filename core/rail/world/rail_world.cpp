@@ -1,3 +1,5 @@
+#include "railcast/rail_world.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +37,6 @@
 #include "core/rail/world/coarser_surfaces.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scene/rotation_between.h"
-#include "railcast/rail_world.h"
 
 namespace railcast {
 namespace {

@@ -1,3 +1,5 @@
+#include "core/rail/world/world_draft.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,7 +12,6 @@
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
-#include "core/rail/world/world_draft.h"
 
 namespace railcast {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/rail/network/network_draft.h"
 #include "core/rail/world/world_draft.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/rail/network/network_draft.h"
 #include "railcast/scenario.h"
 
 namespace railcast {
