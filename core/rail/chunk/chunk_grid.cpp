@@ -40,10 +40,6 @@ ChunkGrid::ChunkGrid(const Alignment& alignment, double chunk_length_m, double g
   }
 }
 
-double ChunkGrid::BeginOf(int chunk) const {
-  return chunk * chunk_length_m_;
-}
-
 double ChunkGrid::EndOf(int chunk) const {
   return std::min((chunk + 1) * chunk_length_m_, alignment_.length_m());
 }

@@ -16,7 +16,7 @@ class ChunkGrid {
   ChunkGrid(const Alignment& alignment, double chunk_length_m, double ground_half_width_m);
 
   [[nodiscard]] int num_chunks() const { return static_cast<int>(centres_m_.size()); }
-  [[nodiscard]] double BeginOf(int chunk) const;
+  [[nodiscard]] double BeginOf(int chunk) const { return chunk * chunk_length_m_; }
   [[nodiscard]] double EndOf(int chunk) const;
   /// The chunk at a chainage; beyond the line, the first or last chunk.
   [[nodiscard]] int ChunkAt(double s_m) const;

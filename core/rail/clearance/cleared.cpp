@@ -51,6 +51,17 @@ std::vector<ClearedArea> ClearedAround(const ClearedArea& outline) {
           WithMargin(outline, kMastMargin_m, Clearing::kMast)};
 }
 
+std::vector<ClearedArea> ClearedBeside(const SideStretchSpec& structure,
+                                       double near_m,
+                                       double far_m) {
+  const double side = SignOf(structure.side);
+  return ClearedAround({.begin_s_m = structure.begin_s_m,
+                        .end_s_m = structure.end_s_m,
+                        .right_m = std::min(side * near_m, side * far_m),
+                        .left_m = std::max(side * near_m, side * far_m),
+                        .cleared = {}});
+}
+
 ClearedAreas::ClearedAreas(const WorldTracks& tracks,
                            Clearing what,
                            double begin_s_m,

@@ -64,6 +64,11 @@ struct ClearedArea {
 /// of 2 m) and masts.
 [[nodiscard]] std::vector<ClearedArea> ClearedAround(const ClearedArea& outline);
 
+/// As above, of one between two distances from its track's axis.
+[[nodiscard]] std::vector<ClearedArea> ClearedBeside(const SideStretchSpec& structure,
+                                                     double near_m,
+                                                     double far_m);
+
 /// All areas that the structures of a world clear of one thing between two chainages. The world
 /// must outlive it.
 class ClearedAreas {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/chunk/coarse_grid.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/landform/ground_rise.h"
@@ -167,29 +166,23 @@ class GroundGrid {
         num_columns_(columns_.last_near() + 1 - first_) {}
 
   [[nodiscard]] Mesh WholeMesh(std::span<const double> stations_m) const {
-    std::vector<Vector3> points_m;
-    std::vector<bool> shows;
+    std::vector<GridPoint> points;
     for (const double s_m : stations_m) {
       const CrossSection section(context_, s_m);
       for (std::size_t column = 0; column < num_columns_; ++column) {
-        const GridPoint point = PointAt(section, s_m, columns_.PlaceOf_m(s_m, first_ + column));
-        points_m.push_back(point.place_m);
-        shows.push_back(point.shows);
+        points.push_back(PointAt(section, s_m, columns_.PlaceOf_m(s_m, first_ + column)));
       }
     }
     const std::vector<StepGap> gaps = GapsAtSteps(stations_m);
     const auto keeps = [&](std::size_t row, std::size_t column) {
-      const std::size_t corner = row * num_columns_ + column;
-      const std::size_t ahead = corner + num_columns_;
-      return (shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1]) &&
-             std::ranges::none_of(gaps,
+      return std::ranges::none_of(gaps,
                                   [&](const StepGap& gap) {
                                     return gap.row == row && column >= gap.right &&
                                            column < gap.left;
                                   }) &&
              !IsInMouth(stations_m, row, column);
     };
-    Mesh mesh = MeshOfGrid(points_m, num_columns_, keeps);
+    Mesh mesh = MeshOfShown(points, num_columns_, keeps);
     for (const StepGap& gap : gaps) FillBesideStep(stations_m, gap, mesh);
     return mesh;
   }
@@ -370,8 +363,7 @@ class GroundGrid {
 }  // namespace
 
 void AddTerrain(const ChunkContext& context, Chunk& chunk) {
-  const ChainageRange range{.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
-                            .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m};
+  const ChainageRange range = SweptRange(context);
   const GroundGrid grid(context);
   const bool is_coarse = context.level > 0 && !grid.has_steps();
   const std::vector<double> stations_m =

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/base/chainage_range.h"
 #include "core/rail/line/track_course.h"
 #include "core/rail/network/network.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/base/chainage_range.h"
 #include "core/rail/base/world_faults.h"
+#include "core/rail/line/track_course.h"
 #include "core/rail/network/network.h"
 #include "core/rail/network/turnout_place.h"
 #include "railcast/world_spec.h"

@@ -105,8 +105,8 @@ Outline Moved(Outline outline_m, double y_m, double z_m) {
 void AddStructure(const ChunkContext& context, const SlabTrackSpec& slab, Chunk& chunk) {
   const StructureTrack track(context, slab.track);
   const double half_m = 0.5 * slab.width_m;
-  const auto stretch = StretchInChunk(track, {.begin_s_m = slab.begin_s_m, .end_s_m = slab.end_s_m},
-                                      half_m, [&](double s_m) { return track.Canted(s_m); });
+  const auto stretch =
+      StretchInChunk(track, RangeOf(slab), half_m, [&](double s_m) { return track.Canted(s_m); });
   if (!stretch) return;
   const double step_m = kSlabTop_m - kSlabThickness_m;
   const double foot_m = -CrossSection::kFormationDepth_m - 0.3;
@@ -132,9 +132,8 @@ void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Ch
   const double side = SignOf(trough.side);
   const double near_m = trough.distance_m;
   const double far_m = near_m + trough.width_m;
-  const auto stretch =
-      StretchInChunk(track, {.begin_s_m = trough.begin_s_m, .end_s_m = trough.end_s_m},
-                     side * far_m, [&](double s_m) { return track.Upright(s_m); });
+  const auto stretch = StretchInChunk(track, RangeOf(trough), side * far_m,
+                                      [&](double s_m) { return track.Upright(s_m); });
   if (!stretch) return;
   const double lid_foot_m = kLidTop_m - kLidThickness_m;
   const Outline outline_m{{near_m + kLidOverhang_m, kTroughFoot_m},
@@ -150,14 +149,7 @@ void AddStructure(const ChunkContext& context, const CableTroughSpec& trough, Ch
 }
 
 std::vector<ClearedArea> ClearedBy(const CableTroughSpec& trough) {
-  const double side = SignOf(trough.side);
-  const double near_m = side * trough.distance_m;
-  const double far_m = side * (trough.distance_m + trough.width_m);
-  return ClearedAround({.begin_s_m = trough.begin_s_m,
-                        .end_s_m = trough.end_s_m,
-                        .right_m = std::min(near_m, far_m),
-                        .left_m = std::max(near_m, far_m),
-                        .cleared = {}});
+  return ClearedBeside(trough, trough.distance_m, trough.distance_m + trough.width_m);
 }
 
 void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk& chunk) {
@@ -165,7 +157,7 @@ void AddStructure(const ChunkContext& context, const ThirdRailSpec& rail, Chunk&
   const StructureSurfaces& surfaces = context.surfaces.structures;
   const ConductorPlace place = ConductorPlaceOf(rail, RailShift_m(context.spec.alignment));
   const double side = SignOf(rail.side);
-  const ChainageRange range{.begin_s_m = rail.begin_s_m, .end_s_m = rail.end_s_m};
+  const ChainageRange range = RangeOf(rail);
   const auto frame_at = [&](double s_m) -> Transform {
     return track.Canted(s_m) * Eigen::Translation3d(0.0, side * place.distance_m, 0.0);
   };

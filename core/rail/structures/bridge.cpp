@@ -63,7 +63,7 @@ class BridgeBuilder {
   void Add() {
     const double farthest_m =
         std::max(std::abs(edges_.right_m), std::abs(edges_.left_m)) + edges_.left_m;
-    const auto stretch = StretchInChunk(track_, Range(), farthest_m,
+    const auto stretch = StretchInChunk(track_, RangeOf(bridge_), farthest_m,
                                         [&](double s_m) { return track_.Upright(s_m); });
     if (stretch) {
       AppendSweptSolid(*stretch, DeckOutline(bridge_, edges_), Concrete());
@@ -74,9 +74,6 @@ class BridgeBuilder {
   }
 
  private:
-  [[nodiscard]] ChainageRange Range() const {
-    return {.begin_s_m = bridge_.begin_s_m, .end_s_m = bridge_.end_s_m};
-  }
   [[nodiscard]] Mesh& Concrete() {
     return MeshOf(context_.surfaces.structures.bridge, chunk_.ground);
   }
@@ -104,7 +101,7 @@ class BridgeBuilder {
         AppendSweptSolid(
             stretch, RectangleOutline(y_m - bar_m, z_m, y_m + bar_m, z_m + kRailingBar_m), steel);
       }
-      for (const double s_m : track_.Places(Range(), kRailingPostSpacing_m)) {
+      for (const double s_m : track_.Places(RangeOf(bridge_), kRailingPostSpacing_m)) {
         steel.Append(post, track_.Upright(s_m) * Eigen::Translation3d(0.0, y_m, 0.0));
       }
     }

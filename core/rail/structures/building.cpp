@@ -64,13 +64,7 @@ constexpr double kBuildingFoot_m = -1.0;
 constexpr double kPaneProud_m = 0.02;
 
 std::vector<FootprintPoint> LeftTurning(std::vector<FootprintPoint> corners_m) {
-  double twice_area_m2 = 0.0;
-  for (std::size_t i = 0; i < corners_m.size(); ++i) {
-    const FootprintPoint& a = corners_m[i];
-    const FootprintPoint& b = corners_m[(i + 1) % corners_m.size()];
-    twice_area_m2 += a.x() * b.y() - a.y() * b.x();
-  }
-  if (twice_area_m2 < 0.0) std::reverse(corners_m.begin(), corners_m.end());
+  if (TwiceAreaOf(corners_m) < 0.0) std::reverse(corners_m.begin(), corners_m.end());
   return corners_m;
 }
 

@@ -211,13 +211,8 @@ std::optional<double> PlatformTop_m(const ChunkContext& context,
 }
 
 std::vector<ClearedArea> ClearedBy(const PlatformSpec& platform) {
-  const double near_m = SignOf(platform.side) * platform.edge_distance_m;
-  const double far_m = near_m + SignOf(platform.side) * platform.width_m;
-  return ClearedAround({.begin_s_m = platform.begin_s_m,
-                        .end_s_m = platform.end_s_m,
-                        .right_m = std::min(near_m, far_m),
-                        .left_m = std::max(near_m, far_m),
-                        .cleared = {}});
+  return ClearedBeside(platform, platform.edge_distance_m,
+                       platform.edge_distance_m + platform.width_m);
 }
 
 void CheckShape(const StructurePlace& place, const PlatformSpec& platform, WorldFaults& faults) {

@@ -10,6 +10,10 @@
 namespace railcast {
 namespace {
 
+constexpr double kStructureTolerance_m = 1e-3;
+
+}  // namespace
+
 double TwiceAreaOf(std::span<const Eigen::Vector2d> outline_m) {
   double twice_area_m2 = 0.0;
   for (std::size_t i = 0; i < outline_m.size(); ++i) {
@@ -19,10 +23,6 @@ double TwiceAreaOf(std::span<const Eigen::Vector2d> outline_m) {
   }
   return twice_area_m2;
 }
-
-constexpr double kStructureTolerance_m = 1e-3;
-
-}  // namespace
 
 Outline RectangleOutline(double y0_m, double z0_m, double y1_m, double z1_m) {
   return {{y0_m, z0_m}, {y1_m, z0_m}, {y1_m, z1_m}, {y0_m, z1_m}};
@@ -48,18 +48,10 @@ std::optional<Stretch> StretchInChunk(const StructureTrack& track,
 
 void AppendSection(const Transform& frame, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh) {
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector2d& point : outline_m) {
-    mesh.vertices.emplace_back((frame * Vector3(0.0, point.x(), point.y())).cast<float>());
-  }
+  AppendRow(frame, outline_m, mesh);
   for (const auto& [a, b, c] : TriangulatePolygon(outline_m)) {
     mesh.triangles.push_back({base + a, base + b, base + c});
   }
-}
-
-void AppendSweptSheet(const Stretch& stretch,
-                      std::span<const Eigen::Vector2d> outline_m,
-                      Mesh& mesh) {
-  AppendSweep(stretch.frames, outline_m, mesh);
 }
 
 void AppendSweptSolid(const Stretch& stretch,
@@ -100,9 +92,7 @@ Transform StructureTrack::UprightAt(double s_m, double d_m, double h_m) const {
 }
 
 std::optional<ChainageRange> StructureTrack::InChunk(const ChainageRange& stretch) const {
-  const ChainageRange range{
-      .begin_s_m = std::max(context_->begin_s_m - 0.5 * kChunkOverlap_m, stretch.begin_s_m),
-      .end_s_m = std::min(context_->end_s_m + 0.5 * kChunkOverlap_m, stretch.end_s_m)};
+  const ChainageRange range = SweptRange(*context_, stretch);
   // A shorter range is only the overlap with the chunk in which the structure begins or ends.
   if (range.end_s_m - range.begin_s_m < kChunkOverlap_m) return std::nullopt;
   return range;

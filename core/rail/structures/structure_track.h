@@ -57,11 +57,19 @@ class StructureTrack {
 /// Points (y, z) of a cross-section.
 using Outline = std::vector<Eigen::Vector2d>;
 
+/// Twice the area of a closed outline, whose first point is not repeated; negative if it turns
+/// right.
+[[nodiscard]] double TwiceAreaOf(std::span<const Eigen::Vector2d> outline_m);
+
 /// A rectangle between two corners.
 [[nodiscard]] Outline RectangleOutline(double y0_m, double z0_m, double y1_m, double z1_m);
 
 /// Mirrors an outline that is drawn for the left, y outwards, to the side of that sign.
 [[nodiscard]] Outline OnSide(Outline outline_m, double side);
+
+[[nodiscard]] inline ChainageRange RangeOf(const StretchSpec& stretch) {
+  return {.begin_s_m = stretch.begin_s_m, .end_s_m = stretch.end_s_m};
+}
 
 /// Frames along the part of a structure that lies in a chunk, and which of the structure's ends do.
 struct Stretch {
@@ -78,11 +86,6 @@ struct Stretch {
     const ChainageRange& range,
     double d_m,
     const std::function<Transform(double s_m)>& frame_at);
-
-/// Sweeps an open outline; it faces to the left of its direction, seen with y to the right.
-void AppendSweptSheet(const Stretch& stretch,
-                      std::span<const Eigen::Vector2d> outline_m,
-                      Mesh& mesh);
 
 /// Adds a closed outline as a face across the line.
 void AppendSection(const Transform& frame, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh);

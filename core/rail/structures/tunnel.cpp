@@ -80,7 +80,7 @@ class TunnelBuilder {
         chunk_(chunk) {}
 
   void Add() {
-    const auto whole = StretchOf(WholeRange());
+    const auto whole = StretchOf(RangeOf(tunnel_));
     if (whole) {
       AddShell(*whole);
       AddWalkways(*whole);
@@ -91,9 +91,6 @@ class TunnelBuilder {
   }
 
  private:
-  [[nodiscard]] ChainageRange WholeRange() const {
-    return {.begin_s_m = tunnel_.begin_s_m, .end_s_m = tunnel_.end_s_m};
-  }
   [[nodiscard]] Transform FrameAt(double s_m) const {
     return track_.Upright(s_m) * Eigen::Translation3d(0.0, shape_.spread.middle_m(), 0.0);
   }
@@ -114,10 +111,10 @@ class TunnelBuilder {
     const double outer_foot_rad =
         std::asin((TunnelShape::kVaultFoot_m - TunnelShape::kVaultCentre_m) / outer_m);
     const Outline outer = ArcOutline(outer_m, outer_foot_rad, std::numbers::pi - outer_foot_rad);
-    AppendSweptSheet(whole, outer, Lining());
+    AppendSweep(whole.frames, outer, Lining());
     const double floor_m = shape_.WallAt_m(kTunnelFloor_m);
-    AppendSweptSheet(whole, Outline{{-floor_m, kTunnelFloor_m}, {floor_m, kTunnelFloor_m}},
-                     Lining());
+    AppendSweep(whole.frames, Outline{{-floor_m, kTunnelFloor_m}, {floor_m, kTunnelFloor_m}},
+                Lining());
     Outline ring = ArcOutline(shape_.radius_m, FootAngle_rad(), std::numbers::pi - FootAngle_rad());
     ring.insert(ring.end(), outer.rbegin(), outer.rend());
     if (whole.has_begin) AppendSection(whole.frames.front(), ring, Lining());
@@ -163,7 +160,7 @@ class TunnelBuilder {
   void AddInside(const Stretch& stretch, double begin_rad, double end_rad) {
     Outline arc = ArcOutline(shape_.radius_m, begin_rad, end_rad);
     std::ranges::reverse(arc);  // It faces inwards.
-    AppendSweptSheet(stretch, arc, Lining());
+    AppendSweep(stretch.frames, arc, Lining());
   }
 
   void AddWall(const ChainageRange& range) {
@@ -191,7 +188,7 @@ class TunnelBuilder {
                   {back_m, top_m},
                   {shape_.WallAt_m(top_m), top_m}},
                  side);
-      AppendSweptSheet(*stretch, recess, Lining());
+      AppendSweep(stretch->frames, recess, Lining());
       Outline jamb = ArcOutline(shape_.radius_m, low_rad, high_rad);
       for (Eigen::Vector2d& point : jamb) point.x() *= -side;
       jamb.push_back(recess[2]);

@@ -31,19 +31,6 @@ constexpr double kFencePostWidth_m = 0.06;
 constexpr double kFenceFoot_m = 0.3;  ///< How far posts reach below the ground.
 constexpr double kFenceGap_m = 0.05;  ///< Between the ground and the mats.
 
-ClearedArea BesideTrack(const SideStretchSpec& wall, double near_m, double far_m) {
-  const double side = SignOf(wall.side);
-  return {.begin_s_m = wall.begin_s_m,
-          .end_s_m = wall.end_s_m,
-          .right_m = std::min(side * near_m, side * far_m),
-          .left_m = std::max(side * near_m, side * far_m),
-          .cleared = {}};
-}
-
-ChainageRange WholeRangeOf(const StretchSpec& stretch) {
-  return {.begin_s_m = stretch.begin_s_m, .end_s_m = stretch.end_s_m};
-}
-
 /// A rod or wire as a prism of three sides that is as wide as the rod, seen from all sides on
 /// average: its outline is as long as the rod's (Cauchy).
 Mesh MakeThinRod(const Vector3& begin_m, const Vector3& end_m, double radius_m) {
@@ -110,7 +97,7 @@ void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk&
   const double side = SignOf(wall.side);
   const double far_m = wall.distance_m + kPanelThickness_m;
   const auto frame_at = [&](double s_m) { return track.Upright(s_m); };
-  const auto stretch = StretchInChunk(track, WholeRangeOf(wall), side * far_m, frame_at);
+  const auto stretch = StretchInChunk(track, RangeOf(wall), side * far_m, frame_at);
   if (!stretch) return;
   AppendSweptSolid(
       *stretch, OnSide(RectangleOutline(wall.distance_m, -kWallFoot_m, far_m, wall.height_m), side),
@@ -119,14 +106,14 @@ void AddStructure(const ChunkContext& context, const NoiseWallSpec& wall, Chunk&
   const Mesh post =
       MakeBox({Vector3(-half_m, -half_m, -kWallFoot_m), Vector3(half_m, half_m, wall.height_m)});
   const double middle_m = side * (wall.distance_m + 0.5 * kPanelThickness_m);
-  for (const double s_m : track.Places(WholeRangeOf(wall), wall.post_spacing_m)) {
+  for (const double s_m : track.Places(RangeOf(wall), wall.post_spacing_m)) {
     MeshOf(context.surfaces.structures.noise_wall_post, chunk.ground)
         .Append(post, frame_at(s_m) * Eigen::Translation3d(0.0, middle_m, 0.0));
   }
 }
 
 std::vector<ClearedArea> ClearedBy(const NoiseWallSpec& wall) {
-  return ClearedAround(BesideTrack(wall, wall.distance_m, wall.distance_m + kPanelThickness_m));
+  return ClearedBeside(wall, wall.distance_m, wall.distance_m + kPanelThickness_m);
 }
 
 void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& chunk) {
@@ -141,7 +128,7 @@ void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& ch
   const Mesh post = MakeBox(
       {Vector3(-half_m, -half_m, -kFenceFoot_m), Vector3(half_m, half_m, fence.height_m + half_m)});
   Mesh fence_mesh;
-  for (const double s_m : track.Places(WholeRangeOf(fence), fence.post_spacing_m)) {
+  for (const double s_m : track.Places(RangeOf(fence), fence.post_spacing_m)) {
     const Vector3 foot_m = foot_at(s_m);
     Transform chunk_from_post = track.Upright(s_m);
     chunk_from_post.translation() = foot_m;
@@ -161,7 +148,7 @@ void AddStructure(const ChunkContext& context, const FenceSpec& fence, Chunk& ch
 
 std::vector<ClearedArea> ClearedBy(const FenceSpec& fence) {
   const double half_m = 0.5 * kFencePostWidth_m;
-  return ClearedAround(BesideTrack(fence, fence.distance_m - half_m, fence.distance_m + half_m));
+  return ClearedBeside(fence, fence.distance_m - half_m, fence.distance_m + half_m);
 }
 
 void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Chunk& chunk) {
@@ -170,7 +157,7 @@ void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Ch
   const double top_m = wall.distance_m + kRetainingBatter * wall.height_m;
   const double foot_m = wall.distance_m - kRetainingBatter * wall.depth_m;
   const double back_m = BackOf_m(wall);
-  const auto stretch = StretchInChunk(track, WholeRangeOf(wall), side * back_m,
+  const auto stretch = StretchInChunk(track, RangeOf(wall), side * back_m,
                                       [&](double s_m) { return track.Upright(s_m); });
   if (!stretch) return;
   const double below_coping_m = wall.height_m - kCopingHeight_m;
@@ -186,8 +173,7 @@ void AddStructure(const ChunkContext& context, const RetainingWallSpec& wall, Ch
 }
 
 std::vector<ClearedArea> ClearedBy(const RetainingWallSpec& wall) {
-  return ClearedAround(
-      BesideTrack(wall, wall.distance_m - kRetainingBatter * wall.depth_m, BackOf_m(wall)));
+  return ClearedBeside(wall, wall.distance_m - kRetainingBatter * wall.depth_m, BackOf_m(wall));
 }
 
 }  // namespace railcast

@@ -1,5 +1,3 @@
-#include "core/rail/track/track_structure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,10 +7,10 @@
 
 #include "core/rail/base/noise_field.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/chunk/coarse_grid.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
+#include "core/rail/track/track_structure.h"
 
 namespace railcast {
 namespace {
@@ -84,8 +82,7 @@ class BallastSheet {
         columns_(ColumnsOf(context)),
         lowest_m_(-(kBelowGround_m + 4.0 * context.spec.terrain.roughness_sigma_m)),
         grain_(context.seed, RandomUse::kBallastRoughness, 0),
-        stations_m_(GridStations({.begin_s_m = context.begin_s_m - 0.5 * kChunkOverlap_m,
-                                  .end_s_m = context.end_s_m + 0.5 * kChunkOverlap_m},
+        stations_m_(GridStations(SweptRange(context),
                                  context.level < kMostCoarse
                                      ? kBallastGridAlong_m
                                      : kCoarsestRows * kBallastGridAlong_m)) {}
@@ -163,22 +160,14 @@ class BallastSheet {
 };
 
 Mesh WholeBallast(const ChunkContext& context, const BallastSheet& sheet) {
-  std::vector<Vector3> points_m;
-  std::vector<bool> shows;
+  std::vector<GridPoint> points;
   for (const double s_m : sheet.stations_m()) {
     const CrossSection section(context, s_m);
     for (std::size_t column = 0; column < sheet.num_columns(); ++column) {
-      const GridPoint point = sheet.PointAt(section, s_m, column);
-      points_m.push_back(point.place_m);
-      shows.push_back(point.shows);
+      points.push_back(sheet.PointAt(section, s_m, column));
     }
   }
-  const auto keeps = [&](std::size_t row, std::size_t column) {
-    const std::size_t corner = row * sheet.num_columns() + column;
-    const std::size_t ahead = corner + sheet.num_columns();
-    return shows[corner] || shows[corner + 1] || shows[ahead] || shows[ahead + 1];
-  };
-  return MeshOfGrid(points_m, sheet.num_columns(), keeps);
+  return MeshOfShown(points, sheet.num_columns(), [](std::size_t, std::size_t) { return true; });
 }
 
 Mesh CoarseBallast(const ChunkContext& context, const BallastSheet& sheet) {

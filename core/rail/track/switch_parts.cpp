@@ -32,24 +32,6 @@ double TopAt_m(const SectionPoints& outline_m, double y_m) {
   return top_m;
 }
 
-void AppendRow(const RailStation& station, std::span<const Eigen::Vector2d> outline_m, Mesh& mesh) {
-  for (const Eigen::Vector2d& point : outline_m) {
-    mesh.vertices.emplace_back(
-        (station.mesh_from_track * Vector3(0.0, point.x(), point.y())).cast<float>());
-  }
-}
-
-/// Joins the last two rows of a strip, which have `width` points each.
-void JoinRows(std::uint32_t width, Mesh& mesh) {
-  const auto base = static_cast<std::uint32_t>(mesh.vertices.size()) - 2 * width;
-  for (std::uint32_t i = 0; i + 1 < width; ++i) {
-    const std::uint32_t near = base + i;
-    const std::uint32_t far = near + width;
-    mesh.triangles.push_back({near, far, far + 1});
-    mesh.triangles.push_back({near, far + 1, near + 1});
-  }
-}
-
 /// Chords of 0.5 m deviate by 0.2 mm from the sharpest branch, of 190 m radius, and follow planed
 /// blades and flares.
 constexpr double kTurnoutStep_m = 0.5;
@@ -60,11 +42,6 @@ constexpr double kCheckBottom_m = -0.090;
 constexpr double kCheckThickness_m = 0.060;
 constexpr double kCheckFlare_m = 0.5;
 constexpr double kCheckFlareOpening_m = 0.040;
-
-ChainageRange InChunk(const ChunkContext& context, const ChainageRange& range) {
-  return {.begin_s_m = std::max(range.begin_s_m, context.begin_s_m - 0.5 * kChunkOverlap_m),
-          .end_s_m = std::min(range.end_s_m, context.end_s_m + 0.5 * kChunkOverlap_m)};
-}
 
 /// How much farther than its flangeway a check rail stands from its stock rail, at its ends.
 double CheckFlareAt_m(const CheckRail& rail, double s_m) {
@@ -108,11 +85,12 @@ RailMeshes SweepRail(bool left, std::span<const RailStation> stations) {
                        outline.end());
     rest.insert(rest.end(), outline.begin(),
                 outline.begin() + static_cast<std::ptrdiff_t>(section.head_first) + 1);
-    AppendRow(stations[k], outline.subspan(section.head_first, band_length), meshes.band);
-    AppendRow(stations[k], rest, meshes.rest);
+    AppendRow(stations[k].mesh_from_track, outline.subspan(section.head_first, band_length),
+              meshes.band);
+    AppendRow(stations[k].mesh_from_track, rest, meshes.rest);
     if (k == 0) continue;
-    JoinRows(static_cast<std::uint32_t>(band_length), meshes.band);
-    JoinRows(static_cast<std::uint32_t>(rest.size()), meshes.rest);
+    JoinRows(band_length, meshes.band);
+    JoinRows(rest.size(), meshes.rest);
   }
   return meshes;
 }
@@ -121,7 +99,7 @@ void AppendRailEnd(const RailStation& station, bool left, bool faces_ahead, Mesh
   const RailSection section = PlanedSection(left, station.width_m);
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto last = static_cast<std::uint32_t>(section.outline_m.size() - 1);
-  AppendRow(station, section.outline_m, mesh);
+  AppendRow(station.mesh_from_track, section.outline_m, mesh);
   // Point i of the section mirrors point size - 1 - i, so strips between mirrored points fill it.
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (faces_ahead) std::swap(b, c);
@@ -159,7 +137,7 @@ void AddRailPiece(const ChunkContext& context,
                   const PairOfTracks& tracks,
                   const TurnoutRail& rail,
                   Chunk& chunk) {
-  const ChainageRange range = InChunk(context, rail.range);
+  const ChainageRange range = SweptRange(context, rail.range);
   if (IsEmpty(range)) return;
   std::vector<RailStation> stations;
   for (const double s_m : GridStations(range, kTurnoutStep_m)) {
@@ -184,7 +162,7 @@ void AddCheckRail(const ChunkContext& context,
                   const PairOfTracks& tracks,
                   const CheckRail& rail,
                   Chunk& chunk) {
-  const ChainageRange range = InChunk(context, rail.range);
+  const ChainageRange range = SweptRange(context, rail.range);
   if (IsEmpty(range)) return;
   const double side = rail.is_left ? 1.0 : -1.0;
   const double face_m = side * (0.5 * kGauge_m - rail.flangeway_m);

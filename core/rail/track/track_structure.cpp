@@ -49,10 +49,8 @@ void AddDrive(const ChunkContext& context,
   if (bay_s_m < context.begin_s_m || bay_s_m >= context.end_s_m) return;
   const Transform chunk_from_track = StationOf(context, PairOf(site), false, {bay_s_m, 0.0});
   const double machine_m = -SignOf(site.side) * kMachineFromAxis_m;
-  chunk.placements.push_back({.model = models.point_machine,
-                              .chunk_from_model = Eigen::Affine3d(
-                                  StationOf(context, PairOf(site), false, {bay_s_m, machine_m})),
-                              .instance = 0});
+  PlaceModel(models.point_machine, StationOf(context, PairOf(site), false, {bay_s_m, machine_m}),
+             chunk);
   constexpr double kBarHalfWidth_m = 0.030;
   const double far_m = SignOf(site.side) * 0.5 * kGauge_m;
   const Mesh bar = MakeBox({Vector3(-kBarHalfWidth_m, std::min(far_m, machine_m), -0.170),
@@ -100,10 +98,8 @@ void AddSleepers(const ChunkContext& context,
   for (const double s_m : SleeperPlaces(context)) {
     if (s_m < track.begin_s_m() || s_m > track.end_s_m()) continue;
     if (ReplacesSleeper(bearers, index, s_m)) continue;
-    const Transform chunk_from_track =
-        context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m);
-    chunk.placements.push_back(
-        {.model = model, .chunk_from_model = Eigen::Affine3d(chunk_from_track), .instance = 0});
+    PlaceModel(model, context.chunk_from_world * track.WorldFromTrack(context.alignment, s_m),
+               chunk);
   }
 }
 
@@ -126,7 +122,8 @@ std::vector<ChainageRange> PlainRailRanges(const ChunkContext& context,
   std::sort(cuts.begin(), cuts.end(), [](const ChainageRange& a, const ChainageRange& b) {
     return a.begin_s_m < b.begin_s_m;
   });
-  const ChainageRange whole = SweptRange(context, context.tracks[track]);
+  const ChainageRange whole =
+      SweptRange(context, {context.tracks[track].begin_s_m(), context.tracks[track].end_s_m()});
   std::vector<ChainageRange> ranges;
   double from_s_m = whole.begin_s_m;
   for (const ChainageRange& cut : cuts) {

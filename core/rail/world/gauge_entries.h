@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/base/chainage_range.h"
 #include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
 #include "railcast/rail_world.h"

@@ -12,9 +12,9 @@
 #include <variant>
 
 #include "core/base/text.h"
-#include "core/rail/base/chainage_range.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/landform/strip_width.h"
+#include "core/rail/line/track_course.h"
 #include "generator/extras/import/fit/plan_model.h"
 #include "railcast/world_spec.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/base/chainage_range.h"
+#include "core/rail/line/track_course.h"
 #include "generator/extras/import/lines/imported_line.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/lines/track_lines.h"

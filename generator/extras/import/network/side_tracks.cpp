@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "core/base/text.h"
-#include "core/rail/base/chainage_range.h"
 #include "core/rail/line/alignment_course.h"
+#include "core/rail/line/track_course.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/lines/line_tags.h"
 #include "generator/extras/import/network/level_tracks.h"

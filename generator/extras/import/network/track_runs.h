@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/rail/base/chainage_range.h"
+#include "core/rail/line/track_course.h"
 #include "generator/extras/import/fit/plan_model.h"
 #include "generator/extras/import/lines/line_places.h"
 #include "generator/extras/import/lines/track_lines.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/rail/base/chainage_range.h"
+#include "core/rail/line/track_course.h"
 
 namespace railcast {
 namespace {

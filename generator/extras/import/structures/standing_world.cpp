@@ -15,7 +15,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/base/chainage_range.h"
+#include "core/rail/line/track_course.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/world/gauge_entries.h"

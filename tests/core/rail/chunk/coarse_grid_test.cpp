@@ -1,4 +1,4 @@
-#include "core/rail/chunk/coarse_grid.h"
+#include "core/rail/chunk/sweep.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -42,10 +42,12 @@ TEST(SweptRange, EndsWithTheTrackOrHalfAnOverlapBeyondTheChunk) {
   WorldSpec spec = StraightLine(500.0);
   spec.tracks[0].end_s_m = 120.0;
   const TestLine line(spec);
-  const ChainageRange inside = SweptRange(line.Context(1), line.network().courses[0]);
+  const TrackCourse& track = line.network().courses[0];
+  const ChainageRange whole{track.begin_s_m(), track.end_s_m()};
+  const ChainageRange inside = SweptRange(line.Context(1), whole);
   EXPECT_DOUBLE_EQ(inside.begin_s_m, 49.9995);
   EXPECT_DOUBLE_EQ(inside.end_s_m, 100.0005);
-  EXPECT_DOUBLE_EQ(SweptRange(line.Context(2), line.network().courses[0]).end_s_m, 120.0);
+  EXPECT_DOUBLE_EQ(SweptRange(line.Context(2), whole).end_s_m, 120.0);
 }
 
 }  // namespace
