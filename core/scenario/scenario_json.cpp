@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/out_of_memory.h"
-#include "core/rail/network/yard.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/survey/survey_levels.h"
 #include "core/scenario/build_faults.h"
 #include "core/scenario/descriptions.h"

@@ -5,11 +5,10 @@
 #include <numbers>
 
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/catenary/catenary_models.h"
 #include "core/rail/catenary/support_layout.h"
 #include "core/rail/chunk/sweep.h"
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

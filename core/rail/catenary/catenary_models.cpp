@@ -1,4 +1,4 @@
-#include "core/rail/catenary/catenary_models.h"
+#include "core/rail/catenary/catenary.h"
 
 #include <algorithm>
 #include <array>

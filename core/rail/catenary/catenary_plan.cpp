@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "core/base/error.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 
 namespace railcast {
 namespace {

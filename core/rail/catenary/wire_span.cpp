@@ -1,12 +1,11 @@
-#include "core/rail/catenary/catenary.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/rail/catenary/catenary.h"
 #include "core/rail/catenary/support_layout.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/world_tracks.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "core/rail/network/network_check.h"
+#include "core/rail/network/network_draft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@
 
 #include "core/base/text.h"
 #include "core/rail/line/alignment_course.h"
-#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 #include "core/rail/network/world_tracks.h"
 

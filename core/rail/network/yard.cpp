@@ -1,4 +1,4 @@
-#include "core/rail/network/yard.h"
+#include "core/rail/network/network_draft.h"
 
 #include <algorithm>
 #include <charconv>

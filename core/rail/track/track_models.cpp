@@ -1,4 +1,4 @@
-#include "core/rail/track/track_models.h"
+#include "core/rail/track/track_structure.h"
 
 #include <algorithm>
 #include <array>

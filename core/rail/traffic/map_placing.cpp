@@ -1,7 +1,6 @@
-#include "core/rail/traffic/map_placing.h"
+#include "core/rail/traffic/object_draft.h"
 
 #include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>

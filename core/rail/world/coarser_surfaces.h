@@ -8,7 +8,7 @@
 
 #include "core/rail/chunk/chunk_context.h"
 #include "core/rail/chunk/sweep.h"
-#include "core/rail/landform/strip_width.h"
+#include "core/rail/landform/landform.h"
 #include "railcast/alignment.h"
 #include "railcast/scene.h"
 

@@ -13,7 +13,6 @@
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/traffic/trains.h"
-#include "core/rail/world/gauge_probe.h"
 
 namespace railcast {
 namespace {

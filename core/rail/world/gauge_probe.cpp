@@ -1,4 +1,4 @@
-#include "core/rail/world/gauge_probe.h"
+#include "core/rail/world/gauge_entries.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

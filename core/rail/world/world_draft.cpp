@@ -9,15 +9,12 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/motion/speed_profile.h"
-#include "core/rail/network/network_check.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/network/route.h"
-#include "core/rail/network/yard.h"
 #include "core/rail/objects/table_models.h"
-#include "core/rail/traffic/map_placing.h"
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 

@@ -8,7 +8,6 @@
 #include "core/rail/base/world_faults.h"
 #include "core/rail/catenary/catenary_plan.h"
 #include "core/rail/landform/landform.h"
-#include "core/rail/landform/strip_width.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/network/world_tracks.h"
 #include "core/rail/survey/surveyed_scene.h"

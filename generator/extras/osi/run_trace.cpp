@@ -21,7 +21,7 @@
 #include "core/io/run/run_folder.h"
 #include "core/io/run/trace_name.h"
 #include "core/io/write_file.h"
-#include "core/rail/motion/differentiated.h"
+#include "core/rail/motion/track_path.h"
 #include "core/rail/traffic/trains.h"
 #include "generator/run/frame_maker.h"
 #include "generator/run/run_extras.h"

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/catenary/catenary_models.h"
 #include "core/rail/ground/terrain.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/structures/structures.h"

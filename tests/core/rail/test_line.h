@@ -10,7 +10,7 @@
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/landform/landform.h"
 #include "core/rail/network/network.h"
-#include "core/rail/track/track_models.h"
+#include "core/rail/track/track_structure.h"
 #include "railcast/scene.h"
 
 namespace railcast {

@@ -13,7 +13,6 @@
 
 #include "core/base/text.h"
 #include "core/rail/landform/landform.h"
-#include "core/rail/landform/strip_width.h"
 #include "core/rail/line/track_course.h"
 #include "generator/extras/import/fit/plan_model.h"
 #include "railcast/world_spec.h"

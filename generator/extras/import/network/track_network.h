@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/rail/landform/strip_width.h"
+#include "core/rail/landform/landform.h"
 #include "core/rail/line/piecewise_linear.h"
 #include "core/rail/network/network.h"
-#include "core/rail/network/network_check.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 #include "railcast/alignment.h"
 #include "railcast/world_spec.h"

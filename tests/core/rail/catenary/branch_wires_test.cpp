@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "core/rail/catenary/catenary.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/network_draft.h"
-#include "core/rail/network/yard.h"
 #include "core/rail/world/world_draft.h"
 #include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"

@@ -1,4 +1,4 @@
-#include "core/rail/landform/strip_width.h"
+#include "core/rail/landform/landform.h"
 
 #include <gtest/gtest.h>
 

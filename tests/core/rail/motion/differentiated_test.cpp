@@ -1,4 +1,4 @@
-#include "core/rail/motion/differentiated.h"
+#include "core/rail/motion/track_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/rail/network/network_check.h"
+#include "core/rail/network/network_draft.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
 #include "tests/core/rail/test_line.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
 

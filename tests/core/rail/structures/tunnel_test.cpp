@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/rail/clearance/cleared.h"
-#include "core/rail/clearance/system_height.h"
+#include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/network/world_tracks.h"
 #include "tests/core/rail/structures/structure_probe.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
+#include "core/rail/network/network_draft.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/network/yard.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_line.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/rail/network/junction_rails.h"
-#include "core/rail/network/network_check.h"
 #include "core/rail/network/network_draft.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/track/cut_rails.h"

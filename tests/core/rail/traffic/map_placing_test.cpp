@@ -1,4 +1,4 @@
-#include "core/rail/traffic/map_placing.h"
+#include "core/rail/traffic/object_draft.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
