@@ -215,7 +215,7 @@ struct PersonSpec {
   bool operator==(const PersonSpec&) const = default;
 };
 
-/// An object placed in track coordinates or on the map (core/rail/traffic/map_placing.h). Unless
+/// An object placed in track coordinates or on the map (core/rail/traffic/object_draft.h). Unless
 /// `follow` says otherwise, rail vehicles follow gradient and cant, and all other objects stand
 /// upright. An object that moves along its track keeps its lateral distance from it, and its speed
 /// is measured along the chainage.

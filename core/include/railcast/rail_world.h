@@ -97,7 +97,7 @@ class RailWorld final : public World {
   [[nodiscard]] VehicleTravel VehicleTravelAt(std::int64_t time_ns) const;
   /// The motion of the vehicle frame, with cant and ride. Speed and acceleration along the track
   /// are those of the motion's stretch that the time is in, exact also where one begins; all else
-  /// is differentiated (core/rail/motion/differentiated.h).
+  /// is differentiated (core/rail/motion/track_path.h).
   [[nodiscard]] RigidMotion VehicleMotion(std::int64_t time_ns) const;
   /// Chainage of the vehicle's origin along its route; may lie beyond the ends of the route.
   [[nodiscard]] double VehicleChainage_m(std::int64_t time_ns) const;

@@ -78,7 +78,7 @@ struct TrackSpec {
 
 inline constexpr std::uint32_t kMostYardTracks = 100;
 
-/// A ladder of tracks that run parallel to the one that they branch off (network/yard.h).
+/// A ladder of tracks that run parallel to the one that they branch off (network/network_draft.h).
 struct YardSpec {
   std::string name;
   /// The turnout from which the lead runs on at its angle; all tracks of the yard branch off the
@@ -145,7 +145,7 @@ inline constexpr auto kEnumNames<GroundCover> = std::to_array<EnumName<GroundCov
 
 struct TerrainSpec {
   /// Half width of the ground strip. From the line's tightest radius on, the strip is narrower
-  /// inside tight curves (core/rail/landform/strip_width.h).
+  /// inside tight curves (core/rail/landform/landform.h).
   double half_width_m = 80.0;
   double roughness_sigma_m = 0.04;      ///< Of the ground beside the ballast.
   double roughness_wavelength_m = 2.0;  ///< Correlation length of the roughness.

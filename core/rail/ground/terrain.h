@@ -16,7 +16,7 @@ namespace railcast {
 ///
 /// Where the terrain has a shape (landform.h), undulation is added to it, and the ground is the
 /// terrain between the slopes of cuttings and embankments (landform.h). Where the strip narrows
-/// (strip_width.h), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
+/// (StripWidth), the columns beyond 10 m from the outermost tracks are squeezed. In both cases,
 /// the cells beyond 100 m from the axis are 4 m long and up to 8 m wide.
 ///
 /// Behind retaining walls the ground is as high as their tops (ground_rise.h). The step is

@@ -189,17 +189,32 @@ ObjectModels::Shape ObjectModels::ShapeOf(const ObjectSpec& spec) {
           parts};
 }
 
-std::vector<std::shared_ptr<const Model>> ObjectModels::VehiclePiecesOf(const ObjectSpec& spec) {
+ObjectModels::Pieces ObjectModels::PiecesOf(const ObjectSpec& spec,
+                                            const std::function<std::vector<Model>()>& make) {
   const Shape shape = ShapeOf(spec);
   const auto found = pieces_.find(shape);
   if (found != pieces_.end()) return found->second;
-  std::vector<std::shared_ptr<const Model>> pieces;
-  for (Model& piece : MakeTableModel(spec.type, surfaces_.box.material, labels_, materials_)) {
+  Pieces pieces;
+  for (Model& piece : make()) {
     Repaint(spec, surfaces_, labels_, materials_, piece);
     pieces.push_back(std::make_shared<const Model>(std::move(piece)));
   }
-  pieces.push_back(pieces.back());
   return pieces_.emplace(shape, std::move(pieces)).first->second;
+}
+
+ObjectModels::Pieces ObjectModels::VehiclePiecesOf(const ObjectSpec& spec) {
+  Pieces pieces = PiecesOf(
+      spec, [&] { return MakeTableModel(spec.type, surfaces_.box.material, labels_, materials_); });
+  pieces.push_back(pieces.back());
+  return pieces;
+}
+
+ObjectModels::Pieces ObjectModels::WalkingPiecesOf(const ObjectSpec& spec) {
+  if (!WalksAbout(spec)) return {};
+  return PiecesOf(spec, [&] {
+    const PersonBuild build = PersonBuildOf(spec);
+    return MakePersonPieces(FindPersonSurfaces(build.look, labels_, materials_), build);
+  });
 }
 
 std::shared_ptr<const Model> ObjectModels::Of(const ObjectSpec& spec) {
@@ -207,23 +222,6 @@ std::shared_ptr<const Model> ObjectModels::Of(const ObjectSpec& spec) {
   auto found = models_.find(shape);
   if (found == models_.end()) {
     found = models_.emplace(shape, MakeObjectModel(spec, surfaces_, labels_, materials_)).first;
-  }
-  return found->second;
-}
-
-std::vector<std::shared_ptr<const Model>> ObjectModels::WalkingPiecesOf(const ObjectSpec& spec) {
-  if (!WalksAbout(spec)) return {};
-  const Shape shape = ShapeOf(spec);
-  auto found = pieces_.find(shape);
-  if (found == pieces_.end()) {
-    std::vector<std::shared_ptr<const Model>> pieces;
-    const PersonBuild build = PersonBuildOf(spec);
-    const PersonSurfaces surfaces = FindPersonSurfaces(build.look, labels_, materials_);
-    for (Model& piece : MakePersonPieces(surfaces, build)) {
-      Repaint(spec, surfaces_, labels_, materials_, piece);
-      pieces.push_back(std::make_shared<const Model>(std::move(piece)));
-    }
-    found = pieces_.emplace(shape, std::move(pieces)).first;
   }
   return found->second;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -58,14 +59,16 @@ class ObjectModels {
   ObjectModels(RailSurfaces surfaces, const LabelTable& labels, const MaterialLibrary& materials)
       : surfaces_(std::move(surfaces)), labels_(labels), materials_(materials) {}
 
+  using Pieces = std::vector<std::shared_ptr<const Model>>;
+
   /// As MakeObjectModel().
   [[nodiscard]] std::shared_ptr<const Model> Of(const ObjectSpec& spec);
   /// The body, the front bogie and the rear bogie of a rail vehicle (table_models.h).
   /// @throws InputError as MakeObjectModel() does.
-  [[nodiscard]] std::vector<std::shared_ptr<const Model>> VehiclePiecesOf(const ObjectSpec& spec);
+  [[nodiscard]] Pieces VehiclePiecesOf(const ObjectSpec& spec);
   /// The pieces of a person that walks about, which WalkingPerson(PersonBuildOf(spec)) moves; other
   /// persons have none.
-  [[nodiscard]] std::vector<std::shared_ptr<const Model>> WalkingPiecesOf(const ObjectSpec& spec);
+  [[nodiscard]] Pieces WalkingPiecesOf(const ObjectSpec& spec);
 
  private:
   using PersonKey = std::tuple<Posture, Physique, Clothing, Luggage, double>;
@@ -85,12 +88,15 @@ class ObjectModels {
                            double,
                            PartsKey>;
   [[nodiscard]] static Shape ShapeOf(const ObjectSpec& spec);
+  /// What was made for the object's shape before, or else now.
+  [[nodiscard]] Pieces PiecesOf(const ObjectSpec& spec,
+                                const std::function<std::vector<Model>()>& make);
 
   RailSurfaces surfaces_;
   const LabelTable& labels_;
   const MaterialLibrary& materials_;
   std::map<Shape, std::shared_ptr<const Model>> models_;
-  std::map<Shape, std::vector<std::shared_ptr<const Model>>> pieces_;
+  std::map<Shape, Pieces> pieces_;
 };
 
 /// Gives a person who walks about the pieces that WalkingPerson moves.

@@ -202,34 +202,21 @@ void AddLuggage(const PersonSpec& look,
   }
 }
 
-bool WearsHelmet(const PersonSpec& look) {
-  return look.clothing == Clothing::kHiVis;
-}
-
 BodyMeasures DressedBody(const PersonBuild& build) {
   const PersonSpec& look = build.look;
-  return MeasuresOf(look.physique, WearsHelmet(look) ? build.height_m / HelmetHeight(look.physique)
-                                                     : build.height_m);
+  return MeasuresOf(look.physique, look.clothing == Clothing::kHiVis
+                                       ? build.height_m / HelmetHeight(look.physique)
+                                       : build.height_m);
 }
 
 PersonDress DressOf(const PersonSpec& look, const PersonSurfaces& surfaces) {
-  PersonDress dress{.skin = surfaces.skin,
-                    .hair = surfaces.clothing,
-                    .sleeves = surfaces.clothing,
-                    .torso = surfaces.clothing,
-                    .legs = surfaces.clothing,
-                    .shoes = surfaces.clothing,
-                    .band = {},
-                    .helmet = {}};
-  if (look.clothing == Clothing::kHiVis) {
-    dress.torso = surfaces.hi_vis_fabric;
-    dress.legs = surfaces.hi_vis_fabric;
-    dress.band = surfaces.hi_vis_band;
-    dress.helmet = surfaces.helmet;
-    dress.has_bands = true;
-    dress.has_helmet = true;
-  }
-  return dress;
+  const bool is_hi_vis = look.clothing == Clothing::kHiVis;
+  return {.skin = surfaces.skin,
+          .clothing = surfaces.clothing,
+          .outer = is_hi_vis ? surfaces.hi_vis_fabric : surfaces.clothing,
+          .band = surfaces.hi_vis_band,
+          .helmet = surfaces.helmet,
+          .is_hi_vis = is_hi_vis};
 }
 
 Model Assembled(const PersonBones& bones, const PersonPose& pose) {

@@ -187,10 +187,12 @@ class WalkingGait {
 
 /// How the parts of a person are covered.
 struct PersonDress {
-  SurfaceClass skin, hair, sleeves, torso, legs, shoes;
+  SurfaceClass skin;
+  SurfaceClass clothing;      ///< Also of hair, sleeves and shoes.
+  SurfaceClass outer;         ///< Of torso and legs.
   SurfaceClass band, helmet;  ///< Only if it wears them.
-  bool has_bands = false;     ///< EN ISO 20471: round and over the torso and round the legs.
-  bool has_helmet = false;
+  /// Whether it has bands round and over the torso and round the legs (EN ISO 20471), and a helmet.
+  bool is_hi_vis = false;
 };
 
 /// The solid of every bone, each in the bone's frame (person_body.h). Trunk, head and limbs are

@@ -220,7 +220,7 @@ Model MakeHandAndForearm(const BodyMeasures& body, const PersonDress& dress) {
   Model forearm;
   AddLoft(
       WithDomes(0.0, 0.045 * girth, Stretched(kForearmSections, {girth, girth, body.forearm_m})),
-      kArmSides, dress.sleeves, forearm);
+      kArmSides, dress.clothing, forearm);
   Transform wrist = Transform::Identity();
   wrist.translation().z() = -body.forearm_m;
   AddLoft(Stretched(kHandSections, {girth, girth, body.hand_m}), kArmSides, dress.skin, forearm,
@@ -241,7 +241,7 @@ Model MakeShank(const BodyMeasures& body, const PersonDress& dress) {
   std::vector<LoftSection> table(std::begin(kShankSections), std::end(kShankSections));
   // Two bands of 60 mm on a shank of 0.43 m, 70 mm apart.
   constexpr double kBands[2][2] = {{-0.30, -0.16}, {-0.60, -0.46}};
-  if (dress.has_bands) {
+  if (dress.is_hi_vis) {
     for (const auto& band : kBands) {
       for (const double edge : band) table = WithSectionAt(edge, std::move(table));
     }
@@ -255,7 +255,7 @@ Model MakeShank(const BodyMeasures& body, const PersonDress& dress) {
     const bool is_band = std::any_of(std::begin(kBands), std::end(kBands), [&](const auto& band) {
       return share > band[0] && share < band[1];
     });
-    return dress.has_bands && is_band ? dress.band : dress.legs;
+    return dress.is_hi_vis && is_band ? dress.band : dress.outer;
   };
   Model shank;
   AddLoft(sections, kLegSides, surface, shank);
@@ -283,7 +283,7 @@ Model MakeShoe(const BodyMeasures& body, const PersonDress& dress) {
   Eigen::Matrix3d axes;
   axes << Vector3::UnitZ(), -Vector3::UnitY(), Vector3::UnitX();
   Model foot;
-  AddLoft(Stretched(sections, Vector3::Constant(body.shoe_length_m)), 12, dress.shoes, foot,
+  AddLoft(Stretched(sections, Vector3::Constant(body.shoe_length_m)), 12, dress.clothing, foot,
           MakeTransform(axes, Vector3::Zero()));
   return foot;
 }
@@ -300,10 +300,10 @@ void AddTrunk(const BodyMeasures& body,
   const Sections pelvis = is_woman ? Sections(kWomanPelvisSections) : kManPelvisSections;
   const Sections chest = is_woman ? Sections(kWomanChestSections) : kManChestSections;
   AddLoft(Stretched(pelvis, scale(body.waist_m - body.hip_m, kTableWaist_m)), kTorsoSides,
-          dress.legs, bones.pelvis);
+          dress.outer, bones.pelvis);
 
   std::vector<LoftSection> table(chest.begin(), chest.end());
-  if (dress.has_bands) {
+  if (dress.is_hi_vis) {
     for (const double z_m : {kWaistBand_m[0], kWaistBand_m[1], kChestBand_m[0], kChestBand_m[1]}) {
       table = WithSectionAt(z_m, std::move(table));
     }
@@ -311,8 +311,8 @@ void AddTrunk(const BodyMeasures& body,
   const auto surface = [&](int gap, int side) {
     const auto lower = static_cast<std::size_t>(gap);
     const double z_m = 0.5 * (table[lower].z_m + table[lower + 1].z_m);
-    if (z_m > kShoulderTop_m[1]) return dress.sleeves;  // The collar of what is worn below.
-    return dress.has_bands && IsBand(z_m, side) ? dress.band : dress.torso;
+    if (z_m > kShoulderTop_m[1]) return dress.clothing;  // The collar of what is worn below.
+    return dress.is_hi_vis && IsBand(z_m, side) ? dress.band : dress.outer;
   };
   AddLoft(Stretched(table, scale(body.neck_m - body.waist_m, kTableNeck_m)), kTorsoSides, surface,
           bones.chest);
@@ -327,15 +327,15 @@ void AddHead(const BodyMeasures& body,
   AddLoft(Stretched(kNeckSections, scale), 14, dress.skin, bones.head);
   const auto surface = [&](int gap, int side) {
     const double z_m = 0.5 * (kHeadSections[gap].z_m + kHeadSections[gap + 1].z_m);
-    return IsHair(z_m, side) ? dress.hair : dress.skin;
+    return IsHair(z_m, side) ? dress.clothing : dress.skin;
   };
   AddLoft(Stretched(kHeadSections, scale), kHeadSides, surface, bones.head);
   AddLoft(Stretched(kNoseSections, scale), 8, dress.skin, bones.head);
   AddEars(scale, dress.skin, bones.head);
   if (physique == Physique::kWoman) {
-    AddLoft(Stretched(kLongHairSections, scale), 16, dress.hair, bones.head);
+    AddLoft(Stretched(kLongHairSections, scale), 16, dress.clothing, bones.head);
   }
-  if (dress.has_helmet) {
+  if (dress.is_hi_vis) {
     AddLoft(Stretched(kHelmetSections, scale), kHeadSides, dress.helmet, bones.head);
   }
 }
@@ -344,11 +344,11 @@ void AddLimbs(const BodyMeasures& body, const PersonDress& dress, PersonBones& b
   const double girth = body.limb_girth;
   AddLoft(WithDomes(0.042 * girth, 0.022 * girth,
                     Stretched(kUpperArmSections, {girth, girth, body.upper_arm_m})),
-          kArmSides, dress.sleeves, bones.limbs.upper_arm);
+          kArmSides, dress.clothing, bones.limbs.upper_arm);
   bones.limbs.forearm = MakeHandAndForearm(body, dress);
   AddLoft(WithDomes(0.055 * girth, 0.075 * girth,
                     Stretched(kThighSections, {girth, girth, body.thigh_m()})),
-          kLegSides, dress.legs, bones.limbs.thigh);
+          kLegSides, dress.outer, bones.limbs.thigh);
   bones.limbs.shank = MakeShank(body, dress);
   bones.limbs.foot = MakeShoe(body, dress);
 }
