@@ -11,7 +11,7 @@
 #include "core/base/text.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_text.h"
 #include "core/scenario/shared_keys.h"

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
+#include "core/rail/chunk/chunk_context.h"
 
 namespace railcast {
 namespace {
@@ -150,6 +152,15 @@ bool IsGroundCovered(const DemHeights& elevation,
   return true;
 }
 
+// What permits the coarser forms of a chunk (docs/detail.md). Ballast has cells of up to 0.48 m
+// across in the first, 2.5 spacings; along the track, where it is as fine as ever, most beams run.
+// Beams that are narrower than the spacing find the ground's edges behind its bumps: their width
+// counts, too.
+constexpr double kCoarseRaySpacings_m[kMostCoarse] = {0.19,
+                                                      std::numeric_limits<double>::infinity()};
+constexpr double kCoarseBeamWidth_m = 0.2;
+constexpr double kCoarseSightAngle_rad = 0.5;
+
 }  // namespace
 
 StripWidth::StripWidth(const Alignment& alignment, double half_width_m)
@@ -231,6 +242,31 @@ double Landform::Rise_m(const Vector3& formation_m) const {
   Check(has_terrain(), "the land has a terrain of its own");
   if (elevation_) return elevation_->Height_m(formation_m.head<2>()) - formation_m.z();
   return hills_->Height_m(formation_m.head<2>());
+}
+
+std::vector<CoarserSurfaces> CoarserSurfacesBetween(const ChainageRange& range,
+                                                    const Alignment& alignment,
+                                                    const StripWidth& width,
+                                                    const Transform& chunk_from_world) {
+  constexpr int kNumSteps = 10;
+  // By how much a curve turns the track at the chunk's ends from its middle.
+  const double turn_rad = 0.5 * std::abs(alignment.At(range.end_s_m).heading_rad -
+                                         alignment.At(range.begin_s_m).heading_rad);
+  CoarserSurfaces coarser{.area_m = {},
+                          .ray_spacing_m = 0.0,
+                          .beam_width_m = kCoarseBeamWidth_m,
+                          .sight_angle_rad = std::max(0.0, kCoarseSightAngle_rad - turn_rad)};
+  for (int i = 0; i <= kNumSteps; ++i) {
+    const double s_m = std::lerp(range.begin_s_m, range.end_s_m, 1.0 * i / kNumSteps);
+    for (const double side : {-1.0, 1.0}) {
+      const Transform chunk_from_edge =
+          chunk_from_world * alignment.WorldFromTrack(s_m, side * width.At(s_m, side));
+      coarser.area_m.extend(Eigen::Vector2d(chunk_from_edge.translation().head<2>()));
+    }
+  }
+  std::vector<CoarserSurfaces> forms(kMostCoarse, coarser);
+  for (std::size_t i = 0; i < forms.size(); ++i) forms[i].ray_spacing_m = kCoarseRaySpacings_m[i];
+  return forms;
 }
 
 }  // namespace railcast

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "core/rail/base/noise_field.h"
+#include "core/rail/line/track_course.h"
 #include "railcast/alignment.h"
+#include "railcast/scene.h"
 #include "railcast/world_spec.h"
 
 namespace railcast {
@@ -201,5 +203,12 @@ class Landform {
   std::optional<DemHeights> elevation_;
   std::optional<Hills> hills_;
 };
+
+/// What permits the coarser forms of the chunk between two chainages.
+[[nodiscard]] std::vector<CoarserSurfaces> CoarserSurfacesBetween(
+    const ChainageRange& range,
+    const Alignment& alignment,
+    const StripWidth& width,
+    const Transform& chunk_from_world);
 
 }  // namespace railcast

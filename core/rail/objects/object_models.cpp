@@ -10,7 +10,6 @@
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_surfaces.h"
-#include "core/rail/objects/table_models.h"
 #include "core/scene/shapes.h"
 #include "railcast/scene.h"
 #include "railcast/transform.h"

@@ -63,7 +63,7 @@ class ObjectModels {
 
   /// As MakeObjectModel().
   [[nodiscard]] std::shared_ptr<const Model> Of(const ObjectSpec& spec);
-  /// The body, the front bogie and the rear bogie of a rail vehicle (table_models.h).
+  /// The body, the front bogie and the rear bogie of a rail vehicle (mesh_object.h).
   /// @throws InputError as MakeObjectModel() does.
   [[nodiscard]] Pieces VehiclePiecesOf(const ObjectSpec& spec);
   /// The pieces of a person that walks about, which WalkingPerson(PersonBuildOf(spec)) moves; other

@@ -1,4 +1,4 @@
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include "core/base/shipped_files.h"
 #include "core/base/text.h"
 #include "core/rail/base/rail_surfaces.h"
-#include "core/rail/objects/mesh_object.h"
 #include "core/rail/objects/object_surfaces.h"
 
 namespace railcast {

@@ -12,7 +12,7 @@
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/network/route.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/rail/line/track_course.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/scene/shapes.h"
 
 namespace railcast {

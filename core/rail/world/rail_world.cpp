@@ -23,7 +23,7 @@
 #include "core/rail/motion/ride.h"
 #include "core/rail/motion/track_path.h"
 #include "core/rail/network/network_draft.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/survey/surveyed_scene.h"
@@ -31,7 +31,6 @@
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
-#include "core/rail/world/coarser_surfaces.h"
 #include "core/rail/world/world_draft.h"
 #include "core/scene/rotation_between.h"
 

@@ -1,5 +1,3 @@
-#include "core/rail/world/world_draft.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,11 +5,12 @@
 #include "core/base/text.h"
 #include "core/rail/catenary/catenary.h"
 #include "core/rail/network/turnout_place.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 #include "core/rail/traffic/trains.h"
+#include "core/rail/world/world_draft.h"
 
 namespace railcast {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/network/route.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/rail/traffic/object_draft.h"
 #include "core/rail/traffic/object_way.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "core/scenario/object_types.h"
 #include "tests/core/rail/test_tables.h"
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "railcast/scenario.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/shipped_models.h"

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/rail/objects/table_models.h"
+#include "core/rail/objects/mesh_object.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "tests/core/rail/test_tables.h"
