@@ -102,10 +102,10 @@ class AimedBeamsAt : public testing::TestWithParam<ObjectType> {
                           const ScanPattern& pattern,
                           std::uint32_t frame_index) const {
     const std::int64_t time_ns = pattern.StampNs(frame_index);
-    SimulatorSpec spec;
-    spec.vehicle_from_sensor = VehicleFromSensorAimedAt(
-        world->WorldFromVehicle(time_ns).inverse() * MiddleOf(*world, 0, time_ns).point_world,
-        kSensorAbove_m);
+    SimulatorSpec spec{.vehicle_from_sensor =
+                           VehicleFromSensorAimedAt(world->WorldFromVehicle(time_ns).inverse() *
+                                                        MiddleOf(*world, 0, time_ns).point_world,
+                                                    kSensorAbove_m)};
     Frame frame;
     Simulator(world, pattern, materials_, spec, 0).Scan(frame_index, frame);
     return frame;

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,15 +11,10 @@
 #include "core/rail/line/rail_section.h"
 #include "tests/stability/regime.h"
 #include "tests/support/alignment_faults.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
-
-AlignmentSpec LineOf(std::vector<AlignmentElement> elements) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{std::move(elements)};
-  return spec;
-}
 
 AlignmentSpec SplineOf(std::vector<std::array<double, 2>> points_m) {
   AlignmentSpec spec;
@@ -36,18 +29,18 @@ TEST(AlignmentAtItsLimits, RefusesARadiusNearTheGauge) {
            "straight (got " +
            got + ")";
   };
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, kGauge_m}})), fault("1.435"));
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, -0.5 * kGauge_m}})), fault("-0.7175"));
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 9.999}})), fault("9.999"));
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 0.0}})), fault("0"));
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, std::nan("")}})), fault("nan"));
-  EXPECT_EQ(FaultOf(LineOf({{ElementType::kArc, 5.0, 10.0}})), "none");
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, kGauge_m}})), fault("1.435"));
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, -0.5 * kGauge_m}})), fault("-0.7175"));
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, 9.999}})), fault("9.999"));
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, 0.0}})), fault("0"));
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, std::nan("")}})), fault("nan"));
+  EXPECT_EQ(FaultOf(AlignmentOf({{ElementType::kArc, 5.0, 10.0}})), "no error");
 }
 
 // Sixteen metres of the tightest curve allowed. Chords of 2.5 m, as on a straight, would be 75 mm
 // off it; the sweep keeps within its millimetre and keeps the gauge.
 TEST(AlignmentAtItsLimits, TheTightestCurveKeepsItsGaugeAndItsChords) {
-  const Alignment alignment(LineOf({{ElementType::kArc, 16.0, 10.0}}));
+  const Alignment alignment(AlignmentOf({{ElementType::kArc, 16.0, 10.0}}));
   const Vector3 centre_m(0.0, 10.0, 0.0);
   for (const double side : {-1.0, 1.0}) {
     const double offset_m = side * 0.5 * kGauge_m;
@@ -79,13 +72,13 @@ TEST(AlignmentAtItsLimits, RefusesCuspsOfASpline) {
 }
 
 TEST(AlignmentAtItsLimits, RefusesElementsWithoutLength) {
+  EXPECT_EQ(FaultOf(AlignmentOf(
+                {{ElementType::kStraight, 100.0, {}}, {ElementType::kStraight, 0.0, {}}})),
+            "/course/elements/1/length_m: must be > 0 (got 0)");
   EXPECT_EQ(
-      FaultOf(LineOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kStraight, 0.0, {}}})),
-      "/course/elements/1/length_m: must be > 0 (got 0)");
-  EXPECT_EQ(
-      FaultOf(LineOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, -1.0, 300.0}})),
+      FaultOf(AlignmentOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, -1.0, 300.0}})),
       "/course/elements/1/length_m: must be > 0 (got -1)");
-  EXPECT_EQ(FaultOf(LineOf(
+  EXPECT_EQ(FaultOf(AlignmentOf(
                 {{ElementType::kStraight, 100.0, {}}, {ElementType::kStraight, std::nan(""), {}}})),
             "/course/elements/1/length_m: must be > 0 (got nan)");
 }
@@ -93,10 +86,10 @@ TEST(AlignmentAtItsLimits, RefusesElementsWithoutLength) {
 // The shortest element that a scenario may have, 1 mm, at the end of the longest line must do no
 // harm.
 TEST(AlignmentAtItsLimits, AnElementOfAMillimetreAfterAThousandKilometresIsHarmless) {
-  const Alignment line(LineOf({{ElementType::kStraight, 1e6, {}},
-                               {ElementType::kClothoid, 1e-3, {}},
-                               {ElementType::kArc, 1e-3, 500.0},
-                               {ElementType::kArc, 100.0, 500.0}}));
+  const Alignment line(AlignmentOf({{ElementType::kStraight, 1e6, {}},
+                                    {ElementType::kClothoid, 1e-3, {}},
+                                    {ElementType::kArc, 1e-3, 500.0},
+                                    {ElementType::kArc, 100.0, 500.0}}));
   EXPECT_NEAR(line.length_m(), 1e6 + 100.002, 1e-9);
   const AxisPoint end = line.At(line.length_m());
   EXPECT_NEAR(end.heading_rad, (100.0 + 1.5e-3) / 500.0, 1e-12);
@@ -122,7 +115,7 @@ double CurvatureOf(const AlignmentElement& element) {
 }
 
 TEST(AlignmentAtItsLimits, ChainageIsArcLengthToAMillimetreOverAThousandKilometres) {
-  const Alignment line(LineOf(ThousandKilometres()));
+  const Alignment line(AlignmentOf(ThousandKilometres()));
   EXPECT_EQ(line.length_m(), 1e6);
   constexpr int kNumSteps = 1'250'000;
   constexpr double kStep_m = 0.8;
@@ -200,7 +193,7 @@ Eigen::Matrix<Real, 2, 1> ByEuler(const Alignment& line) {
 }
 
 TEST(AlignmentAtItsLimits, TheEndOfAThousandKilometresIsRightToAMicrometre) {
-  const Alignment line(LineOf(ThousandKilometres()));
+  const Alignment line(AlignmentOf(ThousandKilometres()));
   const PlanEnd truth = ByLongDouble(ThousandKilometres());
   const Vector3 truth_m(static_cast<double>(truth.x_m), static_cast<double>(truth.y_m), 0.0);
   const AxisPoint end = line.At(line.length_m());

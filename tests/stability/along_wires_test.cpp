@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <vector>
 
 #include "core/fidelity/frame_comparison.h"
 #include "railcast/effects.h"

@@ -2,7 +2,6 @@
 // the same in every run and with any number of threads.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 #include <vector>
 

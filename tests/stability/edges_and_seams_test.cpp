@@ -7,7 +7,6 @@
 #include <string>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>

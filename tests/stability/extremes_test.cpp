@@ -141,10 +141,7 @@ Frame Scan(const Setting& setting, Fidelity rung) {
   static const auto scenes = MakeSceneStore(MixedWorld(), Materials());
   SimulatorSpec spec = setting.spec;
   spec.detector.effects = EffectsOfRung(rung);
-  Simulator simulator(scenes, setting.pattern, Materials(), spec, 0);
-  Frame frame;
-  simulator.Scan(2, frame);
-  return frame;
+  return ScanFrame(Simulator(scenes, setting.pattern, Materials(), spec, 0), 2);
 }
 
 // In addition to what holds on every rung: powers and shares are not negative, and the surfaces
@@ -183,8 +180,7 @@ TEST(Extremes, GiveSoundFramesOnEveryRung) {
 }
 
 TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(20.0F, 100.0F), kPaint, 1}};
+  const auto world = WorldOfParts({{MakeWall(20.0F, 100.0F), kPaint, 1}});
   for (const double divergence_mrad : {0.0, 3.0, 17.453}) {
     for (const int num_rays : {16, 256, 1000}) {
       SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
@@ -193,9 +189,8 @@ TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
                                                   .sampled_waveform = true}}};
       spec.detector.beam.divergence_mrad = {divergence_mrad, divergence_mrad};
       spec.detector.beam.reference_rays = num_rays;
-      Simulator simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0);
-      Frame frame;
-      simulator.Scan(0, frame);
+      const Frame frame =
+          ScanFrame(Simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0));
       for (const float share : frame.footprint_share) {
         // Each addition may round by half a step of 6e-8.
         ASSERT_NEAR(static_cast<double>(share), 1.0, 6e-8 * (num_rays + 1)) << num_rays;
@@ -206,13 +201,10 @@ TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
 
 TEST(Extremes, NothingReturnsFromABlackSurface) {
   for (const Fidelity rung : kPhysicalRungs) {
-    auto world = std::make_shared<SimpleWorld>();
-    world->ground.parts = {{MakeWall(5.0F, 100.0F), kBlack, 1}};
+    const auto world = WorldOfParts({{MakeWall(5.0F, 100.0F), kBlack, 1}});
     // Even at night, one firing in a million is a false alarm, so none is expected among these 400.
-    Simulator simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
-                        {.detector = {.effects = EffectsOfRung(rung)}}, 0);
-    Frame frame;
-    simulator.Scan(0, frame);
+    const Frame frame = ScanFrame(Simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
+                                            {.detector = {.effects = EffectsOfRung(rung)}}, 0));
     // Phi(-5) = 3e-7 of them are detected nevertheless.
     EXPECT_EQ(std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kBelowThreshold), 400)
         << NameOf(rung);
@@ -272,13 +264,11 @@ TEST(Extremes, TenMillionBeamsMakeOneSoundFrame) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "too slow under a sanitizer";
 #endif
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
+  const auto world = WorldOfParts({{MakeFloor(-2.0F, 400.0F), kSoil, 2}});
   SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kSurface)}};
   Simulator simulator(world, MakeRaster(360.0, 69.5, 0.05), Materials(), spec, 0);
   ASSERT_GE(simulator.pattern().num_firings(), 10'000'000U);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(simulator);
   ExpectSoundBeams(frame, spec);
   // Beams that look down by more than half a degree meet the ground within range.
   const auto num_below = static_cast<std::ptrdiff_t>(7200) * (1390 / 2 - 10);

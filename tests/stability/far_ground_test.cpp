@@ -3,7 +3,6 @@
 // rung `reference`, which adds up the pulses of 1,024 sub-rays.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <memory>
 #include <string>
 
@@ -23,21 +22,18 @@ class FarGroundOn : public testing::TestWithParam<std::string> {};
 TEST_P(FarGroundOn, IsRangedWhereTheReferenceRangesIt) {
   const ScenarioSpec scenario = ReadMinimalWith(GetParam());
   const MaterialLibrary materials(scenario.materials);
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {MakeFloor(static_cast<float>(-kHeight_m), 600.0F), materials.Index("concrete"), 7}};
+  const auto world = WorldOfParts(
+      {{MakeFloor(static_cast<float>(-kHeight_m), 600.0F), materials.Index("concrete"), 7}});
   const ScanPattern pattern = BuildScanPattern(CutSector(scenario.lidar.scan, {4.0, -4.0, -1.5}));
   SimulatorSpec spec = SpecOf(scenario.lidar, EffectsOfRung(Fidelity::kFootprint));
   spec.detector.effects.detection_probability = false;
   Simulator simulator(world, pattern, materials, spec, 0);
-  Frame rung;
-  simulator.Scan(0, rung);
+  const Frame rung = ScanFrame(simulator);
   spec = SpecOf(scenario.lidar, YardstickEffects());
   spec.detector.effects.detection_probability = false;
   spec.detector.beam.reference_rays = 1024;
   simulator.Use(spec);
-  Frame reference;
-  simulator.Scan(0, reference);
+  const Frame reference = ScanFrame(simulator);
   double num = 0.0;
   double sum_m = 0.0;
   double axis_m = 0.0;

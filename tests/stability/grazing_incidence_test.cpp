@@ -80,8 +80,7 @@ GrazingErrors CompareSurface(const Mesh& surface,
   const Transform surface_from_sensor =
       MakeTransform(RotationFromYawPitchRoll(0.0, pitch_rad, 0.0),
                     {0.3, aim_y_m, kRange_m * std::sin(pitch_rad)});
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{InChunk(surface), 2, 2}};
+  const auto world = WorldOfParts({{InChunk(surface), 2, 2}});
   world->chunk_from_vehicle = ChunkFromSurface() * surface_from_sensor;
   const Frame frame = ScanOnce(world, pattern);
   ExpectSoundSlots(frame, 0.5F, 300.0F);

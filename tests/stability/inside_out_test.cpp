@@ -104,8 +104,7 @@ TEST(InsideOut, ARendererLosesFacesOrTurnsTheCosineNegative) {
 }
 
 TEST(InsideOut, ASensorInsideASphereSeesItsWallAllRound) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeSphere(5.0, 90, 180), 2, 2}};
+  const auto world = WorldOfParts({{MakeSphere(5.0, 90, 180), 2, 2}});
   const Frame frame = ScanOnce(world, MakeRaster(360, 60, 1));
   ExpectSoundSlots(frame, 0.5F, 300.0F);
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
@@ -117,8 +116,8 @@ TEST(InsideOut, ASensorInsideASphereSeesItsWallAllRound) {
 }
 
 TEST(InsideOut, ASensorInsideAThingTooNearIsBlockedAllRound) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeSphere(0.3, 40, 80), 2, 2}, {MakeFloor(-2.0F, 100.0F), 1, 1}};
+  const auto world =
+      WorldOfParts({{MakeSphere(0.3, 40, 80), 2, 2}, {MakeFloor(-2.0F, 100.0F), 1, 1}});
   const Frame frame = ScanOnce(world, MakeRaster(360, 60, 1));
   ExpectSoundSlots(frame, 0.5F, 300.0F);
   EXPECT_EQ(static_cast<std::size_t>(
@@ -133,8 +132,7 @@ TEST(InsideOut, ASensorThatTouchesGeometryGivesNoFalsePoint) {
   const Mesh box = MakeBox({Vector3(0.0, 0.0, 0.0), Vector3(4.0, 4.0, 4.0)});
   for (const Mesh& mesh : {floor, box}) {
     for (const double off_m : {0.0, 1e-6, -1e-6, 1e-3, -1e-3}) {
-      auto world = std::make_shared<SimpleWorld>();
-      world->ground.parts = {{mesh, 2, 2}};
+      const auto world = WorldOfParts({{mesh, 2, 2}});
       world->chunk_from_vehicle.translation() = Vector3(off_m, off_m, off_m);
       // With 31 rows, the middle one lies in the plane itself.
       const Frame frame = ScanOnce(world, MakeRaster(360, 62, 2));

@@ -38,8 +38,7 @@ SimulatorSpec FarSpec(const EffectSet& effects, double range_m) {
 
 TEST(LongRange, RangesOfAWallKeepTheirMillimetre) {
   for (const float wall_m : {250.0F, 1000.0F, 2000.0F}) {
-    auto world = std::make_shared<SimpleWorld>();
-    world->ground.parts = {{MakeWall(wall_m, 100.0F), 2, kFarWall}};
+    const auto world = WorldOfParts({{MakeWall(wall_m, 100.0F), 2, kFarWall}});
     const ScanPattern pattern = MakeRaster(2.0, 0.4, 0.02);
     const Frame frame = ScanOnce(
         world, pattern, FarSpec(EffectsOfRung(Fidelity::kFootprint), static_cast<double>(wall_m)));

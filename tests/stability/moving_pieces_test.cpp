@@ -17,6 +17,7 @@
 #include "tests/support/bare_line.h"
 #include "tests/support/sensor_sector.h"
 #include "tests/support/triangle_search.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -101,11 +102,7 @@ void ExpectEachPieceAtItsTime(const char* what, const RangeErrors& errors, doubl
 }
 
 TEST(MovingPieces, OfARunningPersonAreHitAtTheirTimes) {
-  ObjectSpec person;
-  person.name = "it";
-  person.type = ObjectType::kPerson;
-  person.s_m = 410.0;
-  person.d_m = 6.5;
+  ObjectSpec person = ObjectAt("it", ObjectType::kPerson, 410.0, 6.5);
   person.motion = MotionSpec{};
   PathSpec path;
   PathPoint there;
@@ -119,11 +116,8 @@ TEST(MovingPieces, OfARunningPersonAreHitAtTheirTimes) {
 }
 
 TEST(MovingPieces, OfAWagonInACurveAreHitAtTheirTimes) {
-  ObjectSpec wagon;
-  wagon.name = "it";
-  wagon.type = TypeNamed("flat_wagon");
+  ObjectSpec wagon = ObjectAt("it", TypeNamed("flat_wagon"), 390.0);
   wagon.track = "second";
-  wagon.s_m = 390.0;
   wagon.motion = MotionSpec{};
   wagon.motion->profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 20.0}};
   ExpectEachPieceAtItsTime("bogies of a wagon in a curve", ErrorsOn(wagon), 2e-3);

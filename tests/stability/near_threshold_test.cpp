@@ -25,8 +25,7 @@ double ShareBelow(double x) {
 
 /// A wall that faces the sensor, where the power is `ratio` times the threshold.
 Frame ScanWall(double ratio, Fidelity rung, bool is_smooth) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(static_cast<float>(kFacingWall_m), 20.0F), 2, 1}};
+  const auto world = WorldOfParts({{MakeWall(static_cast<float>(kFacingWall_m), 20.0F), 2, 1}});
   SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
                                               .detection = true,
                                               .detection_probability = is_smooth,

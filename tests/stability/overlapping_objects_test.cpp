@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <string>
 
 #include "core/fidelity/frame_comparison.h"
 #include "core/scene/shapes.h"
@@ -61,8 +60,7 @@ TEST(OverlappingObjects, ShowNothingThatIsInsideOfAnother) {
       ++num_points;
       // An echo of two surfaces lies between them. Those of one surface lie on it.
       if (frame.mixed_share[slot - slot % frame.returns] > 0.0F) continue;
-      const Vector3 point_m(static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
-                            static_cast<double>(frame.z[slot]));
+      const Vector3 point_m = PointAt(frame, slot);
       for (const Block& block : kBlocks) {
         EXPECT_FALSE(block.HasInside(point_m, 0.02)) << NameOf(rung) << point_m.transpose();
       }

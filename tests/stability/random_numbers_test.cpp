@@ -192,8 +192,7 @@ SimulatorSpec AllOn() {
 
 /// Scans level ground from 30 m on, and sky, so that some beams have each outcome.
 Frame ScanPlain(const EffectSet& effects) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-6.0F, 1000.0F), 1, 1}};
+  const auto world = WorldOfParts({{MakeFloor(-6.0F, 1000.0F), 1, 1}});
   SimulatorSpec spec = AllOn();
   spec.detector.effects = effects;
   return ScanOnce(world, MakeRaster(60, 20, 0.25), spec, 7);
@@ -243,8 +242,7 @@ TEST(RandomNumbers, SwitchingNoiseMovesPointsAndNothingElse) {
 /// Returns which beams of a sphere of 40 m radius an effect alone affects, standardised to mean 0
 /// and variance 1. For noise: which measured ranges are too long.
 std::vector<double> TakenBy(bool EffectSet::*effect, std::uint32_t frame_index) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeSphere(40.0, 90, 180), 3, 1}};
+  const auto world = WorldOfParts({{MakeSphere(40.0, 90, 180), 3, 1}});
   SimulatorSpec spec = AllOn();
   spec.detector.effects = {};
   spec.detector.effects.*effect = true;

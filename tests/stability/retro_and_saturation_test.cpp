@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "core/base/units.h"
 #include "railcast/simulator.h"
@@ -32,15 +31,12 @@ MaterialLibrary RetroMaterials() {
 std::shared_ptr<SimpleWorld> SheetBesideWall(double range_m) {
   const auto x = static_cast<float>(range_m);
   const float h = 0.2F * x;
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {{{{x, -h, -h}, {x, 0, -h}, {x, 0, h}, {x, -h, h}}, {{0, 1, 2}, {0, 2, 3}}},
-       kDark,
-       kWallLabel},
-      {{{{x, 0, -h}, {x, h, -h}, {x, h, h}, {x, 0, h}}, {{0, 1, 2}, {0, 2, 3}}},
-       kRetro,
-       kSheetLabel}};
-  return world;
+  return WorldOfParts({{{{{x, -h, -h}, {x, 0, -h}, {x, 0, h}, {x, -h, h}}, {{0, 1, 2}, {0, 2, 3}}},
+                        kDark,
+                        kWallLabel},
+                       {{{{x, 0, -h}, {x, h, -h}, {x, h, h}, {x, 0, h}}, {{0, 1, 2}, {0, 2, 3}}},
+                        kRetro,
+                        kSheetLabel}});
 }
 
 enum class Rung { kSurface, kFootprint, kReference };
@@ -62,11 +58,8 @@ SimulatorSpec Spec(Rung rung) {
 }
 
 Frame ScanAt(double range_m, const SimulatorSpec& spec) {
-  Simulator simulator(SheetBesideWall(range_m), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec,
-                      0);
-  Frame frame;
-  simulator.Scan(0, frame);
-  return frame;
+  return ScanFrame(
+      Simulator(SheetBesideWall(range_m), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec, 0));
 }
 
 double AzimuthOf_rad(const Frame& frame, std::size_t slot) {
@@ -141,10 +134,8 @@ TEST(Retroreflector, IsSeenUpToTheRangeGate) {
 TEST(Retroreflector, AtTheGateIsOutOfRangeHalfOfTheTime) {
   SimulatorSpec spec = Spec(Rung::kSurface);
   spec.detector.range_max_m = 100.01;
-  Simulator simulator(SheetBesideWall(100.01 - 1e-3), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(),
-                      spec, 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(Simulator(SheetBesideWall(100.01 - 1e-3),
+                                          MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec, 0));
   double beyond = 0.0;
   double expected = 0.0;
   double variance = 0.0;

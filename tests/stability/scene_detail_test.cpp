@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 
 #include "core/base/units.h"
 #include "railcast/scenario.h"
 #include "tests/stability/regime.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -116,11 +116,8 @@ Frame CrowdIn(SceneDetail detail) {
   spec.vehicle.motion.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 0.0}};
   spec.lidar.receiver.return_mode = ReturnMode::kStrongest;
   for (int i = 0; i < 60; ++i) {
-    ObjectSpec person;
-    person.name = "person " + std::to_string(i);
-    person.type = ObjectType::kPerson;
-    person.s_m = spec.vehicle.start_s_m + 6.0 + 2.4 * i;
-    person.d_m = 1.5 * (i % 7 - 3);
+    ObjectSpec person = ObjectAt("person " + std::to_string(i), ObjectType::kPerson,
+                                 spec.vehicle.start_s_m + 6.0 + 2.4 * i, 1.5 * (i % 7 - 3));
     person.motion = MotionSpec{.profile = {{.time_s = 0.0, .s_m = {}, .speed_mps = 1.3}}};
     spec.world.objects.push_back(std::move(person));
   }

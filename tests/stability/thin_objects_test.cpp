@@ -9,7 +9,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include "core/base/units.h"
 #include "core/detect/base/normal_table.h"
@@ -103,9 +102,8 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
   /// below the sensor.
   [[nodiscard]] std::shared_ptr<SimpleWorld> RowOf(const std::shared_ptr<const Model>& model,
                                                    double range_m) const {
-    auto world = std::make_shared<SimpleWorld>();
-    world->ground.parts = {
-        {MakeFloor(-2.5F, 600.0F), materials_.Index("soil"), labels_.Id("ground")}};
+    const auto world =
+        WorldOfParts({{MakeFloor(-2.5F, 600.0F), materials_.Index("soil"), labels_.Id("ground")}});
     constexpr double kApart_m = 0.5;
     const double half_m = 0.9 * range_m * std::tan(RadFromDeg(kRowHalfAzimuth_deg));
     const int num = std::min(static_cast<int>(2.0 * half_m / kApart_m), 24);
@@ -134,13 +132,11 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
                                       double range_m) const {
     const std::shared_ptr<SimpleWorld> row = RowOf(model, range_m);
     Simulator simulator = MakeSimulator(row, EffectsOfRung(Fidelity::kFootprint));
-    Frame rung;
-    simulator.Scan(0, rung);
+    const Frame rung = ScanFrame(simulator);
     SimulatorSpec spec = SpecOf(scenario_.lidar, YardstickEffects());
     spec.detector.beam.reference_rays = kManySubRays;
     simulator.Use(spec);
-    Frame reference;
-    simulator.Scan(0, reference);
+    const Frame reference = ScanFrame(simulator);
     const ThinEchoes echoes = CompareThin(rung, reference, model->parts.front().label);
     return echoes;
   }

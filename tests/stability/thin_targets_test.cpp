@@ -238,8 +238,7 @@ TEST(ThinTargets, APoleTakesItsShareOfTheBeamsThatMeetIt) {
       vertex.x() += static_cast<float>(range_m * std::cos(azimuth_rad));
       vertex.y() += static_cast<float>(range_m * std::sin(azimuth_rad));
     }
-    auto world = std::make_shared<SimpleWorld>();
-    world->ground.parts = {{pole, kGrey, 7}};
+    const auto world = WorldOfParts({{pole, kGrey, 7}});
     // Apparent half width: the tangents touch the pole in front of its axis.
     const double half_rad = std::asin(kRadius_m / range_m);
     for (const bool is_dense : {false, true}) {
@@ -260,9 +259,8 @@ TEST(ThinTargets, APoleTakesItsShareOfTheBeamsThatMeetIt) {
 TEST(ThinTargets, APlatesEdgeFadesAsTheBeamsProfileAtAnyRange) {
   for (const double range_m : kRanges_m) {
     const auto x = static_cast<float>(range_m);
-    auto world = std::make_shared<SimpleWorld>();
-    world->ground.parts = {
-        {{{{x, -x, -x}, {x, 0, -x}, {x, 0, x}, {x, -x, x}}, {{0, 1, 2}, {0, 2, 3}}}, kGrey, 7}};
+    const auto world = WorldOfParts(
+        {{{{{x, -x, -x}, {x, 0, -x}, {x, 0, x}, {x, -x, x}}, {{0, 1, 2}, {0, 2, 3}}}, kGrey, 7}});
     for (const bool is_dense : {false, true}) {
       for (const Column& column : SharesByColumn(world, is_dense ? kDenseBeam : kBeam)) {
         const double expected = Phi(-column.azimuth_rad / kBeamSigma_rad);

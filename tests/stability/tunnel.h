@@ -12,6 +12,7 @@
 #include "railcast/alignment.h"
 #include "railcast/transform.h"
 #include "tests/support/ray_cast.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 
@@ -37,8 +38,7 @@ namespace railcast {
 class Tunnel {
  public:
   explicit Tunnel(double overlap_m) {
-    AlignmentSpec spec;
-    spec.course = AlignmentElementsSpec{{{ElementType::kArc, 20.0, 400.0}}};
+    AlignmentSpec spec = AlignmentOf({{ElementType::kArc, 20.0, 400.0}});
     spec.origin_m = {4.5e5, 5.2e6, 431.7};
     spec.heading_deg = 37.0;
     spec.gradients_permil = {{0.0, 12.0}};

@@ -28,10 +28,9 @@ Mesh WoundEither(Mesh mesh, bool is_inwards) {
 }
 
 Frame BetweenFloorAndCeiling(bool is_inwards, Fidelity rung, double snow_cover) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {WoundEither(MakeFloor(-2.0F, 60.0F), is_inwards), kDarkPaint, kFloorLabel},
-      {WoundEither(MakeFloor(3.0F, 60.0F), is_inwards), kDarkPaint, kCeilingLabel}};
+  const auto world =
+      WorldOfParts({{WoundEither(MakeFloor(-2.0F, 60.0F), is_inwards), kDarkPaint, kFloorLabel},
+                    {WoundEither(MakeFloor(3.0F, 60.0F), is_inwards), kDarkPaint, kCeilingLabel}});
   SimulatorSpec spec{.detector = {.effects = EffectsOfRung(rung)}, .snow_material = kFreshSnow};
   spec.detector.weather.snow_cover = snow_cover;
   spec.detector.beam.reference_rays = 64;

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "railcast/scenario.h"
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/stability/regime.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -41,10 +41,7 @@ ScenarioSpec LineFrom(double start_s_m, const std::string& detail = "full") {
 }
 
 Frame FirstFrame(double start_s_m, const std::string& detail = "full") {
-  const auto simulator = MakeSimulator(LineFrom(start_s_m, detail), 0);
-  Frame frame;
-  simulator->Scan(0, frame);
-  return frame;
+  return ScanFrame(*MakeSimulator(LineFrom(start_s_m, detail), 0));
 }
 
 // The seam is at 150 m. A millimetre before it the scan begins in one chunk and ends in the other,
@@ -106,8 +103,7 @@ TEST(WindowChange, MovesFewPointsWithSceneDetail) {
 // The second frame of one run, in the next window, is the first of a run that begins there.
 TEST(WindowChange, BetweenFramesDoesNotShow) {
   const auto simulator = MakeSimulator(LineFrom(145.0), 0);
-  Frame second;
-  simulator->Scan(0, second);
+  Frame second = ScanFrame(*simulator);
   simulator->Scan(1, second);
   const Frame first = FirstFrame(145.0 + 0.1 * kFastTrain_mps);
   ASSERT_EQ(first.num_slots(), second.num_slots());

@@ -21,9 +21,7 @@ constexpr std::uint32_t kFogLabel = 25;
 
 // Half of the beams meet the ground 2 m below, the others the sky.
 std::shared_ptr<SimpleWorld> OpenGround() {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-2.0F, 400.0F), 1, 2}};
-  return world;
+  return WorldOfParts({{MakeFloor(-2.0F, 400.0F), 1, 2}});
 }
 
 SimulatorSpec FogOver(double visibility_m, double range_at_10_percent_m) {
@@ -128,8 +126,7 @@ TEST(FogInFrames, FillsBothReturnsOfADualSensor) {
 
 // Share of the beams that return `label`, before a wall that they meet head-on.
 double ShareOf(std::uint32_t label, double wall_m, std::uint16_t material, SimulatorSpec spec) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(static_cast<float>(wall_m), 50.0F), material, 2}};
+  const auto world = WorldOfParts({{MakeWall(static_cast<float>(wall_m), 50.0F), material, 2}});
   double num = 0.0;
   double of_label = 0.0;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
@@ -209,8 +206,7 @@ TEST(FogInFrames, IsTheSameAtAnyNumberOfThreads) {
   for (const int num_threads : {2, 8}) {
     Simulator simulator(OpenGround(), MakeRaster(60.0, 30.0, 0.5), TestMaterials(), spec,
                         num_threads);
-    Frame frame;
-    simulator.Scan(4, frame);
+    Frame frame = ScanFrame(simulator, 4);
     simulator.Scan(5, frame);
     EXPECT_EQ(FrameBytes(frame), FrameBytes(one));
   }

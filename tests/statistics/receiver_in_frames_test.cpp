@@ -19,10 +19,10 @@ namespace {
 
 // A wall at 50 m, only to the right of the x axis.
 std::shared_ptr<SimpleWorld> HalfAWall() {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 1}};
-  return world;
+  return WorldOfParts(
+      {{{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}},
+        2,
+        1}});
 }
 
 std::shared_ptr<SimpleWorld> WallAndGround() {
@@ -81,8 +81,7 @@ TEST(Sunlight, BlindsTheBeamsWithinADegreeOfTheSun) {
   spec.detector.weather.sun = {
       .illuminance_klx = 100.0, .azimuth_deg = -10.0, .elevation_deg = 3.0};
   const ScanPattern pattern = MakeRaster(10.0, 10.0, 0.1);
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(50.0F, 100.0F), 2, 1}};
+  const auto world = WorldOfParts({{MakeWall(50.0F, 100.0F), 2, 1}});
   // The sun is fixed in the world, so the vehicle is turned to have it 2 deg to the left and 3 deg
   // up.
   world->chunk_from_vehicle.linear() = RotationFromYawPitchRoll(RadFromDeg(-12.0), 0.0, 0.0);

@@ -33,10 +33,8 @@ MaterialLibrary BoardMaterials() {
 
 // A wall at 80 m, and 40 m before the sensor a small board.
 std::shared_ptr<SimpleWorld> BoardBeforeAWall() {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(80.0F, 100.0F), kPlainWall, kWallLabel},
-                         {MakeWall(kBoard_m, 0.1F), kSheeting, kBoardLabel}};
-  return world;
+  return WorldOfParts({{MakeWall(80.0F, 100.0F), kPlainWall, kWallLabel},
+                       {MakeWall(kBoard_m, 0.1F), kSheeting, kBoardLabel}});
 }
 
 SimulatorSpec WithHalo(double share) {
@@ -48,11 +46,8 @@ SimulatorSpec WithHalo(double share) {
 }
 
 Frame ScanBoard(const SimulatorSpec& spec, int num_threads = 0) {
-  Simulator simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(), spec,
-                      num_threads);
-  Frame frame;
-  simulator.Scan(0, frame);
-  return frame;
+  return ScanFrame(Simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(), spec,
+                             num_threads));
 }
 
 double OffAxis_deg(const Frame& frame, std::size_t slot) {
@@ -99,8 +94,7 @@ TEST(HaloInFrames, IsTheSameAtAnyNumberOfThreads) {
 TEST(HaloInFrames, IsExplainedAsItIsScanned) {
   Simulator simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(),
                       WithHalo(1e-6), 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(simulator);
   std::size_t num_checked = 0;
   for (std::uint32_t firing = 80 * 160; firing < 80 * 160 + 160; firing += 2) {
     const FiringStory story = simulator.Explain(0, firing);
@@ -122,9 +116,8 @@ struct Pair {
 };
 
 std::vector<Pair> PairsBeforeAWall(std::optional<double> saturation_power_ratio) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(kBoard_m + 2.2F, 100.0F), kPlainWall, kWallLabel},
-                         {MakeWall(kBoard_m, 0.5F), kSheeting, kBoardLabel}};
+  const auto world = WorldOfParts({{MakeWall(kBoard_m + 2.2F, 100.0F), kPlainWall, kWallLabel},
+                                   {MakeWall(kBoard_m, 0.5F), kSheeting, kBoardLabel}});
   SimulatorSpec spec{.detector = {.effects = {.surface_response = true,
                                               .detection = true,
                                               .saturation = true,
@@ -132,9 +125,8 @@ std::vector<Pair> PairsBeforeAWall(std::optional<double> saturation_power_ratio)
   spec.detector.beam.divergence_mrad = {6.0, 6.0};
   spec.detector.receiver.return_mode = ReturnMode::kDual;
   spec.detector.receiver.saturation_power_ratio = saturation_power_ratio;
-  Simulator simulator(world, MakeRaster(4.0, 4.0, 0.05), BoardMaterials(), spec, 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame =
+      ScanFrame(Simulator(world, MakeRaster(4.0, 4.0, 0.05), BoardMaterials(), spec, 0));
   std::vector<Pair> pairs;
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     if (frame.return_count[slot] != 2) continue;
@@ -184,8 +176,7 @@ SimulatorSpec WithDirt(std::uint64_t seed) {
 // A wall of 50 % at 440 m is 2 % above the threshold where a beam meets it head-on, so that it is
 // lost to every beam that a spot touches by more than 1 % of its aperture.
 TEST(CoverInFrames, LeavesTheBeamsThatNoSpotTouches) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(440.0F, 100.0F), 2, kWallLabel}};
+  const auto world = WorldOfParts({{MakeWall(440.0F, 100.0F), 2, kWallLabel}});
   const ScanPattern pattern = MakeRaster(8.0, 8.0, 0.5);
   double returned = 0.0;
   double square = 0.0;
@@ -216,8 +207,7 @@ TEST(CoverInFrames, LeavesTheBeamsThatNoSpotTouches) {
 }
 
 TEST(CoverInFrames, BlocksTheSameBeamsInEveryFrame) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(440.0F, 2000.0F), 2, kWallLabel}};
+  const auto world = WorldOfParts({{MakeWall(440.0F, 2000.0F), 2, kWallLabel}});
   SimulatorSpec spec = WithDirt(1);
   spec.detector.range_max_m = 1000.0;
   const ScanPattern pattern = MakeRaster(40.0, 40.0, 0.5);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <vector>
 
 #include "core/detect/base/weather_optics.h"
 #include "railcast/simulator.h"
@@ -30,10 +29,7 @@ MaterialLibrary Materials() {
 Frame Scan(const std::shared_ptr<SimpleWorld>& world,
            const ScanPattern& pattern,
            const SimulatorSpec& spec) {
-  Simulator simulator(world, pattern, Materials(), spec, 0);
-  Frame frame;
-  simulator.Scan(0, frame);
-  return frame;
+  return ScanFrame(Simulator(world, pattern, Materials(), spec, 0));
 }
 
 std::size_t CountIn(const Frame& frame, Outcome outcome) {
@@ -41,9 +37,7 @@ std::size_t CountIn(const Frame& frame, Outcome outcome) {
 }
 
 std::shared_ptr<SimpleWorld> WallAt(double range_m) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(static_cast<float>(range_m), 20.0F), kGrey, 1}};
-  return world;
+  return WorldOfParts({{MakeWall(static_cast<float>(range_m), 20.0F), kGrey, 1}});
 }
 
 // Ground 2 m below the sensor, and a wall at 40 m.
@@ -106,8 +100,7 @@ TEST(WeatherInFrames, HasFogTakeSixSeventhsOfTheRangeAtAHundredMetres) {
 
 TEST(WeatherInFrames, LosesGroundWhenItIsWetAndMoreAt1550nm) {
   const ScanPattern pattern = MakeRaster(5.0, 5.0, 0.05);
-  auto ground = std::make_shared<SimpleWorld>();
-  ground->ground.parts = {{MakeFloor(-2.0F, 400.0F), kSoil, 2}};
+  const auto ground = WorldOfParts({{MakeFloor(-2.0F, 400.0F), kSoil, 2}});
   const auto count = [&](const SimulatorSpec& spec) {
     return CountIn(Scan(ground, pattern, spec), Outcome::kReturned);
   };

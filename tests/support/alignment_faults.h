@@ -2,19 +2,14 @@
 
 #include <string>
 
-#include "core/base/error.h"
 #include "railcast/alignment.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 
-/// Returns the error for an alignment that is not possible; "none" for one that is.
+/// Returns the error for an alignment that is not possible; "no error" for one that is.
 inline std::string FaultOf(const AlignmentSpec& spec) {
-  try {
-    const Alignment alignment(spec);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { const Alignment alignment(spec); });
 }
 
 }  // namespace railcast

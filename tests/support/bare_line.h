@@ -11,9 +11,7 @@ namespace railcast {
 /// The world with a track "second" 8 m left of the line, and without plants and wires, which would
 /// hide what stands there.
 [[nodiscard]] inline WorldSpec BareWithSecondTrack(WorldSpec world) {
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = 8.0;
+  TrackSpec second{.name = "second", .offset_m = 8.0};
   world.tracks.push_back(std::move(second));
   world.catenary.enabled = false;
   world.vegetation.trees_per_hectare = 0.0;

@@ -27,6 +27,19 @@ struct RayHit {
   bool operator==(const RayHit&) const = default;
 };
 
+/// Sets one ray of a tile, which reaches `range_max_m` and has hit nothing yet.
+inline void SetRay(RayTile& tile, std::size_t i, const Ray& ray, float range_max_m) {
+  tile.origin_x[i] = ray.origin_m.x();
+  tile.origin_y[i] = ray.origin_m.y();
+  tile.origin_z[i] = ray.origin_m.z();
+  tile.direction_x[i] = ray.direction.x();
+  tile.direction_y[i] = ray.direction.y();
+  tile.direction_z[i] = ray.direction.z();
+  tile.shutter[i] = 0.0F;
+  tile.range_m[i] = range_max_m;
+  tile.surface[i] = 0;
+}
+
 /// Casts rays in packets of 16 in the order given; `hits` receives one answer per ray.
 inline void CastRays(const RayCaster& caster,
                      std::span<const Ray> rays,
@@ -37,16 +50,7 @@ inline void CastRays(const RayCaster& caster,
     const std::size_t count = std::min(kTileSize, rays.size() - begin);
     tile->num_rays = (count + 15) / 16 * 16;
     for (std::size_t i = 0; i < tile->num_rays; ++i) {
-      const Ray& ray = rays[begin + std::min(i, count - 1)];
-      tile->origin_x[i] = ray.origin_m.x();
-      tile->origin_y[i] = ray.origin_m.y();
-      tile->origin_z[i] = ray.origin_m.z();
-      tile->direction_x[i] = ray.direction.x();
-      tile->direction_y[i] = ray.direction.y();
-      tile->direction_z[i] = ray.direction.z();
-      tile->shutter[i] = 0.0F;
-      tile->range_m[i] = range_max_m;
-      tile->surface[i] = 0;
+      SetRay(*tile, i, rays[begin + std::min(i, count - 1)], range_max_m);
     }
     caster.Cast(*tile);
     for (std::size_t i = 0; i < count; ++i) {

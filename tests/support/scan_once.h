@@ -35,16 +35,27 @@ namespace railcast {
       .normalized();
 }
 
+/// The point of a slot in the frame's coordinates.
+[[nodiscard]] inline Vector3 PointAt(const Frame& frame, std::size_t slot) {
+  return Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>();
+}
+
+/// Scans one frame with a simulator, which may be a temporary one.
+template <typename Scanner>
+[[nodiscard]] Frame ScanFrame(Scanner&& simulator, std::uint32_t frame_index = 0) {
+  Frame frame;
+  simulator.Scan(frame_index, frame);
+  return frame;
+}
+
 /// Scans one frame of a world, with the rung geometry unless the spec says otherwise.
 [[nodiscard]] inline Frame ScanOnce(std::shared_ptr<const World> world,
                                     const ScanPattern& pattern,
                                     const SimulatorSpec& spec = {},
                                     std::uint32_t frame_index = 0,
                                     int num_threads = 0) {
-  Simulator simulator(std::move(world), pattern, TestMaterials(), spec, num_threads);
-  Frame frame;
-  simulator.Scan(frame_index, frame);
-  return frame;
+  return ScanFrame(Simulator(std::move(world), pattern, TestMaterials(), spec, num_threads),
+                   frame_index);
 }
 
 }  // namespace railcast

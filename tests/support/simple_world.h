@@ -68,4 +68,11 @@ class SimpleWorld final : public World {
   std::vector<std::pair<Transform, Vector3>> object_places_;
 };
 
+/// A world of a standing vehicle, whose ground has these parts.
+[[nodiscard]] inline std::shared_ptr<SimpleWorld> WorldOfParts(std::vector<Part> parts) {
+  auto world = std::make_shared<SimpleWorld>();
+  world->ground.parts = std::move(parts);
+  return world;
+}
+
 }  // namespace railcast

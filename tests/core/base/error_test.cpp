@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/io/message_of.h"
+
 namespace railcast {
 namespace {
 
@@ -10,12 +12,8 @@ TEST(ErrorList, ThrowsEveryLineAtOnce) {
   EXPECT_NO_THROW(errors.ThrowIfAny());
   errors.Add({"a.json: /x", "must be > 0", "-1"});
   errors.Add({"a.json: /y", "missing", ""});
-  try {
-    errors.ThrowIfAny();
-    FAIL() << "expected InputError";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "a.json: /x: must be > 0 (got -1)\na.json: /y: missing");
-  }
+  EXPECT_EQ(MessageOf([&] { errors.ThrowIfAny(); }),
+            "a.json: /x: must be > 0 (got -1)\na.json: /y: missing");
 }
 
 TEST(ErrorList, KeepsEachLineOnce) {

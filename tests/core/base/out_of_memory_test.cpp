@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "tests/core/io/message_of.h"
+
 namespace railcast {
 namespace {
 
@@ -17,13 +19,8 @@ std::string Doing() {
   return "building a wall (2 triangles)";
 }
 
-std::string MessageOf(const std::function<void()>& make) {
-  try {
-    WithinMemory(Doing, make);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+std::string MessageOfMaking(const std::function<void()>& make) {
+  return MessageOf([&] { WithinMemory(Doing, make); });
 }
 
 TEST(OutOfMemory, GivesWhatIsMade) {
@@ -31,9 +28,9 @@ TEST(OutOfMemory, GivesWhatIsMade) {
 }
 
 TEST(OutOfMemory, SaysWhatDidNotFit) {
-  EXPECT_EQ(MessageOf([] { throw std::bad_alloc(); }),
+  EXPECT_EQ(MessageOfMaking([] { throw std::bad_alloc(); }),
             "out of memory while building a wall (2 triangles)");
-  EXPECT_EQ(MessageOf([] {
+  EXPECT_EQ(MessageOfMaking([] {
               std::vector<double> endless;
               endless.resize(endless.max_size() + 1);
             }),
@@ -42,14 +39,14 @@ TEST(OutOfMemory, SaysWhatDidNotFit) {
 
 TEST(OutOfMemory, SaysWhatNoThreadCanBeStartedFor) {
   EXPECT_EQ(
-      MessageOf([] {
+      MessageOfMaking([] {
         throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
       }),
       "no thread can be started while building a wall (2 triangles)");
 }
 
 TEST(OutOfMemory, LeavesTheInnermostPlaceToSpeak) {
-  EXPECT_EQ(MessageOf([] {
+  EXPECT_EQ(MessageOfMaking([] {
               WithinMemory([] { return "reading a brick"; }, [] { throw std::bad_alloc(); });
             }),
             "out of memory while reading a brick");

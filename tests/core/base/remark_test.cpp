@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <memory>
 #include <set>
 #include <sstream>
 #include <string>

@@ -15,6 +15,7 @@
 #include "tests/core/scenario/malformed_case.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/memory_limit.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -48,8 +49,7 @@ TEST(CApi, MakesTheChoiceOfFidelityAuto) {
   const ScenarioSpec scenario = ReadScenarioText(automatic.text, automatic.file);
   const auto simulator = MakeSimulator(scenario, 2);
   UseChosenFidelity(*simulator, scenario, [](double) {});
-  Frame frame;
-  simulator->Scan(1, frame);
+  Frame frame = ScanFrame(*simulator, 1);
   const Sim sim = CreateSim(automatic.Config());
   ASSERT_TRUE(sim);
   ASSERT_EQ(railcast_step(sim.get(), 1), RAILCAST_OK);

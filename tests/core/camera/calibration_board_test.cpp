@@ -43,8 +43,7 @@ struct Board {
 };
 
 CameraImage ImageOf(const Board& board, const CameraSpec& spec) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground = {"board", {board.Squares(0), board.Squares(1)}};
+  const auto world = WorldOfParts({board.Squares(0), board.Squares(1)});
   Simulator simulator(world, MakeRaster(10, 10, 1), TestMaterials(), {}, 2);
   CameraImage image;
   Camera(spec, ForwardOptical(), TestMaterials()).Render(simulator, 0, image);

@@ -45,8 +45,7 @@ Transform At(double x, double y, double z) {
 }
 
 TEST(Camera, HoldsTheDepthOfAWallAlongTheAxisInEveryPixel) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground = {"wall", {{MakeWall(20.0F, 1000.0F), 2, 5}}};
+  const auto world = WorldOfParts({{MakeWall(20.0F, 1000.0F), 2, 5}});
   const CameraImage image = Render(*SimulatorOf(world));
   ASSERT_EQ(image.num_pixels(), 4500U);
   for (std::size_t i = 0; i < image.num_pixels(); ++i) {
@@ -57,8 +56,7 @@ TEST(Camera, HoldsTheDepthOfAWallAlongTheAxisInEveryPixel) {
 }
 
 TEST(Camera, HasNeitherDepthNorLabelWhereNothingIsWithinRange) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground = {"wall", {{MakeWall(100.1F, 1000.0F), 2, 5}}};
+  const auto world = WorldOfParts({{MakeWall(100.1F, 1000.0F), 2, 5}});
   world->AddObject(Cube(), At(12.0, 0, 0));
   const CameraImage image = Render(*SimulatorOf(world));
   std::size_t num_hit = 0;
@@ -105,8 +103,7 @@ bool AreSame(const CameraImage& a, const CameraImage& b) {
 }
 
 TEST(Camera, DependsOnTheFrameAloneAndNotOnTheNumberOfThreads) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground = {"floor", {{MakeFloor(-2.0F, 200.0F), 2, 4}}};
+  const auto world = WorldOfParts({{MakeFloor(-2.0F, 200.0F), 2, 4}});
   world->AddObject(Cube(), At(11.0, 0, 0), Vector3(0, -3, 0));
   world->velocity_chunk_mps = Vector3(5, 0, 0);
   const CameraImage expected = Render(*SimulatorOf(world, 1), 3);

@@ -67,8 +67,8 @@ TEST(Daylight, FadesSurfacesIntoTheHorizonByTheExtinctionOfFog) {
   const double horizon = Green(RenderIn(fog, std::make_shared<SimpleWorld>(), spec), 32, 1);
   for (const double range_m : {10.0, 60.0, 120.0, 250.0}) {
     for (const std::uint16_t material : {std::uint16_t{1}, std::uint16_t{3}}) {
-      auto world = std::make_shared<SimpleWorld>();
-      world->ground = {"wall", {{MakeWall(static_cast<float>(range_m), 50.0F), material, 5}}};
+      const auto world =
+          WorldOfParts({{MakeWall(static_cast<float>(range_m), 50.0F), material, 5}});
       const double clear = Green(RenderIn({}, world, spec), 32, 2);
       const double left = std::exp(-std::log(20.0) * range_m / kVisibility_m);
       EXPECT_NEAR(Green(RenderIn(fog, world, spec), 32, 2), left * clear + (1.0 - left) * horizon,
@@ -80,8 +80,7 @@ TEST(Daylight, FadesSurfacesIntoTheHorizonByTheExtinctionOfFog) {
 TEST(Daylight, CastsShadowsWhereTheSunIsHidden) {
   // The camera hangs between a roof of 4 m x 4 m, 10 m above the floor, and the floor, and looks
   // down. The sun stands in the east at 45 degrees, so that the shadow is 10 m west of the roof.
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground = {"scene", {{MakeFloor(0.0F, 60.0F), 2, 4}, {MakeFloor(10.0F, 2.0F), 3, 5}}};
+  const auto world = WorldOfParts({{MakeFloor(0.0F, 60.0F), 2, 4}, {MakeFloor(10.0F, 2.0F), 3, 5}});
   WeatherSpec weather;
   weather.sun = {.illuminance_klx = 100.0, .azimuth_deg = 0.0, .elevation_deg = 45.0};
   Transform down = Transform::Identity();

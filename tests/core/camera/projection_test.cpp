@@ -8,6 +8,7 @@
 #include "railcast/scenario.h"
 #include "tests/core/camera/seen.h"
 #include "tests/core/scenario/scenario_files.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -25,10 +26,6 @@ ScenarioSpec StandingScene() {
 constexpr double kAgreement_m = 0.02;
 
 constexpr std::uint32_t kPixelStep = 3;
-
-Vector3 PointOf(const Frame& frame, std::size_t slot) {
-  return Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>();
-}
 
 // A firing table whose beams go through the centres of each kPixelStep-th pixel, row by row.
 std::string TableOfPixels(const CameraSpec& camera) {
@@ -57,9 +54,8 @@ TEST(CameraAndLidar, AgreeInEveryReturnWhoseBeamGoesThroughAPixel) {
   spec.lidar.scan.pattern =
       FiringTableSpec{folder.Write("pixels.csv", TableOfPixels(*spec.camera))};
   const auto simulator = MakeSimulator(spec, 2);
-  Frame frame;
   CameraImage image;
-  simulator->Scan(0, frame);
+  const Frame frame = ScanFrame(*simulator);
   MakeCamera(spec)->Render(*simulator, 0, image);
   ASSERT_EQ(frame.num_slots(), 160U * 90U);
   const Transform camera_from_sensor =
@@ -70,7 +66,7 @@ TEST(CameraAndLidar, AgreeInEveryReturnWhoseBeamGoesThroughAPixel) {
     const std::size_t pixel = kPixelStep * (i / 160 * image.width_px + i % 160);
     const bool is_return = frame.outcome[i] == Outcome::kReturned;
     num_returns += is_return;
-    const double z = (camera_from_sensor * PointOf(frame, i)).z();
+    const double z = (camera_from_sensor * PointAt(frame, i)).z();
     const bool is_deep =
         is_return && !(std::abs(z - static_cast<double>(image.depth_m[pixel])) <= kAgreement_m);
     num_exceptions += is_deep || frame.label[i] != image.label[pixel] ||
@@ -125,7 +121,7 @@ Projection ProjectionOf(const Frame& frame, const ScenarioSpec& spec, const Came
   Projection counts;
   for (std::size_t i = 0; i < frame.num_slots(); ++i) {
     if (frame.outcome[i] != Outcome::kReturned) continue;
-    const Vector3 point = camera_from_sensor * PointOf(frame, i);
+    const Vector3 point = camera_from_sensor * PointAt(frame, i);
     const auto around = NeighboursOf(image, SeenAt(*spec.camera, point));
     if (!around) continue;
     const auto num_same = std::ranges::count_if(around->pixels, [&](std::size_t pixel) {
@@ -146,9 +142,8 @@ TEST(CameraAndLidar, AgreeInReturnsBetweenThePixels) {
   spec.camera = CameraSpec{.width_px = 1920, .height_px = 1080, .horizontal_fov_deg = 60};
   spec.camera->mount = MountSpec{.position_m = {2.2, 0.0, 2.6}, .yaw_deg = 1.0, .pitch_deg = 3.0};
   const auto simulator = MakeSimulator(spec, 2);
-  Frame frame;
   CameraImage image;
-  simulator->Scan(0, frame);
+  const Frame frame = ScanFrame(*simulator);
   MakeCamera(spec)->Render(*simulator, 0, image);
   const Projection counts = ProjectionOf(frame, spec, image);
   // 14,148 returns; 34 on slivers narrower than a pixel. Of the 11,284 between four pixels of one

@@ -11,6 +11,7 @@
 #include "railcast/outcome.h"
 #include "railcast/ray_caster.h"
 #include "railcast/transform.h"
+#include "tests/support/ray_cast.h"
 
 namespace railcast {
 
@@ -31,12 +32,7 @@ struct FacingBeams {
 inline void AimRays(const FacingBeams& beams, std::uint32_t begin, RayTile& rays) {
   rays.num_rays = kTileSize;
   for (std::uint32_t i = 0; i < kTileSize; ++i) {
-    rays.origin_x[i] = 0.0F;
-    rays.origin_y[i] = beams.origin_y_m(begin + i);
-    rays.origin_z[i] = 0.0F;
-    rays.direction_x[i] = 1.0F;
-    rays.direction_y[i] = 0.0F;
-    rays.direction_z[i] = 0.0F;
+    SetRay(rays, i, {{0.0F, beams.origin_y_m(begin + i), 0.0F}, Eigen::Vector3f::UnitX()}, 0.0F);
   }
 }
 

@@ -59,11 +59,9 @@ TEST(StepsOf, AreNotThoseOfASlope) {
 
 // Beams of 3 mrad whose centres are up to two sigmas from a plate's edge, before a wall.
 std::shared_ptr<SimpleWorld> PlateBeforeWall(float step_m) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {{{{20, -9, -9}, {20, 0, -9}, {20, 0, 9}, {20, -9, 9}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 7},
-      {MakeWall(20.0F + step_m, 9.0F), 2, 8}};
-  return world;
+  return WorldOfParts(
+      {{{{{20, -9, -9}, {20, 0, -9}, {20, 0, 9}, {20, -9, 9}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 7},
+       {MakeWall(20.0F + step_m, 9.0F), 2, 8}});
 }
 
 TEST(ShowParts, ShowsAStepThatTheSensorsOwnPulsesMerge) {

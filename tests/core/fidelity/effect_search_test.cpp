@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/detect/detector/effect_table.h"
 #include "railcast/effects.h"

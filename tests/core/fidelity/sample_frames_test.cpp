@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/fidelity/line_scenario.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -32,9 +33,7 @@ TEST(LastFrameOfRun, ComesWhenNothingMovesAnyMore) {
 
 TEST(LastFrameOfRun, ComesWhenBarriersHaveMoved) {
   ScenarioSpec scenario = ReadLine({.speed_mps = "0"});
-  LevelCrossingSpec crossing;
-  crossing.name = "crossing";
-  crossing.s_m = 430.0;
+  LevelCrossingSpec crossing = CrossingAt(430.0);
   crossing.barrier_angles_deg = {{2.0, 85.0}, {8.0, 0.0}, {14.0, 85.0}};
   scenario.world.structures = {crossing};
   EXPECT_EQ(LastFrameOfRun(scenario, *MakeSimulator(scenario, 1), 1), 140U);

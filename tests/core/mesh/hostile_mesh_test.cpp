@@ -9,6 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/assimp_reader.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/mesh/imported_meshes.h"
 #include "tests/core/mesh/made_scenes.h"
 #include "tests/support/memory_limit.h"
@@ -23,12 +24,7 @@ class HostileMesh : public testing::Test {
   }
 
   static std::string ComplaintOf(const std::string& bytes) {
-    try {
-      (void)ParseMesh(bytes, "a.mesh");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return MessageOf([&] { (void)ParseMesh(bytes, "a.mesh"); });
   }
   static std::string BrokeOff(const std::string& format) {
     return "a.mesh: cannot be read as " + format +

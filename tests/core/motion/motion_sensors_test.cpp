@@ -7,26 +7,25 @@
 #include <vector>
 
 #include "tests/core/motion/lines.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
 /// Two IMUs, two receivers and an odometer, none of whose rates divides that of the frames.
 MotionSensorsSpec SeveralSensors() {
-  MotionSensorsSpec spec;
-  spec.imus = {{.name = "imu",
-                .rate_hz = 73.0,
-                .gyroscope_noise_density_degps_per_sqrthz = 0.01,
-                .gyroscope_random_walk_degps2_per_sqrthz = 0.001,
-                .gyroscope_bias_degps = 0.1,
-                .accelerometer_noise_density_mps2_per_sqrthz = 0.002,
-                .accelerometer_random_walk_mps3_per_sqrthz = 0.0001,
-                .accelerometer_bias_mps2 = 0.02},
-               {.name = "bogie_imu", .rate_hz = 31.0}};
-  spec.gnss = {{.name = "gnss", .rate_hz = 7.0, .horizontal_noise_m = 1.0},
-               {.name = "rear", .rate_hz = 3.0, .antenna_m = {-15.0, 0.0, 4.0}}};
-  spec.odometers = {{.name = "odometer", .rate_hz = 47.0, .braking_slip_share = 0.02}};
-  return spec;
+  return {.imus = {{.name = "imu",
+                    .rate_hz = 73.0,
+                    .gyroscope_noise_density_degps_per_sqrthz = 0.01,
+                    .gyroscope_random_walk_degps2_per_sqrthz = 0.001,
+                    .gyroscope_bias_degps = 0.1,
+                    .accelerometer_noise_density_mps2_per_sqrthz = 0.002,
+                    .accelerometer_random_walk_mps3_per_sqrthz = 0.0001,
+                    .accelerometer_bias_mps2 = 0.02},
+                   {.name = "bogie_imu", .rate_hz = 31.0}},
+          .gnss = {{.name = "gnss", .rate_hz = 7.0, .horizontal_noise_m = 1.0},
+                   {.name = "rear", .rate_hz = 3.0, .antenna_m = {-15.0, 0.0, 4.0}}},
+          .odometers = {{.name = "odometer", .rate_hz = 47.0, .braking_slip_share = 0.02}}};
 }
 
 ScenarioSpec MovingScenario() {
@@ -160,11 +159,8 @@ TEST(MotionSensors, TheReceiverLosesItsFixInATunnelAndFindsItAgain) {
 // it.
 TEST(MotionSensors, TheReceiverLosesItsFixUnderABridge) {
   ScenarioSpec spec = StraightScenario();
-  OverbridgeSpec bridge;
-  bridge.name = "bridge";
+  OverbridgeSpec bridge = StructureAlong<OverbridgeSpec>("bridge", 200.0, 214.0);
   bridge.track = "main";
-  bridge.begin_s_m = 200.0;
-  bridge.end_s_m = 214.0;
   spec.world.structures = {bridge};
   Drive({SpeedAt(0, 20)}, spec);
   spec.motion_sensors = MotionSensorsSpec{};

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <pcl/search/brute_force.h>
 
-#include <cmath>
 #include <random>
 
 namespace railcast {

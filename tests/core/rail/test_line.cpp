@@ -8,6 +8,7 @@
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/track_structure.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -66,14 +67,11 @@ Chunk TestLine::Build(int chunk, std::size_t level) const {
 }
 
 WorldSpec StraightLine(double length_m) {
-  WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, length_m, std::nullopt}}};
-  return spec;
+  return WorldAlong({{ElementType::kStraight, length_m, std::nullopt}});
 }
 
 WorldSpec CantedArc(double length_m, double radius_m) {
-  WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kArc, length_m, radius_m}}};
+  WorldSpec spec = WorldAlong({{ElementType::kArc, length_m, radius_m}});
   // Far above the equilibrium speed, so that cant has its maximum.
   spec.alignment.speed_limits_kmph = {{0.0, 200.0}};
   return spec;

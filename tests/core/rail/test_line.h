@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "core/rail/base/rail_surfaces.h"
 #include "core/rail/catenary/catenary_plan.h"

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "railcast/lidar.h"
 #include "railcast/transform.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 
@@ -32,14 +32,9 @@ inline double ElevationInDegrees(const ScanPattern& pattern, std::size_t i) {
   return DegFromRad(std::atan2(direction.z(), direction.head<2>().norm()));
 }
 
-/// Text of the faults that BuildScanPattern reports; "none" if there are none.
+/// Text of the faults that BuildScanPattern reports; "no error" if there are none.
 inline std::string FaultsOf(const ScanSpec& spec) {
-  try {
-    static_cast<void>(BuildScanPattern(spec));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { static_cast<void>(BuildScanPattern(spec)); });
 }
 
 }  // namespace railcast

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "railcast/error.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 namespace {
@@ -44,13 +45,10 @@ TEST(ScanPattern, StampsFramesFromThePhaseOn) {
 
 TEST(ScanPattern, BeginsWithinItsFirstPeriod) {
   const auto error_of = [](double phase_s) -> std::string {
-    try {
+    return MessageOf([&] {
       static_cast<void>(BuildScanPattern(
           {.rate_hz = 4.0, .pattern = RasterSpec{10.0, 10.0, 1.0}, .phase_s = phase_s}));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   EXPECT_EQ(error_of(0.25), "/phase_s: must be >= 0 and < 1 / rate_hz (got 0.25)");
   EXPECT_EQ(error_of(-0.01), "/phase_s: must be >= 0 and < 1 / rate_hz (got -0.01)");

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -8,6 +8,7 @@
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"
 #include "tests/core/scenario/scenario_files.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -15,9 +16,7 @@ namespace {
 /// Intensities of the returned points, by label.
 std::map<std::string, std::vector<float>> IntensitiesByLabel(const ScenarioSpec& spec) {
   std::map<std::string, std::vector<float>> intensities;
-  const auto simulator = MakeSimulator(spec, 0);
-  Frame frame;
-  simulator->Scan(0, frame);
+  const Frame frame = ScanFrame(*MakeSimulator(spec, 0));
   for (const Label& label : spec.labels) {
     for (std::size_t i = 0; i < frame.label.size(); ++i) {
       if (frame.label[i] != label.id || frame.outcome[i] != Outcome::kReturned) continue;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
@@ -11,6 +10,7 @@
 #include "core/scenario/command.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/scenario/scenario_files.h"
 
 namespace railcast {
@@ -134,12 +134,8 @@ TEST(TypeNamed, KnowsShapesAndShippedModels) {
   EXPECT_EQ(TypeNamed("person"), ObjectType::kPerson);
   EXPECT_TRUE(IsRailVehicle(TypeNamed("coach")));
   EXPECT_FALSE(IsRailVehicle(TypeNamed("car")));
-  try {
-    static_cast<void>(TypeNamed("coch"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "type: unknown type, the nearest is \"coach\"");
-  }
+  EXPECT_EQ(MessageOf([&] { static_cast<void>(TypeNamed("coch")); }),
+            "type: unknown type, the nearest is \"coach\"");
 }
 
 }  // namespace

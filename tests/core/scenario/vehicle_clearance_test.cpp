@@ -6,6 +6,7 @@
 #include "core/scenario/track_limits.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/scenario/scenario_files.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -63,10 +64,7 @@ TEST_F(VehicleClearance, FindsTheFrameInWhichTheVehicleRunsIntoAnObject) {
 }
 
 TEST_F(VehicleClearance, ListsEveryObjectOnce) {
-  ObjectSpec crate;
-  crate.name = "crate";
-  crate.type = ObjectType::kBox;
-  crate.s_m = kBuffers_m - 3.5;
+  ObjectSpec crate = ObjectAt("crate", ObjectType::kBox, kBuffers_m - 3.5);
   crate.h_m = 1.0;
   crate.size_m = {1.0, 1.0, 1.0};
   scenario.world.objects.push_back(crate);

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "core/scene/shapes.h"
 #include "tests/support/analytic_meshes.h"

@@ -6,6 +6,7 @@
 
 #include "core/base/units.h"
 #include "railcast/simulator.h"
+#include "tests/core/io/message_of.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -25,12 +26,11 @@ ScanPattern ArmPattern() {
 }
 
 TEST(BeamOrigin, OfATurningArmMovesRangesAndPoints) {
-  auto world = std::make_shared<SimpleWorld>();
   // A wall across the forward direction.
-  world->ground.parts = {
-      {{{{20, -60, -60}, {20, 60, -60}, {20, 60, 60}, {20, -60, 60}}, {{0, 1, 2}, {0, 2, 3}}},
-       2,
-       1}};
+  const auto world = WorldOfParts(
+      {{{{{20, -60, -60}, {20, 60, -60}, {20, 60, 60}, {20, -60, 60}}, {{0, 1, 2}, {0, 2, 3}}},
+        2,
+        1}});
   const ScanPattern pattern = ArmPattern();
   const Frame frame = ScanOnce(world, pattern);
   int num_points = 0;
@@ -56,12 +56,10 @@ TEST(BeamOrigin, OfATurningArmMovesRangesAndPoints) {
 TEST(BeamOrigin, BeyondAMetreIsRefused) {
   SpinningSpec spinning{.channels = {{}}, .cycle_us = 100.0, .columns = 10};
   spinning.beam_origin_m = {{0.0, 1.5}};
-  try {
-    static_cast<void>(BuildScanPattern({.rate_hz = 10.0, .pattern = spinning}));
-    FAIL() << "was accepted";
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/pattern/beam_origin_m/1: must be >= -1 and <= 1 (got 1.5)");
-  }
+  EXPECT_EQ(MessageOf([&] {
+              static_cast<void>(BuildScanPattern({.rate_hz = 10.0, .pattern = spinning}));
+            }),
+            "/pattern/beam_origin_m/1: must be >= -1 and <= 1 (got 1.5)");
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "core/base/units.h"

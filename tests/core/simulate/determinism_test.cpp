@@ -25,8 +25,8 @@ std::shared_ptr<SimpleWorld> ThicketWorld() {
     }
     thicket.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-2.0F, 500.0F), 1, 1}, {MakeFloor(-2.0F, 400.0F), 2, 2}};
+  const auto world =
+      WorldOfParts({{MakeFloor(-2.0F, 500.0F), 1, 1}, {MakeFloor(-2.0F, 400.0F), 2, 2}});
   const auto model = std::make_shared<Model>(Model{"thicket", {{thicket, 3, 3}}});
   world->AddObject(model, Transform::Identity());
   world->AddObject(model, Transform::Identity(), {-3.0, 1.0, 0.0});

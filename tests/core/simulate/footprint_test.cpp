@@ -24,10 +24,10 @@ SimulatorSpec SpecOfWideBeams() {
 
 // A wall 50 m away, right of the forward direction; nothing on the left.
 std::shared_ptr<SimpleWorld> HalfAWall() {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}}, 2, 1}};
-  return world;
+  return WorldOfParts(
+      {{{{{50, -60, -30}, {50, 0, -30}, {50, 0, 30}, {50, -60, 30}}, {{0, 1, 2}, {0, 2, 3}}},
+        2,
+        1}});
 }
 
 double AzimuthOf(const ScanPattern& pattern, const Frame& frame, std::size_t slot) {
@@ -183,12 +183,11 @@ Mesh Plate(float x, const Eigen::Vector2f& least, const Eigen::Vector2f& most) {
 // so black that no light comes back, their edges beside the sky, a plate that is too near and the
 // vehicle itself leave many beams to what the central ray meets.
 TEST(Footprint, LeavesOutNoCentralRayThatMakesADifference) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{Plate(4.0F, {-9, -9}, {0, 9}), 2, 1},
-                         {Plate(4.5F, {-9, -9}, {0.04F, 9}), 2, 2},
-                         {Plate(280.0F, {-90, -90}, {90, 0}), 3, 3},
-                         {Plate(270.0F, {2, -90}, {4, 0}), 3, 4},
-                         {Plate(0.3F, {-0.02F, -1}, {0.02F, -0.004F}), 2, 5}};
+  const auto world = WorldOfParts({{Plate(4.0F, {-9, -9}, {0, 9}), 2, 1},
+                                   {Plate(4.5F, {-9, -9}, {0.04F, 9}), 2, 2},
+                                   {Plate(280.0F, {-90, -90}, {90, 0}), 3, 3},
+                                   {Plate(270.0F, {2, -90}, {4, 0}), 3, 4},
+                                   {Plate(0.3F, {-0.02F, -1}, {0.02F, -0.004F}), 2, 5}});
   world->AddObject(
       std::make_shared<Model>(Model{"own", {{Plate(2.0F, {0.02F, 0.01F}, {1, 1}), 1, 6}}}),
       Transform::Identity(), Vector3::Zero(), true);
@@ -197,8 +196,7 @@ TEST(Footprint, LeavesOutNoCentralRayThatMakesADifference) {
   spec.detector.beam.divergence_mrad = {3.0, 3.0};
   const MaterialLibrary materials({{"dark", 0.1}, {"grey", 0.5}, {"white", 1.0}, {"black", 0.0}});
   Simulator simulator(world, MakeRaster(2, 2, 0.02), materials, spec, 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(simulator);
   for (const Outcome outcome :
        {Outcome::kReturned, Outcome::kNoSurface, Outcome::kNearRange, Outcome::kEgo}) {
     EXPECT_GT(std::ranges::count(frame.outcome, outcome), 100) << static_cast<int>(outcome);

@@ -5,7 +5,6 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "railcast/effects.h"
 #include "railcast/simulator.h"
@@ -36,9 +35,8 @@ MaterialLibrary MirrorMaterials() {
 
 /// A floor 2 m below the sensor and, 30 m ahead, a wall that is an object.
 std::shared_ptr<SimpleWorld> WallBehindAFloor(std::uint16_t floor_material = kGlass) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {
-      {MakeFloor(static_cast<float>(kMirror_m), 100.0F), floor_material, kMirrorLabel}};
+  const auto world = WorldOfParts(
+      {{MakeFloor(static_cast<float>(kMirror_m), 100.0F), floor_material, kMirrorLabel}});
   auto wall = std::make_shared<Model>();
   wall->parts = {{MakeWall(static_cast<float>(kMirrored_m), 20.0F), kPlaster, kMirroredLabel}};
   world->AddObject(std::move(wall), Transform::Identity());
@@ -60,10 +58,8 @@ SimulatorSpec WithMirrors() {
 Frame ScanMirrors(const std::shared_ptr<const World>& world,
                   const SimulatorSpec& spec,
                   int num_threads = 0) {
-  Simulator simulator(world, MakeRaster(40.0, 20.0, 0.5), MirrorMaterials(), spec, num_threads);
-  Frame frame;
-  simulator.Scan(0, frame);
-  return frame;
+  return ScanFrame(
+      Simulator(world, MakeRaster(40.0, 20.0, 0.5), MirrorMaterials(), spec, num_threads));
 }
 
 std::size_t NumImages(const Frame& frame) {
@@ -240,8 +236,7 @@ TEST(MirrorPaths, EndAtWhatStandsBetween) {
 
 // A pane 10 m ahead shows the sensor's own vehicle, whose end is 3 m behind the sensor, 23 m away.
 TEST(MirrorPaths, ShowTheOwnVehicleInAPane) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(10.0F, 30.0F), kGlass, kMirrorLabel}};
+  const auto world = WorldOfParts({{MakeWall(10.0F, 30.0F), kGlass, kMirrorLabel}});
   auto vehicle = std::make_shared<Model>();
   vehicle->parts = {{MakeWall(-3.0F, 30.0F), kPlaster, 26}};
   world->AddObject(std::move(vehicle), Transform::Identity(), Vector3::Zero(), true);
@@ -255,8 +250,8 @@ TEST(MirrorPaths, ShowTheOwnVehicleInAPane) {
 
 // The wall moves away at 50 m/s: in the beams of a frame it is where it is when they are fired.
 TEST(MirrorPaths, ShowMovingThingsWhereTheyAre) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(static_cast<float>(kMirror_m), 100.0F), kGlass, kMirrorLabel}};
+  const auto world =
+      WorldOfParts({{MakeFloor(static_cast<float>(kMirror_m), 100.0F), kGlass, kMirrorLabel}});
   auto wall = std::make_shared<Model>();
   wall->parts = {{MakeWall(0.0F, 20.0F), kPlaster, kMirroredLabel}};
   Transform place = Transform::Identity();
@@ -340,8 +335,7 @@ TEST(MirrorPaths, LeaveTheDrawsOfOtherBeamsAlone) {
 TEST(MirrorPaths, AreExplainedAsTheyAreScanned) {
   const auto world = WallBehindAFloor();
   Simulator simulator(world, MakeRaster(40.0, 20.0, 0.5), MirrorMaterials(), WithMirrors(), 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(simulator);
   std::size_t num_told = 0;
   for (std::uint32_t firing = 0; firing < frame.num_slots(); firing += 37) {
     const FiringStory story = simulator.Explain(0, firing);

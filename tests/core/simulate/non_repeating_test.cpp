@@ -43,8 +43,8 @@ MaterialLibrary BoardMaterials() {
 
 // A wall, before it a moving board that reflects back, and a wagon's side that hides a part.
 std::shared_ptr<SimpleWorld> Yard() {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(80.0F, 100.0F), 1, 1}, {MakeFloor(-2.0F, 200.0F), 1, 1}};
+  const auto world =
+      WorldOfParts({{MakeWall(80.0F, 100.0F), 1, 1}, {MakeFloor(-2.0F, 200.0F), 1, 1}});
   world->AddObject(std::make_shared<Model>(Model{"board", {{MakeWall(40.0F, 2.0F), 2, 2}}}),
                    Transform::Identity(), {-2.0, 1.0, 0.0});
   world->AddObject(std::make_shared<Model>(Model{"side", {{MakeWall(30.0F, 1.0F), 1, 3}}}),
@@ -70,10 +70,8 @@ SimulatorSpec EveryEffect() {
 }
 
 Frame ScanYard(const ScanPattern& pattern, std::uint32_t frame_index, int num_threads) {
-  Simulator simulator(Yard(), pattern, BoardMaterials(), EveryEffect(), num_threads);
-  Frame frame;
-  simulator.Scan(frame_index, frame);
-  return frame;
+  return ScanFrame(Simulator(Yard(), pattern, BoardMaterials(), EveryEffect(), num_threads),
+                   frame_index);
 }
 
 // NaN, where there is none, is the same as NaN.
@@ -108,16 +106,13 @@ TEST(NonRepeatingSensor, MakesTheSameBytesInAnyOrderAndAtAnyNumberOfThreads) {
 TEST(NonRepeatingSensor, PutsItsPointsOnThisFramesBeams) {
   const ScanPattern pattern = Rosettes();
   const ScanPattern of_frame = PatternOfFrame(pattern, kFrame);
-  Simulator simulator(Yard(), pattern, BoardMaterials(), {}, 1);
-  Frame frame;
-  simulator.Scan(kFrame, frame);
+  const Frame frame = ScanFrame(Simulator(Yard(), pattern, BoardMaterials(), {}, 1), kFrame);
   std::size_t num_points = 0;
   for (std::size_t i = 0; i < of_frame.num_firings(); ++i) {
     const std::size_t slot = of_frame.row[i] * pattern.columns + of_frame.column[i];
     EXPECT_EQ(frame.time_ns[slot], pattern.time_ns[i]);
     if (frame.outcome[slot] != Outcome::kReturned) continue;
-    const Vector3 point =
-        Eigen::Vector3f(frame.x[slot], frame.y[slot], frame.z[slot]).cast<double>();
+    const Vector3 point = PointAt(frame, slot);
     ASSERT_LT((point.normalized() - DirectionOf(of_frame, i)).norm(), 1e-6);
     ++num_points;
   }

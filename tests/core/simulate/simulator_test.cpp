@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/core/io/message_of.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
@@ -72,17 +73,13 @@ TEST(Simulator, GivesEachBlockedFiringItsCause) {
 }
 
 std::string FaultOf(const SimulatorSpec& spec) {
-  try {
-    Simulator(WorldWithWall(5.0F), MakeRaster(10, 10, 1), TestMaterials(), spec, 1);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf(
+      [&] { Simulator(WorldWithWall(5.0F), MakeRaster(10, 10, 1), TestMaterials(), spec, 1); });
 }
 
 TEST(Simulator, ThrowsForNumbersThatItCannotWorkWith) {
   SimulatorSpec spec{.detector = {.effects = {.surface_response = true}}};
-  EXPECT_EQ(FaultOf(spec), "none");
+  EXPECT_EQ(FaultOf(spec), "no error");
   spec.detector.beam.wavelength_nm = 1064;
   EXPECT_EQ(FaultOf(spec), "/beam/wavelength_nm: must be 905 or 1550 (got 1064)");
   spec = {};
@@ -218,8 +215,7 @@ TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
   spec.detector.weather.rain_rate_mmph = 30.0;
   spec.detector.weather.snow_rate_mmph = 10.0;
   Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
-  Frame frame;
-  simulator.Scan(5, frame);
+  const Frame frame = ScanFrame(simulator, 5);
   for (std::uint32_t firing = 0; firing < 200; ++firing) {
     const FiringStory story = simulator.Explain(5, firing);
     EXPECT_EQ(story.time_ns, frame.time_ns[story.slot]);
@@ -295,8 +291,7 @@ TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
   world->AddObject(WallModel(0.0F, 2.0F, 1),
                    MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
   Simulator simulator(world, MakeRaster(20, 10, 0.5), TestMaterials(), spec, 1);
-  Frame frame;
-  simulator.Scan(5, frame);
+  const Frame frame = ScanFrame(simulator, 5);
   std::size_t num_echoes = 0;
   for (std::uint32_t firing = 0; firing < 800; ++firing) {
     const FiringStory story = simulator.Explain(5, firing);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,6 +17,8 @@
 #include "core/simulate/wind.h"
 #include "railcast/scenario.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/frame_bytes.h"
+#include "tests/support/ray_cast.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -76,15 +77,7 @@ Wind WindOf(const SimulatorSpec& spec) {
 }
 
 bool HaveSameBytes(const Frame& a, const Frame& b) {
-  std::vector<std::vector<char>> bytes;
-  for (const Frame* frame : {&a, &b}) {
-    std::vector<char>& all = bytes.emplace_back();
-    ForEachField(*frame, [&](std::string_view, std::string_view, const auto& values) {
-      const auto* const first = reinterpret_cast<const char*>(values.data());
-      all.insert(all.end(), first, first + values.size() * sizeof(values[0]));
-    });
-  }
-  return bytes[0] == bytes[1];
+  return FrameBytes(a) == FrameBytes(b);
 }
 
 // Every firing sees the wall where TreeTip_m() has it at the firing's own time.
@@ -107,8 +100,7 @@ TEST(Swaying, ATreeLeansAboutItsFootByItsTipsDisplacement) {
       const Vector3 normal =
           Eigen::AngleAxisd(tip_m.norm() / kTreeHeight_m, axis) * Vector3::UnitX();
       // n . (x - foot) = 0 at the point that was hit.
-      const Vector3 hit_m(static_cast<double>(frame.x[slot]), static_cast<double>(frame.y[slot]),
-                          static_cast<double>(frame.z[slot]));
+      const Vector3 hit_m = PointAt(frame, slot);
       ASSERT_EQ(frame.label[slot], kTreeLabel);
       ASSERT_EQ(frame.instance[slot], 7U);
       const double off_m = normal.dot(hit_m - Vector3(kWallDistance_m, 0.0, 0.0));
@@ -250,14 +242,8 @@ TEST(Swaying, TubesAndSegmentsOfWiresMoveTogether) {
       rays.num_rays = kPacketSize;
       const auto aim = [&](std::size_t i, float offset) {
         const Eigen::Vector3f origin_m = middle_m - 2.0F * ahead + offset * wire.radius_m * side;
-        rays.origin_x[i] = origin_m.x();
-        rays.origin_y[i] = origin_m.y();
-        rays.origin_z[i] = origin_m.z();
-        rays.direction_x[i] = ahead.x();
-        rays.direction_y[i] = ahead.y();
-        rays.direction_z[i] = ahead.z();
+        SetRay(rays, i, {origin_m, ahead}, 100.0F);
         rays.shutter[i] = shutter;
-        rays.range_m[i] = 100.0F;
       };
       for (std::size_t i = 0; i < kPacketSize; ++i) aim(i, 0.0F);
       // Corners are 1 % outside the true surface, the middles of faces 1 % inside.
@@ -335,8 +321,7 @@ TEST(Swaying, AChangeOfTheWindTakesEffect) {
   const Frame still = ScanOnce(world, pattern, {}, 3);
   const Frame swayed = ScanOnce(world, pattern, InWind(12.0, 10.0), 3);
   Simulator simulator(world, pattern, TestMaterials(), {}, 1);
-  Frame frame;
-  simulator.Scan(3, frame);
+  Frame frame = ScanFrame(simulator, 3);
   SimulatorSpec spec = simulator.spec();
   spec.detector.weather.wind_speed_mps = 12.0;
   spec.detector.weather.wind_direction_deg = 10.0;
@@ -359,8 +344,7 @@ TEST(Swaying, FogDriftsWithTheWind) {
   spec.detector.weather.fog_variation = 0.8;
   SimulatorSpec calm = spec;
   calm.detector.weather.wind_speed_mps = 0.0;
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeWall(60.0F, 500.0F), 2, 1}};
+  const auto world = WorldOfParts({{MakeWall(60.0F, 500.0F), 2, 1}});
   const ScanPattern pattern = MakeRaster(60, 20, 1);
   EXPECT_TRUE(HaveSameBytes(ScanOnce(world, pattern, spec, 0), ScanOnce(world, pattern, calm, 0)));
   EXPECT_FALSE(HaveSameBytes(ScanOnce(world, pattern, spec, 9), ScanOnce(world, pattern, calm, 9)));

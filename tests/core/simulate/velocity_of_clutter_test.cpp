@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "tests/core/simulate/measured_velocities.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -14,8 +15,7 @@ namespace {
 constexpr std::uint32_t kClutterLabel = 33;
 
 TEST(VelocityOfClutter, OfMirrorImagesIsTheChangeOfTheWholePath) {
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-2.0F, 100.0F), 1, 4}};
+  const auto world = WorldOfParts({{MakeFloor(-2.0F, 100.0F), 1, 4}});
   const Vector3 wall_mps(-3.0, 1.0, 2.0);
   world->AddObject(SheetModel(20.0F), Transform(Eigen::Translation3d(30.0, 0.0, 0.0)), wall_mps);
   world->velocity_chunk_mps = {8.0, 0.0, 0.0};
@@ -26,9 +26,7 @@ TEST(VelocityOfClutter, OfMirrorImagesIsTheChangeOfTheWholePath) {
   const MaterialLibrary materials({{.name = "glass", .specular_f0 = 0.08, .height_rms_um = 0.0},
                                    {.name = "plaster", .reflectivity = 0.5}});
   const ScanPattern pattern = MakeRaster(40, 20, 0.5);
-  Simulator simulator(world, pattern, materials, spec, 0);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame = ScanFrame(Simulator(world, pattern, materials, spec, 0));
   std::size_t num_images = 0;
   ForEachFiring(frame, pattern, [&](std::size_t slot, const Vector3& direction, double) {
     if (frame.label[slot] != kClutterLabel) return;
@@ -50,9 +48,8 @@ TEST(VelocityOfClutter, OfGhostsIsTwiceThatOfTheirRetroreflector) {
   const MaterialLibrary materials(
       {{.name = "soil"}, {.name = "sheeting", .reflectivity = 0.5, .retroreflectance = 1000.0}});
   const ScanPattern pattern = MakeRaster(4, 4, 1);
-  Simulator simulator(WorldWithWallAt(10.0, {6.0, 0.0, 0.0}), pattern, materials, spec, 1);
-  Frame frame;
-  simulator.Scan(0, frame);
+  const Frame frame =
+      ScanFrame(Simulator(WorldWithWallAt(10.0, {6.0, 0.0, 0.0}), pattern, materials, spec, 1));
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     ASSERT_EQ(frame.label[slot + 1], kClutterLabel);
     EXPECT_NEAR(TrueAt(frame, slot + 1), 2.0 * TrueAt(frame, slot), kRounding_mps);

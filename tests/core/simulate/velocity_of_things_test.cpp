@@ -17,6 +17,7 @@
 #include "tests/core/scenario/scenario_files.h"
 #include "tests/core/simulate/measured_velocities.h"
 #include "tests/core/simulate/turning_leaf.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -56,8 +57,7 @@ TEST(VelocityOfThings, OfGroundIsTheVehiclesMotionInACurveWithCantAndRide) {
   const auto simulator = MakeSimulator(spec, 0);
   const auto world = MakeWorld(spec);
   const Transform vehicle_from_sensor = VehicleFromSensor(spec.lidar.mount);
-  Frame frame;
-  simulator->Scan(3, frame);
+  const Frame frame = ScanFrame(*simulator, 3);
   double fastest_turn_radps = 0.0;
   std::size_t num_grounds = 0;
   ForEachFiring(

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "core/trace/beam_kernels.h"
 #include "core/trace/trace_scene.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/ray_cast.h"
 #include "tests/support/recorded_bytes.h"
 
 namespace railcast {
@@ -73,14 +73,11 @@ RayTile TileOf(const BeamRays& beam) {
   tile.num_rays = kNumSubRays;
   tile.mask = beam.mask;
   for (std::size_t i = 0; i < kNumSubRays; ++i) {
-    tile.origin_x[i] = beam.origin[0];
-    tile.origin_y[i] = beam.origin[1];
-    tile.origin_z[i] = beam.origin[2];
-    tile.direction_x[i] = beam.direction_x[i];
-    tile.direction_y[i] = beam.direction_y[i];
-    tile.direction_z[i] = beam.direction_z[i];
+    SetRay(tile, i,
+           {{beam.origin[0], beam.origin[1], beam.origin[2]},
+            {beam.direction_x[i], beam.direction_y[i], beam.direction_z[i]}},
+           kFarthest_m);
     tile.shutter[i] = beam.shutter;
-    tile.range_m[i] = kFarthest_m;
   }
   return tile;
 }

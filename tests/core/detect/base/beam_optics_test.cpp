@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/units.h"
 #include "core/detect/kernels/surface_response.h"

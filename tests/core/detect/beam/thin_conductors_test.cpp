@@ -11,6 +11,7 @@
 
 #include "core/detect/beam/wire_in_beam.h"
 #include "railcast/lidar.h"
+#include "tests/support/ray_cast.h"
 
 namespace railcast {
 namespace {
@@ -20,12 +21,7 @@ constexpr double kSigmaV_rad = 0.375e-3;
 const BeamShape vlp16_beam{Eigen::Vector3f::UnitZ(), kSigmaH_rad, kSigmaV_rad};
 
 void SetRay(RayTile& rays, std::size_t i, const Vector3& origin_m, const Vector3& direction) {
-  rays.origin_x[i] = static_cast<float>(origin_m.x());
-  rays.origin_y[i] = static_cast<float>(origin_m.y());
-  rays.origin_z[i] = static_cast<float>(origin_m.z());
-  rays.direction_x[i] = static_cast<float>(direction.x());
-  rays.direction_y[i] = static_cast<float>(direction.y());
-  rays.direction_z[i] = static_cast<float>(direction.z());
+  SetRay(rays, i, {origin_m.cast<float>(), direction.cast<float>()}, 0.0F);
 }
 
 /// Columns of beams 4 mrad apart around a point, from a sensor that moves by 0.5 m during the scan.
@@ -287,14 +283,12 @@ TEST(CaptureWires, FindsMovingWiresWhereTheyAreAtTheBeamsTime) {
 
 /// A strip of even width through the whole beam at an angle to the horizontal.
 WireCapture StripAt(double angle_rad, float offset, float half_width) {
-  WireCapture capture;
-  capture.strip = {
-      {static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))},
-      offset,
-      -6.0F,
-      6.0F,
-      {half_width, half_width}};
-  return capture;
+  return {
+      .strip = {{static_cast<float>(std::cos(angle_rad)), static_cast<float>(std::sin(angle_rad))},
+                offset,
+                -6.0F,
+                6.0F,
+                {half_width, half_width}}};
 }
 
 double ShareBetween(double begin, double end) {

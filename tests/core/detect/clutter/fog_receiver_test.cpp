@@ -3,7 +3,6 @@
 // rises above the threshold and where it is highest.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -37,8 +37,7 @@ std::shared_ptr<SimpleWorld> WagonAhead(double speed_mps, const std::string& typ
                  {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}}};
   Model model;
   model.parts.push_back({box, 2, 12});
-  auto world = std::make_shared<SimpleWorld>();
-  world->ground.parts = {{MakeFloor(-2.0F, 200.0F), 1, 4}};
+  const auto world = WorldOfParts({{MakeFloor(-2.0F, 200.0F), 1, 4}});
   Transform place = Transform::Identity();
   place.translation() = Vector3(50.0, 0.0, -2.0);
   world->AddObject(std::make_shared<const Model>(std::move(model)), place,

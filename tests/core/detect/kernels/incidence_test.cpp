@@ -44,9 +44,8 @@ std::unique_ptr<Tiles> Spread(const Slant& slant) {
   rays.range_m[0] = static_cast<float>(slant.range_m);
   tiles->detect.num_rays = 1;
   baseline::ApplyIncidence(rays, tiles->detect);
-  BeamFrame beam;
-  beam.sigma_h_rad = static_cast<float>(slant.sigma_h_rad);
-  beam.sigma_v_rad = static_cast<float>(slant.sigma_v_rad);
+  BeamFrame beam{.sigma_h_rad = static_cast<float>(slant.sigma_h_rad),
+                 .sigma_v_rad = static_cast<float>(slant.sigma_v_rad)};
   baseline::ApplySpread(rays, beam, tiles->detect);
   return tiles;
 }

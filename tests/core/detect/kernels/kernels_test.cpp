@@ -100,9 +100,7 @@ std::unique_ptr<RayTile> MixedRays() {
 
 // Runs every kernel of the physical rungs in order; returns the results that are not in the tiles.
 std::vector<float> RunPhysics(const Kernels& kernels, RayTile& rays, DetectTile& tile) {
-  BeamFrame beam;
-  beam.sigma_h_rad = 7.5e-4F;
-  beam.sigma_v_rad = 3.75e-4F;
+  BeamFrame beam{.sigma_h_rad = 7.5e-4F, .sigma_v_rad = 3.75e-4F};
   std::vector<float> values(kTileSize);
   kernels.pointing(rays, tile, beam, {7, 2e-4F});
   kernels.uniforms(tile, {7, RandomUse::kClutter, 200}, values.data());

@@ -294,8 +294,8 @@ WorldSpec LoopBeside(TurnoutType type, double offset_m, double begin_s_m) {
   spec.tracks.assign(2, TrackSpec{});
   spec.tracks[1].name = "loop";
   spec.tracks[1].offset_m = offset_m;
-  spec.tracks[1].begin = TurnoutSpec{.track = "main", .s_m = begin_s_m, .turnout = type};
-  spec.tracks[1].end = TurnoutSpec{.track = "main", .s_m = begin_s_m + 600.0, .turnout = type};
+  spec.tracks[1].begin = TurnoutSpec{"main", begin_s_m, type, {}, {}};
+  spec.tracks[1].end = TurnoutSpec{"main", begin_s_m + 600.0, type, {}, {}};
   return spec;
 }
 

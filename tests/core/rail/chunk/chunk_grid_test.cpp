@@ -1,5 +1,7 @@
 #include "core/rail/chunk/chunk_grid.h"
 
+#include "tests/support/world_specs.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +16,7 @@ constexpr double kChunkLength_m = 50.0;
 constexpr double kHalfWidth_m = 80.0;
 
 Alignment LineOf(std::vector<AlignmentElement> elements) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{std::move(elements)};
-  return Alignment(spec);
+  return Alignment(AlignmentOf(std::move(elements)));
 }
 
 /// 1 km straight, a semicircle of 100 m radius, and 1 km back.
@@ -55,8 +55,7 @@ TEST(ChunkGrid, GivesTheFirstOrLastChunkBeyondTheLine) {
 }
 
 TEST(ChunkGrid, HasLevelChunkFrames) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 200.0, 400.0}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kArc, 200.0, 400.0}});
   spec.gradients_permil = {{0.0, 30.0}};
   spec.speed_limits_kmph = {{0.0, 90.0}};
   const Alignment alignment(spec);

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/trace/trace_scene.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/ray_cast.h"
 
 namespace railcast {
 namespace {
@@ -240,36 +240,20 @@ double StoppedShare(const Model& model,
                     const Vector3& middle_m,
                     double radius_m) {
   const TraceDevice device;
-  const TraceScene scene(
-      device, {{std::make_shared<TraceModel>(device, model), {Eigen::Affine3d::Identity()}, 1}});
-  constexpr int kNumTiles = 16;
+  constexpr int kNumRays = 16 * kTileSize;
   const Vector3 right = towards.unitOrthogonal();
   const Vector3 up = towards.cross(right);
-  int num_stopped = 0;
-  for (int tile = 0; tile < kNumTiles; ++tile) {
-    RayTile rays;
-    rays.num_rays = kTileSize;
-    for (std::size_t ray = 0; ray < kTileSize; ++ray) {
-      // Vogel's spiral.
-      const auto i = static_cast<double>(static_cast<std::size_t>(tile) * kTileSize + ray);
-      const double at_m = radius_m * std::sqrt((i + 0.5) / (kNumTiles * kTileSize));
-      const Vector3 from_m = middle_m - 50.0 * towards + at_m * std::cos(2.4 * i) * right +
-                             at_m * std::sin(2.4 * i) * up;
-      rays.origin_x[ray] = static_cast<float>(from_m.x());
-      rays.origin_y[ray] = static_cast<float>(from_m.y());
-      rays.origin_z[ray] = static_cast<float>(from_m.z());
-      rays.direction_x[ray] = static_cast<float>(towards.x());
-      rays.direction_y[ray] = static_cast<float>(towards.y());
-      rays.direction_z[ray] = static_cast<float>(towards.z());
-      rays.shutter[ray] = 0.0F;
-      rays.range_m[ray] = 100.0F;
-      rays.surface[ray] = 0;
-    }
-    scene.Cast(rays);
-    num_stopped += static_cast<int>(std::count_if(rays.range_m, rays.range_m + kTileSize,
-                                                  [](float range_m) { return range_m < 100.0F; }));
+  std::vector<Ray> rays;
+  for (int i = 0; i < kNumRays; ++i) {  // Vogel's spiral.
+    const double at_m = radius_m * std::sqrt((i + 0.5) / kNumRays);
+    const Vector3 from_m = middle_m - 50.0 * towards + at_m * std::cos(2.4 * i) * right +
+                           at_m * std::sin(2.4 * i) * up;
+    rays.push_back({from_m.cast<float>(), towards.cast<float>()});
   }
-  return num_stopped / static_cast<double>(kNumTiles * kTileSize);
+  const auto hits = CastRays(*SceneOf(device, model), rays, 100.0F);
+  return static_cast<double>(
+             std::ranges::count_if(hits, [](const RayHit& hit) { return hit.range_m < 100.0F; })) /
+         kNumRays;
 }
 
 TEST_F(PlantModelsTest, StopAsManyBeamsInCoarserForms) {

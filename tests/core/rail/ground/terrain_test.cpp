@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/test_line.h"

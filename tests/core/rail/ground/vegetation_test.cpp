@@ -9,6 +9,7 @@
 
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -41,9 +42,7 @@ WorldSpec Forest(WorldSpec spec, double trees_per_hectare) {
 }
 
 void AddTrack(const std::string& name, double offset_m, WorldSpec& spec) {
-  TrackSpec track;
-  track.name = name;
-  track.offset_m = offset_m;
+  TrackSpec track{.name = name, .offset_m = offset_m};
   spec.tracks.push_back(track);
 }
 
@@ -278,10 +277,7 @@ TEST(AddVegetation, GrowsNothingWhereTheSpecHasNoRoom) {
 TEST(AddVegetation, KeepsPlantsOffStructures) {
   WorldSpec spec = StraightLine(500.0);
   spec.vegetation.trees_per_hectare = 1000.0;
-  PlatformSpec platform;
-  platform.name = "platform";
-  platform.side = TrackSide::kLeft;
-  platform.end_s_m = 500.0;
+  PlatformSpec platform = StructureBeside<PlatformSpec>(TrackSide::kLeft, "platform", 0.0, 500.0);
   platform.width_m = 20.0;
   spec.structures = {platform};
   const TestLine line(spec);

@@ -15,6 +15,7 @@
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/test_line.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -27,11 +28,9 @@ WorldSpec Hilly(WorldSpec spec) {
 
 /// Straight, then a bend of 190 m through a third of a circle, straight.
 WorldSpec TightBend() {
-  WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 200.0, {}},
-                                                 {ElementType::kArc, 400.0, 190.0},
-                                                 {ElementType::kStraight, 200.0, {}}}};
-  return spec;
+  return WorldAlong({{ElementType::kStraight, 200.0, {}},
+                     {ElementType::kArc, 400.0, 190.0},
+                     {ElementType::kStraight, 200.0, {}}});
 }
 
 Mesh GroundMesh(const TestLine& line, int chunk_index, bool is_coarse) {
@@ -128,11 +127,9 @@ TEST(Relief, IsCutByABranchOnlyBesideIt) {
   spec.terrain.roughness_sigma_m = 0.0;
   spec.terrain.undulation_sigma_m = 0.0;
   const TestLine without(spec);
-  TrackSpec branch;
-  branch.name = "branch";
-  branch.offset_m = 30.0;
-  branch.begin = TurnoutSpec{
-      .track = "main", .s_m = 100.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
+  TrackSpec branch{.name = "branch",
+                   .offset_m = 30.0,
+                   .begin = TurnoutSpec{"main", 100.0, TurnoutType::k9_190, {}, {}}};
   branch.end_s_m = 420.0;
   spec.tracks.push_back(branch);
   const TestLine with(spec);

@@ -1,5 +1,7 @@
 #include "core/rail/landform/landform.h"
 
+#include "tests/support/world_specs.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,9 +11,7 @@ namespace railcast {
 namespace {
 
 Alignment LineOfElements(std::vector<AlignmentElement> elements) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{std::move(elements)};
-  return Alignment(spec);
+  return Alignment(AlignmentOf(std::move(elements)));
 }
 
 /// A quarter circle to the left between two straights.

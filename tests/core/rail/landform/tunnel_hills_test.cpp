@@ -7,9 +7,9 @@
 #include <cmath>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -34,11 +34,7 @@ WorldSpec LineBelow(double land_m) {
   spec.terrain.roughness_sigma_m = 0.0;
   spec.terrain.undulation_sigma_m = 0.0;
   spec.terrain.elevation = ElevationSpec{file, {0.0, 0.0, 0.0}};
-  TunnelSpec tunnel;
-  tunnel.name = "tunnel";
-  tunnel.begin_s_m = kMouth_s_m;
-  tunnel.end_s_m = 442.0;
-  spec.structures = {tunnel};
+  spec.structures = {StructureAlong<TunnelSpec>("tunnel", kMouth_s_m, 442.0)};
   return spec;
 }
 
@@ -161,12 +157,9 @@ TEST(TunnelHills, LeaveATrackBesideTheTunnelInItsCutting) {
 TEST(TunnelHills, AreBehindARetainingWallOfAnotherTrack) {
   WorldSpec spec = LineBelow(30.0);
   spec.tracks.push_back({.name = "outside", .offset_m = 25.0, .end_s_m = {}});
-  RetainingWallSpec wall;
-  wall.name = "wall";
+  RetainingWallSpec wall =
+      StructureBeside<RetainingWallSpec>(TrackSide::kRight, "wall", kMouth_s_m + 30.0, 400.0);
   wall.track = "outside";
-  wall.side = TrackSide::kRight;
-  wall.begin_s_m = kMouth_s_m + 30.0;
-  wall.end_s_m = 400.0;
   wall.distance_m = 5.0;
   wall.height_m = 4.0;
   spec.structures.emplace_back(wall);

@@ -8,24 +8,22 @@
 #include <numbers>
 
 #include "tests/support/alignment_faults.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
 AlignmentSpec Straight(double length_m) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, length_m, {}}}};
-  return spec;
+  return AlignmentOf({{ElementType::kStraight, length_m, {}}});
 }
 
 /// Straight, clothoid, arc to the left, clothoid, straight: 100 m each.
 AlignmentSpec LeftCurve(double radius_m) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 100.0, {}},
-                                       {ElementType::kClothoid, 100.0, {}},
-                                       {ElementType::kArc, 100.0, radius_m},
-                                       {ElementType::kClothoid, 100.0, {}},
-                                       {ElementType::kStraight, 100.0, {}}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kStraight, 100.0, {}},
+                                    {ElementType::kClothoid, 100.0, {}},
+                                    {ElementType::kArc, 100.0, radius_m},
+                                    {ElementType::kClothoid, 100.0, {}},
+                                    {ElementType::kStraight, 100.0, {}}});
   spec.speed_limits_kmph = {{0.0, 80.0}};
   return spec;
 }
@@ -50,21 +48,17 @@ TEST(Alignment, LeadsAClothoidFromTheCurvatureBeforeToTheOneAfter) {
 }
 
 TEST(Alignment, LetsAClothoidAtAnEndBeginOrEndStraight) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kClothoid, 50.0, {}},
-                                       {ElementType::kArc, 100.0, -300.0},
-                                       {ElementType::kClothoid, 50.0, {}}}};
-  const Alignment alignment(spec);
+  const Alignment alignment(AlignmentOf({{ElementType::kClothoid, 50.0, {}},
+                                         {ElementType::kArc, 100.0, -300.0},
+                                         {ElementType::kClothoid, 50.0, {}}}));
   EXPECT_EQ(alignment.At(0.0).curvature_per_m, 0.0);
   EXPECT_DOUBLE_EQ(alignment.At(25.0).curvature_per_m, -0.5 / 300.0);
   EXPECT_NEAR(alignment.At(200.0).curvature_per_m, 0.0, 1e-15);
 }
 
 TEST(Alignment, SmoothsAJumpOfCurvatureAndListsIt) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{
-      {{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, 100.0, 500.0}}};
-  const Alignment alignment(spec);
+  const Alignment alignment(
+      AlignmentOf({{ElementType::kStraight, 100.0, {}}, {ElementType::kArc, 100.0, 500.0}}));
   EXPECT_DOUBLE_EQ(alignment.At(90.0).curvature_per_m, 0.0);
   EXPECT_DOUBLE_EQ(alignment.At(100.0).curvature_per_m, 0.001);
   EXPECT_DOUBLE_EQ(alignment.At(110.0).curvature_per_m, 0.002);
@@ -94,9 +88,8 @@ TEST(Alignment, RisesByTheIntegralOfItsGradient) {
 }
 
 TEST(Alignment, GoesOnStraightAndLevelBeyondItsEnds) {
-  AlignmentSpec spec;
-  spec.course =
-      AlignmentElementsSpec{{{ElementType::kArc, 157.07963267948966, 100.0}}};  // A quarter circle.
+  AlignmentSpec spec =
+      AlignmentOf({{ElementType::kArc, 157.07963267948966, 100.0}});  // A quarter circle.
   spec.gradients_permil = {{0.0, 20.0}};
   const Alignment alignment(spec);
   const AxisPoint before = alignment.At(-30.0);
@@ -246,11 +239,10 @@ TEST(Alignment, ReportsEveryFaultAtOnce) {
 }
 
 TEST(Alignment, RefusesElementsThatMakeNoLine) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 0.0, 500.0},
-                                       {ElementType::kArc, 10.0, {}},
-                                       {ElementType::kClothoid, 10.0, {}},
-                                       {ElementType::kClothoid, 10.0, {}}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kStraight, 0.0, 500.0},
+                                    {ElementType::kArc, 10.0, {}},
+                                    {ElementType::kClothoid, 10.0, {}},
+                                    {ElementType::kClothoid, 10.0, {}}});
   EXPECT_EQ(FaultOf(spec),
             "/course/elements/0/length_m: must be > 0 (got 0)\n"
             "/course/elements/0/radius_m: is for arcs only (got 500)\n"

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/core/rail/test_line.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -34,10 +35,9 @@ Eigen::Vector2d InPlan(const Alignment& alignment, double s_m, double d_m) {
 
 /// Two straights of 500 m side by side with 200 m between them, joined by half a circle.
 Alignment TwoLegs() {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 500.0, {}},
-                                       {ElementType::kArc, 100.0 * std::numbers::pi, 100.0},
-                                       {ElementType::kStraight, 500.0, {}}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kStraight, 500.0, {}},
+                                    {ElementType::kArc, 100.0 * std::numbers::pi, 100.0},
+                                    {ElementType::kStraight, 500.0, {}}});
   spec.curvature_smoothing_m = 1e-3;
   return Alignment(spec);
 }
@@ -95,9 +95,8 @@ TEST(NearestOnLine, GoesStraightOnBeyondTheEnds) {
 
 TEST(PlaceOnTrack, IsTheInverseOfTheTracksFrameAlsoInATurnout) {
   WorldSpec spec = CantedArc(600.0, 400.0);
-  TrackSpec branch;
-  branch.name = "branch";
-  branch.begin = TurnoutSpec{.track = "main", .s_m = 100.0, .turnout = TurnoutType::k9_300};
+  TrackSpec branch{.name = "branch",
+                   .begin = TurnoutSpec{"main", 100.0, TurnoutType::k9_300, {}, {}}};
   branch.offset_m = -4.5;
   spec.tracks.push_back(branch);
   const TestLine line(spec);

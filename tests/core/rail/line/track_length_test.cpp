@@ -1,5 +1,7 @@
 #include "core/rail/line/track_course.h"
 
+#include "tests/support/world_specs.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +14,7 @@ constexpr double kRadius_m = 200.0;
 constexpr double kChords = 1.0 / (24.0 * kRadius_m * kRadius_m);
 
 Alignment LeftArc(double gradient_permil) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 300.0, kRadius_m}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kArc, 300.0, kRadius_m}});
   spec.gradients_permil = {{0.0, gradient_permil}};
   return Alignment(spec);
 }
@@ -28,8 +29,7 @@ TEST(TrackLength, IsThatOfTheTrackItselfBesideACurve) {
 }
 
 TEST(TrackLength, CountsTheSlope) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 300.0, {}}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kStraight, 300.0, {}}});
   spec.gradients_permil = {{0.0, 40.0}};
   const TrackLength length(Alignment(spec), TrackCourse(0.0, 300.0, 0.0));
   EXPECT_NEAR(length.total_m(), 300.0 * std::hypot(1.0, 0.04), 1e-9);

@@ -1,9 +1,8 @@
 #include "core/rail/motion/speed_profile.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/error.h"
+#include "tests/core/io/message_of.h"
 
 namespace railcast {
 namespace {
@@ -16,12 +15,7 @@ SpeedPoint AtChainage(double s_m, double speed_mps) {
 }
 
 std::string ProfileFaultOf(const MotionSpec& motion, double start_s_m = 0.0) {
-  try {
-    const SpeedProfile profile(motion, start_s_m);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { const SpeedProfile profile(motion, start_s_m); });
 }
 
 TEST(SpeedProfile, StandsWithoutPoints) {

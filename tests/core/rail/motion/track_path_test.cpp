@@ -1,5 +1,7 @@
 #include "core/rail/motion/track_path.h"
 
+#include "tests/support/world_specs.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +12,7 @@ namespace {
 
 /// A canted arc to the left with a rising gradient.
 Alignment Arc() {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 500.0, 400.0}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kArc, 500.0, 400.0}});
   spec.gradients_permil = {{0.0, 20.0}};
   spec.speed_limits_kmph = {{0.0, 80.0}};
   return Alignment(spec);
@@ -39,9 +40,7 @@ TEST(TrackPath, FollowsGradientCurvatureAndCant) {
 
 /// A level arc of 350 m to the left.
 Alignment LevelArc() {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kArc, 500.0, 350.0}}};
-  return Alignment(spec);
+  return Alignment(AlignmentOf({{ElementType::kArc, 500.0, 350.0}}));
 }
 
 // A chord of length L between two points of a circle of radius R turns by asin(L / 2R) from the
@@ -154,8 +153,7 @@ TEST(TrackPath, TurnsTheBogiesIntoTheTrackBelowThem) {
 
 // Where the cant changes, each bogie has that of its own place, and the body the mean of both.
 TEST(TrackPath, TwistsTheBogiesWhereTheCantChanges) {
-  AlignmentSpec spec;
-  spec.course = AlignmentElementsSpec{{{ElementType::kStraight, 1000.0, {}}}};
+  AlignmentSpec spec = AlignmentOf({{ElementType::kStraight, 1000.0, {}}});
   spec.cants_mm = {{0.0, 0.0}, {400.0, 0.0}, {440.0, 100.0}};
   const Alignment alignment(spec);
   const TrackPath path(Axis(), {.pivot_distance_m = 10.0, .is_midway = true}, Standing(420.0));

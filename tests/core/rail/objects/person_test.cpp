@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
-#include <string>
 
 #include "core/rail/objects/person_body.h"
 #include "tests/core/rail/model_checks.h"

@@ -6,6 +6,7 @@
 #include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/landform/ground_rise.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -16,11 +17,7 @@ constexpr double kDeck_m = 1e-3 + 1e-5;
 WorldSpec CurveWithBridge() {
   WorldSpec spec = CantedArc(300.0, 500.0);
   spec.tracks.push_back({.name = "second", .offset_m = -4.0, .end_s_m = {}});
-  BridgeSpec bridge;
-  bridge.name = "bridge";
-  bridge.begin_s_m = 110.0;
-  bridge.end_s_m = 140.0;
-  spec.structures = {bridge};
+  spec.structures = {StructureAlong<BridgeSpec>("bridge", 110.0, 140.0)};
   return spec;
 }
 
@@ -67,11 +64,7 @@ TEST(Bridge, IsSeenFromAboveAndBelowAndItsAbutmentsFromTheGap) {
 
 WorldSpec CurveWithOverbridge() {
   WorldSpec spec = CantedArc(300.0, 500.0);
-  OverbridgeSpec bridge;
-  bridge.name = "road bridge";
-  bridge.begin_s_m = 120.0;
-  bridge.end_s_m = 132.0;
-  spec.structures = {bridge};
+  spec.structures = {StructureAlong<OverbridgeSpec>("road bridge", 120.0, 132.0)};
   return spec;
 }
 
@@ -102,12 +95,7 @@ TEST(Overbridge, LowersTheMessengerBelowIt) {
 
 TEST(StructureClearing, MovesMastsBehindAPlatform) {
   WorldSpec spec = StraightLine(300.0);
-  PlatformSpec platform;
-  platform.name = "platform";
-  platform.side = TrackSide::kRight;
-  platform.begin_s_m = 0.0;
-  platform.end_s_m = 300.0;
-  spec.structures = {platform};
+  spec.structures = {StructureBeside<PlatformSpec>(TrackSide::kRight, "platform", 0.0, 300.0)};
   const TestLine line(spec);
   int num_masts = 0;
   for (int chunk = 0; chunk < 6; ++chunk) {

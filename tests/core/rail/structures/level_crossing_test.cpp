@@ -9,6 +9,7 @@
 #include "core/rail/structures/standing_height.h"
 #include "core/rail/structures/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -17,18 +18,12 @@ namespace {
 constexpr double kRoadChord_m = 1e-3 + 1e-5;
 
 LevelCrossingSpec Crossing() {
-  LevelCrossingSpec crossing;
-  crossing.name = "crossing";
-  crossing.s_m = 122.0;
-  return crossing;
+  return CrossingAt(122.0);
 }
 
 WorldSpec TwoTracksWith(const LevelCrossingSpec& crossing) {
   WorldSpec spec = CantedArc(300.0, 400.0);
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = 4.0;
-  spec.tracks.push_back(second);
+  spec.tracks.push_back({.name = "second", .offset_m = 4.0});
   spec.structures = {crossing};
   return spec;
 }

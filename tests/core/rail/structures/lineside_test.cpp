@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <string>
-
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/structures/lineside_models.h"
 #include "core/rail/structures/structures.h"
 #include "core/rail/track/cross_section.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -44,10 +42,8 @@ FurnitureSpec FurnitureAt(double s_m, FurnitureKind kind) {
 }
 
 BuildingSpec House() {
-  BuildingSpec building;
-  building.name = "house";
-  building.footprint_m = {{110.0, 10.0}, {122.0, 10.0}, {122.0, 18.0}, {110.0, 18.0}};
-  return building;
+  return {.name = "house",
+          .footprint_m = {{110.0, 10.0}, {122.0, 10.0}, {122.0, 18.0}, {110.0, 18.0}}};
 }
 
 WorldSpec CurveWith(const StructureSpec& structure) {
@@ -185,11 +181,7 @@ TEST(Lineside, EndsTheTrackWithTheBufferStop) {
 }
 
 TEST(Lineside, StandsOnThePlatformThatIsThere) {
-  PlatformSpec platform;
-  platform.name = "platform";
-  platform.side = TrackSide::kRight;
-  platform.begin_s_m = 60.0;
-  platform.end_s_m = 190.0;
+  PlatformSpec platform = StructureBeside<PlatformSpec>(TrackSide::kRight, "platform", 60.0, 190.0);
   platform.width_m = 5.0;
   WorldSpec spec = StraightLine(300.0);
   spec.structures = {platform, FurnitureAt(120.0, FurnitureKind::kBench)};

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/units.h"
@@ -11,15 +10,14 @@
 #include "railcast/rail_world.h"
 #include "tests/core/rail/structures/structure_probe.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
 /// A road 6 m wide whose barriers close from 2 s to 8 s.
 LevelCrossingSpec ClosingCrossing() {
-  LevelCrossingSpec crossing;
-  crossing.name = "crossing";
-  crossing.s_m = 122.0;
+  LevelCrossingSpec crossing = CrossingAt(122.0);
   crossing.barrier_angles_deg = {{2.0, 90.0}, {8.0, 0.0}};
   return crossing;
 }
@@ -84,11 +82,7 @@ RailWorld WorldOf(const WorldSpec& spec, bool has_ego) {
 
 TEST(MovingBoom, IsAnObjectOfTheWorldAfterAllOthers) {
   WorldSpec spec = LineWith(ClosingCrossing());
-  ObjectSpec person;
-  person.name = "person";
-  person.type = ObjectType::kPerson;
-  person.s_m = 80.0;
-  person.d_m = 3.0;
+  const ObjectSpec person = ObjectAt("person", ObjectType::kPerson, 80.0, 3.0);
   spec.objects = {person};
   const RailWorld world = WorldOf(spec, true);
   ASSERT_EQ(world.objects().size(), 4U);

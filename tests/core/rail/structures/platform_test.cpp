@@ -7,6 +7,7 @@
 #include "core/rail/clearance/cleared.h"
 #include "railcast/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -15,12 +16,7 @@ namespace {
 constexpr double kSweep_m = 1e-3 + 1e-5;
 
 PlatformSpec PlatformOn(TrackSide side) {
-  PlatformSpec platform;
-  platform.name = "platform";
-  platform.side = side;
-  platform.begin_s_m = 60.0;
-  platform.end_s_m = 190.0;
-  return platform;
+  return StructureBeside<PlatformSpec>(side, "platform", 60.0, 190.0);
 }
 
 WorldSpec CurveWith(const PlatformSpec& platform) {
@@ -55,10 +51,9 @@ TEST(Platform, IsFartherFromTheAxisTheTighterTheCurve) {
         std::tuple(-300.0, TrackSide::kLeft, 3.75 / 300.0, 3.75 / 600.0),
         std::tuple(190.0, TrackSide::kLeft, 50.0 / 190.0 - 0.185, 3.75 / 380.0),
         std::tuple(190.0, TrackSide::kRight, 60.0 / 190.0 - 0.225, 3.75 / 380.0)}) {
-    WorldSpec spec;
-    spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 100.0, {}},
-                                                   {ElementType::kClothoid, 80.0, {}},
-                                                   {ElementType::kArc, 120.0, radius_m}}};
+    WorldSpec spec = WorldAlong({{ElementType::kStraight, 100.0, {}},
+                                 {ElementType::kClothoid, 80.0, {}},
+                                 {ElementType::kArc, 120.0, radius_m}});
     PlatformSpec platform = PlatformOn(side);
     platform.end_s_m = 270.0;
     spec.structures = {platform};

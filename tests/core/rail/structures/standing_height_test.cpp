@@ -11,6 +11,7 @@
 #include "railcast/scenario.h"
 #include "tests/core/rail/test_line.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -79,11 +80,8 @@ TEST(StandingHeight, TakesTheLowestCornerOnASlope) {
 TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
   WorldSpec spec = StraightLine(300.0);
   for (const double h_m : {0.0, 1.5}) {
-    ObjectSpec object;
-    object.name = h_m == 0.0 ? "standing" : "hanging";
-    object.type = ObjectType::kPerson;
-    object.s_m = 120.0;
-    object.d_m = -8.0;
+    ObjectSpec object =
+        ObjectAt(h_m == 0.0 ? "standing" : "hanging", ObjectType::kPerson, 120.0, -8.0);
     if (h_m > 0.0) object.h_m = h_m;
     spec.objects.push_back(object);
   }
@@ -100,12 +98,7 @@ TEST(RailWorld, StandsObjectsOnTheGroundUnlessAHeightIsGiven) {
 
 TEST(StandingHeight, IsThatOfThePlatformOnOne) {
   WorldSpec spec = CantedArc(300.0, 400.0);
-  PlatformSpec platform;
-  platform.name = "platform";
-  platform.side = TrackSide::kRight;
-  platform.begin_s_m = 0.0;
-  platform.end_s_m = 300.0;
-  spec.structures = {platform};
+  spec.structures = {StructureBeside<PlatformSpec>(TrackSide::kRight, "platform", 0.0, 300.0)};
   const TestLine line(spec);
   ChunkContext context = line.Context(2);
   context.chunk_from_world = Transform::Identity();

@@ -59,11 +59,9 @@ std::vector<std::pair<StructureSpec, Aim>> OneOfEach() {
   bench.kind = FurnitureKind::kBench;
   FurnitureSpec shelter;
   shelter.kind = FurnitureKind::kShelter;
-  BuildingSpec building;
-  building.name = "it";
-  building.footprint_m = {{115.0, 8.0}, {137.0, 8.0}, {137.0, 16.0}, {115.0, 16.0}};
-  BufferStopSpec buffer_stop;
-  buffer_stop.name = "it";
+  BuildingSpec building{.name = "it",
+                        .footprint_m = {{115.0, 8.0}, {137.0, 8.0}, {137.0, 16.0}, {115.0, 16.0}}};
+  BufferStopSpec buffer_stop{.name = "it"};
   return {
       {OnTheLeft(PlatformSpec{}), {"platform", eye, {126.0, 3.0, 0.76}}},
       {OnTheLeft(NoiseWallSpec{}), {"noise_wall", eye, {126.0, 3.8, 1.5}}},

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <utility>
 
 #include "core/rail/clearance/cleared.h"
 #include "core/rail/clearance/tunnel_shape.h"
 #include "core/rail/network/network_draft.h"
 #include "core/rail/network/world_tracks.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -18,11 +18,7 @@ constexpr double kVault_m = 1e-3 + 2e-3 + 1e-5;
 WorldSpec CurveWithTunnel(int num_tracks) {
   WorldSpec spec = CantedArc(500.0, 600.0);
   if (num_tracks == 2) spec.tracks.push_back({.name = "second", .offset_m = 4.0, .end_s_m = {}});
-  TunnelSpec tunnel;
-  tunnel.name = "tunnel";
-  tunnel.begin_s_m = 110.0;
-  tunnel.end_s_m = 390.0;
-  spec.structures = {tunnel};
+  spec.structures = {StructureAlong<TunnelSpec>("tunnel", 110.0, 390.0)};
   return spec;
 }
 
@@ -100,14 +96,10 @@ TEST(Tunnel, LowersTheContactLineAndCarriesIt) {
 
 TEST(Tunnel, TakesInALoopInOneHalfOfItsLength) {
   WorldSpec spec = StraightLine(800.0);
-  TrackSpec loop;
-  loop.name = "loop";
-  loop.offset_m = 4.5;
-  loop.begin = TurnoutSpec{
-      .track = "main", .s_m = 420.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
-  loop.end = TurnoutSpec{
-      .track = "main", .s_m = 620.0, .turnout = TurnoutType::k9_190, .side = {}, .position = {}};
-  spec.tracks.push_back(loop);
+  spec.tracks.push_back({.name = "loop",
+                         .offset_m = 4.5,
+                         .begin = TurnoutSpec{"main", 420.0, TurnoutType::k9_190, {}, {}},
+                         .end = TurnoutSpec{"main", 620.0, TurnoutType::k9_190, {}, {}}});
   const Network network = MakeNetwork(spec, 800.0);
   StretchSpec stretch;
   stretch.track = "main";
@@ -144,14 +136,8 @@ TEST(Tunnel, HasNoGroundAndNoPlantsInside) {
 WorldSpec TunnelThatBecomesWider() {
   WorldSpec spec = StraightLine(600.0);
   spec.tracks.push_back({.name = "second", .offset_m = 7.0, .start_s_m = 230.0, .end_s_m = {}});
-  TunnelSpec narrow;
-  narrow.name = "narrow";
-  narrow.begin_s_m = 50.0;
-  narrow.end_s_m = 230.0;
-  TunnelSpec wide;
-  wide.name = "wide";
-  wide.begin_s_m = 230.0;
-  wide.end_s_m = 430.0;
+  const TunnelSpec narrow = StructureAlong<TunnelSpec>("narrow", 50.0, 230.0);
+  const TunnelSpec wide = StructureAlong<TunnelSpec>("wide", 230.0, 430.0);
   spec.structures = {narrow, wide};
   return spec;
 }
@@ -179,11 +165,8 @@ TEST(Tunnel, HasAPortalThatEndsHalfWayToTheNextOne) {
   WorldSpec spec = StraightLine(600.0);
   spec.tracks.push_back({.name = "second", .offset_m = 7.6, .end_s_m = {}});
   for (const char* track : {"main", "second"}) {
-    TunnelSpec tunnel;
-    tunnel.name = track;
+    TunnelSpec tunnel = StructureAlong<TunnelSpec>(track, 230.0, 430.0);
     tunnel.track = track;
-    tunnel.begin_s_m = 230.0;
-    tunnel.end_s_m = 430.0;
     spec.structures.emplace_back(tunnel);
   }
   const StructureProbe probe(spec);

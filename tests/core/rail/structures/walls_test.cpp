@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "core/rail/base/rail_surfaces.h"
@@ -9,6 +8,7 @@
 #include "core/rail/landform/ground_rise.h"
 #include "core/rail/structures/structures.h"
 #include "tests/core/rail/structures/structure_probe.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -234,10 +234,7 @@ TEST(ThirdRail, HasItsContactSurfaceWhereShoesRunInTheTracksPlane) {
 }
 
 TEST(SlabTrack, ReplacesTheBallastOfItsTrackOnly) {
-  SlabTrackSpec slab;
-  slab.name = "slab";
-  slab.begin_s_m = 60.0;
-  slab.end_s_m = 190.0;
+  const SlabTrackSpec slab = StructureAlong<SlabTrackSpec>("slab", 60.0, 190.0);
   WorldSpec spec = CurveWithStructure(slab);
   spec.tracks.push_back({.name = "second", .offset_m = 4.5, .end_s_m = {}});
   const StructureProbe probe(spec);

@@ -6,8 +6,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "core/rail/motion/speed_profile.h"
 #include "core/rail/motion/track_path.h"
@@ -34,12 +32,10 @@ TurnoutSpec MainTurnout(double s_m, TurnoutType type, TurnoutPosition position) 
 WorldSpec CantedLoop(TurnoutType type, double offset_m, TurnoutPosition position) {
   WorldSpec spec = CantedArc(kCurve_m, 500.0);
   spec.alignment.cants_mm = {{0.0, 100.0}, {300.0, 100.0}};
-  TrackSpec loop;
-  loop.name = "loop";
-  loop.offset_m = offset_m;
-  loop.begin = MainTurnout(kLoopBegins_m, type, position);
-  loop.end = MainTurnout(kCurve_m - kLoopBegins_m, type, position);
-  spec.tracks.push_back(loop);
+  spec.tracks.push_back({.name = "loop",
+                         .offset_m = offset_m,
+                         .begin = MainTurnout(kLoopBegins_m, type, position),
+                         .end = MainTurnout(kCurve_m - kLoopBegins_m, type, position)});
   return spec;
 }
 
@@ -49,9 +45,8 @@ WorldSpec CantedCrossover(TurnoutType type, double offset_m) {
   spec.tracks[1] = TrackSpec{};
   spec.tracks[1].name = "second";
   spec.tracks[1].offset_m = offset_m;
-  TrackSpec crossover;
-  crossover.name = "crossover";
-  crossover.begin = MainTurnout(kLoopBegins_m, type, TurnoutPosition::kStraight);
+  TrackSpec crossover{.name = "crossover",
+                      .begin = MainTurnout(kLoopBegins_m, type, TurnoutPosition::kStraight)};
   crossover.end =
       TurnoutSpec{.track = "second", .s_m = {}, .turnout = type, .side = {}, .position = {}};
   spec.tracks.push_back(crossover);
@@ -63,10 +58,10 @@ WorldSpec CantedLadder(TurnoutType type, double side) {
   WorldSpec spec = CantedLoop(type, 4.5 * side, TurnoutPosition::kStraight);
   const TurnoutGeometry geometry = GeometryOf(type);
   const double parallel_m = 2.0 * geometry.tangent_m + 4.5 / std::tan(geometry.angle_rad);
-  TrackSpec siding;
-  siding.name = "siding";
-  siding.offset_m = 9.0 * side;
-  siding.begin = MainTurnout(kLoopBegins_m + parallel_m + 1.0, type, TurnoutPosition::kStraight);
+  TrackSpec siding{
+      .name = "siding",
+      .offset_m = 9.0 * side,
+      .begin = MainTurnout(kLoopBegins_m + parallel_m + 1.0, type, TurnoutPosition::kStraight)};
   siding.begin->track = "loop";
   siding.end_s_m = 400.0;
   spec.tracks.push_back(siding);
@@ -266,8 +261,7 @@ TEST(CantedTurnout, LeadsAVehicleOverItWithoutAJump) {
   const TrackCourse& loop = line.network().courses[1];
   const TrackCourse course =
       Joined(Joined(main, loop, kLoopBegins_m), main, kCurve_m - kLoopBegins_m);
-  TrackPose pose;
-  pose.pivot_distance_m = 10.4;
+  TrackPose pose{.pivot_distance_m = 10.4};
   const TrackPath path(course, pose, SpeedProfile({}, 0.0));
   constexpr double kFineStep_m = 0.02;
   Transform before = path.WorldFromObjectAt(line.alignment(), 20.0);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
@@ -22,23 +21,17 @@ constexpr double kTurnoutBegins_m = 60.0;
 /// A straight line of 300 m with a siding that leaves it at 60 m.
 WorldSpec LineWithTurnout(TurnoutType type, double offset_m, TurnoutPosition position) {
   WorldSpec spec = StraightLine(300.0);
-  TrackSpec siding;
-  siding.name = "siding";
-  siding.offset_m = offset_m;
-  siding.begin = TurnoutSpec{
-      .track = "main", .s_m = kTurnoutBegins_m, .turnout = type, .side = {}, .position = position};
-  spec.tracks.push_back(siding);
+  spec.tracks.push_back({.name = "siding",
+                         .offset_m = offset_m,
+                         .begin = TurnoutSpec{"main", kTurnoutBegins_m, type, {}, position}});
   return spec;
 }
 
 /// As above, but the siding joins the line at 240 m, and so the turnout opens the other way.
 WorldSpec LineWithTrailingTurnout(TurnoutType type, double offset_m, TurnoutPosition position) {
   WorldSpec spec = StraightLine(300.0);
-  TrackSpec siding;
-  siding.name = "siding";
-  siding.offset_m = offset_m;
-  siding.end =
-      TurnoutSpec{.track = "main", .s_m = 240.0, .turnout = type, .side = {}, .position = position};
+  TrackSpec siding{.name = "siding", .offset_m = offset_m};
+  siding.end = TurnoutSpec{"main", 240.0, type, {}, position};
   spec.tracks.push_back(siding);
   return spec;
 }

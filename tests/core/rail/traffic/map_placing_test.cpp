@@ -8,12 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/line/map_place.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -34,20 +35,15 @@ class PlacedOnAMap : public testing::Test {
     line.heading_deg = 25.0;
     line.speed_limits_kmph = {{0.0, 50.0}};
     line.map = MapSpec{{-5000.0, 340'000.0}, 15.63, 48.21, {}};
-    TrackSpec branch;
-    branch.name = "branch";
-    branch.begin = TurnoutSpec{.track = "main", .s_m = 100.0, .turnout = TurnoutType::k9_190};
+    TrackSpec branch{.name = "branch",
+                     .begin = TurnoutSpec{"main", 100.0, TurnoutType::k9_190, {}, {}}};
     branch.offset_m = -4.5;
     world_.tracks.push_back(branch);
   }
 
   static ObjectSpec Person(const std::string& track, double s_m, double d_m) {
-    ObjectSpec person;
-    person.name = "person";
-    person.type = ObjectType::kPerson;
+    ObjectSpec person = ObjectAt("person", ObjectType::kPerson, s_m, d_m);
     person.track = track;
-    person.s_m = s_m;
-    person.d_m = d_m;
     person.heading_deg = 30.0;
     return person;
   }
@@ -58,12 +54,7 @@ class PlacedOnAMap : public testing::Test {
                                              7);
   }
   [[nodiscard]] std::string FaultOf(const ObjectSpec& object) const {
-    try {
-      static_cast<void>(Make(object));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return MessageOf([&] { static_cast<void>(Make(object)); });
   }
   /// The same object where it is in the world, by the projection or by longitude and latitude.
   [[nodiscard]] ObjectSpec ByProjection(const ObjectSpec& object,
@@ -217,14 +208,10 @@ TEST_F(PlacedOnAMap, ObjectsOfCommandsStandThereToo) {
             kPlaced_m);
   placed.name = "third";
   placed.latitude_deg = 49.0;
-  try {
-    static_cast<void>(with_two->WithObject(placed, 0));
-    ADD_FAILURE() << "no error";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::MatchesRegex("/object/longitude_deg: must lie with "
-                                                    "latitude_deg on the ground, within 80 m of "
-                                                    "the line \\(got [0-9.]+ m\\)"));
-  }
+  EXPECT_THAT(MessageOf([&] { static_cast<void>(with_two->WithObject(placed, 0)); }),
+              testing::MatchesRegex("/object/longitude_deg: must lie with "
+                                    "latitude_deg on the ground, within 80 m of "
+                                    "the line \\(got [0-9.]+ m\\)"));
 }
 
 }  // namespace

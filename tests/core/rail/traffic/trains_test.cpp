@@ -2,16 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/objects/mesh_object.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -24,29 +24,21 @@ constexpr double kArcRadius_m = 300.0;
 
 /// A straight of 300 m and an arc to the left, with a second track on its outside.
 WorldSpec LineWithTrain(const std::string& track, double s_m) {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{
-      {{ElementType::kStraight, 300.0, {}}, {ElementType::kArc, 400.0, kArcRadius_m}}};
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = -4.5;
-  world.tracks.push_back(second);
-  TrainSpec train;
-  train.name = "freight";
-  train.track = track;
-  train.s_m = s_m;
-  train.vehicles = {{TypeNamed("tank_wagon"), {}, false},
-                    {TypeNamed("flat_wagon"), "container", false},
-                    {TypeNamed("open_wagon"), {}, true}};
+  WorldSpec world =
+      WorldAlong({{ElementType::kStraight, 300.0, {}}, {ElementType::kArc, 400.0, kArcRadius_m}});
+  world.tracks.push_back({.name = "second", .offset_m = -4.5});
+  TrainSpec train{.name = "freight",
+                  .track = track,
+                  .s_m = s_m,
+                  .vehicles = {{TypeNamed("tank_wagon"), {}, false},
+                               {TypeNamed("flat_wagon"), "container", false},
+                               {TypeNamed("open_wagon"), {}, true}}};
   world.trains = {train};
   return world;
 }
 
 ObjectSpec BoxNamed(const std::string& name) {
-  ObjectSpec box;
-  box.name = name;
-  box.type = ObjectType::kBox;
-  box.s_m = 50.0;
+  ObjectSpec box = ObjectAt(name, ObjectType::kBox, 50.0);
   box.size_m = {1.0, 1.0, 1.0};
   return box;
 }
@@ -56,12 +48,7 @@ RailWorld WorldOf(const WorldSpec& world, const VehicleSpec& vehicle = {}) {
 }
 
 std::string TrainFaultOf(const WorldSpec& world, const VehicleSpec& vehicle = {}) {
-  try {
-    WorldOf(world, vehicle);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { WorldOf(world, vehicle); });
 }
 
 /// Where the buffers of a vehicle meet those of its neighbours: in the middle of its ends.
@@ -161,7 +148,7 @@ TEST(Trains, MustBeOnTheirTracks) {
             "(got 977.56 m)");
   spec = LineWithTrain("main", 40.0);
   spec.trains[0].motion = MotionSpec{.profile = {{0.0, std::nullopt, 10.0}}, .reverse = true};
-  EXPECT_EQ(TrainFaultOf(spec), "none");
+  EXPECT_EQ(TrainFaultOf(spec), "no error");
 }
 
 // Those of an open wagon are 9 m apart.
@@ -172,10 +159,7 @@ TEST(Trains, HavePivotsThatFitIntoTheirCurves) {
   spec.tracks.pop_back();
   spec.trains[0].vehicles = {{TypeNamed("open_wagon"), {}, false},
                              {TypeNamed("flat_wagon"), {}, false}};
-  ObjectSpec coach;
-  coach.name = "coach";
-  coach.type = TypeNamed("coach");
-  coach.s_m = 400.0;
+  const ObjectSpec coach = ObjectAt("coach", TypeNamed("coach"), 400.0);
   spec.objects = {coach};
   VehicleSpec vehicle;
   vehicle.pivot_distance_m = 13.0;
@@ -205,12 +189,8 @@ TEST(Trains, ConsistOfRailVehiclesWithNamesOfTheirOwn) {
 
 TEST(Trains, LoseNoSingleVehicle) {
   const RailWorld world = WorldOf(LineWithTrain("main", 250.0));
-  try {
-    static_cast<void>(world.WithoutObject("container"));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/name: must not be a vehicle of a train (got \"container\")");
-  }
+  EXPECT_EQ(MessageOf([&] { static_cast<void>(world.WithoutObject("container")); }),
+            "/name: must not be a vehicle of a train (got \"container\")");
 }
 
 /// A locomotive-like flat wagon that carries the sensor, between a tank wagon ahead and an open
@@ -320,12 +300,12 @@ TEST(OwnTrain, MustBeOnItsTrack) {
            "to 700 m (got " +
            got + ")";
   };
-  EXPECT_EQ(fault_at(31.1, false), "none");
+  EXPECT_EQ(fault_at(31.1, false), "no error");
   EXPECT_EQ(fault_at(30.9, false), rule("30.9"));
-  EXPECT_EQ(fault_at(681.2, false), "none");
+  EXPECT_EQ(fault_at(681.2, false), "no error");
   EXPECT_EQ(fault_at(681.3, false), rule("681.3"));
   EXPECT_EQ(fault_at(18.7, true), rule("18.7"));
-  EXPECT_EQ(fault_at(18.8, true), "none");
+  EXPECT_EQ(fault_at(18.8, true), "no error");
 }
 
 TEST(OwnTrain, NamesItsFaults) {

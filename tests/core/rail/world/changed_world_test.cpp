@@ -1,33 +1,24 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
-ObjectSpec Object(const std::string& name, ObjectType type, double s_m) {
-  ObjectSpec object;
-  object.name = name;
-  object.type = type;
-  object.s_m = s_m;
-  return object;
-}
-
 // A straight of 600 m with a wagon at 100 m; the vehicle starts at 30 m at 20 m/s.
 std::shared_ptr<const RailWorld> Make(bool vehicle_moves = true) {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}}}};
-  world.objects = {Object("wagon", TypeNamed("open_wagon"), 100.0)};
+  WorldSpec world = WorldAlong({{ElementType::kStraight, 600.0, {}}});
+  world.objects = {ObjectAt("wagon", TypeNamed("open_wagon"), 100.0)};
   VehicleSpec vehicle;
   vehicle.start_s_m = 30.0;
   if (vehicle_moves) vehicle.motion.profile = {{0.0, std::nullopt, 20.0}};
@@ -45,12 +36,7 @@ std::vector<std::string> NamesAndInstances(const RailWorld& world) {
 
 template <typename Change>
 std::string FaultOf(const Change& change) {
-  try {
-    static_cast<void>(change());
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { static_cast<void>(change()); });
 }
 
 TEST(ChangedWorld, ChangesTheVehiclesWayFromThatTimeOn) {
@@ -81,18 +67,18 @@ TEST(ChangedWorld, AStandingVehicleThatIsToldToGoMoves) {
 
 TEST(ChangedWorld, NeverGivesAnInstanceIdAgain) {
   const auto world = Make();
-  const auto one = world->WithObject(Object("a", ObjectType::kPerson, 200.0), 0);
+  const auto one = world->WithObject(ObjectAt("a", ObjectType::kPerson, 200.0), 0);
   EXPECT_EQ(NamesAndInstances(*one), (std::vector<std::string>{"wagon 1", "ego 2", "a 3"}));
   const auto none = one->WithoutObject("a")->WithoutObject("wagon");
   EXPECT_EQ(NamesAndInstances(*none), (std::vector<std::string>{"ego 2"}));
-  const auto other = none->WithObject(Object("a", ObjectType::kPerson, 200.0), 0);
+  const auto other = none->WithObject(ObjectAt("a", ObjectType::kPerson, 200.0), 0);
   EXPECT_EQ(NamesAndInstances(*other), (std::vector<std::string>{"ego 2", "a 4"}));
   EXPECT_EQ(NamesAndInstances(*world), (std::vector<std::string>{"wagon 1", "ego 2"}));
 }
 
 TEST(ChangedWorld, HasNoInstanceIdsForEver) {
   auto world = Make();
-  ObjectSpec box = Object("a", ObjectType::kBox, 200.0);
+  ObjectSpec box = ObjectAt("a", ObjectType::kBox, 200.0);
   box.size_m = {1.0, 1.0, 1.0};
   for (std::uint32_t instance = 3; instance < kFirstMastInstance; ++instance) {
     world = world->WithObject(box, 0);
@@ -105,7 +91,7 @@ TEST(ChangedWorld, HasNoInstanceIdsForEver) {
 }
 
 TEST(ChangedWorld, BeginsAnObjectsMotionWhenItIsPlaced) {
-  ObjectSpec walker = Object("walker", ObjectType::kPerson, 200.0);
+  ObjectSpec walker = ObjectAt("walker", ObjectType::kPerson, 200.0);
   walker.motion = MotionSpec{{{0.0, std::nullopt, 0.0}, {2.0, std::nullopt, 2.0}}};
   const auto world = Make()->WithObject(walker, 10 * kNsPerS);
   EXPECT_TRUE(world->objects().at(2).moves);
@@ -115,9 +101,8 @@ TEST(ChangedWorld, BeginsAnObjectsMotionWhenItIsPlaced) {
 }
 
 TEST(ChangedWorld, PutsAnObjectWhereAScenarioWouldPutIt) {
-  WorldSpec spec;
-  spec.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}}}};
-  ObjectSpec person = Object("person", ObjectType::kPerson, 200.0);
+  WorldSpec spec = WorldAlong({{ElementType::kStraight, 600.0, {}}});
+  ObjectSpec person = ObjectAt("person", ObjectType::kPerson, 200.0);
   person.d_m = -3.0;
   person.heading_deg = 40.0;
   spec.objects = {person};
@@ -130,7 +115,7 @@ TEST(ChangedWorld, PutsAnObjectWhereAScenarioWouldPutIt) {
 
 TEST(ChangedWorld, KeepsItsChunks) {
   const auto world = Make();
-  const auto changed = world->WithObject(Object("a", ObjectType::kPerson, 200.0), 0)
+  const auto changed = world->WithObject(ObjectAt("a", ObjectType::kPerson, 200.0), 0)
                            ->WithVehicleSpeed(kNsPerS, 0.0, 1.0);
   EXPECT_EQ(changed->ChunksInReach(3, 100.0), world->ChunksInReach(3, 100.0));
   const Chunk chunk = changed->BuildChunk(3);
@@ -148,23 +133,23 @@ TEST(ChangedWorld, RefusesWhatAScenarioMayNotHold) {
   const auto placing = [&](const ObjectSpec& object) {
     return FaultOf([&] { return world->WithObject(object, 0); });
   };
-  ObjectSpec object = Object("a", ObjectType::kPerson, 200.0);
+  ObjectSpec object = ObjectAt("a", ObjectType::kPerson, 200.0);
   object.track = "siding";
   EXPECT_EQ(placing(object), "/object/track: must be one of \"main\" (got \"siding\")");
-  EXPECT_EQ(placing(Object("a", ObjectType::kPerson, 601.0)),
+  EXPECT_EQ(placing(ObjectAt("a", ObjectType::kPerson, 601.0)),
             "/object/s_m: must lie on track \"main\", from 0 to 600 m (got 601)");
-  object = Object("a", ObjectType::kPerson, 200.0);
+  object = ObjectAt("a", ObjectType::kPerson, 200.0);
   object.d_m = 81.0;
   EXPECT_EQ(placing(object),
             "/object/d_m: must put it within the ground's half width of 80 m (got track offset 0 "
             "+ d_m 81 = 81)");
-  EXPECT_EQ(placing(Object("wagon", ObjectType::kPerson, 200.0)),
+  EXPECT_EQ(placing(ObjectAt("wagon", ObjectType::kPerson, 200.0)),
             "/object/name: must be unique (got \"wagon\")");
-  EXPECT_EQ(placing(Object("ego", ObjectType::kPerson, 200.0)),
+  EXPECT_EQ(placing(ObjectAt("ego", ObjectType::kPerson, 200.0)),
             "/object/name: must be unique, and ego is the vehicle itself (got \"ego\")");
-  EXPECT_EQ(placing(Object("a", ObjectType::kBox, 200.0)),
+  EXPECT_EQ(placing(ObjectAt("a", ObjectType::kBox, 200.0)),
             "/object: size_m: required for type \"box\"");
-  object = Object("a", ObjectType::kPerson, 200.0);
+  object = ObjectAt("a", ObjectType::kPerson, 200.0);
   object.label = "ghost";
   EXPECT_EQ(placing(object), "/object: label: must be in the label table (got \"ghost\")");
   const auto removing = [&](const std::string& name) {
@@ -176,11 +161,8 @@ TEST(ChangedWorld, RefusesWhatAScenarioMayNotHold) {
 }
 
 TEST(ChangedWorld, RefusesToRemoveABarrier) {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}}}};
-  LevelCrossingSpec crossing;
-  crossing.name = "crossing";
-  crossing.s_m = 300.0;
+  WorldSpec world = WorldAlong({{ElementType::kStraight, 600.0, {}}});
+  LevelCrossingSpec crossing = CrossingAt(300.0);
   crossing.barrier_angles_deg = {{2.0, 90.0}, {8.0, 0.0}};
   world.structures = {crossing};
   const RailWorld made(world, VehicleSpec{}, RailLabels(), RailMaterials(), 7);

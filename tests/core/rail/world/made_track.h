@@ -2,8 +2,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "core/rail/world/own_track.h"
 #include "railcast/rail_world.h"
@@ -20,9 +18,7 @@ namespace railcast {
       ReadScenario(std::filesystem::path(RAILCAST_SOURCE_DIR) / "scenarios" / "minimal.json");
   scenario.world.alignment = {};
   scenario.world.alignment.course = AlignmentElementsSpec{{{element, length_m, radius_m}}};
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = 4.0;
+  TrackSpec second{.name = "second", .offset_m = 4.0};
   scenario.world.tracks = {TrackSpec(), second};
   scenario.world.objects.clear();
   return scenario;

@@ -3,38 +3,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/rail/catenary/catenary.h"
 #include "railcast/scenario.h"
+#include "tests/core/io/message_of.h"
 #include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
 WorldSpec CurvedWorld() {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 200.0, {}},
-                                                  {ElementType::kClothoid, 100.0, {}},
-                                                  {ElementType::kArc, 325.0, 400.0}}};
+  WorldSpec world = WorldAlong({{ElementType::kStraight, 200.0, {}},
+                                {ElementType::kClothoid, 100.0, {}},
+                                {ElementType::kArc, 325.0, 400.0}});
   world.alignment.gradients_permil = {{0.0, 5.0}};
   world.alignment.speed_limits_kmph = {{0.0, 80.0}};
-  TrackSpec second;
-  second.name = "second";
-  second.offset_m = 4.0;
-  world.tracks.push_back(second);
+  world.tracks.push_back({.name = "second", .offset_m = 4.0});
   return world;
-}
-
-ObjectSpec ObjectAt(const std::string& name, ObjectType type, double s_m) {
-  ObjectSpec object;
-  object.name = name;
-  object.type = type;
-  object.s_m = s_m;
-  return object;
 }
 
 VehicleSpec MovingVehicle() {
@@ -49,12 +36,7 @@ RailWorld MakeRailWorld(const WorldSpec& world, const VehicleSpec& vehicle) {
 }
 
 std::string WorldFaultOf(const WorldSpec& world, const VehicleSpec& vehicle) {
-  try {
-    MakeRailWorld(world, vehicle);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "none";
+  return MessageOf([&] { MakeRailWorld(world, vehicle); });
 }
 
 Eigen::AlignedBox3d BoundsOf(const Chunk& chunk) {

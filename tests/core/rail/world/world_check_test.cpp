@@ -5,6 +5,7 @@
 
 #include "core/rail/network/network_draft.h"
 #include "railcast/scenario.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -22,11 +23,7 @@ std::vector<std::string> Faults(const WorldSpec& world, const VehicleSpec& vehic
 }
 
 ObjectSpec Box(const std::string& name, double s_m) {
-  ObjectSpec object;
-  object.name = name;
-  object.type = ObjectType::kBox;
-  object.s_m = s_m;
-  return object;
+  return ObjectAt(name, ObjectType::kBox, s_m);
 }
 
 TEST(CheckWorld, AcceptsTheDefaults) {

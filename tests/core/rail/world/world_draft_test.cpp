@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/core/rail/test_tables.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
@@ -14,9 +15,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 WorldSpec StraightKilometre() {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 1000.0, {}}}};
-  return world;
+  return WorldAlong({{ElementType::kStraight, 1000.0, {}}});
 }
 
 std::vector<std::string> DraftFaults(const WorldSpec& world,
@@ -78,10 +77,9 @@ TEST(DraftWorld, NamesEachMissingLabelAndMaterialOnce) {
 
 /// The ground narrows to 40 m in the curve and is 80 m wide far from it.
 TEST(DraftWorld, HoldsTracksToTheGroundWhereTheyAre) {
-  WorldSpec world;
-  world.alignment.course = AlignmentElementsSpec{{{ElementType::kStraight, 600.0, {}},
-                                                  {ElementType::kArc, 80.0, 50.0},
-                                                  {ElementType::kStraight, 600.0, {}}}};
+  WorldSpec world = WorldAlong({{ElementType::kStraight, 600.0, {}},
+                                {ElementType::kArc, 80.0, 50.0},
+                                {ElementType::kStraight, 600.0, {}}});
   world.tracks.push_back({.name = "beside", .offset_m = 60.0, .end_s_m = 400.0});
   EXPECT_THAT(DraftFaults(world), IsEmpty());
   world.tracks[1].end_s_m = 640.0;
