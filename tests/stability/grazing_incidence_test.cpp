@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
