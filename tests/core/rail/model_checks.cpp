@@ -85,6 +85,10 @@ std::size_t CountOpenEdges(const Model& model) {
                                                 [](const auto& edge) { return edge.second != 0; }));
 }
 
+std::size_t CountOpenEdges(const Mesh& mesh) {
+  return CountOpenEdges(Model{.name = "", .parts = {{.mesh = mesh, .material = 0, .label = 0}}});
+}
+
 void ExpectSameChunk(const Chunk& first, const Chunk& second) {
   ExpectSameModel(first.ground, second.ground);
   ASSERT_EQ(first.placements.size(), second.placements.size());

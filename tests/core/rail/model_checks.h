@@ -21,6 +21,7 @@ namespace railcast {
 /// sides: those that do not belong to as many triangles in the one direction as in the other. The
 /// parts may share edges.
 [[nodiscard]] std::size_t CountOpenEdges(const Model& model);
+[[nodiscard]] std::size_t CountOpenEdges(const Mesh& mesh);
 
 /// Expects bitwise equal ground and models, with the same placements and instances.
 void ExpectSameChunk(const Chunk& first, const Chunk& second);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -47,6 +48,10 @@ class TestLine {
   std::shared_ptr<const Model> mast_model_;
   Landform land_;
 };
+
+/// All types of turnouts.
+inline constexpr std::array kTurnoutTypes = {TurnoutType::k9_190, TurnoutType::k9_300,
+                                             TurnoutType::k12_500, TurnoutType::k14_760};
 
 /// A straight, level line with one track.
 [[nodiscard]] WorldSpec StraightLine(double length_m);

@@ -27,8 +27,7 @@ struct BranchCase {
 /// A loop, a crossover and an electrified ladder for each type of turnout, on both sides.
 std::vector<BranchCase> BranchCases() {
   std::vector<BranchCase> cases;
-  for (const TurnoutType type :
-       {TurnoutType::k9_190, TurnoutType::k9_300, TurnoutType::k12_500, TurnoutType::k14_760}) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double side : {-1.0, 1.0}) {
       const std::string name = std::to_string(static_cast<int>(type)) + (side > 0.0 ? "l" : "r");
       WorldSpec loop = StraightLine(1000.0);

@@ -300,8 +300,7 @@ WorldSpec LoopBeside(TurnoutType type, double offset_m, double begin_s_m) {
 }
 
 TEST(AddCatenary, KeepsTheWiresOfABranchAboveItsPantographAndApartFromTheOthers) {
-  for (const TurnoutType type :
-       {TurnoutType::k9_190, TurnoutType::k9_300, TurnoutType::k12_500, TurnoutType::k14_760}) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double offset_m : {4.5, -4.5}) {
       for (const double begin_s_m : {150.0, 171.0, 196.0}) {
         const TestLine line(LoopBeside(type, offset_m, begin_s_m));

@@ -1,16 +1,25 @@
 #include "core/rail/chunk/chunk_grid.h"
 
-#include "tests/support/world_specs.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/rail/chunk/sweep.h"
+#include "tests/core/rail/test_line.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
+
+using testing::ElementsAre;
 
 constexpr double kChunkLength_m = 50.0;
 constexpr double kHalfWidth_m = 80.0;
@@ -107,6 +116,118 @@ TEST(ChunkGrid, MissesNoGroundWithinReach) {
       }
     }
   }
+}
+
+/// A level grid of `num_rows` by 7 points a metre apart, with columns 0, 3, 4 and 6 within.
+Mesh LevelGrid(std::size_t num_rows, std::size_t num_hidden_columns = 0) {
+  return MeshOfCoarseGrid(
+      {num_rows, 7, {0, 3, 4, 6}}, [&](std::size_t row, std::size_t column) -> GridPoint {
+        return {Vector3(static_cast<double>(row), static_cast<double>(column), 0.0),
+                column >= num_hidden_columns};
+      });
+}
+
+TEST(MeshOfCoarseGrid, HasAllColumnsInItsFirstAndLastRowAndSomeBetween) {
+  std::map<float, std::vector<float>> columns;
+  for (const Eigen::Vector3f& vertex : LevelGrid(4).vertices) {
+    columns[vertex.x()].push_back(vertex.y());
+  }
+  EXPECT_THAT(columns[0.0F], testing::UnorderedElementsAre(0, 1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(columns[1.0F], testing::UnorderedElementsAre(0, 3, 4, 6));
+  EXPECT_THAT(columns[2.0F], testing::UnorderedElementsAre(0, 3, 4, 6));
+  EXPECT_THAT(columns[3.0F], testing::UnorderedElementsAre(0, 1, 2, 3, 4, 5, 6));
+}
+
+TEST(MeshOfCoarseGrid, CoversItsAreaOnceAndFacesUp) {
+  for (const std::size_t num_rows : {3U, 4U, 9U}) {
+    const Mesh mesh = LevelGrid(num_rows);
+    double area_m2 = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Eigen::Vector3f normal =
+          (mesh.vertices[b] - mesh.vertices[a])
+              .cross(Eigen::Vector3f(mesh.vertices[c] - mesh.vertices[a]));
+      EXPECT_GT(normal.z(), 0.0F);
+      area_m2 += 0.5 * static_cast<double>(normal.z());
+    }
+    EXPECT_DOUBLE_EQ(area_m2, 6.0 * static_cast<double>(num_rows - 1));
+  }
+}
+
+TEST(MeshOfCoarseGrid, JoinsItsTrianglesAtTheirEdges) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> num_sides;
+  const Mesh mesh = LevelGrid(5);
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k)
+      ++num_sides[std::minmax(triangle[k], triangle[(k + 1) % 3])];
+  }
+  // Six edges at either end, and four at either side.
+  const auto is_alone = [](const auto& edge) { return edge.second == 1; };
+  EXPECT_EQ(std::count_if(num_sides.begin(), num_sides.end(), is_alone), 6 + 6 + 4 + 4);
+  for (const auto& [edge, num] : num_sides) EXPECT_LE(num, 2);
+}
+
+TEST(MeshOfCoarseGrid, LeavesOutTheCellsOfWhichNothingShows) {
+  EXPECT_EQ(LevelGrid(4, 3).triangles.size(), LevelGrid(4).triangles.size());
+  // The first cell has three points in either edge row beside the corner that shows.
+  EXPECT_EQ(LevelGrid(4, 4).triangles.size(), LevelGrid(4).triangles.size() - 4 - 2 - 4);
+}
+
+TEST(ColumnsAlong, AreAsFarApartAsTheyMayBe) {
+  const std::vector<double> places_m = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_THAT(ColumnsAlong(places_m, {}, 0.0, [](double) { return 3.0; }), ElementsAre(0, 3, 6, 8));
+  EXPECT_THAT(ColumnsAlong(places_m, {}, 0.0, [](double d_m) { return d_m < 3.0 ? 0.0 : 2.0; }),
+              ElementsAre(0, 1, 2, 3, 5, 7, 8));
+}
+
+TEST(ColumnsAlong, FollowEveryProfileWithinTheTolerance) {
+  const std::vector<double> places_m = {0, 1, 2, 3, 4, 5, 6};
+  const std::vector<std::vector<double>> profiles_m = {{0, 0, 0, 1, 2, 3, 4},
+                                                       {0, 0, 0, 0, 0, 0.01, 0}};
+  const auto any_width = [](double) { return 100.0; };
+  EXPECT_THAT(ColumnsAlong(places_m, profiles_m, 0.02, any_width), ElementsAre(0, 2, 6));
+  EXPECT_THAT(ColumnsAlong(places_m, profiles_m, 1e-3, any_width), ElementsAre(0, 2, 4, 5, 6));
+}
+
+TEST(SweepStations, KeepChordsWithinTheToleranceOnAnArc) {
+  constexpr double kRadius_m = 300.0;
+  constexpr double kOffset_m = 4.0;  // Towards the centre of the curve: radius 296 m.
+  constexpr double kTolerance_m = 1e-3;
+  const TestLine line(CantedArc(500.0, kRadius_m));
+  const auto stations_m =
+      SweepStations(line.alignment(), {100.0, 150.0}, kOffset_m, kTolerance_m, 5.0);
+  EXPECT_EQ(stations_m.front(), 100.0);
+  EXPECT_EQ(stations_m.back(), 150.0);
+  const double step_m = stations_m[1] - stations_m[0];
+  const double chord_m = step_m * (kRadius_m - kOffset_m) / kRadius_m;
+  EXPECT_LE(chord_m * chord_m / (8.0 * (kRadius_m - kOffset_m)), kTolerance_m);
+  // The number of stations is minimal: with one chord less, chords would be too long.
+  const double longer_m = chord_m * static_cast<double>(stations_m.size() - 1) /
+                          static_cast<double>(stations_m.size() - 2);
+  EXPECT_GT(longer_m * longer_m / (8.0 * (kRadius_m - kOffset_m)), 0.95 * kTolerance_m);
+}
+
+TEST(SweepStations, AreAtMostTheLongestStepApartOnAStraight) {
+  const TestLine line(StraightLine(500.0));
+  EXPECT_THAT(SweepStations(line.alignment(), {100.0, 110.0}, 0.0, 1e-3, 5.0),
+              testing::ElementsAre(100.0, 105.0, 110.0));
+}
+
+TEST(GridStations, AreMultiplesBetweenTheEnds) {
+  EXPECT_THAT(GridStations({9.9995, 11.0005}, 0.25),
+              testing::ElementsAre(9.9995, 10.25, 10.5, 10.75, 11.0005));
+  EXPECT_THAT(GridStations({10.1, 10.8}, 0.25), testing::ElementsAre(10.1, 10.25, 10.5, 10.8));
+}
+
+TEST(SweptRange, EndsWithTheTrackOrHalfAnOverlapBeyondTheChunk) {
+  WorldSpec spec = StraightLine(500.0);
+  spec.tracks[0].end_s_m = 120.0;
+  const TestLine line(spec);
+  const TrackCourse& track = line.network().courses[0];
+  const ChainageRange whole{track.begin_s_m(), track.end_s_m()};
+  const ChainageRange inside = SweptRange(line.Context(1), whole);
+  EXPECT_DOUBLE_EQ(inside.begin_s_m, 49.9995);
+  EXPECT_DOUBLE_EQ(inside.end_s_m, 100.0005);
+  EXPECT_DOUBLE_EQ(SweptRange(line.Context(2), whole).end_s_m, 120.0);
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ void AddAcross(WorldSpec& world, double n, const std::vector<std::pair<std::stri
 /// Ladders, crossovers and diamonds whose long bearers come near each other.
 std::vector<BearerCase> CloseTurnouts() {
   std::vector<BearerCase> cases;
-  for (const TurnoutType type :
-       {TurnoutType::k9_190, TurnoutType::k9_300, TurnoutType::k12_500, TurnoutType::k14_760}) {
+  for (const TurnoutType type : kTurnoutTypes) {
     const std::string name(NameOf(type));
     const double slope = std::tan(GeometryOf(type).angle_rad);
     for (const double side : {-1.0, 1.0}) {

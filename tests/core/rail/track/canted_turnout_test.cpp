@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -19,8 +18,6 @@
 namespace railcast {
 namespace {
 
-constexpr std::array<TurnoutType, 4> kCantedTypes = {TurnoutType::k9_190, TurnoutType::k9_300,
-                                                     TurnoutType::k12_500, TurnoutType::k14_760};
 constexpr double kLoopBegins_m = 60.0;
 constexpr double kCurve_m = 600.0;
 
@@ -101,7 +98,7 @@ double StepInFrog_m(const TestLine& line, const TurnoutSite& site) {
 }
 
 TEST(CantedTurnout, HasBothRailsOfItsFrogAtOneHeight) {
-  for (const TurnoutType type : kCantedTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double side : {-1.0, 1.0}) {
       for (const WorldSpec& spec :
            {CantedLoop(type, 4.5 * side, TurnoutPosition::kStraight),
@@ -118,7 +115,7 @@ TEST(CantedTurnout, HasBothRailsOfItsFrogAtOneHeight) {
 }
 
 TEST(CantedTurnout, LeavesAWayForFlangesOnTheRouteThatItIsSetFor) {
-  for (const TurnoutType type : kCantedTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double offset_m : {-4.5, 4.5}) {
       const std::string what(NameOf(type));
       ExpectFlangesFindAWay(TestLine(CantedLoop(type, offset_m, TurnoutPosition::kStraight)),
@@ -217,7 +214,7 @@ double SharpestBend_per_m(const TestLine& line, std::size_t track, double step_m
 TEST(CantedTurnout, LetsItsBranchReturnWithoutStepOrKink) {
   // A kink by 1 permil would have a radius of 50 m at this step.
   constexpr double kFineStep_m = 0.05;
-  for (const TurnoutType type : kCantedTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double side : {-1.0, 1.0}) {
       const TestLine loop(CantedLoop(type, 4.5 * side, TurnoutPosition::kStraight));
       EXPECT_LT(SharpestBend_per_m(loop, 1, kFineStep_m), 1.0 / 1000.0) << NameOf(type);
@@ -244,7 +241,7 @@ double SteepestLift(const TestLine& line, std::size_t track) {
 }
 
 TEST(CantedTurnout, LetsItsBranchReturnToTheHeightOfTheLine) {
-  for (const TurnoutType type : kCantedTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double side : {-1.0, 1.0}) {
       const TestLine loop(CantedLoop(type, 4.5 * side, TurnoutPosition::kStraight));
       EXPECT_EQ(loop.network().courses[1].LiftAt(loop.alignment(), 0.5 * kCurve_m).h_m, 0.0);

@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "core/rail/line/rail_section.h"
 #include "core/rail/track/cross_section.h"
+#include "tests/core/rail/model_checks.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {
@@ -50,26 +48,6 @@ double GaugeOfMesh(const TestLine& line, int chunk_index, double s_m) {
   return left_m - right_m;
 }
 
-/// Returns whether the mesh is closed: for each edge between two positions, as many triangles
-/// traverse it in one direction as in the other.
-bool IsClosed(const Mesh& mesh) {
-  using Position = std::array<float, 3>;
-  std::map<std::pair<Position, Position>, int> balance;
-  const auto position = [&](std::uint32_t vertex) {
-    const Eigen::Vector3f& v = mesh.vertices[vertex];
-    return Position{v.x(), v.y(), v.z()};
-  };
-  for (const auto& triangle : mesh.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Position a = position(triangle[i]);
-      const Position b = position(triangle[(i + 1) % 3]);
-      a < b ? ++balance[{a, b}] : --balance[{b, a}];
-    }
-  }
-  return std::all_of(balance.begin(), balance.end(),
-                     [](const auto& edge) { return edge.second == 0; });
-}
-
 TEST(AddTracks, LaysRailsAtGaugeOnAStraight) {
   const TestLine line(StraightLine(300.0));
   for (const double s_m : {100.4, 113.77, 149.3}) {
@@ -97,7 +75,7 @@ TEST(AddTracks, LaysRailsAtTheGaugeOfTheLine) {
     // Rails stay on their seats, and sleepers are as much longer than the gauge as B70 are.
     for (const auto& model : {line.models().concrete_sleeper, line.models().wood_sleeper}) {
       EXPECT_NEAR(model->Bounds().sizes().y(), 2.6 + 1e-3 * gauge_mm - 1.435, 1e-6) << gauge_mm;
-      for (const Part& part : model->parts) EXPECT_TRUE(IsClosed(part.mesh)) << model->name;
+      for (const Part& part : model->parts) EXPECT_EQ(CountOpenEdges(part.mesh), 0U) << model->name;
     }
     double outermost_m = 0.0;
     for (const Part& part : line.models().concrete_sleeper->parts) {
@@ -150,9 +128,9 @@ TEST(AddTracks, ClosesRailsWhereTheTrackBeginsAndEnds) {
   Chunk chunk;
   AddTracks(line.Context(1), line.models(), chunk);
   Mesh rails = MeshOfSurface(chunk, line.surfaces().rail_side);
-  EXPECT_FALSE(IsClosed(rails));
+  EXPECT_GT(CountOpenEdges(rails), 0U);
   rails.Append(MeshOfSurface(chunk, line.surfaces().rail_head));
-  EXPECT_TRUE(IsClosed(rails));
+  EXPECT_EQ(CountOpenEdges(rails), 0U);
 
   Chunk next;
   AddTracks(line.Context(2), line.models(), next);
@@ -163,7 +141,7 @@ TEST(AddTracks, ClosesRailsWhereTheTrackBeginsAndEnds) {
 TEST(AddTracks, MakesOnlyClosedSleepers) {
   const TestLine line(StraightLine(100.0));
   for (const auto& model : {line.models().concrete_sleeper, line.models().wood_sleeper}) {
-    for (const Part& part : model->parts) EXPECT_TRUE(IsClosed(part.mesh)) << model->name;
+    for (const Part& part : model->parts) EXPECT_EQ(CountOpenEdges(part.mesh), 0U) << model->name;
   }
 }
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -36,11 +35,8 @@ WorldSpec LineWithTrailingTurnout(TurnoutType type, double offset_m, TurnoutPosi
   return spec;
 }
 
-constexpr std::array<TurnoutType, 4> kAllTypes = {TurnoutType::k9_190, TurnoutType::k9_300,
-                                                  TurnoutType::k12_500, TurnoutType::k14_760};
-
 TEST(Turnout, LeavesAWayForFlangesOnTheRouteThatItIsSetFor) {
-  for (const TurnoutType type : kAllTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double offset_m : {-4.5, 4.5}) {
       const std::string what(NameOf(type));
       ExpectFlangesFindAWay(TestLine(LineWithTurnout(type, offset_m, TurnoutPosition::kStraight)),
@@ -71,7 +67,7 @@ double FrogByClosedForm_m(const TurnoutGeometry& turnout) {
 }
 
 TEST(Turnout, HasItsFrogWhereTheGaugeLinesCross) {
-  for (const TurnoutType type : kAllTypes) {
+  for (const TurnoutType type : kTurnoutTypes) {
     for (const double offset_m : {-4.5, 4.5}) {
       const TestLine line(LineWithTurnout(type, offset_m, TurnoutPosition::kStraight));
       const ChunkContext context = line.Context(1);

@@ -92,7 +92,7 @@ PlaceByTrack SlowPlaceOf(const OwnTrack& track,
   return {from_s_m, place_m.y(), place_m.z()};
 }
 
-constexpr double kExact_m = 1e-3;
+constexpr double kExactPlace_m = 1e-3;
 /// Between two points of the axis, headings are taken to change evenly. Where the curvature jumps
 /// by k half-way between them, they err by k h / 4.
 constexpr double kMostTurnError_rad = 1.0 / 190.0 / 4.0;
@@ -113,9 +113,9 @@ void ExpectPlacesAsFoundSlowly(const OwnTrack& track, double from_s_m, double to
     ASSERT_TRUE(place.has_value());
     const PlaceByTrack slow = SlowPlaceOf(track, world_m, s_m - 5.0, s_m + 5.0);
     ASSERT_NEAR(place->chainage_m, slow.chainage_m,
-                kExact_m + kMostTurnError_rad * std::abs(slow.lateral_m));
-    ASSERT_NEAR(place->lateral_m, slow.lateral_m, kExact_m);
-    ASSERT_NEAR(place->height_m, slow.height_m, kExact_m);
+                kExactPlace_m + kMostTurnError_rad * std::abs(slow.lateral_m));
+    ASSERT_NEAR(place->lateral_m, slow.lateral_m, kExactPlace_m);
+    ASSERT_NEAR(place->height_m, slow.height_m, kExactPlace_m);
     near_s_m = place->chainage_m;
   }
 }
