@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+
+#include "railcast/transform.h"
 
 namespace railcast {
 namespace {
@@ -42,6 +45,23 @@ TEST(UnitFloat, IsUniformInTheHalfOpenUnitInterval) {
   // (variance 4/45).
   EXPECT_NEAR(sum / kDraws, 0.5, 5.0 * std::sqrt(1.0 / 12.0 / kDraws));
   EXPECT_NEAR(sum_of_squares / kDraws, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kDraws));
+}
+
+constexpr double kQuarterTurn_rad = std::numbers::pi / 2.0;
+
+TEST(RotationFromYawPitchRoll, YawTurnsForwardToTheLeft) {
+  const Vector3 turned = RotationFromYawPitchRoll(kQuarterTurn_rad, 0, 0) * Vector3::UnitX();
+  EXPECT_TRUE(turned.isApprox(Vector3::UnitY(), 1e-12));
+}
+
+TEST(RotationFromYawPitchRoll, PositivePitchPointsTheNoseDown) {
+  const Vector3 turned = RotationFromYawPitchRoll(0, 0.1, 0) * Vector3::UnitX();
+  EXPECT_LT(turned.z(), 0.0);
+}
+
+TEST(RotationFromYawPitchRoll, PositiveRollRaisesTheLeftSide) {
+  const Vector3 turned = RotationFromYawPitchRoll(0, 0, 0.1) * Vector3::UnitY();
+  EXPECT_GT(turned.z(), 0.0);
 }
 
 }  // namespace

@@ -1,8 +1,19 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/units.h"
+#include "core/rail/line/line_place.h"
+#include "railcast/rail_world.h"
 #include "railcast/scenario.h"
+#include "railcast/simulator.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/scenario/malformed_case.h"
 #include "tests/core/scenario/scenario_files.h"
+#include "tests/support/scan_once.h"
 
 namespace railcast {
 namespace {
@@ -56,6 +67,87 @@ TEST(MakeSimulator, NamesTheFileWhoseEffectsDoNotFitAnotherRung) {
             file.string() +
                 R"(: /effects: "rain" of the published model and "surface_response" of physics )"
                 "must not both be on");
+}
+
+/// Intensities of the returned points, by label.
+std::map<std::string, std::vector<float>> IntensitiesByLabel(const ScenarioSpec& spec) {
+  std::map<std::string, std::vector<float>> intensities;
+  const Frame frame = ScanFrame(*MakeSimulator(spec, 0));
+  for (const Label& label : spec.labels) {
+    for (std::size_t i = 0; i < frame.label.size(); ++i) {
+      if (frame.label[i] != label.id || frame.outcome[i] != Outcome::kReturned) continue;
+      intensities[label.name].push_back(frame.intensity[i]);
+    }
+  }
+  return intensities;
+}
+
+float MedianOf(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+TEST(LevelCrossingScene, ShowsAllThatStandsAlongIt) {
+  const auto seen = IntensitiesByLabel(ReadScenario(ScenariosDir() / "level_crossing.json"));
+  for (const char* label : {"signal", "board", "balise", "relay_box", "building", "road",
+                            "level_crossing", "furniture", "person", "road_vehicle"}) {
+    EXPECT_TRUE(seen.contains(label)) << label;
+  }
+}
+
+/// White sheeting has 570 times the answer of a white Lambertian, everything else at most 1.
+TEST(LevelCrossingScene, ShowsItsBoardsAHundredTimesAsBrightAsAllElse) {
+  const auto seen = IntensitiesByLabel(ReadScenario(ScenariosDir() / "level_crossing.json"));
+  const float boards = MedianOf(seen.at("board"));
+  EXPECT_GT(boards, 100.0F);
+  for (const auto& [label, intensities] : seen) {
+    // At 200 m, half of what is seen of the buffer stop is its board.
+    if (label == "board" || label == "buffer_stop") continue;
+    EXPECT_LT(100.0F * MedianOf(intensities), boards) << label;
+  }
+}
+
+class MalformedBuild : public testing::TestWithParam<MalformedCase> {};
+
+TEST_P(MalformedBuild, GivesExactlyTheExpectedLines) {
+  std::filesystem::current_path(ScenariosDir());
+  std::string lines;
+  for (const std::string& line : CheckScenario(GetParam().file)) lines += line + '\n';
+  EXPECT_EQ(lines, GetParam().expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios,
+                         MalformedBuild,
+                         testing::ValuesIn(MalformedCases("build")),
+                         [](const auto& test) { return NameOf(test.param); });
+
+/// The JSON that follows a line of docs/scenario.md.
+std::string ExampleAfter(const std::string& line) {
+  const std::string page = TextOf(std::filesystem::path(RAILCAST_SOURCE_DIR) / "docs/scenario.md");
+  const std::string fence = line + "\n```json\n";
+  const std::size_t begin = page.find(fence);
+  if (begin == std::string::npos) return {};
+  const std::size_t end = page.find("```", begin + fence.size());
+  return page.substr(begin + fence.size(), end - begin - fence.size());
+}
+
+TEST(ScenarioPage, PlacesItsObjectsOnTheMapOfSanktPoelten) {
+  const std::string scenario =
+      R"({"version": 1, "file": "line.json", "world": {"file": "westbahn-130-01.world.json",)" +
+      ExampleAfter("<!-- example: on the map of osm_sankt_poelten/line.json -->") + "}}";
+  const auto world = MakeWorld(
+      ReadScenarioText(scenario, ScenariosDir() / "osm_sankt_poelten" / "with_objects.json"));
+  const auto beside = [&](std::size_t object, std::int64_t time_ns) {
+    return PlaceOnLine(world->alignment(), world->WorldFromObject(object, time_ns).translation(),
+                       500.0);
+  };
+  // 1e-7 degrees are 1.1 cm of latitude.
+  EXPECT_NEAR(beside(0, 0).s_m, 500.0, 0.01);
+  EXPECT_NEAR(beside(0, 0).d_m, -6.0, 0.01);
+  EXPECT_NEAR(beside(0, 600 * kNsPerS).d_m, 6.0, 0.01);
+  EXPECT_NEAR(beside(1, 0).s_m, 650.0, 0.1);
+  EXPECT_NEAR(beside(1, 0).d_m, 0.0, 1e-3);
 }
 
 }  // namespace
