@@ -9,6 +9,7 @@
 #include "core/mesh/assimp_reader.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/mesh/imported_meshes.h"
+#include "tests/core/mesh/made_scenes.h"
 
 namespace railcast {
 namespace {
@@ -61,15 +62,7 @@ std::string BinaryStl() {
 
 /// glTF in JSON with its buffer within; y is up.
 std::string Gltf() {
-  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-    "nodes": [{"mesh": 0, "name": "body", "scale": [2, 2, 2]}],
-    "materials": [{"name": "Window"}],
-    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                   "min": [0, 0, 0], "max": [1, 1, 0]}],
-    "bufferViews": [{"buffer": 0, "byteLength": 36}],
-    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
-         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+  return TriangleGltf(R"({"mesh": 0, "name": "body", "scale": [2, 2, 2]})");
 }
 
 TEST(ParseMesh, KnowsFormatsByTheirContent) {
