@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/units.h"
 #include "core/scenario/object_types.h"
 #include "railcast/rail_world.h"
 #include "railcast/simulator.h"

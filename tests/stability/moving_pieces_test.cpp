@@ -9,7 +9,6 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/units.h"
 #include "railcast/rail_world.h"
 #include "railcast/scenario.h"
 #include "railcast/simulator.h"

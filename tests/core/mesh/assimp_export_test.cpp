@@ -86,7 +86,7 @@ struct HalfSphere {
 };
 
 /// The two halves in a node below the root that moves and turns them. assimp frees what it holds.
-std::unique_ptr<aiScene> Sphere(const HalfSphere& upper, const HalfSphere& lower) {
+std::unique_ptr<aiScene> SphereScene(const HalfSphere& upper, const HalfSphere& lower) {
   auto scene = std::make_unique<aiScene>();
   scene->mNumMaterials = 2;
   scene->mMaterials = new aiMaterial*[2];
@@ -124,7 +124,7 @@ TEST_P(AssimpExportsOf, KeepTrianglesAreaAndHeight) {
   const TemporaryDirectory folder;
   const std::string file = (folder.path() / name).string();
   Assimp::Exporter exporter;
-  const auto scene = Sphere(upper, lower);
+  const auto scene = SphereScene(upper, lower);
   ASSERT_EQ(exporter.Export(scene.get(), format.c_str(), file.c_str()), AI_SUCCESS)
       << exporter.GetErrorString();
   const Mesh mesh = Merged(ReadMesh(file));
@@ -137,7 +137,7 @@ TEST_P(AssimpExportsOf, KeepTrianglesAreaAndHeight) {
 
 // assimp gives every mesh a material; the file's meshes shall have none.
 TEST(AssimpExports, NameFacesWithoutMaterialByTheColoursOfVertices) {
-  const auto scene = Sphere(HalfSphere(1.0), HalfSphere(-1.0));
+  const auto scene = SphereScene(HalfSphere(1.0), HalfSphere(-1.0));
   for (unsigned i = 0; i < 2; ++i) {
     aiMesh& mesh = *scene->mMeshes[i];
     mesh.mColors[0] = new aiColor4D[mesh.mNumVertices];

@@ -233,33 +233,33 @@ TEST(RasterPattern, AcceptsDecimalResolutionsThatDivideTheFieldOfView) {
 
 TEST(RasterPattern, RefusesCellsThatAreNotWhole) {
   EXPECT_EQ(
-      FaultsOf({.rate_hz = 10.0,
-                .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
-                                      .vertical_fov_deg = 30.0,
-                                      .angular_resolution_deg = 0.8}}),
+      railcast::FaultsOf({.rate_hz = 10.0,
+                          .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
+                                                .vertical_fov_deg = 30.0,
+                                                .angular_resolution_deg = 0.8}}),
       "/pattern/vertical_fov_deg: must be a whole number of angular_resolution_deg (got 37.5)");
 }
 
 TEST(RasterPattern, ReportsEveryFaultAtOnce) {
-  EXPECT_EQ(FaultsOf({.rate_hz = 0.0,
-                      .pattern = RasterSpec{.horizontal_fov_deg = 361.0,
-                                            .vertical_fov_deg = -1.0,
-                                            .angular_resolution_deg = 0.25}}),
+  EXPECT_EQ(railcast::FaultsOf({.rate_hz = 0.0,
+                                .pattern = RasterSpec{.horizontal_fov_deg = 361.0,
+                                                      .vertical_fov_deg = -1.0,
+                                                      .angular_resolution_deg = 0.25}}),
             "/rate_hz: must be >= 0.01 and <= 1000000 (got 0)\n"
             "/pattern/horizontal_fov_deg: must be > 0 and <= 360 (got 361)\n"
             "/pattern/vertical_fov_deg: must be > 0 and <= 180 (got -1)");
-  EXPECT_EQ(FaultsOf({.rate_hz = 10.0,
-                      .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
-                                            .vertical_fov_deg = 30.0,
-                                            .angular_resolution_deg = std::nan("")}}),
+  EXPECT_EQ(railcast::FaultsOf({.rate_hz = 10.0,
+                                .pattern = RasterSpec{.horizontal_fov_deg = 60.0,
+                                                      .vertical_fov_deg = 30.0,
+                                                      .angular_resolution_deg = std::nan("")}}),
             "/pattern/angular_resolution_deg: must be > 0 (got nan)");
 }
 
 TEST(RasterPattern, RefusesHugePatterns) {
-  EXPECT_EQ(FaultsOf({.rate_hz = 10.0,
-                      .pattern = RasterSpec{.horizontal_fov_deg = 360.0,
-                                            .vertical_fov_deg = 180.0,
-                                            .angular_resolution_deg = 0.0001}}),
+  EXPECT_EQ(railcast::FaultsOf({.rate_hz = 10.0,
+                                .pattern = RasterSpec{.horizontal_fov_deg = 360.0,
+                                                      .vertical_fov_deg = 180.0,
+                                                      .angular_resolution_deg = 0.0001}}),
             "/pattern/vertical_fov_deg: must have at most 65536 cells (got 1800000)\n"
             "/pattern: must have at most 16777216 firings (got 6.48e+12)");
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "core/base/units.h"
 #include "core/simulate/frame_poses.h"
 #include "railcast/simulator.h"
 #include "tests/core/io/message_of.h"

@@ -8,7 +8,6 @@
 #include "core/rail/catenary/support_layout.h"
 #include "core/rail/network/network_draft.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/rail/line/alignment_files.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "core/base/units.h"
 #include "tests/core/rail/world/made_track.h"
 
 namespace railcast {
