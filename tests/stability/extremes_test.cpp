@@ -141,7 +141,7 @@ Frame Scan(const Setting& setting, Fidelity rung) {
   static const auto scenes = MakeSceneStore(MixedWorld(), Materials());
   SimulatorSpec spec = setting.spec;
   spec.detector.effects = EffectsOfRung(rung);
-  return ScanFrame(Simulator(scenes, setting.pattern, Materials(), spec, 0), 2);
+  return FrameBy(Simulator(scenes, setting.pattern, Materials(), spec, 0), 2);
 }
 
 // In addition to what holds on every rung: powers and shares are not negative, and the surfaces
@@ -190,7 +190,7 @@ TEST(Extremes, AllOfABeamMeetsAWallThatFillsIt) {
       spec.detector.beam.divergence_mrad = {divergence_mrad, divergence_mrad};
       spec.detector.beam.reference_rays = num_rays;
       const Frame frame =
-          ScanFrame(Simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0));
+          FrameBy(Simulator(world, MakeRaster(10.0, 10.0, 1.0), Materials(), spec, 0));
       for (const float share : frame.footprint_share) {
         // Each addition may round by half a step of 6e-8.
         ASSERT_NEAR(static_cast<double>(share), 1.0, 6e-8 * (num_rays + 1)) << num_rays;
@@ -203,8 +203,8 @@ TEST(Extremes, NothingReturnsFromABlackSurface) {
   for (const Fidelity rung : kPhysicalRungs) {
     const auto world = WorldOfParts({{MakeWall(5.0F, 100.0F), kBlack, 1}});
     // Even at night, one firing in a million is a false alarm, so none is expected among these 400.
-    const Frame frame = ScanFrame(Simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
-                                            {.detector = {.effects = EffectsOfRung(rung)}}, 0));
+    const Frame frame = FrameBy(Simulator(world, MakeRaster(10.0, 10.0, 0.5), Materials(),
+                                          {.detector = {.effects = EffectsOfRung(rung)}}, 0));
     // Phi(-5) = 3e-7 of them are detected nevertheless.
     EXPECT_EQ(std::count(frame.outcome.begin(), frame.outcome.end(), Outcome::kBelowThreshold), 400)
         << NameOf(rung);
@@ -268,7 +268,7 @@ TEST(Extremes, TenMillionBeamsMakeOneSoundFrame) {
   SimulatorSpec spec{.detector = {.effects = EffectsOfRung(Fidelity::kSurface)}};
   Simulator simulator(world, MakeRaster(360.0, 69.5, 0.05), Materials(), spec, 0);
   ASSERT_GE(simulator.pattern().num_firings(), 10'000'000U);
-  const Frame frame = ScanFrame(simulator);
+  const Frame frame = FrameBy(simulator);
   ExpectSoundBeams(frame, spec);
   // Beams that look down by more than half a degree meet the ground within range.
   const auto num_below = static_cast<std::ptrdiff_t>(7200) * (1390 / 2 - 10);

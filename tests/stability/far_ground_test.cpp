@@ -35,12 +35,12 @@ TEST_P(FarGroundOn, IsRangedWhereTheReferenceRangesIt) {
   SimulatorSpec spec = SpecOf(scenario.lidar, EffectsOfRung(Fidelity::kFootprint));
   spec.detector.effects.detection_probability = false;
   Simulator simulator(world, pattern, materials, spec, 0);
-  const Frame rung = ScanFrame(simulator);
+  const Frame rung = FrameBy(simulator);
   spec = SpecOf(scenario.lidar, YardstickEffects());
   spec.detector.effects.detection_probability = false;
   spec.detector.beam.reference_rays = 1024;
   simulator.Use(spec);
-  const Frame reference = ScanFrame(simulator);
+  const Frame reference = FrameBy(simulator);
   double num = 0.0;
   double sum_m = 0.0;
   double axis_m = 0.0;

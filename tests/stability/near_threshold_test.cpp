@@ -125,7 +125,7 @@ SimulatorSpec Spec(Rung rung) {
 }
 
 Frame ScanAt(double range_m, const SimulatorSpec& spec) {
-  return ScanFrame(
+  return FrameBy(
       Simulator(SheetBesideWall(range_m), MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec, 0));
 }
 
@@ -201,8 +201,8 @@ TEST(Retroreflector, IsSeenUpToTheRangeGate) {
 TEST(Retroreflector, AtTheGateIsOutOfRangeHalfOfTheTime) {
   SimulatorSpec spec = Spec(Rung::kSurface);
   spec.detector.range_max_m = 100.01;
-  const Frame frame = ScanFrame(Simulator(SheetBesideWall(100.01 - 1e-3),
-                                          MakeRaster(2.0, 0.4, 0.02), RetroMaterials(), spec, 0));
+  const Frame frame = FrameBy(Simulator(SheetBesideWall(100.01 - 1e-3), MakeRaster(2.0, 0.4, 0.02),
+                                        RetroMaterials(), spec, 0));
   double beyond = 0.0;
   double expected = 0.0;
   double variance = 0.0;

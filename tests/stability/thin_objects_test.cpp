@@ -132,11 +132,11 @@ class ThinObjectsOn : public testing::TestWithParam<std::string> {
                                       double range_m) const {
     const std::shared_ptr<SimpleWorld> row = RowOf(model, range_m);
     Simulator simulator = MakeSimulator(row, EffectsOfRung(Fidelity::kFootprint));
-    const Frame rung = ScanFrame(simulator);
+    const Frame rung = FrameBy(simulator);
     SimulatorSpec spec = SpecOf(scenario_.lidar, YardstickEffects());
     spec.detector.beam.reference_rays = kManySubRays;
     simulator.Use(spec);
-    const Frame reference = ScanFrame(simulator);
+    const Frame reference = FrameBy(simulator);
     const ThinEchoes echoes = CompareThin(rung, reference, model->parts.front().label);
     return echoes;
   }

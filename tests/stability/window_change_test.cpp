@@ -47,7 +47,7 @@ ScenarioSpec LineFrom(double start_s_m, const std::string& detail = "full") {
 }
 
 Frame FirstFrame(double start_s_m, const std::string& detail = "full") {
-  return ScanFrame(*MakeSimulator(LineFrom(start_s_m, detail), 0));
+  return FrameBy(*MakeSimulator(LineFrom(start_s_m, detail), 0));
 }
 
 // The seam is at 150 m. A millimetre before it the scan begins in one chunk and ends in the other,
@@ -109,7 +109,7 @@ TEST(WindowChange, MovesFewPointsWithSceneDetail) {
 // The second frame of one run, in the next window, is the first of a run that begins there.
 TEST(WindowChange, BetweenFramesDoesNotShow) {
   const auto simulator = MakeSimulator(LineFrom(145.0), 0);
-  Frame second = ScanFrame(*simulator);
+  Frame second = FrameBy(*simulator);
   simulator->Scan(1, second);
   const Frame first = FirstFrame(145.0 + 0.1 * kFastTrain_mps);
   ASSERT_EQ(first.num_slots(), second.num_slots());

@@ -206,7 +206,7 @@ TEST(FogInFrames, IsTheSameAtAnyNumberOfThreads) {
   for (const int num_threads : {2, 8}) {
     Simulator simulator(OpenGround(), MakeRaster(60.0, 30.0, 0.5), TestMaterials(), spec,
                         num_threads);
-    Frame frame = ScanFrame(simulator, 4);
+    Frame frame = FrameBy(simulator, 4);
     simulator.Scan(5, frame);
     EXPECT_EQ(FrameBytes(frame), FrameBytes(one));
   }

@@ -46,8 +46,8 @@ SimulatorSpec WithHalo(double share) {
 }
 
 Frame ScanBoard(const SimulatorSpec& spec, int num_threads = 0) {
-  return ScanFrame(Simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(), spec,
-                             num_threads));
+  return FrameBy(Simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(), spec,
+                           num_threads));
 }
 
 double OffAxis_deg(const Frame& frame, std::size_t slot) {
@@ -94,7 +94,7 @@ TEST(HaloInFrames, IsTheSameAtAnyNumberOfThreads) {
 TEST(HaloInFrames, IsExplainedAsItIsScanned) {
   Simulator simulator(BoardBeforeAWall(), MakeRaster(8.0, 8.0, 0.05), BoardMaterials(),
                       WithHalo(1e-6), 0);
-  const Frame frame = ScanFrame(simulator);
+  const Frame frame = FrameBy(simulator);
   std::size_t num_checked = 0;
   for (std::uint32_t firing = 80 * 160; firing < 80 * 160 + 160; firing += 2) {
     const FiringStory story = simulator.Explain(0, firing);
@@ -126,7 +126,7 @@ std::vector<Pair> PairsBeforeAWall(std::optional<double> saturation_power_ratio)
   spec.detector.receiver.return_mode = ReturnMode::kDual;
   spec.detector.receiver.saturation_power_ratio = saturation_power_ratio;
   const Frame frame =
-      ScanFrame(Simulator(world, MakeRaster(4.0, 4.0, 0.05), BoardMaterials(), spec, 0));
+      FrameBy(Simulator(world, MakeRaster(4.0, 4.0, 0.05), BoardMaterials(), spec, 0));
   std::vector<Pair> pairs;
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     if (frame.return_count[slot] != 2) continue;

@@ -29,7 +29,7 @@ MaterialLibrary Materials() {
 Frame Scan(const std::shared_ptr<SimpleWorld>& world,
            const ScanPattern& pattern,
            const SimulatorSpec& spec) {
-  return ScanFrame(Simulator(world, pattern, Materials(), spec, 0));
+  return FrameBy(Simulator(world, pattern, Materials(), spec, 0));
 }
 
 std::size_t CountIn(const Frame& frame, Outcome outcome) {

@@ -42,7 +42,7 @@ namespace railcast {
 
 /// Scans one frame with a simulator, which may be a temporary one.
 template <typename Scanner>
-[[nodiscard]] Frame ScanFrame(Scanner&& simulator, std::uint32_t frame_index = 0) {
+[[nodiscard]] Frame FrameBy(Scanner&& simulator, std::uint32_t frame_index = 0) {
   Frame frame;
   simulator.Scan(frame_index, frame);
   return frame;
@@ -54,8 +54,8 @@ template <typename Scanner>
                                     const SimulatorSpec& spec = {},
                                     std::uint32_t frame_index = 0,
                                     int num_threads = 0) {
-  return ScanFrame(Simulator(std::move(world), pattern, TestMaterials(), spec, num_threads),
-                   frame_index);
+  return FrameBy(Simulator(std::move(world), pattern, TestMaterials(), spec, num_threads),
+                 frame_index);
 }
 
 }  // namespace railcast

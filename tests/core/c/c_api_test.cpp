@@ -49,7 +49,7 @@ TEST(CApi, MakesTheChoiceOfFidelityAuto) {
   const ScenarioSpec scenario = ReadScenarioText(automatic.text, automatic.file);
   const auto simulator = MakeSimulator(scenario, 2);
   UseChosenFidelity(*simulator, scenario, [](double) {});
-  Frame frame = ScanFrame(*simulator, 1);
+  Frame frame = FrameBy(*simulator, 1);
   const Sim sim = CreateSim(automatic.Config());
   ASSERT_TRUE(sim);
   ASSERT_EQ(railcast_step(sim.get(), 1), RAILCAST_OK);

@@ -55,7 +55,7 @@ TEST(CameraAndLidar, AgreeInEveryReturnWhoseBeamGoesThroughAPixel) {
       FiringTableSpec{folder.Write("pixels.csv", TableOfPixels(*spec.camera))};
   const auto simulator = MakeSimulator(spec, 2);
   CameraImage image;
-  const Frame frame = ScanFrame(*simulator);
+  const Frame frame = FrameBy(*simulator);
   MakeCamera(spec)->Render(*simulator, 0, image);
   ASSERT_EQ(frame.num_slots(), 160U * 90U);
   const Transform camera_from_sensor =
@@ -143,7 +143,7 @@ TEST(CameraAndLidar, AgreeInReturnsBetweenThePixels) {
   spec.camera->mount = MountSpec{.position_m = {2.2, 0.0, 2.6}, .yaw_deg = 1.0, .pitch_deg = 3.0};
   const auto simulator = MakeSimulator(spec, 2);
   CameraImage image;
-  const Frame frame = ScanFrame(*simulator);
+  const Frame frame = FrameBy(*simulator);
   MakeCamera(spec)->Render(*simulator, 0, image);
   const Projection counts = ProjectionOf(frame, spec, image);
   // 14,148 returns; 34 on slivers narrower than a pixel. Of the 11,284 between four pixels of one

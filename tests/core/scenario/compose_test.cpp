@@ -72,7 +72,7 @@ TEST(MakeSimulator, NamesTheFileWhoseEffectsDoNotFitAnotherRung) {
 /// Intensities of the returned points, by label.
 std::map<std::string, std::vector<float>> IntensitiesByLabel(const ScenarioSpec& spec) {
   std::map<std::string, std::vector<float>> intensities;
-  const Frame frame = ScanFrame(*MakeSimulator(spec, 0));
+  const Frame frame = FrameBy(*MakeSimulator(spec, 0));
   for (const Label& label : spec.labels) {
     for (std::size_t i = 0; i < frame.label.size(); ++i) {
       if (frame.label[i] != label.id || frame.outcome[i] != Outcome::kReturned) continue;

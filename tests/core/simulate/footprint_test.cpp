@@ -196,7 +196,7 @@ TEST(Footprint, LeavesOutNoCentralRayThatMakesADifference) {
   spec.detector.beam.divergence_mrad = {3.0, 3.0};
   const MaterialLibrary materials({{"dark", 0.1}, {"grey", 0.5}, {"white", 1.0}, {"black", 0.0}});
   Simulator simulator(world, MakeRaster(2, 2, 0.02), materials, spec, 0);
-  const Frame frame = ScanFrame(simulator);
+  const Frame frame = FrameBy(simulator);
   for (const Outcome outcome :
        {Outcome::kReturned, Outcome::kNoSurface, Outcome::kNearRange, Outcome::kEgo}) {
     EXPECT_GT(std::ranges::count(frame.outcome, outcome), 100) << static_cast<int>(outcome);

@@ -58,7 +58,7 @@ SimulatorSpec WithMirrors() {
 Frame ScanMirrors(const std::shared_ptr<const World>& world,
                   const SimulatorSpec& spec,
                   int num_threads = 0) {
-  return ScanFrame(
+  return FrameBy(
       Simulator(world, MakeRaster(40.0, 20.0, 0.5), MirrorMaterials(), spec, num_threads));
 }
 
@@ -335,7 +335,7 @@ TEST(MirrorPaths, LeaveTheDrawsOfOtherBeamsAlone) {
 TEST(MirrorPaths, AreExplainedAsTheyAreScanned) {
   const auto world = WallBehindAFloor();
   Simulator simulator(world, MakeRaster(40.0, 20.0, 0.5), MirrorMaterials(), WithMirrors(), 0);
-  const Frame frame = ScanFrame(simulator);
+  const Frame frame = FrameBy(simulator);
   std::size_t num_told = 0;
   for (std::uint32_t firing = 0; firing < frame.num_slots(); firing += 37) {
     const FiringStory story = simulator.Explain(0, firing);

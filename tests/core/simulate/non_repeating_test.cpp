@@ -70,8 +70,8 @@ SimulatorSpec EveryEffect() {
 }
 
 Frame ScanYard(const ScanPattern& pattern, std::uint32_t frame_index, int num_threads) {
-  return ScanFrame(Simulator(Yard(), pattern, BoardMaterials(), EveryEffect(), num_threads),
-                   frame_index);
+  return FrameBy(Simulator(Yard(), pattern, BoardMaterials(), EveryEffect(), num_threads),
+                 frame_index);
 }
 
 // NaN, where there is none, is the same as NaN.
@@ -106,7 +106,7 @@ TEST(NonRepeatingSensor, MakesTheSameBytesInAnyOrderAndAtAnyNumberOfThreads) {
 TEST(NonRepeatingSensor, PutsItsPointsOnThisFramesBeams) {
   const ScanPattern pattern = Rosettes();
   const ScanPattern of_frame = PatternOfFrame(pattern, kFrame);
-  const Frame frame = ScanFrame(Simulator(Yard(), pattern, BoardMaterials(), {}, 1), kFrame);
+  const Frame frame = FrameBy(Simulator(Yard(), pattern, BoardMaterials(), {}, 1), kFrame);
   std::size_t num_points = 0;
   for (std::size_t i = 0; i < of_frame.num_firings(); ++i) {
     const std::size_t slot = of_frame.row[i] * pattern.columns + of_frame.column[i];

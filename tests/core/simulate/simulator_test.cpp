@@ -215,7 +215,7 @@ TEST(Simulator, ExplainsAFiringAsScanMeasuredIt) {
   spec.detector.weather.rain_rate_mmph = 30.0;
   spec.detector.weather.snow_rate_mmph = 10.0;
   Simulator simulator(WorldWithWall(60.0F), MakeRaster(20, 10, 1), TestMaterials(), spec, 1);
-  const Frame frame = ScanFrame(simulator, 5);
+  const Frame frame = FrameBy(simulator, 5);
   for (std::uint32_t firing = 0; firing < 200; ++firing) {
     const FiringStory story = simulator.Explain(5, firing);
     EXPECT_EQ(story.time_ns, frame.time_ns[story.slot]);
@@ -291,7 +291,7 @@ TEST(Simulator, ExplainsEveryEchoWithTheSlotItHasInTheFrame) {
   world->AddObject(WallModel(0.0F, 2.0F, 1),
                    MakeTransform(Eigen::Matrix3d::Identity(), {20.0, 0.0, 0.0}));
   Simulator simulator(world, MakeRaster(20, 10, 0.5), TestMaterials(), spec, 1);
-  const Frame frame = ScanFrame(simulator, 5);
+  const Frame frame = FrameBy(simulator, 5);
   std::size_t num_echoes = 0;
   for (std::uint32_t firing = 0; firing < 800; ++firing) {
     const FiringStory story = simulator.Explain(5, firing);

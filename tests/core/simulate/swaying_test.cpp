@@ -321,7 +321,7 @@ TEST(Swaying, AChangeOfTheWindTakesEffect) {
   const Frame still = ScanOnce(world, pattern, {}, 3);
   const Frame swayed = ScanOnce(world, pattern, InWind(12.0, 10.0), 3);
   Simulator simulator(world, pattern, TestMaterials(), {}, 1);
-  Frame frame = ScanFrame(simulator, 3);
+  Frame frame = FrameBy(simulator, 3);
   SimulatorSpec spec = simulator.spec();
   spec.detector.weather.wind_speed_mps = 12.0;
   spec.detector.weather.wind_direction_deg = 10.0;

@@ -108,7 +108,7 @@ TEST(VelocityOfClutter, OfMirrorImagesIsTheChangeOfTheWholePath) {
   const MaterialLibrary materials({{.name = "glass", .specular_f0 = 0.08, .height_rms_um = 0.0},
                                    {.name = "plaster", .reflectivity = 0.5}});
   const ScanPattern pattern = MakeRaster(40, 20, 0.5);
-  const Frame frame = ScanFrame(Simulator(world, pattern, materials, spec, 0));
+  const Frame frame = FrameBy(Simulator(world, pattern, materials, spec, 0));
   std::size_t num_images = 0;
   ForEachFiring(frame, pattern, [&](std::size_t slot, const Vector3& direction, double) {
     if (frame.label[slot] != kClutterLabel) return;
@@ -131,7 +131,7 @@ TEST(VelocityOfClutter, OfGhostsIsTwiceThatOfTheirRetroreflector) {
       {{.name = "soil"}, {.name = "sheeting", .reflectivity = 0.5, .retroreflectance = 1000.0}});
   const ScanPattern pattern = MakeRaster(4, 4, 1);
   const Frame frame =
-      ScanFrame(Simulator(WorldWithWallAt(10.0, {6.0, 0.0, 0.0}), pattern, materials, spec, 1));
+      FrameBy(Simulator(WorldWithWallAt(10.0, {6.0, 0.0, 0.0}), pattern, materials, spec, 1));
   for (std::size_t slot = 0; slot < frame.num_slots(); slot += 2) {
     ASSERT_EQ(frame.label[slot + 1], kClutterLabel);
     EXPECT_NEAR(TrueAt(frame, slot + 1), 2.0 * TrueAt(frame, slot), kRounding_mps);

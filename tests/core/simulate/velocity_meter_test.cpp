@@ -185,7 +185,7 @@ TEST(VelocityMeter, AHostsSceneHasNone) {
   const auto world = WorldWithWallAt(40.0);
   const ScanPattern pattern = MakeRaster(10, 10, 1);
   Simulator simulator(world, pattern, TestMaterials(), Measuring(), 1);
-  Frame frame = ScanFrame(simulator);
+  Frame frame = FrameBy(simulator);
   ASSERT_TRUE(frame.has_velocity);
   simulator.VisitScene(0, [&](const SceneOfFrame& scene) {
     simulator.Scan(0, {scene.caster, scene.window_from_world, scene.surfaces}, frame);

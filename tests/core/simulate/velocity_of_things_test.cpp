@@ -57,7 +57,7 @@ TEST(VelocityOfThings, OfGroundIsTheVehiclesMotionInACurveWithCantAndRide) {
   const auto simulator = MakeSimulator(spec, 0);
   const auto world = MakeWorld(spec);
   const Transform vehicle_from_sensor = VehicleFromSensor(spec.lidar.mount);
-  const Frame frame = ScanFrame(*simulator, 3);
+  const Frame frame = FrameBy(*simulator, 3);
   double fastest_turn_radps = 0.0;
   std::size_t num_grounds = 0;
   ForEachFiring(

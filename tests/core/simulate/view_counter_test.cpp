@@ -153,7 +153,7 @@ TEST(ViewCounter, CountsVisibleFiringsAsTheFrameShowsThem) {
   auto world = WorldOf(Crowd());
   world->ground.parts = {{MakeWall(60.0F, 10.0F), 1, 1}};
   Simulator simulator(world, Pattern(), TestMaterials(), {}, 2);
-  const Frame frame = ScanFrame(simulator, 2);
+  const Frame frame = FrameBy(simulator, 2);
   const std::vector<ObjectView> views = simulator.ViewObjects(2);
   std::size_t num_partly_hidden = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -233,7 +233,7 @@ TEST(ViewCounter, CountsTheSameWithTheRaysOfTheFrame) {
   world->ground.parts = {{MakeWall(60.0F, 10.0F), 1, 1}};
   for (const SimulatorSpec& spec : SpecsWithOtherRays()) {
     Simulator simulator(world, Pattern(), TestMaterials(), spec, 3);
-    Frame expected = ScanFrame(simulator, 2);
+    Frame expected = FrameBy(simulator, 2);
     Frame frame;
     std::vector<ObjectView> views;
     simulator.Scan(*simulator.Begin(2), frame, views);
