@@ -8,23 +8,18 @@
 #include "core/base/error.h"
 #include "core/scenario/command_log.h"
 #include "tests/core/scenario/scenario_files.h"
+#include "tests/support/world_specs.h"
 
 namespace railcast {
 namespace {
 
 std::vector<Command> OneOfEach() {
-  PlaceObject place;
-  place.object.name = "bob \"the\" builder \xC3\xA4";
-  place.object.type = ObjectType::kPerson;
-  place.object.s_m = 2240.25;
-  place.object.d_m = -0.1;
+  PlaceObject place{ObjectAt("bob \"the\" builder \xC3\xA4", ObjectType::kPerson, 2240.25, -0.1)};
   place.object.h_m = 0.0;
   place.object.size_m = {0.5, 0.5, 1.9};
   place.object.material = "clothing";
   place.object.motion = MotionSpec{{{0.0, std::nullopt, 1.25}}, true};
-  PlaceObject on_map;
-  on_map.object.name = "b";
-  on_map.object.type = ObjectType::kPerson;
+  PlaceObject on_map{ObjectAt("b", ObjectType::kPerson, 0.0)};
   on_map.object.longitude_deg = 15.7528944;
   on_map.object.latitude_deg = 48.2396283;
   SetWeather weather;
@@ -220,10 +215,7 @@ class CommandLogFile : public testing::Test {
 };
 
 TEST_F(CommandLogFile, IsReadAsItIsWritten) {
-  PlaceObject place;
-  place.object.name = "bob";
-  place.object.type = ObjectType::kPerson;
-  place.object.s_m = 2240.1;
+  const PlaceObject place{ObjectAt("bob", ObjectType::kPerson, 2240.1)};
   const CommandLog log{"5ce0a410",
                        {{0, SetSpeed{11.1, 0.3}},
                         {1'500'000'001, place},

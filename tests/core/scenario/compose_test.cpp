@@ -82,7 +82,7 @@ std::map<std::string, std::vector<float>> IntensitiesByLabel(const ScenarioSpec&
   return intensities;
 }
 
-float MedianOf(std::vector<float> values) {
+float MedianIntensity(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -99,12 +99,12 @@ TEST(LevelCrossingScene, ShowsAllThatStandsAlongIt) {
 /// White sheeting has 570 times the answer of a white Lambertian, everything else at most 1.
 TEST(LevelCrossingScene, ShowsItsBoardsAHundredTimesAsBrightAsAllElse) {
   const auto seen = IntensitiesByLabel(ReadScenario(ScenariosDir() / "level_crossing.json"));
-  const float boards = MedianOf(seen.at("board"));
+  const float boards = MedianIntensity(seen.at("board"));
   EXPECT_GT(boards, 100.0F);
   for (const auto& [label, intensities] : seen) {
     // At 200 m, half of what is seen of the buffer stop is its board.
     if (label == "board" || label == "buffer_stop") continue;
-    EXPECT_LT(100.0F * MedianOf(intensities), boards) << label;
+    EXPECT_LT(100.0F * MedianIntensity(intensities), boards) << label;
   }
 }
 
