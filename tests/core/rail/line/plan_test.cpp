@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/rail/line/plan_course.h"
-#include "core/rail/line/plan_course.h"
 
 namespace railcast {
 namespace {

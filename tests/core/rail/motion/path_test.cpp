@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rail/motion/track_path.h"
 #include "core/rail/motion/path_way.h"
+#include "core/rail/motion/track_path.h"
 #include "tests/core/rail/test_line.h"
 
 namespace railcast {
