@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints the tables of docs/insert.md, "Against reality", and draws docs/images/insertion_real.png. Needs
+# Prints the tables of docs/results/insertion.md, "Against reality", and draws docs/images/insertion_real.png. Needs
 # the test program generator_tests of a release build, the real captures that it reads, and gnuplot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
