@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Charts what the size of surfels costs and gains, for docs/survey.md.
+"""Charts what the size of surfels costs and gains, for docs/results/surveys.md.
 
     scripts/dev/draw_survey_sizes.py BUILD PICTURE
 

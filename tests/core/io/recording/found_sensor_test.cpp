@@ -196,7 +196,7 @@ std::string RowOfPage(const HiddenCapture& capture, const FoundAgain& again) {
          Decimals(100.0 * again.share_without_return) + " |\n";
 }
 
-// The table of docs/recordings.md is made from what is found here:
+// The table of docs/results/found_sensors.md is made from what is found here:
 //   RAILCAST_WRITE_FOUND=1 build/ci/tests/core/io/io_tests --gtest_filter='FoundSensor.IsThat*'
 TEST(FoundSensor, IsThatOfEveryCaptureAsThePageSays) {
   std::string table;
@@ -213,7 +213,7 @@ TEST(FoundSensor, IsThatOfEveryCaptureAsThePageSays) {
     EXPECT_EQ(again.sensor.num_lost, 0U);
     table += RowOfPage(capture, again);
   }
-  const std::string page_file = RAILCAST_SOURCE_DIR "/docs/recordings.md";
+  const std::string page_file = RAILCAST_SOURCE_DIR "/docs/results/found_sensors.md";
   const std::string page = ReadFileWhole(page_file);
   constexpr std::string_view kBegin = "<!-- found sensors -->\n";
   const std::size_t begin = page.find(kBegin) + kBegin.size();

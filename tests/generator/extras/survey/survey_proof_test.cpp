@@ -157,7 +157,7 @@ void PrintCurve(const std::string& what,
   }
 }
 
-/// Prints the tables of docs/survey.md:
+/// Prints the tables of docs/results/surveys.md:
 ///   RAILCAST_PRINT_SURVEY=1 build/release/tests/generator/generator_tests
 ///   --gtest_filter=SurveyProof.*
 void PrintTables(const Prediction& made) {
