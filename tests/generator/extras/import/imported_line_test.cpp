@@ -189,7 +189,7 @@ TEST(ImportedLine, IsAnAlignmentFileOfAScenario) {
 }
 
 /// The lines of a real extract, the long ones left out for the sake of time;
-/// docs/notes/import_sankt_poelten.md has them all.
+/// docs/results/import.md has them all.
 TEST(ImportedLine, FitsTheShortLinesAroundSanktPoelten) {
   const std::filesystem::path file =
       RAILCAST_SHARED_DATA_DIR "/osm_sankt_poelten/sankt_poelten.json";
