@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Approaches a standing wagon and a person in clear air, rain and fog, prints the results, and writes
-# them into the table of docs/live.md. Every run is in lockstep, so that the figures are
+# them into the table of docs/results/braking.md. Every run is in lockstep, so that the figures are
 # reproducible, on a busy machine, too.
 #
 # Usage: scripts/dev/brake_runs.sh [BUILD_DIR]
@@ -25,4 +25,4 @@ for scenario in brake_wagon brake_person; do
     simulation=
   done
 done
-scripts/dev/brake_table.py "$runs" docs/live.md
+scripts/dev/brake_table.py "$runs" docs/results/braking.md

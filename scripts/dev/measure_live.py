@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Measures live runs on this machine, sender and receiver on loopback, as in
-docs/notes/live_measured.md.
+docs/results/live.md.
 
 Usage: measure_live.py BUILD_DIR [steady|clients|limits|late|fast]... [--seconds S]
 

@@ -9,9 +9,10 @@
 namespace railcast {
 namespace {
 
-// Returns the datagram that docs/stream.md spells out in lines of "offset hex bytes meaning".
+// Returns the datagram that docs/results/stream_datagram.md spells out in lines of "offset hex
+// bytes meaning".
 std::string DatagramOfThePage() {
-  const std::string page = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/stream.md");
+  const std::string page = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/results/stream_datagram.md");
   const std::size_t begin = page.find("```text\n") + 8;
   std::istringstream lines(page.substr(begin, page.find("```", begin) - begin));
   std::string bytes;
