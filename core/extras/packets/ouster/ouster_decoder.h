@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/extras/packets/ouster/ouster_packet.h"
-#include "core/io/sensor_turn.h"
-#include "core/io/turn_edit.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
+#include "core/extras/packets/spinning/turn_edit.h"
 #include "core/scenario/ouster_metadata.h"
 #include "railcast/lidar.h"
 #include "railcast/transform.h"

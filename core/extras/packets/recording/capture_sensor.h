@@ -13,8 +13,8 @@
 
 #include "core/extras/packets/ouster/ouster_decoder.h"
 #include "core/extras/packets/recording/capture_metadata.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
-#include "core/io/sensor_turn.h"
 #include "railcast/io/endpoint.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"

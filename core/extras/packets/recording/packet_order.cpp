@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/base/units.h"
-#include "core/io/scan_fit.h"
+#include "core/extras/packets/spinning/scan_fit.h"
 
 namespace railcast {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/sensor_turn.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 
 namespace railcast {
 

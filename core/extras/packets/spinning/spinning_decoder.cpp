@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/base/units.h"
+#include "core/extras/packets/spinning/scan_fit.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/io/scan_fit.h"
 #include "core/scan/at128_correction.h"
 
 namespace railcast {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/packets/spinning/sensor_turn.h"
 #include "core/extras/packets/spinning/spinning_model.h"
-#include "core/io/sensor_turn.h"
-#include "core/io/turn_edit.h"
+#include "core/extras/packets/spinning/turn_edit.h"
 
 namespace railcast {
 

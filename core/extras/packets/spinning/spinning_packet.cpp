@@ -9,9 +9,9 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
+#include "core/extras/packets/spinning/scan_fit.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/io/scan_fit.h"
-#include "core/io/sensor_turn.h"
 
 namespace railcast {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/extras/packets/spinning/coded_return.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 #include "core/extras/packets/spinning/spinning_model.h"
-#include "core/io/coded_return.h"
-#include "core/io/sensor_turn.h"
 
 namespace railcast {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/io/sensor_turn.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 
 namespace railcast {
 

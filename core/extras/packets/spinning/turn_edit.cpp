@@ -1,7 +1,7 @@
-#include "core/io/turn_edit.h"
+#include "core/extras/packets/spinning/turn_edit.h"
 
 #include "core/base/text.h"
-#include "core/io/coded_return.h"
+#include "core/extras/packets/spinning/coded_return.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/io/scan_fit.h"
+#include "core/extras/packets/spinning/scan_fit.h"
 
 #include <cmath>
 #include <variant>
