@@ -93,8 +93,8 @@ void BeamTracer::CastCenters(const WideBeams& beams, bool are_all_needed, Work& 
     if (!work.footprint.NeedsCenter(beams, i)) rays.range_m[i] = kNoRay_m;
   }
   beams.caster.Cast(rays);
-  if (beams.screens != nullptr) {
-    beams.screens->Meet(work.echoes.first.firing, work.echoes.first.num_rays, rays);
+  if (beams.besides != nullptr) {
+    beams.besides->Meet(work.echoes.first.firing, work.echoes.first.num_rays, rays);
   }
   for (float& range_m : rays.range_m) range_m = range_m < 0.0F ? range_max_m() : range_m;
 }
@@ -136,7 +136,7 @@ void BeamTracer::MakeEchoes(const CastFrame& frame,
                         .table = table,
                         .detector = detector_,
                         .mirrors = frame.mirrors ? &*frame.mirrors : nullptr,
-                        .screens = frame.screens};
+                        .besides = frame.besides};
   const bool is_wide = !casts_all_centers();
   if (is_wide) {
     work.footprint.Trace(beams, spec_.effects.thin_conductors ? frame.wires : nullptr, first);
@@ -179,26 +179,11 @@ void BeamTracer::PassAir(const CastFrame& frame, Work& work, const EffectObserve
   }
 }
 
-void BeamTracer::PutScreen(const Screen& screen, const EchoTiles::Place& place) const {
-  const auto& [tile, i] = place;
-  tile.surface[i] = screen.surface;
-  tile.true_range_m[i] = screen.range_m;
-  tile.cos_incidence[i] = 1.0F;
-  tile.normal_up[i] = 0.0F;
-  tile.spread_m[i] = 0.0F;
-  tile.share[i] = 1.0F;
-  tile.peak_shift_m[i] = 0.0F;
-  tile.reflectivity[i] = screen.intensity;
-  tile.outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
-  tile.clutter[i] = kNoClutter;
-  tile.intensity[i] = screen.intensity;
-  tile.power_ratio[i] = detector_.PowerRatio(screen.intensity, screen.range_m, 0.0F);
-}
-
-void BeamTracer::MakeScreenEchoes(const CastFrame& frame,
-                                  const FiringTiles& tiles,
-                                  std::size_t tile,
-                                  Work& work) const {
+void BeamTracer::MakeKnownEchoes(const CastFrame& frame,
+                                 const FiringTiles& tiles,
+                                 std::size_t tile,
+                                 Work& work,
+                                 const std::function<void(EchoTiles&)>& put) const {
   AimCenters(frame, tiles, tile, work);
   EchoTiles& echoes = work.echoes;
   DetectTile& first = echoes.first;
@@ -210,17 +195,7 @@ void BeamTracer::MakeScreenEchoes(const CastFrame& frame,
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   std::fill_n(echoes.mixed_share, first.num_rays, 0.0F);
   for (float* unknown : {first.intensity, first.power_ratio}) std::fill_n(unknown, kTileSize, kNaN);
-  for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
-    const auto screens = frame.screens->of(first.firing[lane]);
-    if (screens.empty()) continue;
-    // What the air adds must lie before the nearest.
-    const auto nearest = std::ranges::min_element(screens, {}, &Screen::range_m);
-    PutScreen(*nearest, {first, lane});
-    std::uint32_t number = 0;
-    for (const Screen& screen : screens) {
-      if (&screen != &*nearest) PutScreen(screen, echoes.Add(lane, ++number));
-    }
-  }
+  put(echoes);
   if (is_physical_) PassAir(frame, work, {});
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/detect/base/beam_optics.h"
@@ -32,8 +33,8 @@ struct CastFrame {
   std::optional<MirrorScene> mirrors{};  ///< Absent unless effect `mirror_paths` has any.
   /// Whether the caster takes rays that are shorter than 0, which hit nothing.
   bool takes_no_rays = false;
-  const FrameMotion* motion{};  ///< Null unless velocities are measured and it is known.
-  const Screens* screens{};     ///< Recorded returns; null if nothing was recorded.
+  const FrameMotion* motion{};      ///< Null unless velocities are measured and it is known.
+  const FiringSurfaces* besides{};  ///< What beams meet besides; null = nothing.
 };
 
 /// Makes the echoes of a tile of firings, from aiming the beams to the received power, with the
@@ -64,13 +65,13 @@ class BeamTracer {
                   Work& work,
                   const EffectObserver& observer = {}) const;
 
-  /// As MakeEchoes(), of firings that meet nothing but their screens, each of which sends an echo
-  /// of its own. Nothing is traced.
-  /// @pre The frame has screens.
-  void MakeScreenEchoes(const CastFrame& frame,
-                        const FiringTiles& tiles,
-                        std::size_t tile,
-                        Work& work) const;
+  /// As MakeEchoes(), of firings whose echoes from surfaces are known. Nothing is traced.
+  /// @param put Puts these echoes into the tile, whose firings have met nothing.
+  void MakeKnownEchoes(const CastFrame& frame,
+                       const FiringTiles& tiles,
+                       std::size_t tile,
+                       Work& work,
+                       const std::function<void(EchoTiles&)>& put) const;
 
   /// Aims the central rays of a tile, as MakeEchoes() does, describes the firings in
   /// `work.echoes.first`, and turns their sub-rays.
@@ -109,7 +110,6 @@ class BeamTracer {
   /// Casts the central rays of beams that need one; of all if `are_all_needed`.
   void CastCenters(const WideBeams& beams, bool are_all_needed, Work& work) const;
   void Blind(const CastFrame& frame, const RayTile& rays, EchoTiles& echoes) const;
-  void PutScreen(const Screen& screen, const EchoTiles::Place& place) const;
   /// What becomes of the light on its way through spray and before the sun.
   void PassAir(const CastFrame& frame, Work& work, const EffectObserver& observer) const;
 

@@ -107,8 +107,8 @@ bool ViewCounter::FindAlone(Packet& packet) const {
 
 void ViewCounter::Cast(Packet& packet) const {
   frame_.caster.Cast(packet.rays);
-  if (frame_.screens == nullptr) return;
-  frame_.screens->Meet(packet.firings.data(), kPacketSize, packet.rays);
+  if (frame_.besides == nullptr) return;
+  frame_.besides->Meet(packet.firings.data(), kPacketSize, packet.rays);
 }
 
 void ViewCounter::Count(const Packet& packet) {

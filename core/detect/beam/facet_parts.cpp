@@ -63,7 +63,7 @@ void FacetParts::Aim(const WideBeams& beams, std::size_t lane, const BeamSubRays
 
 void FacetParts::Cast(const WideBeams& beams, std::uint32_t firing) {
   beams.caster.CastBeam(beam_);
-  if (beams.screens != nullptr) beams.screens->Meet(firing, beam_);
+  if (beams.besides != nullptr) beams.besides->Meet(firing, beam_);
 }
 
 bool FacetParts::IsOneFacet() const {

@@ -64,7 +64,7 @@ void SubRayParts::Flush(const WideBeams& beams, std::size_t num_rays) {
   rays.mask = beams.rays.mask;
   const std::size_t num = batch_.Pad(num_rays);
   beams.caster.Cast(rays);
-  if (beams.screens != nullptr) beams.screens->Meet(firing_.data(), num_rays, rays);
+  if (beams.besides != nullptr) beams.besides->Meet(firing_.data(), num_rays, rays);
   batch_.Respond(beams, kernels_, num, num_rays, found_);
 }
 

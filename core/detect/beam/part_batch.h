@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,13 +10,25 @@
 #include "core/detect/base/detect_tile.h"
 #include "core/detect/beam/echo_finder.h"
 #include "core/detect/beam/mirrors.h"
-#include "core/detect/beam/screens.h"
 #include "core/detect/detector/detector.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {
+
+/// Surfaces beside those of the scene, each of which only the beams of its own firing meet.
+/// Thread-safe, as long as one thread at a time asks for a firing.
+class FiringSurfaces {
+ public:
+  virtual ~FiringSurfaces() = default;
+
+  /// Lets rays that have been cast meet the surfaces of their firings.
+  /// @param firings Of the first `num` rays.
+  virtual void Meet(const std::uint32_t* firings, std::size_t num, RayTile& rays) const = 0;
+  /// The same for the sub-rays of a firing's beam.
+  virtual void Meet(std::uint32_t firing, BeamRays& beam) const = 0;
+};
 
 /// A tile of wide beams. Their central rays are aimed, and traced unless a function says otherwise.
 struct WideBeams {
@@ -25,8 +38,8 @@ struct WideBeams {
   const RayCaster& caster;
   const SurfaceTable& table;
   const Detector& detector;
-  const MirrorScene* mirrors{};  ///< Null if nothing mirrors.
-  const Screens* screens{};      ///< What beams meet besides; null = nothing.
+  const MirrorScene* mirrors{};     ///< Null if nothing mirrors.
+  const FiringSurfaces* besides{};  ///< What beams meet besides; null = nothing.
 };
 
 /// Hits of sub-rays on the way to their response. Each stands for a share of its beam.

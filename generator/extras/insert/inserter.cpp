@@ -13,9 +13,9 @@
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/run/object_survey.h"
 #include "core/simulate/returns.h"
-#include "core/simulate/screen_surfaces.h"
-#include "core/simulate/screened_scan.h"
 #include "generator/extras/insert/recorded_surface.h"
+#include "generator/extras/insert/screen_surfaces.h"
+#include "generator/extras/insert/screened_scan.h"
 #include "railcast/scenario.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "core/simulate/screened_scan.h"
+#include "generator/extras/insert/screened_scan.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
@@ -24,10 +24,10 @@
 #include "core/simulate/firing_tiles.h"
 #include "core/simulate/frame_scene.h"
 #include "core/simulate/returns.h"
-#include "core/simulate/screen_echoes.h"
-#include "core/simulate/screen_surfaces.h"
 #include "core/simulate/velocity_meter.h"
 #include "core/simulate/view_counter.h"
+#include "generator/extras/insert/screen_echoes.h"
+#include "generator/extras/insert/screen_surfaces.h"
 
 namespace railcast {
 namespace {
@@ -88,6 +88,7 @@ struct ScreenedScan::Parts {
   struct Job {
     const RecordedScan& recorded;
     const CastFrame& cast;
+    const Screens& screens;
     const ScreenEchoes& screen_echoes;
     std::optional<VelocityMeter> velocities;
     Transform world_from_window;
@@ -182,7 +183,7 @@ CastFrame ScreenedScan::Parts::CastOf(const FrameScene& scene,
   }
   cast.mirrors = tracer->MirrorsAmong(surfaces, cast.window_from_world);
   cast.takes_no_rays = true;
-  cast.screens = &screens;
+  cast.besides = &screens;
   return cast;
 }
 
@@ -196,7 +197,9 @@ void ScreenedScan::Parts::MakeTile(const Job& job,
   if (kind == Kind::kTraced) {
     tracer->MakeEchoes(job.cast, firings, tile, mine);
   } else {
-    tracer->MakeScreenEchoes(job.cast, firings, tile, mine);
+    tracer->MakeKnownEchoes(job.cast, firings, tile, mine, [&](EchoTiles& empty) {
+      job.screen_echoes.Put(tracer->detector(), empty);
+    });
   }
   job.screen_echoes.Place(echoes);
   const Detector& detector = kind == Kind::kScreens ? *unfailing : tracer->detector();
@@ -206,7 +209,7 @@ void ScreenedScan::Parts::MakeTile(const Job& job,
   std::array<bool, kTileSize> is_told{};
   // Beams that were traced in vain are as all others.
   const auto is_of_kind = [&](std::uint32_t firing) {
-    return kind != Kind::kTraced || job.cast.screens->met(firing) != 0;
+    return kind != Kind::kTraced || job.screens.met(firing) != 0;
   };
   const auto tell = [&](std::size_t lane, const EchoTiles::Place& echo) {
     is_told[lane] = is_told[lane] || kind == Kind::kTraced || job.screen_echoes.IsNews(echo);
@@ -285,9 +288,10 @@ ScreenedFrame ScreenedScan::Parts::Scan(const RecordedScan& recorded, std::uint3
       MakeScreens(spec.detector, recorded.first, recorded.returns, first_material, surfaces);
   const CastFrame cast = CastOf(scene, surfaces.all, screens, duration_ns);
   const ReturnRule rule = RuleFor(returns);
-  const ScreenEchoes screen_echoes(spec.detector, rule, cast, surfaces);
+  const ScreenEchoes screen_echoes(spec.detector, rule, cast, screens, surfaces);
   Job job{.recorded = recorded,
           .cast = cast,
+          .screens = screens,
           .screen_echoes = screen_echoes,
           .velocities = {},
           .world_from_window = scene.window->window_from_world.inverse(),

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detect/beam/screens.h"
+#include "generator/extras/insert/screens.h"
 #include "railcast/effects.h"
 #include "railcast/material.h"
 #include "railcast/ray_caster.h"

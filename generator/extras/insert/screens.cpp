@@ -1,4 +1,4 @@
-#include "core/detect/beam/screens.h"
+#include "generator/extras/insert/screens.h"
 
 #include <algorithm>
 #include <limits>

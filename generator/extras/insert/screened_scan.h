@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/detect/beam/screens.h"
-#include "core/simulate/screen_echoes.h"
+#include "generator/extras/insert/screen_echoes.h"
+#include "generator/extras/insert/screens.h"
 #include "railcast/lidar.h"
 #include "railcast/material.h"
 #include "railcast/scene.h"

@@ -1,4 +1,4 @@
-#include "core/simulate/screen_surfaces.h"
+#include "generator/extras/insert/screen_surfaces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/detect/beam/part_batch.h"
 #include "railcast/ray_caster.h"
 
 namespace railcast {
@@ -40,7 +41,7 @@ using ScreenParts = std::array<std::uint32_t, kMostScreens>;
 /// A ray meets the nearest screen of its firing. Of sub-rays, every sixteenth belongs to one
 /// screen, so that the parts of a beam that returned separately are spread all over it: where in
 /// the beam they were is not known.
-class Screens {
+class Screens final : public FiringSurfaces {
  public:
   /// @param first By firing, the index of its first screen; one more for the end.
   Screens(std::vector<std::uint32_t> first, std::vector<Screen> screens);
@@ -53,12 +54,9 @@ class Screens {
   [[nodiscard]] std::uint32_t first(std::uint32_t firing) const { return first_[firing]; }
   [[nodiscard]] std::size_t num_firings() const { return first_.size() - 1; }
 
-  /// Lets rays that have been cast meet the screens of their firings. Firings that meet something
-  /// before their screens are noted. One thread at a time may do so for a firing.
-  /// @param firings Of the first `num` rays.
-  void Meet(const std::uint32_t* firings, std::size_t num, RayTile& rays) const;
-  /// The same for the sub-rays of a firing's beam.
-  void Meet(std::uint32_t firing, BeamRays& beam) const;
+  /// Firings that meet something before their screens are noted.
+  void Meet(const std::uint32_t* firings, std::size_t num, RayTile& rays) const override;
+  void Meet(std::uint32_t firing, BeamRays& beam) const override;
 
   /// The surface that the firing has met before or beside its screens; 0 = none.
   [[nodiscard]] std::uint32_t met(std::uint32_t firing) const { return met_[firing]; }

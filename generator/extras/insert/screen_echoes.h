@@ -9,8 +9,8 @@
 #include "core/detect/base/echo_tiles.h"
 #include "core/simulate/beam_tracer.h"
 #include "core/simulate/returns.h"
-#include "core/simulate/screen_surfaces.h"
 #include "core/simulate/velocity_meter.h"
+#include "generator/extras/insert/screen_surfaces.h"
 #include "railcast/effects.h"
 #include "railcast/outcome.h"
 
@@ -59,12 +59,17 @@ using VelocityOfEcho = std::function<BeamVelocity(const EchoTiles::Place& echo)>
 /// Turns the echoes of firings with screens into what has changed. Immutable; thread-safe.
 class ScreenEchoes {
  public:
-  /// @param cast With screens. It must outlive this, as must the others.
+  /// @param cast With these screens. It must outlive this, as must the others.
   ScreenEchoes(const DetectorSpec& detector,
                const ReturnRule& rule,
                const CastFrame& cast,
+               const Screens& screens,
                const ScreenSurfaces& surfaces)
-      : detector_(detector), rule_(rule), cast_(cast), surfaces_(surfaces) {}
+      : detector_(detector), rule_(rule), cast_(cast), screens_(screens), surfaces_(surfaces) {}
+
+  /// For BeamTracer::MakeKnownEchoes(): the echoes of firings that meet nothing but their screens,
+  /// each of which sends an echo of its own.
+  void Put(const Detector& detector, EchoTiles& echoes) const;
 
   /// Before Detector::Detect(): puts the echoes of screens where these are, unless other light in
   /// them moves their peaks.
@@ -99,6 +104,7 @@ class ScreenEchoes {
   const DetectorSpec& detector_;
   const ReturnRule& rule_;
   const CastFrame& cast_;
+  const Screens& screens_;
   const ScreenSurfaces& surfaces_;
 };
 

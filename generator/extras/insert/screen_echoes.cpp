@@ -1,4 +1,4 @@
-#include "core/simulate/screen_echoes.h"
+#include "generator/extras/insert/screen_echoes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,38 @@ void ForEachEcho(EchoTiles& echoes, const Use& use) {
   for (std::size_t i = 0; i < echoes.num_more(); ++i) use(echoes.more(i));
 }
 
+void PutScreen(const Screen& screen, const Detector& detector, const EchoTiles::Place& place) {
+  const auto& [tile, i] = place;
+  tile.surface[i] = screen.surface;
+  tile.true_range_m[i] = screen.range_m;
+  tile.cos_incidence[i] = 1.0F;
+  tile.normal_up[i] = 0.0F;
+  tile.spread_m[i] = 0.0F;
+  tile.share[i] = 1.0F;
+  tile.peak_shift_m[i] = 0.0F;
+  tile.reflectivity[i] = screen.intensity;
+  tile.outcome[i] = static_cast<std::uint32_t>(Outcome::kReturned);
+  tile.clutter[i] = kNoClutter;
+  tile.intensity[i] = screen.intensity;
+  tile.power_ratio[i] = detector.PowerRatio(screen.intensity, screen.range_m, 0.0F);
+}
+
 }  // namespace
+
+void ScreenEchoes::Put(const Detector& detector, EchoTiles& echoes) const {
+  const DetectTile& first = echoes.first;
+  for (std::size_t lane = 0; lane < first.num_rays; ++lane) {
+    const auto screens = screens_.of(first.firing[lane]);
+    if (screens.empty()) continue;
+    // What the air adds must lie before the nearest.
+    const auto nearest = std::ranges::min_element(screens, {}, &Screen::range_m);
+    PutScreen(*nearest, detector, {echoes.first, lane});
+    std::uint32_t number = 0;
+    for (const Screen& screen : screens) {
+      if (&screen != &*nearest) PutScreen(screen, detector, echoes.Add(lane, ++number));
+    }
+  }
+}
 
 void ScreenEchoes::Place(EchoTiles& echoes) const {
   ForEachEcho(echoes, [&](const EchoTiles::Place& echo) {
@@ -41,16 +72,16 @@ void ScreenEchoes::Place(EchoTiles& echoes) const {
     const auto& [tile, lane] = echo;
     const float shift_m = std::exchange(tile.peak_shift_m[lane], 0.0F);
     const float moved_m = std::fabs(shift_m) > kMoved_m ? shift_m : 0.0F;
-    tile.true_range_m[lane] = cast_.screens->screen(screen).range_m + moved_m;
+    tile.true_range_m[lane] = screens_.screen(screen).range_m + moved_m;
   });
 }
 
 float ScreenEchoes::PowerKept(const EchoTiles::Place& echo) const {
   if (!detector_.effects.detection) return 1.0F;
   const auto& [tile, lane] = echo;
-  const Screen& screen = cast_.screens->screen(ScreenAt(echo));
+  const Screen& screen = screens_.screen(ScreenAt(echo));
   // Only screens alone are not rounded to levels of materials.
-  const bool is_met = cast_.screens->met(tile.firing[lane]) != 0;
+  const bool is_met = screens_.met(tile.firing[lane]) != 0;
   const float alone = is_met ? surfaces_.alone[ScreenAt(echo)] : screen.intensity;
   const float kept = tile.power_ratio[lane] * LeastIntensity(detector_, screen.range_m) / alone;
   return is_met && std::fabs(kept - 1.0F) < kSame ? 1.0F : kept;
@@ -59,7 +90,7 @@ float ScreenEchoes::PowerKept(const EchoTiles::Place& echo) const {
 bool ScreenEchoes::IsDetected(const EchoTiles::Place& echo) const {
   if (!detector_.effects.detection) return true;
   const auto& [tile, lane] = echo;
-  const Screen& screen = cast_.screens->screen(ScreenAt(echo));
+  const Screen& screen = screens_.screen(ScreenAt(echo));
   const double before =
       static_cast<double>(screen.intensity / LeastIntensity(detector_, screen.range_m));
   const double ratio = before * static_cast<double>(PowerKept(echo));
@@ -109,9 +140,9 @@ ReturnNow ScreenEchoes::Describe(const EchoTiles::Place& echo) const {
     const float ratio = tile.intensity[lane] / surfaces_.alone[now.screen];
     // Weather takes no part of what an intensity says, and screens alone are not rounded to levels
     // of materials. Without a power, the ratio is NaN.
-    const bool is_met = cast_.screens->met(tile.firing[lane]) != 0;
+    const bool is_met = screens_.met(tile.firing[lane]) != 0;
     if (is_met && std::fabs(ratio - 1.0F) > kSame) now.intensity_ratio = ratio;
-    const Screen& screen = cast_.screens->screen(now.screen);
+    const Screen& screen = screens_.screen(now.screen);
     if (tile.true_range_m[lane] == screen.range_m) return now;
   }
   const Surface& surface = cast_.surfaces[tile.surface[lane]];
@@ -137,12 +168,11 @@ ReturnNow ScreenEchoes::Describe(const EchoTiles::Place& echo) const {
 ChangedFiring ScreenEchoes::Compose(EchoTiles& echoes,
                                     std::size_t lane,
                                     const VelocityOfEcho& velocity_of) const {
-  const Screens& screens = *cast_.screens;
   ChangedFiring changed{.firing = echoes.first.firing[lane],
                         .mixed_share = echoes.mixed_share[lane]};
-  const std::uint32_t first = screens.first(changed.firing);
+  const std::uint32_t first = screens_.first(changed.firing);
   std::vector<std::optional<EchoTiles::Place>> of_screen;
-  for (std::size_t k = 0; k < screens.of(changed.firing).size(); ++k) of_screen.emplace_back();
+  for (std::size_t k = 0; k < screens_.of(changed.firing).size(); ++k) of_screen.emplace_back();
   bool has_added = false;
   for (const EchoTiles::Place& echo : EchoesOf(echoes, lane)) {
     const std::uint32_t screen = ScreenAt(echo);
@@ -163,14 +193,14 @@ ChangedFiring ScreenEchoes::Compose(EchoTiles& echoes,
       if (echo && HasPoint(OutcomeAt(*echo))) changed.returns.push_back(Describe(*echo));
     }
   }
-  const std::uint32_t hidden_by = cast_.surfaces[screens.met(changed.firing)].instance;
+  const std::uint32_t hidden_by = cast_.surfaces[screens_.met(changed.firing)].instance;
   for (std::uint32_t k = 0; k < of_screen.size(); ++k) {
     const bool is_there = std::ranges::any_of(changed.returns, [&](const ReturnNow& now) {
       return now.screen == first + k && !now.is_added;
     });
     if (is_there) continue;
     // Without an object, a flake has taken its place (effect `snow`).
-    const bool is_hidden = screens.met(changed.firing) != 0;
+    const bool is_hidden = screens_.met(changed.firing) != 0;
     Outcome outcome = is_hidden ? Outcome::kBelowThreshold : Outcome::kNoFurtherEcho;
     if (of_screen[k]) outcome = OutcomeAt(*of_screen[k]);
     if (HasPoint(outcome)) outcome = Outcome::kNoFurtherEcho;
@@ -188,7 +218,7 @@ bool ScreenEchoes::IsNews(const EchoTiles::Place& echo) const {
 
 bool ScreenEchoes::IsChanged(const ChangedFiring& firing) const {
   if (!firing.lost.empty()) return true;
-  std::uint32_t next = cast_.screens->first(firing.firing);
+  std::uint32_t next = screens_.first(firing.firing);
   return std::ranges::any_of(firing.returns, [&](const ReturnNow& now) {
     return now.is_added || now.intensity_ratio != 1.0F || now.screen != next++;
   });
