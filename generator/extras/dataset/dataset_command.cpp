@@ -16,10 +16,10 @@
 #include "core/program/progress_line.h"
 #include "core/program/stop_signals.h"
 #include "generator/commands.h"
-#include "generator/empty_folder.h"
 #include "generator/extras/dataset/dataset_report.h"
 #include "generator/extras/dataset/inserted_scenarios.h"
 #include "generator/extras/dataset/run_dataset.h"
+#include "generator/extras/empty_folder.h"
 #include "generator/extras/recording_commands.h"
 #include "generator/run/run_options.h"
 

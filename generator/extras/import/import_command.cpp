@@ -22,7 +22,7 @@
 #include "core/io/write_file.h"
 #include "core/program/progress_line.h"
 #include "generator/commands.h"
-#include "generator/empty_folder.h"
+#include "generator/extras/empty_folder.h"
 #include "generator/extras/import/import_files.h"
 #include "generator/extras/import/lines/divided_line.h"
 #include "generator/extras/import/lines/imported_line.h"

@@ -21,7 +21,7 @@
 #include "core/scenario/descriptions.h"
 #include "core/scenario/json_writer.h"
 #include "generator/commands.h"
-#include "generator/empty_folder.h"
+#include "generator/extras/empty_folder.h"
 #include "generator/extras/recording_commands.h"
 #include "generator/extras/survey/survey.h"
 
