@@ -14,9 +14,9 @@
 #include "core/base/units.h"
 #include "core/io/cloud/scan_motion.h"
 #include "core/io/recording/recording_kinds.h"
-#include "core/scan/given_firings.h"
 #include "core/scan/spinning_pattern.h"
 #include "generator/extras/insert/firings/frame_slots.h"
+#include "generator/extras/insert/firings/given_firings.h"
 #include "generator/extras/insert/firings/known_scan.h"
 #include "generator/extras/insert/firings/ring_firings.h"
 

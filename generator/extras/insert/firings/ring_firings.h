@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/scan/given_firings.h"
+#include "generator/extras/insert/firings/given_firings.h"
 #include "railcast/io/recording.h"
 #include "railcast/lidar.h"
 
