@@ -1,11 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/detect/base/normal_table.h"
