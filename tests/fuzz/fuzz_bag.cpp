@@ -1,9 +1,7 @@
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "core/base/error.h"

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 #include "analysis/extras/detectors/reported_detections.h"

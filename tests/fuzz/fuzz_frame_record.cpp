@@ -1,6 +1,5 @@
 #include "core/io/run/frame_record.h"
 
-#include <cstdint>
 #include <string_view>
 
 #include "core/base/error.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "core/base/text.h"
 #include "generator/extras/insert/plan/pose_file.h"

@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstddef>
 #include <memory>
-#include <thread>
-#include <vector>
 
 #include "core/extras/dds/participant.h"
 #include "tests/core/extras/dds/fast_dds.h"

@@ -9,7 +9,6 @@
 #include "core/io/run/sequence_files.h"
 #include "core/io/run/trace_name.h"
 #include "core/io/write_file.h"
-#include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
 
 namespace railcast::osi {

@@ -1,6 +1,5 @@
 #include "core/extras/recipe/random_weather.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "core/extras/recipe/recipe.h"
 #include "core/io/write_file.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "core/io/content_hash.h"
 #include "core/io/write_file.h"

@@ -1,6 +1,5 @@
 #include "core/io/cloud/kitti_names.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -5,7 +5,6 @@
 #include <pcl/common/io.h>
 #include <pcl/io/pcd_io.h>
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/net/ipv6_loopback.h"

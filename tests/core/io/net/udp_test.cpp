@@ -11,11 +11,8 @@
 #include <chrono>
 #include <cstring>
 #include <future>
-#include <numeric>
 #include <optional>
-#include <set>
 #include <string>
-#include <thread>
 
 #include "core/io/net/socket.h"
 #include "core/io/net/udp.h"

@@ -1,16 +1,13 @@
 // Sensors found in nothing but x, y and z, against the beams that captures state.
 #include "core/io/recording/found_sensor.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <map>
-#include <set>
 #include <sstream>
 #include <string>
 

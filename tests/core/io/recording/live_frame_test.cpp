@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/stream/stream_example.h"

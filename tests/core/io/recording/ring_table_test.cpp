@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "core/base/random.h"
@@ -13,7 +12,6 @@
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/recording/elevation_rings.h"
 #include "core/io/recording/slot_plans.h"
-#include "railcast/transform.h"
 
 namespace railcast {
 namespace {

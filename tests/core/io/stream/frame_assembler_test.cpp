@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/base/random.h"
 #include "tests/core/io/stream/numbered_frames.h"

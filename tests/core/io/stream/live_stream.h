@@ -2,9 +2,7 @@
 
 #include <chrono>
 #include <functional>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "core/io/net/udp.h"
 #include "tests/core/io/stream/stream_example.h"

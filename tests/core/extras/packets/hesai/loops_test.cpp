@@ -2,8 +2,6 @@
 // takes two loops.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/base/units.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"

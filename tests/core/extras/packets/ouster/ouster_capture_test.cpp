@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/recording/capture_recording.h"

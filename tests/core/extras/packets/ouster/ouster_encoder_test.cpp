@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "core/base/units.h"
 #include "core/extras/packets/ouster/ouster_decoder.h"
@@ -13,7 +12,6 @@
 #include "tests/core/extras/packets/ouster/made_ouster.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/temporary_directory.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {

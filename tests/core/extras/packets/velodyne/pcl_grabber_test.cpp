@@ -2,7 +2,6 @@
 #include <pcl/io/hdl_grabber.h>
 #include <pcl/io/vlp_grabber.h>
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -10,7 +9,6 @@
 #include <future>
 #include <memory>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include "core/extras/packets/pcap/pcap_writer.h"

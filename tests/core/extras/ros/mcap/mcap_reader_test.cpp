@@ -5,11 +5,9 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
-#include "core/base/input_file.h"
 #include "core/extras/ros/mcap/byte_file.h"
 #include "core/extras/ros/mcap/mcap_index.h"
 #include "core/extras/ros/mcap/mcap_writer.h"
