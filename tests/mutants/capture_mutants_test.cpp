@@ -10,6 +10,7 @@
 #include "tests/core/extras/packets/pcap/made_capture.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/mutants/mutants.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -19,12 +20,8 @@ std::vector<std::string> SentTurns(const char* format,
                                    const char* sensor,
                                    std::uint32_t first = 0) {
   const MadeScan scan(ReadSensor(sensor));
-  const Datagrams datagrams = EncodeAll(
-      format, scan, {scan.MakeFrame(first), scan.MakeFrame(first + 1), scan.MakeFrame(first + 2)});
-  std::vector<std::string> packets;
-  for (const auto& packet : DataPackets(datagrams))
-    packets.emplace_back(packet.begin(), packet.end());
-  return packets;
+  return DataTexts(EncodeAll(
+      format, scan, {scan.MakeFrame(first), scan.MakeFrame(first + 1), scan.MakeFrame(first + 2)}));
 }
 
 using Frames = std::vector<CapturedFrame>;
@@ -35,16 +32,6 @@ Frames FramesOf(const std::vector<std::string>& packets) {
     frames.push_back({EthernetOf(IpOf(packet)), 1'000'000 + 1000 * frames.size()});
   }
   return frames;
-}
-
-std::string CaptureBytes(const Frames& frames, std::size_t link = 1) {
-  std::string bytes("\xD4\xC3\xB2\xA1\2\0\4\0\0\0\0\0\0\0\0\0\0\0\4\0", 20);
-  bytes += Little32(link);
-  for (const auto& [frame, time_us] : frames) {
-    bytes += Little32(time_us / 1'000'000) + Little32(time_us % 1'000'000) +
-             Little32(frame.size()) + Little32(frame.size()) + frame;
-  }
-  return bytes;
 }
 
 void TryFile(Mutants& mutants, const Frames& frames) {
@@ -290,10 +277,7 @@ TEST(CaptureMutants, OfHesaiAreNeverReadWrongWithoutAWord) {
 
 TEST(CaptureMutants, OfOusterAreNeverReadWrongWithoutAWord) {
   const std::string metadata = MadeOusterMetadataText();
-  std::vector<std::string> packets;
-  const Datagrams datagrams = MadeOuster(metadata).Encode({0, 1, 2});
-  for (const auto& packet : DataPackets(datagrams))
-    packets.emplace_back(packet.begin(), packet.end());
+  const std::vector<std::string> packets = DataTexts(MadeOuster(metadata).Encode({0, 1, 2}));
   const Frames frames = FramesOf(packets);
   const std::string capture = CaptureBytes(frames);
   Mutants mutants("Ouster in pcap", "a.pcap", capture, [&](const std::filesystem::path& file) {

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/ros/recording/bag_recording.h"
 #include "core/io/datagrams.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 
@@ -39,20 +39,10 @@ namespace railcast {
 /// Makes a capture of the packets in a sensor's recording, for tests of single packets.
 [[nodiscard]] inline std::filesystem::path CaptureOfHesaiBag(const std::string& name,
                                                              const TemporaryDirectory& folder) {
-  std::filesystem::path capture = folder.path() / (name + ".pcap");
-  constexpr std::uint16_t kDataPort = 2368;
-  constexpr std::uint16_t kPositionPort = 8308;
-  PcapWriter writer(capture, kDataPort, kPositionPort);
+  Datagrams datagrams;
   const auto packets = OpenBagPackets(HesaiBag(name));
-  while (const auto packet = packets->Next()) {
-    Datagrams one;
-    one.bytes.assign(packet->payload.begin(), packet->payload.end());
-    one.items.push_back({});
-    one.items.back().size = static_cast<std::uint16_t>(packet->payload.size());
-    writer.Write(one, one.items);
-  }
-  writer.Finish();
-  return capture;
+  while (const auto packet = packets->Next()) AddDatagram(packet->payload, datagrams);
+  return WriteDatagrams(folder.path() / (name + ".pcap"), datagrams);
 }
 
 }  // namespace railcast

@@ -26,4 +26,15 @@ inline Ended RunCommand(const std::string& command) {
   return run;
 }
 
+/// Whether Open3D is installed. Debian's package belongs to Debian's interpreter, which need not be
+/// the first on the path.
+inline bool HasOpen3d() {
+  return RunCommand("/usr/bin/python3 -c 'import open3d'").status == 0;
+}
+
+/// Whether Wireshark's program for terminals is installed.
+inline bool HasTshark() {
+  return RunCommand("command -v tshark").status == 0;
+}
+
 }  // namespace railcast

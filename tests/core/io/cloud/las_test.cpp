@@ -13,6 +13,8 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/faults.h"
 
 namespace railcast {
 namespace {
@@ -26,30 +28,13 @@ class LasFile : public testing::Test {
   Cloud Read(const std::string& bytes) { return ReadLas(Write(bytes)); }
   std::string MessageAbout(const std::string& bytes) {
     const auto file = Write(bytes);
-    const std::string message = MessageOf([&] { (void)ReadLas(file); });
-    EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
-    return message.substr(std::min(message.size(), file.string().size() + 2));
+    return MessageBehind(file.string() + ": ", [&] { (void)ReadLas(file); });
   }
 
   TemporaryDirectory folder_;
 };
 
-std::vector<double> LasColumn(const Cloud& cloud, const char* name) {
-  std::vector<double> values;
-  VisitField(cloud, *cloud.Find(name),
-             [&](std::size_t, auto value) { values.push_back(static_cast<double>(value)); });
-  return values;
-}
 using LasValues = std::vector<double>;
-
-/// "points-beyond 2".
-std::vector<std::string> LasRemarks(const Cloud& cloud) {
-  std::vector<std::string> names;
-  for (const Remark& remark : cloud.remarks) {
-    names.push_back(std::string(remark.type().name) + " " + std::to_string(remark.number));
-  }
-  return names;
-}
 
 TEST_F(LasFile, IsReadInEveryVersionAndFormat) {
   for (int format = 0; format <= 10; ++format) {
@@ -57,21 +42,21 @@ TEST_F(LasFile, IsReadInEveryVersionAndFormat) {
       SCOPED_TRACE(std::to_string(version) + " " + std::to_string(format));
       const Cloud cloud = Read(MadeLas{.minor_version = version, .format = format}.Bytes(3));
       ASSERT_EQ(cloud.num_points(), 3U);
-      EXPECT_EQ(LasColumn(cloud, "x"), (LasValues{5001.0, 5002.0, 5003.0}));
-      EXPECT_EQ(LasColumn(cloud, "y"), (LasValues{299'998.0, 299'996.0, 299'994.0}));
-      EXPECT_EQ(LasColumn(cloud, "z"), LasValues(3, 345 * 0.001));
-      EXPECT_EQ(LasColumn(cloud, "intensity"), (LasValues{100, 200, 300}));
-      EXPECT_EQ(LasColumn(cloud, "return_index"), (LasValues{0, 1, 2}));
-      EXPECT_EQ(LasColumn(cloud, "return_count"), (LasValues{3, 3, 3}));
-      EXPECT_EQ(LasColumn(cloud, "label"), (LasValues{1, 2, 3}));
-      EXPECT_EQ(LasColumn(cloud, "user_data"), (LasValues{41, 42, 43}));
-      EXPECT_EQ(LasColumn(cloud, "flags"), (LasValues{0x42, 0x42, 0x42}));
-      EXPECT_NEAR(LasColumn(cloud, "scan_angle")[0], -12.0, 1e-6);
-      EXPECT_EQ(LasColumn(cloud, "point_source_id"), (LasValues{7, 7, 7}));
+      EXPECT_EQ(FieldNumbers(cloud, "x"), (LasValues{5001.0, 5002.0, 5003.0}));
+      EXPECT_EQ(FieldNumbers(cloud, "y"), (LasValues{299'998.0, 299'996.0, 299'994.0}));
+      EXPECT_EQ(FieldNumbers(cloud, "z"), LasValues(3, 345 * 0.001));
+      EXPECT_EQ(FieldNumbers(cloud, "intensity"), (LasValues{100, 200, 300}));
+      EXPECT_EQ(FieldNumbers(cloud, "return_index"), (LasValues{0, 1, 2}));
+      EXPECT_EQ(FieldNumbers(cloud, "return_count"), (LasValues{3, 3, 3}));
+      EXPECT_EQ(FieldNumbers(cloud, "label"), (LasValues{1, 2, 3}));
+      EXPECT_EQ(FieldNumbers(cloud, "user_data"), (LasValues{41, 42, 43}));
+      EXPECT_EQ(FieldNumbers(cloud, "flags"), (LasValues{0x42, 0x42, 0x42}));
+      EXPECT_NEAR(FieldNumbers(cloud, "scan_angle")[0], -12.0, 1e-6);
+      EXPECT_EQ(FieldNumbers(cloud, "point_source_id"), (LasValues{7, 7, 7}));
       const bool has_time = format == 1 || format >= 3;
       EXPECT_EQ(cloud.Find("gps_time") != nullptr, has_time);
       if (!has_time) continue;
-      EXPECT_NEAR(LasColumn(cloud, "gps_time")[2], 7.15, 1e-9);
+      EXPECT_NEAR(FieldNumbers(cloud, "gps_time")[2], 7.15, 1e-9);
     }
   }
 }
@@ -94,21 +79,21 @@ TEST_F(LasFile, LeavesOutPointsThatAreWithheld) {
     std::string bytes = las.Bytes(3);
     bytes[las.header_bytes() + las.point_bytes() + place] |= mark;
     const Cloud cloud = Read(bytes);
-    EXPECT_EQ(LasColumn(cloud, "label"), (LasValues{1, 3}));
-    EXPECT_EQ(LasRemarks(cloud), std::vector<std::string>{"points-withheld 1"});
+    EXPECT_EQ(FieldNumbers(cloud, "label"), (LasValues{1, 3}));
+    EXPECT_EQ(RemarkTexts(cloud.remarks), std::vector<std::string>{"points-withheld 1"});
   }
 }
 
 TEST_F(LasFile, TellsOfPointsBeyondThoseThatItsHeaderStates) {
   const std::vector<std::string> expected = {"points-beyond 2"};
-  EXPECT_EQ(LasRemarks(Read(MadeLas{}.Bytes(5, 3))), expected);
+  EXPECT_EQ(RemarkTexts(Read(MadeLas{}.Bytes(5, 3)).remarks), expected);
   EXPECT_EQ(MessageAbout(MadeLas{}.Bytes(3, 5)),
             "must hold the points that its header states, 5 (got 3)");
   // What belongs to the waveforms is none.
   const MadeLas las{.minor_version = 3, .format = 4};
   std::string bytes = las.Bytes(5, 3);
   PutNumber(bytes, 227, std::uint64_t{las.header_bytes() + 3 * las.point_bytes()});
-  EXPECT_EQ(LasRemarks(Read(bytes)), std::vector<std::string>{"fields-left-out 1"});
+  EXPECT_EQ(RemarkTexts(Read(bytes).remarks), std::vector<std::string>{"fields-left-out 1"});
 }
 
 /// A record behind the header.

@@ -14,9 +14,11 @@
 #include "core/io/cloud/cloud_file.h"
 #include "core/io/cloud/pcd_encoder.h"
 #include "core/io/field_layout.h"
-#include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/pcl_reads.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -56,44 +58,25 @@ void ExpectSame(const Frame& frame, const pcl::PCLPointCloud2& cloud) {
 class PcdRoundTrip : public testing::TestWithParam<PcdEncoding> {};
 
 TEST_P(PcdRoundTrip, KeepsEveryBitOfEveryFieldThroughPclsReader) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.pcd";
   const Frame frame = ExampleFrame(3);
-  std::string bytes;
-  EncodePcd(frame, FieldSelection(), GetParam(), bytes);
-  WriteFileWhole(file, bytes);
-
-  pcl::PCLPointCloud2 by_pcl;
-  ASSERT_EQ(pcl::io::loadPCDFile(file.string(), by_pcl), 0);
-  ExpectSame(frame, by_pcl);
-  ExpectSame(frame, ReadPcd(file));
+  const WrittenFile file("frame.pcd", PcdBytes(frame, {}, GetParam()));
+  ExpectSame(frame, PclReads(file.path()));
+  ExpectSame(frame, ReadPcd(file.path()));
 }
 
 TEST_P(PcdRoundTrip, KeepsVelocitiesThroughPclsReader) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.pcd";
   const Frame frame = WithVelocities(ExampleFrame(3));
-  std::string bytes;
-  EncodePcd(frame, FieldSelection("all", true), GetParam(), bytes);
-  WriteFileWhole(file, bytes);
-
-  pcl::PCLPointCloud2 by_pcl;
-  ASSERT_EQ(pcl::io::loadPCDFile(file.string(), by_pcl), 0);
+  const WrittenFile file("frame.pcd", PcdBytes(frame, FieldSelection("all", true), GetParam()));
+  const auto by_pcl = PclReads(file.path());
   EXPECT_EQ(by_pcl.fields.size(), 21U);
   ExpectSame(frame, by_pcl);
-  ExpectSame(frame, ReadPcd(file));
+  ExpectSame(frame, ReadPcd(file.path()));
 }
 
 TEST_P(PcdRoundTrip, GivesPclsPointXyzlItsLabels) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.pcd";
   const Frame frame = ExampleFrame(3);
-  std::string bytes;
-  EncodePcd(frame, FieldSelection("x,y,z,label"), GetParam(), bytes);
-  WriteFileWhole(file, bytes);
-
-  pcl::PointCloud<pcl::PointXYZL> cloud;
-  ASSERT_EQ(pcl::io::loadPCDFile(file.string(), cloud), 0);
+  const WrittenFile file("frame.pcd", PcdBytes(frame, FieldSelection("x,y,z,label"), GetParam()));
+  const auto cloud = PclReads<pcl::PointCloud<pcl::PointXYZL>>(file.path());
   ASSERT_EQ(cloud.size(), frame.num_slots());
   for (std::size_t slot = 0; slot < frame.num_slots(); ++slot) {
     EXPECT_EQ(cloud[slot].label, frame.label[slot]);
@@ -108,9 +91,8 @@ INSTANTIATE_TEST_SUITE_P(AllEncodings,
                                          PcdEncoding::kAscii));
 
 TEST(EncodePcd, WritesTheHeaderOtherProgramsExpect) {
-  std::string bytes;
-  EncodePcd(ExampleFrame(0, 2, 3), FieldSelection("x,y,z,intensity,ring,label,instance,outcome"),
-            PcdEncoding::kBinary, bytes);
+  const std::string bytes = PcdBytes(ExampleFrame(0, 2, 3),
+                                     FieldSelection("x,y,z,intensity,ring,label,instance,outcome"));
   const std::string header = bytes.substr(0, bytes.find("DATA"));
   EXPECT_EQ(header,
             "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
@@ -200,8 +182,7 @@ TEST(ReadPcd, GivesTheCloudsThatPclWritesAndReads) {
     for (const std::string name : {"ascii.pcd", "binary.pcd", "lzf.pcd"}) {
       SCOPED_TRACE(name);
       ExpectSameCloud(ReadPcd(file(name)), *written);
-      pcl::PCLPointCloud2 by_pcl;
-      ASSERT_EQ(pcl::io::loadPCDFile(file(name), by_pcl), 0);
+      const auto by_pcl = PclReads(file(name));
       // PCL 1.13 takes 64-bit integers in text for something else.
       if (name == "ascii.pcd") continue;
       ExpectSameCloud(by_pcl, *written);
@@ -210,17 +191,12 @@ TEST(ReadPcd, GivesTheCloudsThatPclWritesAndReads) {
 }
 
 TEST(EncodePcd, WritesCloudsThatPclReads) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "cloud.pcd";
   const pcl::PCLPointCloud2 cloud = CloudOfAllTypes();
   const Cloud own = OwnCloud(cloud);
   for (const bool is_compressed : {false, true}) {
     const std::string bytes = EncodePcd(own, is_compressed);
     EXPECT_EQ(EncodePcd(own, is_compressed), bytes);
-    WriteFileWhole(file, bytes);
-    pcl::PCLPointCloud2 by_pcl;
-    ASSERT_EQ(pcl::io::loadPCDFile(file.string(), by_pcl), 0);
-    ExpectSameCloud(by_pcl, cloud);
+    ExpectSameCloud(PclReads(WrittenFile("cloud.pcd", bytes).path()), cloud);
     const std::string data = is_compressed ? "binary_compressed" : "binary";
     pcl::PCDWriter writer;
     EXPECT_EQ(PcdHeaderOf(own, data), writer.generateHeaderBinary(cloud, Eigen::Vector4f::Zero(),

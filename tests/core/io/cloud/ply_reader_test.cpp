@@ -9,7 +9,14 @@
 #include <vector>
 
 #include "core/io/cloud/cloud_file.h"
+#include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
+#include "tests/core/io/damage.h"
+#include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
+#include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -36,13 +43,6 @@ std::string PlyPoints(bool is_big) {
          NumberBytes(-0.25F, is_big) + NumberBytes(std::uint16_t{2}, is_big);
 }
 
-std::vector<double> PlyValues(const CloudFile& read, const std::string& name) {
-  std::vector<double> values(read.cloud.num_points());
-  VisitField(read.cloud, *read.cloud.Find(name),
-             [&](std::size_t i, auto value) { values[i] = static_cast<double>(value); });
-  return values;
-}
-
 std::string PlyFault(const std::string& bytes) {
   return MessageOf([&] { (void)ParsePlyFile("a.ply", bytes); });
 }
@@ -51,8 +51,8 @@ TEST(PlyReader, ReadsAndRewritesEitherByteOrder) {
   for (const bool is_big : {false, true}) {
     const std::string bytes = PlyHeaderOf(is_big, kPlyVertex) + PlyPoints(is_big);
     const CloudFile read = ParsePlyFile("a.ply", bytes);
-    EXPECT_THAT(PlyValues(read, "x"), ElementsAre(6.5, -0.25));
-    EXPECT_THAT(PlyValues(read, "ring"), ElementsAre(300, 2));
+    EXPECT_THAT(FieldNumbers(read.cloud, "x"), ElementsAre(6.5, -0.25));
+    EXPECT_THAT(FieldNumbers(read.cloud, "ring"), ElementsAre(300, 2));
     EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{bytes});
   }
 }
@@ -67,12 +67,12 @@ TEST(PlyReader, SkipsElementsBeforeThePointsByTheirSize) {
     const std::string bytes =
         PlyHeaderOf(is_big, camera + kPlyVertex) + skipped + PlyPoints(is_big);
     const CloudFile read = ParsePlyFile("a.ply", bytes);
-    EXPECT_THAT(PlyValues(read, "x"), ElementsAre(6.5, -0.25));
+    EXPECT_THAT(FieldNumbers(read.cloud, "x"), ElementsAre(6.5, -0.25));
     EXPECT_EQ(Rewritten(read, {read.cloud.data, {0, 1}}), std::vector{bytes});
   }
   const CloudFile text = ParsePlyFile("a.ply", "ply\nformat ascii 1.0\n" + camera + kPlyVertex +
                                                    "end_header\n1 0\n2 1 7\n6.5 3\n1 4\n");
-  EXPECT_THAT(PlyValues(text, "ring"), ElementsAre(3, 4));
+  EXPECT_THAT(FieldNumbers(text.cloud, "ring"), ElementsAre(3, 4));
 }
 
 TEST(PlyReader, PassesOverBlankLinesOfText) {
@@ -110,7 +110,64 @@ TEST(PlyReader, TellsOfElementsBehindThePointsThatAreCut) {
 TEST(PlyReader, KeepsAllDigitsOfText) {
   const CloudFile read = ParsePlyFile(
       "a.ply", "ply\nformat ascii 1.0\n" + kPlyVertex + "end_header\n456789.15 2\n456790.12 4\n");
-  EXPECT_THAT(PlyValues(read, "x"), ElementsAre(456789.15, 456790.12));
+  EXPECT_THAT(FieldNumbers(read.cloud, "x"), ElementsAre(456789.15, 456790.12));
+}
+
+std::string PlyExample() {
+  return PlyBytes(ExampleFrame(0, 2, 9), FieldSelection("x,y,z,label"));
+}
+
+TEST(ParsePlyFile, NamesTheFaultOfADamagedFile) {
+  const std::string sound = PlyExample();
+  EXPECT_EQ(PlyFault(sound), "no error");
+  EXPECT_EQ(PlyFault(""), "a.ply: is no PLY file: its first line must be \"ply\"");
+  EXPECT_EQ(PlyFault("ply\nformat ascii 1.0\n"),
+            "a.ply: is no PLY file: its header has no end_header line");
+  EXPECT_EQ(PlyFault(sound.substr(0, sound.size() - 1)),
+            "a.ply: element vertex: 4 points need 64 bytes, the file has 63");
+  EXPECT_EQ(PlyFault(Replaced(sound, "vertex 4", "vertex 4000000000")),
+            "a.ply: element vertex: 4000000000 points need 64000000000 bytes, the file has 64");
+  EXPECT_EQ(PlyFault(Replaced(sound, "vertex 4", "vertex -4")),
+            "a.ply: element vertex: must be a whole number below 2^32 (got -4)");
+  EXPECT_EQ(PlyFault(Replaced(sound, "float y", "half y")), "a.ply: property y: unknown type half");
+  EXPECT_EQ(PlyFault(Replaced(sound, "property float y", "property list uchar int y")),
+            "a.ply: element vertex: every property must be one number");
+  EXPECT_EQ(PlyFault(Replaced(sound, "element vertex", "element face")),
+            "a.ply: element vertex: must come once");
+  EXPECT_EQ(PlyFault(Replaced(sound, "little_endian", "middle_endian")),
+            "a.ply: format: must be ascii, binary_little_endian or binary_big_endian (got "
+            "binary_middle_endian)");
+  EXPECT_EQ(PlyFault(Replaced(sound, "format binary_little_endian 1.0\n", "")),
+            "a.ply: format: missing");
+}
+
+TEST(ReadPly, NamesThePointWhoseTextIsDamaged) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.ply";
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty uchar label\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  WriteFileWhole(file, header + "1.5 2\n-3e2 255\n3 0 1 0\n");
+  EXPECT_EQ(ReadPly(file).data.size(), 10U);
+  WriteFileWhole(file, header + "1.5 2\n-3e2 256\n3 0 1 0\n");
+  EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }),
+            file.string() + ": point 1: label: no value of its type (got 256)");
+  WriteFileWhole(file, header + "1.5 2\n-300000\n");
+  EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }),
+            file.string() + ": point 1: must have 2 values (got 1)");
+}
+
+TEST(ReadPly, SurvivesEveryTruncationAndFlippedByte) {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "a.ply";
+  const std::string sound = PlyExample();
+  for (std::size_t place = 0; place < sound.size(); ++place) {
+    WriteFileWhole(file, sound.substr(0, place));
+    EXPECT_EQ(MessageOf([&] { (void)ReadPly(file); }).find(file.string() + ": "), 0U) << place;
+    WriteFileWhole(file, Flipped(sound, place));
+    const std::string message = MessageOf([&] { (void)ReadPly(file); });
+    EXPECT_TRUE(message == "no error" || message.find(file.string() + ": ") == 0U) << message;
+  }
 }
 
 }  // namespace

@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "core/io/cloud/cloud_file.h"
-#include "core/io/write_file.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/pcl_reads.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -49,15 +50,9 @@ std::vector<T> Picked(const Frame& frame, const Values& values) {
 }
 
 TEST(EncodePly, GivesPclsReaderItsVelocities) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.ply";
   const Frame frame = WithVelocities(ExampleFrame(2));
-  std::string bytes;
-  EncodePly(frame, FieldSelection("all", true), PlyFlavour::kPcl, bytes);
-  WriteFileWhole(file, bytes);
-
-  pcl::PCLPointCloud2 by_pcl;
-  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
+  const WrittenFile file("frame.ply", PlyBytes(frame, FieldSelection("all", true)));
+  const auto by_pcl = PclReads(file.path());
   EXPECT_EQ(Column<float>(by_pcl, "radial_velocity_mps"),
             Picked<float>(frame, frame.radial_velocity_mps));
   EXPECT_EQ(Column<float>(by_pcl, "true_radial_velocity_mps"),
@@ -65,16 +60,10 @@ TEST(EncodePly, GivesPclsReaderItsVelocities) {
 }
 
 TEST(EncodePly, GivesPclsReaderItsPointsAndLabels) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.ply";
   const Frame frame = ExampleFrame(2);
-  std::string bytes;
-  EncodePly(frame, FieldSelection(), PlyFlavour::kPcl, bytes);
-  WriteFileWhole(file, bytes);
-
-  pcl::PCLPointCloud2 by_pcl;
-  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
-  for (const pcl::PCLPointCloud2& cloud : {by_pcl, ReadPly(file)}) {
+  const WrittenFile file("frame.ply", PlyBytes(frame));
+  const auto by_pcl = PclReads(file.path());
+  for (const pcl::PCLPointCloud2& cloud : {by_pcl, ReadPly(file.path())}) {
     EXPECT_EQ(Column<float>(cloud, "x"), Picked<float>(frame, frame.x));
     EXPECT_EQ(Column<float>(cloud, "intensity"), Picked<float>(frame, frame.intensity));
     EXPECT_EQ(Column<std::uint32_t>(cloud, "time_ns"), Picked<std::uint32_t>(frame, frame.time_ns));
@@ -92,9 +81,9 @@ TEST(EncodePly, GivesPclsReaderItsPointsAndLabels) {
 }
 
 TEST(EncodePly, GivesCloudCompareOnlyTypesThatOpen3dKeepsToo) {
-  std::string bytes;
-  EncodePly(ExampleFrame(0), FieldSelection("x,y,z,intensity,time_ns,ring,label,instance,outcome"),
-            PlyFlavour::kCloudCompare, bytes);
+  const std::string bytes = PlyBytes(
+      ExampleFrame(0), FieldSelection("x,y,z,intensity,time_ns,ring,label,instance,outcome"),
+      PlyFlavour::kCloudCompare);
   EXPECT_EQ(bytes.substr(0, bytes.find("end_header")),
             "ply\nformat binary_little_endian 1.0\nelement vertex 11\n"
             "property float x\nproperty float y\nproperty float z\n"
@@ -104,15 +93,9 @@ TEST(EncodePly, GivesCloudCompareOnlyTypesThatOpen3dKeepsToo) {
 }
 
 TEST(EncodePly, KeepsTheValuesInTheCloudCompareFlavour) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.ply";
   const Frame frame = ExampleFrame(2);
-  std::string bytes;
-  EncodePly(frame, FieldSelection(), PlyFlavour::kCloudCompare, bytes);
-  WriteFileWhole(file, bytes);
-  pcl::PCLPointCloud2 by_pcl;
-  ASSERT_EQ(pcl::io::loadPLYFile(file.string(), by_pcl), 0);
-  for (const pcl::PCLPointCloud2& cloud : {by_pcl, ReadPly(file)}) {
+  const WrittenFile file("frame.ply", PlyBytes(frame, {}, PlyFlavour::kCloudCompare));
+  for (const auto& cloud : {PclReads(file.path()), ReadPly(file.path())}) {
     EXPECT_EQ(Column<double>(cloud, "scalar_time_ns"), Picked<double>(frame, frame.time_ns));
     EXPECT_EQ(Column<std::int32_t>(cloud, "scalar_label"),
               Picked<std::int32_t>(frame, frame.label));
@@ -121,25 +104,18 @@ TEST(EncodePly, KeepsTheValuesInTheCloudCompareFlavour) {
 }
 
 TEST(EncodePly, RefusesWhatAPlyViewerCannotUse) {
-  std::string bytes;
   Frame frame = ExampleFrame(0);
-  EXPECT_EQ(
-      MessageOf([&] { EncodePly(frame, FieldSelection("x,y,label"), PlyFlavour::kPcl, bytes); }),
-      "--fields: a PLY file needs x, y and z (got x,y,label)");
+  EXPECT_EQ(MessageOf([&] { (void)PlyBytes(frame, FieldSelection("x,y,label")); }),
+            "--fields: a PLY file needs x, y and z (got x,y,label)");
   frame.label[0] = 0x80000000U;
-  EXPECT_EQ(
-      MessageOf([&] { EncodePly(frame, FieldSelection(), PlyFlavour::kCloudCompare, bytes); }),
-      "--format ply-cloudcompare: label must be < 2147483648 (got 2147483648)");
+  EXPECT_EQ(MessageOf([&] { (void)PlyBytes(frame, {}, PlyFlavour::kCloudCompare); }),
+            "--format ply-cloudcompare: label must be < 2147483648 (got 2147483648)");
 }
 
 TEST(EncodePly, AllowsAFrameWithoutAPoint) {
-  const TemporaryDirectory directory;
   Frame frame = ExampleFrame(0);
   frame.outcome.assign(frame.num_slots(), Outcome::kNoSurface);
-  std::string bytes;
-  EncodePly(frame, FieldSelection(), PlyFlavour::kPcl, bytes);
-  WriteFileWhole(directory.path() / "empty.ply", bytes);
-  EXPECT_EQ(ReadPly(directory.path() / "empty.ply").width, 0U);
+  EXPECT_EQ(ReadPly(WrittenFile("empty.ply", PlyBytes(frame)).path()).width, 0U);
 }
 
 TEST(RewrittenPly, KeepsWhatStandsBesideThePoints) {

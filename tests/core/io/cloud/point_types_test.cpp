@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "core/io/stream/stream_encoder.h"
-#include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
-#include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/pcl_reads.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -47,21 +48,16 @@ TEST(PointTypes, HaveTheFieldsOfFilesAndOfStreams) {
 }
 
 TEST(PointTypes, AreWhatPclReadsFromOurFiles) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.pcd";
   const Frame frame = ExampleFrame(3);
-  std::string bytes;
-  EncodePcd(frame, FieldSelection(), PcdEncoding::kBinaryCompressed, bytes);
-  WriteFileWhole(file, bytes);
-  pcl::PointCloud<FramePoint> read;
-  ASSERT_EQ(pcl::io::loadPCDFile(file.string(), read), 0);
+  const WrittenFile file("frame.pcd", PcdBytes(frame, {}, PcdEncoding::kBinaryCompressed));
+  const auto read = PclReads<pcl::PointCloud<FramePoint>>(file.path());
   ASSERT_EQ(read.size(), frame.num_slots());
   EXPECT_EQ(read[7].outcome, static_cast<std::uint8_t>(frame.outcome[7]));
   EXPECT_EQ(read[8].instance, frame.instance[8]);
   EXPECT_EQ(read[9].material, frame.material[9]);
   EXPECT_EQ(BytesOf(read), BytesOf(ToPointCloud<FramePoint>(frame)));
   pcl::PointCloud<LabelledPoint> labelled;
-  pcl::fromPCLPointCloud2(ReadPcd(file), labelled);
+  pcl::fromPCLPointCloud2(ReadPcd(file.path()), labelled);
   EXPECT_EQ(BytesOf(labelled), BytesOf(ToPointCloud<LabelledPoint>(frame)));
 }
 

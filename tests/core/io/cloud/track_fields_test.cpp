@@ -11,12 +11,14 @@
 #include <vector>
 
 #include "core/extras/ros/messages/point_layout.h"
-#include "core/io/write_file.h"
+#include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
-#include "tests/core/io/temporary_directory.h"
 #include "tests/core/rail/world/made_track.h"
+#include "tests/support/clouds.h"
+#include "tests/support/pcl_reads.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -118,15 +120,11 @@ FieldSelection Selected(const std::string& list, const MadeAxes& axes = {}) {
 }
 
 TEST(TrackFields, AreReadFromPcdFilesByPcl) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "frame.pcd";
   for (const PcdEncoding encoding :
        {PcdEncoding::kBinary, PcdEncoding::kBinaryCompressed, PcdEncoding::kAscii}) {
-    std::string bytes;
-    EncodePcd(MadeFrame({}), Selected("x,y,z,in_gauge,chainage_m"), encoding, bytes);
-    WriteFileWhole(file, bytes);
-    pcl::PCLPointCloud2 cloud;
-    ASSERT_EQ(pcl::io::loadPCDFile(file.string(), cloud), 0);
+    const WrittenFile file(
+        "frame.pcd", PcdBytes(MadeFrame({}), Selected("x,y,z,in_gauge,chainage_m"), encoding));
+    const auto cloud = PclReads(file.path());
     EXPECT_EQ(pcl::getFieldsList(cloud), "x y z chainage_m in_gauge");
     EXPECT_EQ(cloud.fields[3].datatype, pcl::PCLPointField::FLOAT32);
     EXPECT_EQ(cloud.fields[4].datatype, pcl::PCLPointField::UINT8);
@@ -138,16 +136,11 @@ TEST(TrackFields, AreReadFromPcdFilesByPcl) {
 }
 
 TEST(TrackFields, ComeThroughFilesAsFurtherFieldsOfRecordings) {
-  const TemporaryDirectory directory;
-  std::string pcd;
-  std::string ply;
-  EncodePcd(MadeFrame({}), Selected("x,y,z,track_lateral_m,in_gauge"), PcdEncoding::kBinary, pcd);
-  EncodePly(MadeFrame({}), Selected("x,y,z,track_lateral_m,in_gauge"), PlyFlavour::kCloudCompare,
-            ply);
-  WriteFileWhole(directory.path() / "a.pcd", pcd);
-  WriteFileWhole(directory.path() / "a.ply", ply);
-  for (const char* const name : {"a.pcd", "a.ply"}) {
-    const auto frames = ReadAll(directory.path() / name);
+  const FieldSelection fields = Selected("x,y,z,track_lateral_m,in_gauge");
+  const WrittenFile pcd("a.pcd", PcdBytes(MadeFrame({}), fields));
+  const WrittenFile ply("a.ply", PlyBytes(MadeFrame({}), fields, PlyFlavour::kCloudCompare));
+  for (const WrittenFile* const file : {&pcd, &ply}) {
+    const auto frames = ReadAll(file->path());
     ASSERT_EQ(frames.size(), 1U);
     const auto& foreign = frames[0].foreign;
     ASSERT_EQ(foreign.size(), 2U);
@@ -182,6 +175,48 @@ TEST(TrackFields, AreRefusedWhereTheTrackIsNotKnown) {
   EXPECT_EQ(MessageOf([] { FieldSelection("x,in_gauge"); }),
             "--fields: must be a field of the frame itself, since only the files and bags of "
             "sequence and dataset have those of the track (got \"in_gauge\")");
+}
+
+constexpr const char* kAll =
+    "x,y,z,intensity,power_ratio,range_m,time_ns,ring,column,return_index,return_count,label,"
+    "instance,outcome,true_range_m,incidence_rad,material,footprint_share,mixed_share";
+
+TEST(FieldSelection, IsEverythingByDefault) {
+  EXPECT_EQ(FieldSelection().Text(), kAll);
+  EXPECT_EQ(FieldSelection("all"), FieldSelection());
+}
+
+TEST(FieldSelection, KeepsTheTablesOrder) {
+  EXPECT_EQ(FieldSelection("label,z,x,y").Text(), "x,y,z,label");
+}
+
+TEST(FieldSelection, NamesTheNearestFieldForEveryMisspeltOne) {
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,lable,range"); }),
+            "--fields: unknown field, the nearest is \"label\" (got \"lable\")\n"
+            "--fields: unknown field, the nearest is \"range_m\" (got \"range\")");
+}
+
+TEST(FieldSelection, NamesAllFieldsForWhatIsNearToNone) {
+  const std::string rule =
+      "--fields: unknown field, must be \"x\", \"y\", \"z\", \"intensity\", \"power_ratio\", "
+      "\"range_m\", \"time_ns\", \"ring\", \"column\", \"return_index\", \"return_count\", "
+      "\"label\", \"instance\", \"outcome\", \"true_range_m\", \"incidence_rad\", \"material\", "
+      "\"footprint_share\" or \"mixed_share\" (got ";
+  EXPECT_EQ(MessageOf([] { FieldSelection("foo"); }), rule + "\"foo\")");
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,,y"); }), rule + "\"\")");
+}
+
+TEST(FieldSelection, HasVelocitiesOfSensorsThatMeasureThem) {
+  EXPECT_EQ(FieldSelection("all", true).Text(),
+            std::string(kAll) + ",radial_velocity_mps,true_radial_velocity_mps");
+  EXPECT_EQ(FieldSelection("radial_velocity_mps,x", true).Text(), "x,radial_velocity_mps");
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,radial_velocity_mps"); }),
+            "--fields: must be a field of a sensor without lidar.velocity (got "
+            "\"radial_velocity_mps\")");
+}
+
+TEST(FieldSelection, RefusesAFieldTwice) {
+  EXPECT_EQ(MessageOf([] { FieldSelection("x,y,x"); }), "--fields: field \"x\" comes twice");
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "core/io/net/udp.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/net/ipv6_loopback.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 namespace {
@@ -29,8 +30,7 @@ constexpr int kPatience_ms = 10'000;
 Datagrams MakeDatagrams(const std::vector<std::uint16_t>& sizes) {
   Datagrams datagrams;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    datagrams.items.push_back({.offset = datagrams.bytes.size(), .size = sizes[i]});
-    datagrams.bytes.insert(datagrams.bytes.end(), sizes[i], static_cast<char>(i));
+    AddDatagram(std::string(sizes[i], static_cast<char>(i)), datagrams);
   }
   return datagrams;
 }
@@ -45,21 +45,12 @@ std::vector<std::string> ReceiveAll(UdpReceiver& receiver, std::size_t count) {
   return received;
 }
 
-std::vector<std::string> ExpectedDatagrams(const Datagrams& datagrams) {
-  std::vector<std::string> expected;
-  for (const Datagrams::Item& item : datagrams.items) {
-    const auto bytes = datagrams.BytesOf(item);
-    expected.emplace_back(bytes.begin(), bytes.end());
-  }
-  return expected;
-}
-
 TEST(UdpSender, DeliversDatagramsOfAnySizesWholeAndInOrder) {
   UdpReceiver receiver(kAnyLoopbackPort);
   UdpSender sender({receiver.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({10, 10, 10, 3, 1400, 7, 7, 9, 1206, 1206, 512});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(receiver, datagrams.items.size()), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(receiver, datagrams.items.size()), PayloadTexts(datagrams));
   EXPECT_EQ(sender.counts().sent, datagrams.items.size());
   EXPECT_EQ(sender.counts().refused, 0U);
 }
@@ -74,7 +65,7 @@ TEST(UdpSender, CutsRunsThatAreLongerThanTheKernelTakes) {
   sizes.push_back(1);
   const Datagrams datagrams = MakeDatagrams(sizes);
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(receiver, sizes.size()), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(receiver, sizes.size()), PayloadTexts(datagrams));
 }
 
 /// Returns the sizes of what the kernel delivers to a socket that accepts whole runs; a capture on
@@ -117,8 +108,8 @@ TEST(UdpSender, ServesEveryReceiver) {
   UdpSender sender({first.at(), second.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({5, 5, 5});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(first, 3), ExpectedDatagrams(datagrams));
-  EXPECT_EQ(ReceiveAll(second, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(first, 3), PayloadTexts(datagrams));
+  EXPECT_EQ(ReceiveAll(second, 3), PayloadTexts(datagrams));
   EXPECT_EQ(sender.counts().sent, 6U);
 }
 
@@ -129,7 +120,7 @@ TEST(UdpSender, SendsPositionsToTheirOwnPort) {
   Datagrams datagrams = MakeDatagrams({4, 4, 4});
   datagrams.items[1].port = DatagramPort::kPosition;
   sender.Send(datagrams, datagrams.items);
-  const auto expected = ExpectedDatagrams(datagrams);
+  const auto expected = PayloadTexts(datagrams);
   EXPECT_EQ(ReceiveAll(data, 2), (std::vector{expected[0], expected[2]}));
   EXPECT_EQ(ReceiveAll(position, 1), (std::vector{expected[1]}));
 }
@@ -181,7 +172,7 @@ TEST(UdpSender, SendsByIpv4AndByIpv6) {
   // Runs that the kernel cuts, and a position.
   Datagrams datagrams = MakeDatagrams({1206, 1206, 1206, 1206, 512, 24'832});
   datagrams.items[4].port = DatagramPort::kPosition;
-  const auto expected = ExpectedDatagrams(datagrams);
+  const auto expected = PayloadTexts(datagrams);
   sender.Send(datagrams, datagrams.items);
   EXPECT_EQ(ReceiveAll(second, 6), expected);
   EXPECT_EQ(ReceiveAll(first, 5).size(), 5U);
@@ -211,7 +202,7 @@ TEST(UdpReceiver, HearsOneFamilyAlone) {
   UdpSender sender({{0x7F000001, port}}, 1);
   const Datagrams datagrams = MakeDatagrams({3});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(ipv4, 1), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(ipv4, 1), PayloadTexts(datagrams));
   EXPECT_FALSE(ipv6.Receive(50));
 }
 
@@ -251,8 +242,8 @@ TEST(UdpSender, ReachesAGroupByTheInterfaceThatIsNamed) {
   UdpSender sender({first.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({8, 8, 3});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(first, 3), ExpectedDatagrams(datagrams));
-  EXPECT_EQ(ReceiveAll(second, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(first, 3), PayloadTexts(datagrams));
+  EXPECT_EQ(ReceiveAll(second, 3), PayloadTexts(datagrams));
   EXPECT_EQ(ReceivedHops(first, 1), 1);
   EXPECT_EQ(ReceivedHops(first, 7), 7);
 }
@@ -281,7 +272,7 @@ TEST(UdpSender, ReachesAGroupOfIpv6) {
   UdpSender sender({member.at()}, 1);
   const Datagrams datagrams = MakeDatagrams({8, 8, 3});
   sender.Send(datagrams, datagrams.items);
-  EXPECT_EQ(ReceiveAll(member, 3), ExpectedDatagrams(datagrams));
+  EXPECT_EQ(ReceiveAll(member, 3), PayloadTexts(datagrams));
 }
 
 /// A socket that hears a multicast group on this machine.
@@ -328,7 +319,7 @@ TEST(UdpSender, ReachesTheMembersOfAMulticastGroup) {
   const Datagrams datagrams = MakeDatagrams({8, 8, 3});
   sender.Send(datagrams, datagrams.items);
   EXPECT_EQ(sender.counts().sent, 3U);
-  for (const std::string& expected : ExpectedDatagrams(datagrams)) {
+  for (const std::string& expected : PayloadTexts(datagrams)) {
     EXPECT_EQ(member.Receive(), expected);
   }
 }

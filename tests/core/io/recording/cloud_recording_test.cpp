@@ -19,6 +19,10 @@
 #include "tests/core/io/recording/made_sequence.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/faults.h"
+#include "tests/support/run_command.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -39,20 +43,14 @@ std::string AsciiPcd(const std::string& fields,
 }
 
 RecordedFrame ReadText(const std::string& name, const std::string& text) {
-  const TemporaryDirectory directory;
-  WriteFileWhole(directory.path() / name, text);
-  auto frames = ReadAll(directory.path() / name);
+  auto frames = ReadAll(WrittenFile(name, text).path());
   EXPECT_EQ(frames.size(), 1U);
   return std::move(frames.at(0));
 }
 
 std::string MessageOfText(const std::string& name, const std::string& text) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / name;
-  WriteFileWhole(file, text);
-  const std::string message = MessageOf([&] { (void)ReadAll(file); });
-  EXPECT_EQ(message.substr(0, file.string().size() + 2), file.string() + ": ");
-  return message.size() > file.string().size() + 2 ? message.substr(file.string().size() + 2) : "";
+  const WrittenFile file(name, text);
+  return MessageBehind(file.path().string() + ": ", [&] { (void)ReadAll(file.path()); });
 }
 
 // As drivers for Velodyne make them: a row for each firing, a column for each laser.
@@ -216,9 +214,7 @@ TEST(CloudRecording, ReadsWhatPclWritesAsPly) {
 }
 
 TEST(CloudRecording, ReadsWhatOpen3dWrites) {
-  if (std::system("/usr/bin/python3 -c 'import open3d' >/dev/null 2>&1") != 0) {
-    GTEST_SKIP() << "python3-open3d is not installed";
-  }
+  if (!HasOpen3d()) GTEST_SKIP() << "python3-open3d is not installed";
   const TemporaryDirectory directory;
   for (const std::string name : {"a.pcd", "a.ply"}) {
     const auto file = directory.path() / name;
@@ -238,11 +234,8 @@ TEST(CloudRecording, ReadsWhatOpen3dWrites) {
 TEST(CloudRecording, OfOneFrameOfOursHasItsSlots) {
   const Frame truth = ExampleFrame(3, 6, 41);
   const TemporaryDirectory directory;
-  std::string bytes;
-  EncodePcd(truth, FieldSelection(), PcdEncoding::kBinary, bytes);
-  WriteFileWhole(directory.path() / "a.pcd", bytes);
-  EncodePly(truth, FieldSelection(), PlyFlavour::kPcl, bytes);
-  WriteFileWhole(directory.path() / "b.ply", bytes);
+  WriteFileWhole(directory.path() / "a.pcd", PcdBytes(truth));
+  WriteFileWhole(directory.path() / "b.ply", PlyBytes(truth));
   const auto frames = ReadAll(directory.path());
   ASSERT_EQ(frames.size(), 2U);
   for (const RecordedFrame& recorded : frames) {
@@ -282,9 +275,7 @@ TEST(CloudRecording, TakesTheFilesOfADirectoryInNaturalOrder) {
 TEST(CloudRecording, OfAReceivedStreamHasItsPoses) {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory.path() / "frames");
-  std::string bytes;
-  EncodePcd(ExampleFrame(0), FieldSelection(), PcdEncoding::kBinary, bytes);
-  WriteFileWhole(directory.path() / "frames/000000.pcd", bytes);
+  WriteFileWhole(directory.path() / "frames/000000.pcd", PcdBytes(ExampleFrame(0)));
   const std::string header = "file,run,frame,stamp_ns,x,y,z,qx,qy,qz,qw,points,lost_points\n";
   WriteFileWhole(directory.path() / "frames.csv",
                  header + "frames/000000.pcd,7,12,1200000000,5,6,7,0,0,1,0,54,0\n");

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/io/write_file.h"
 #include "railcast/io/cloud_files.h"
 #include "railcast/io/recording.h"
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -22,9 +23,7 @@ using testing::IsEmpty;
 using testing::IsNan;
 
 RecordedFrame ReadBytes(const std::string& name, const std::string& bytes) {
-  const TemporaryDirectory directory;
-  WriteFileWhole(directory.path() / name, bytes);
-  auto frames = ReadAll(directory.path() / name);
+  auto frames = ReadAll(WrittenFile(name, bytes).path());
   EXPECT_EQ(frames.size(), 1U);
   return std::move(frames.at(0));
 }
@@ -91,16 +90,14 @@ TEST(ForeignFields, AreNoColours) {
 }
 
 TEST(ForeignFields, ThatAreLeftOutAreTold) {
-  const TemporaryDirectory directory;
-  const auto file = directory.path() / "a.pcd";
-  WriteFileWhole(file,
-                 "FIELDS x y z rgb normal _\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
-                 "COUNT 1 1 1 1 3 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 4 5 6 7 8\n");
-  const auto recording = OpenRecording(file);
+  const WrittenFile file("a.pcd",
+                         "FIELDS x y z rgb normal _\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
+                         "COUNT 1 1 1 1 3 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3 4 5 6 7 8\n");
+  const auto recording = OpenRecording(file.path());
   (void)ReadAll(*recording);
   EXPECT_THAT(recording->info().remarks->List(),
               ElementsAre(Remark{.kind = RemarkKind::kFieldsLeftOut,
-                                 .place = file.string(),
+                                 .place = file.path().string(),
                                  .number = 2,
                                  .detail = "rgb, normal but for its first number"}));
 }
@@ -151,13 +148,11 @@ TEST(ForeignFields, AreSixtyFourAtMost) {
 }
 
 TEST(ForeignFields, AreNotInFilesOfOurs) {
-  std::string bytes;
-  EncodePcd(ExampleFrame(3), FieldSelection(), PcdEncoding::kBinary, bytes);
-  EXPECT_THAT(ReadBytes("a.pcd", bytes).foreign, IsEmpty());
-  EncodePly(ExampleFrame(3), FieldSelection(), PlyFlavour::kPcl, bytes);
-  EXPECT_THAT(ReadBytes("a.ply", bytes).foreign, IsEmpty());
-  EncodePly(ExampleFrame(3), FieldSelection(), PlyFlavour::kCloudCompare, bytes);
-  EXPECT_THAT(ReadBytes("a.ply", bytes).foreign, IsEmpty());
+  const Frame frame = ExampleFrame(3);
+  EXPECT_THAT(ReadBytes("a.pcd", PcdBytes(frame)).foreign, IsEmpty());
+  EXPECT_THAT(ReadBytes("a.ply", PlyBytes(frame)).foreign, IsEmpty());
+  EXPECT_THAT(ReadBytes("a.ply", PlyBytes(frame, {}, PlyFlavour::kCloudCompare)).foreign,
+              IsEmpty());
 }
 
 }  // namespace

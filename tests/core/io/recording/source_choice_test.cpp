@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/recording/recording_extras.h"
 #include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
@@ -64,6 +65,12 @@ TEST(WithChoice, NamesTheColumnsOfKittisFilesAndFolders) {
             "--kitti-columns: must be 3 to 16, nuscenes, waymo or float64 (got two)");
   EXPECT_EQ(MessageOf([&] { (void)WithChoice({"a.pcd"}, {.kitti_columns = "5"}); }),
             "--kitti-columns: must come with .bin files or a directory of them (got a.pcd)");
+}
+
+TEST(RecordingExtras, SayWhatThisBuildLacks) {
+  EXPECT_EQ(MessageOf([] { (void)NeedExtra(RecordingExtras().verify_trace, "a.osi", "osi"); }),
+            "a.osi: needs the extra osi, which is not installed (Debian package railcast-osi; to build it, "
+            "-D RAILCAST_BUILD_OSI=ON)");
 }
 
 }  // namespace

@@ -49,9 +49,7 @@ TEST(CameraFiles, AreNamedByCameraKindAndFrame) {
 
 // Open3D reads PNG by libpng's interface of its own, and NumPy its own format.
 TEST(CameraFiles, AreReadByOtherPrograms) {
-  if (RunCommand("/usr/bin/python3 -c 'import open3d'").status != 0) {
-    GTEST_SKIP() << "python3-open3d is not installed";
-  }
+  if (!HasOpen3d()) GTEST_SKIP() << "python3-open3d is not installed";
   const TemporaryDirectory directory;
   for (const FrameFile& file : EncodeCameraFiles(ExampleImage(), "front", 0)) {
     const auto path = directory.path() / file.name;

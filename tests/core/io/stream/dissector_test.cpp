@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -59,7 +58,7 @@ std::string Capture(const std::vector<std::string>& datagrams,
 class Dissector : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::system("command -v tshark >/dev/null") != 0) GTEST_SKIP() << "tshark is missing";
+    if (!HasTshark()) GTEST_SKIP() << "tshark is missing";
   }
 
   /// Returns the output of tshark for these datagrams.

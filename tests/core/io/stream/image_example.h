@@ -10,6 +10,7 @@
 #include "core/io/stream/stream_encoder.h"
 #include "railcast/camera.h"
 #include "tests/core/io/stream/stream_example.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 
@@ -45,12 +46,7 @@ inline void EncodeImage(std::uint32_t frame, std::uint32_t run, Datagrams& datag
 inline std::vector<std::string> ImageDatagramsOf(std::uint32_t frame, std::uint32_t run = 1) {
   Datagrams datagrams;
   EncodeImage(frame, run, datagrams);
-  std::vector<std::string> split;
-  for (const Datagrams::Item& item : datagrams.items) {
-    const auto bytes = datagrams.BytesOf(item);
-    split.emplace_back(bytes.begin(), bytes.end());
-  }
-  return split;
+  return PayloadTexts(datagrams);
 }
 
 inline void SendImage(std::uint32_t frame, std::uint32_t run, UdpSender& sender) {

@@ -7,6 +7,7 @@
 #include "tests/core/io/stream/stream_example.h"
 #include "tests/support/analytic_meshes.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/simple_world.h"
 
@@ -60,11 +61,7 @@ TEST(StreamEncoder, SendsTheDirectionsOfItsFrameForASensorThatDoesNotRepeat) {
     FrameAssembler assembler;
     Datagrams datagrams;
     encoder.Encode(ScanOnce(world, pattern, {}, index), datagrams);
-    std::vector<ReceivedFrame> received;
-    for (const Datagrams::Item& item : datagrams.items) {
-      const auto bytes = datagrams.BytesOf(item);
-      assembler.Take(std::string(bytes.begin(), bytes.end()), received);
-    }
+    const std::vector<ReceivedFrame> received = Feed(assembler, PayloadTexts(datagrams));
     ASSERT_EQ(received.size(), 1U);
     ASSERT_EQ(received[0].num_points(), 1000U);
     const StreamHeader& header = received[0].header;
@@ -223,11 +220,7 @@ TEST(StreamEncoder, AppendsToWhatHasNotBeenSent) {
   encoder.Encode(StreamFrame(1), both);
   std::vector<std::string> apart = DatagramsOf(StreamFrame(0));
   for (const std::string& datagram : DatagramsOf(StreamFrame(1))) apart.push_back(datagram);
-  ASSERT_EQ(both.items.size(), apart.size());
-  for (std::size_t i = 0; i < apart.size(); ++i) {
-    const auto bytes = both.BytesOf(both.items[i]);
-    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), apart[i]);
-  }
+  EXPECT_EQ(PayloadTexts(both), apart);
 }
 
 TEST(StreamEncoder, RefusesFramesThatCannotBeCounted) {

@@ -11,6 +11,7 @@
 #include "core/io/stream/stream_encoder.h"
 #include "railcast/lidar.h"
 #include "tests/core/io/example_frame.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 
@@ -53,12 +54,7 @@ inline std::vector<std::string> DatagramsOf(const Frame& frame, const StreamSpec
   StreamEncoder encoder(StreamPattern(frame.rows, frame.columns), spec);
   Datagrams datagrams;
   encoder.Encode(frame, datagrams);
-  std::vector<std::string> split;
-  for (const Datagrams::Item& item : datagrams.items) {
-    const auto bytes = datagrams.BytesOf(item);
-    split.emplace_back(bytes.begin(), bytes.end());
-  }
-  return split;
+  return PayloadTexts(datagrams);
 }
 
 /// Corrects the CRC, as a forger would.

@@ -11,7 +11,6 @@
 
 #include "core/base/input_file.h"
 #include "core/base/units.h"
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/io/field_layout.h"
@@ -19,6 +18,9 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/made_datagrams.h"
+#include "tests/support/pcl_reads.h"
 
 namespace railcast {
 namespace {
@@ -234,8 +236,7 @@ TEST(At128Correction, HasTheElevationsOfARealCloud) {
   const auto cloud_file = At128File("at128_1679653308704927652.pcd");
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const auto correction = CorrectionOf(ReadFileWhole(file));
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  ASSERT_EQ(pcl::io::loadPCDFile(cloud_file.string(), cloud), 0);
+  const auto cloud = PclReads<pcl::PointCloud<pcl::PointXYZ>>(cloud_file);
   ASSERT_EQ(cloud.size(), 10'198U);
   std::size_t num_seen = 0;
   std::size_t num_same = 0;
@@ -253,17 +254,9 @@ TEST(At128Correction, HasTheElevationsOfARealCloud) {
 std::filesystem::path WriteAt128Capture(const std::filesystem::path& folder) {
   Datagrams datagrams;
   for (const double block_deg : {100.0, 100.2, 200.0}) {
-    const std::vector<char> packet = MadeAt128Packet(block_deg);
-    datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                               .size = static_cast<std::uint16_t>(packet.size()),
-                               .port = DatagramPort::kData});
-    datagrams.bytes.insert(datagrams.bytes.end(), packet.begin(), packet.end());
+    AddDatagram(MadeAt128Packet(block_deg), datagrams);
   }
-  std::filesystem::path file = folder / "out.pcap";
-  PcapWriter writer(file, 2368, 2368);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
-  return file;
+  return WriteDatagrams(folder / "out.pcap", datagrams, 2368, 2368);
 }
 
 TEST(At128Recording, TakesTheCorrectionFileBesideTheCapture) {

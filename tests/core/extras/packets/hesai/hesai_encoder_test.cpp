@@ -18,6 +18,7 @@
 #include "tests/core/extras/packets/hesai/sent_turns.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -297,11 +298,7 @@ TEST(HesaiEncoder, LeavesOutEveryPacketThatHasAPartOfAFrameLeftOut) {
     EXPECT_EQ(LoadAt<std::uint32_t>(bytes.data() + 816), i) << "the packet's number";
     if (6 * (i + 1) <= 4000 || 6 * i >= 6000) expected.emplace_back(bytes.begin(), bytes.end());
   }
-  std::vector<std::string> got;
-  for (const auto& item : some.items) {
-    const auto bytes = some.BytesOf(item);
-    got.emplace_back(bytes.begin(), bytes.end());
-  }
+  const std::vector<std::string> got = PayloadTexts(some);
   EXPECT_EQ(got.size(), expected.size());
   EXPECT_TRUE(got == expected);
 }

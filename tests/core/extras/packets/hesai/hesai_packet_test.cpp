@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "core/base/units.h"
-#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/scan/spinning_pattern.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
+#include "tests/support/captures.h"
 #include "tests/support/hesai_bag.h"
 
 namespace railcast {
@@ -28,15 +28,6 @@ TEST(HesaiCrc, IsThatOfMpeg2) {
 }
 
 using Packets = std::vector<std::vector<char>>;
-
-Packets PacketsOf(const std::filesystem::path& capture) {
-  Packets packets;
-  PcapReader reader(capture);
-  while (const auto datagram = reader.Next()) {
-    packets.emplace_back(datagram->payload.begin(), datagram->payload.end());
-  }
-  return packets;
-}
 
 /// What the decoder finds in the packets of whole cycles, as packets again.
 class Remade {
@@ -215,9 +206,9 @@ std::string WhyNoCapture(const std::string& name) {
 }
 
 Packets RealPacketsOf(const std::string& name) {
-  if (const std::string file = RealCaptureFile(name); !file.empty()) return PacketsOf(file);
+  if (const std::string file = RealCaptureFile(name); !file.empty()) return PacketsInCapture(file);
   const TemporaryDirectory folder;
-  return PacketsOf(CaptureOfHesaiBag(name, folder));
+  return PacketsInCapture(CaptureOfHesaiBag(name, folder));
 }
 
 class SpinningPacketOf : public testing::TestWithParam<RealCapture> {};

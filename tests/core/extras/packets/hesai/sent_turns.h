@@ -1,9 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -12,6 +9,8 @@
 #include "core/extras/packets/spinning/spinning_encoder.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
+#include "tests/support/decoded_turns.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 
@@ -36,12 +35,7 @@ inline Datagrams Encoded(const SpinningModel& model,
 /// Returns the turns in these datagrams, the last of which may be unfinished.
 inline std::vector<SensorTurn> TurnsIn(const SpinningModel& model, const Datagrams& datagrams) {
   SpinningDecoder decoder(model);
-  std::vector<SensorTurn> turns;
-  for (const Datagrams::Item& item : datagrams.items) {
-    EXPECT_EQ(decoder.Decode(datagrams.BytesOf(item), turns), std::nullopt);
-  }
-  turns.push_back(decoder.TakeUnfinished());
-  return turns;
+  return TurnsOfPackets(decoder, PayloadTexts(datagrams));
 }
 
 /// A model and how its returns are sent.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -11,6 +9,7 @@
 #include "core/extras/packets/ouster/ouster_encoder.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/decoded_turns.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {
@@ -40,12 +39,7 @@ class MadeOuster {
   }
   [[nodiscard]] std::vector<SensorTurn> Decode(const Datagrams& datagrams) const {
     OusterDecoder decoder(metadata_);
-    std::vector<SensorTurn> turns;
-    for (const auto packet : DataPackets(datagrams)) {
-      EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
-    }
-    turns.push_back(decoder.TakeUnfinished());
-    return turns;
+    return TurnsOfPackets(decoder, DataPackets(datagrams));
   }
 
  private:

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/recording/capture_recording.h"
 #include "core/io/write_file.h"
 #include "core/scenario/sensors.h"
@@ -12,6 +11,8 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {
@@ -79,15 +80,9 @@ class MadeOusterCapture : public testing::Test {
   void WriteCapture(const std::vector<std::size_t>& sizes) const {
     Datagrams datagrams;
     for (const std::size_t size : sizes) {
-      datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                                 .size = static_cast<std::uint16_t>(size),
-                                 .port = DatagramPort::kData});
-      datagrams.bytes.resize(datagrams.bytes.size() + size);
-      datagrams.bytes[datagrams.items.back().offset] = 1;
+      AddDatagram("\1" + std::string(size - 1, '\0'), datagrams);
     }
-    PcapWriter writer(file(), kOusterLidarPort, kOusterImuPort);
-    writer.Write(datagrams, datagrams.items);
-    writer.Finish();
+    WriteDatagrams(file(), datagrams, kOusterLidarPort, kOusterImuPort);
   }
   [[nodiscard]] std::string FaultOfCapture() const {
     std::string message = MessageOf([&] { static_cast<void>(OpenRecording(file())); });

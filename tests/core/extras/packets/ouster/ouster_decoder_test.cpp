@@ -7,6 +7,7 @@
 
 #include "core/base/units.h"
 #include "tests/core/extras/packets/ouster/shared_captures.h"
+#include "tests/support/decoded_turns.h"
 #include "tests/support/ouster_metadata_text.h"
 
 namespace railcast {
@@ -15,12 +16,7 @@ namespace {
 /// All turns of a capture.
 std::vector<SensorTurn> TurnsOf(const OusterCapture& capture) {
   OusterDecoder decoder(capture.metadata());
-  std::vector<SensorTurn> turns;
-  for (const std::vector<char>& packet : LidarPacketsOf(capture)) {
-    EXPECT_EQ(decoder.Decode(packet, turns), std::nullopt);
-  }
-  turns.push_back(decoder.TakeUnfinished());
-  return turns;
+  return TurnsOfPackets(decoder, LidarPacketsOf(capture));
 }
 
 /// Ouster's manual, "lidar range to XYZ": the sum of the beam's way and of the arm's, less the
@@ -142,13 +138,9 @@ class MadePackets {
 TEST(OusterDecoder, PutsPacketsInOrderAndLeavesOutLateAndRepeatedOnes) {
   const MadePackets made;
   OusterDecoder decoder(made.metadata());
-  std::vector<SensorTurn> turns;
-  const std::vector<std::pair<std::uint32_t, std::uint16_t>> arrivals = {{7, 32}, {7, 0},  {7, 32},
-                                                                         {8, 0},  {7, 16}, {8, 16}};
-  for (const auto& [frame, first] : arrivals) {
-    EXPECT_EQ(decoder.Decode(made.Packet(frame, first), turns), std::nullopt);
-  }
-  turns.push_back(decoder.TakeUnfinished());
+  const std::vector<SensorTurn> turns = TurnsOfPackets(
+      decoder, std::vector{made.Packet(7, 32), made.Packet(7, 0), made.Packet(7, 32),
+                           made.Packet(8, 0), made.Packet(7, 16), made.Packet(8, 16)});
   ASSERT_EQ(turns.size(), 2U);
   ASSERT_EQ(turns[0].points.size(), 32U);
   EXPECT_EQ(turns[0].stamp_ns, 7'000'000'000);

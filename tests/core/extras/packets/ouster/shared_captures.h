@@ -5,8 +5,8 @@
 
 #include "core/base/input_file.h"
 #include "core/extras/packets/ouster/ouster_packet.h"
-#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/scenario/ouster_metadata.h"
+#include "tests/support/captures.h"
 
 namespace railcast {
 
@@ -59,12 +59,8 @@ inline const std::vector<OusterCapture> kOusterCaptures = {
 /// The payloads of one size in a capture.
 [[nodiscard]] inline std::vector<std::vector<char>> PayloadsOf(const OusterCapture& capture,
                                                                std::size_t size) {
-  PcapReader reader(OusterCapture::Path(capture.pcap));
-  std::vector<std::vector<char>> payloads;
-  while (const auto datagram = reader.Next()) {
-    if (datagram->payload.size() != size) continue;
-    payloads.emplace_back(datagram->payload.begin(), datagram->payload.end());
-  }
+  std::vector<std::vector<char>> payloads = PacketsInCapture(OusterCapture::Path(capture.pcap));
+  std::erase_if(payloads, [&](const auto& payload) { return payload.size() != size; });
   return payloads;
 }
 

@@ -13,6 +13,8 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/faults.h"
 #include "tests/support/frame_bytes.h"
 #include "tests/support/run_command.h"
 #include "tests/support/sensor_file.h"
@@ -145,13 +147,7 @@ TEST(IpFragments, ThatContradictEachOtherAreRefused) {
     std::vector<CapturedFrame> captured;
     for (const std::string& frame : frames) captured.push_back({frame});
     const auto file = WriteCapture(directory.path() / "a.pcap", captured);
-    const std::string message = MessageOf([&] {
-      PcapReader reader(file);
-      while (reader.Next()) {
-      }
-    });
-    EXPECT_TRUE(message.starts_with(file.string() + ": packet 1: ")) << message;
-    return message.substr(message.find("an IP"));
+    return MessageBehind(file.string() + ": packet 1: ", [&] { (void)PacketsInCapture(file); });
   };
   EXPECT_EQ(said({FragmentOf(udp, 0, 64), FragmentOf(udp, 32, 64)}),
             "an IP fragment must not overlap another (got bytes 32 to 96 beside 0 to 64)");
@@ -169,7 +165,7 @@ TEST(IpFragments, ThatContradictEachOtherAreRefused) {
 }
 
 TEST(IpFragments, GiveWhatTsharkPutsTogether) {
-  if (std::system("command -v tshark >/dev/null") != 0) GTEST_SKIP() << "tshark is missing";
+  if (!HasTshark()) GTEST_SKIP() << "tshark is missing";
   std::vector<CapturedFrame> frames;
   for (std::size_t i = 0; i < 20; ++i) {
     const std::string udp = Udp(Counted(500 + 777 * i, static_cast<int>(i)));

@@ -70,17 +70,24 @@ struct CapturedFrame {
   std::size_t time_us{};
 };
 
+/// The bytes of a capture.
 /// @param link Type of the frames; 1 = Ethernet.
-inline std::filesystem::path WriteCapture(const std::filesystem::path& file,
-                                          const std::vector<CapturedFrame>& frames,
-                                          std::size_t link = 1) {
+inline std::string CaptureBytes(const std::vector<CapturedFrame>& frames, std::size_t link = 1) {
   std::string bytes("\xD4\xC3\xB2\xA1\2\0\4\0\0\0\0\0\0\0\0\0\0\0\4\0", 20);
   bytes += Little32(link);
   for (const auto& [frame, time_us] : frames) {
     bytes += Little32(time_us / 1'000'000) + Little32(time_us % 1'000'000) +
              Little32(frame.size()) + Little32(frame.size()) + frame;
   }
-  WriteFileWhole(file, bytes);
+  return bytes;
+}
+
+/// Writes that capture.
+/// @return `file`.
+inline std::filesystem::path WriteCapture(const std::filesystem::path& file,
+                                          const std::vector<CapturedFrame>& frames,
+                                          std::size_t link = 1) {
+  WriteFileWhole(file, CaptureBytes(frames, link));
   return file;
 }
 

@@ -4,18 +4,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/packets/pcap/pcap_writer.h"
-#include "core/io/write_file.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/small_disk.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/faults.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/run_command.h"
+#include "tests/support/written_file.h"
 
 namespace railcast {
 namespace {
@@ -36,18 +38,17 @@ Datagrams ExampleDatagrams() {
 }
 
 void WriteExample(const std::filesystem::path& file) {
-  const Datagrams datagrams = ExampleDatagrams();
-  PcapWriter writer(file, 2368, 8308);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
+  WriteDatagrams(file, ExampleDatagrams());
 }
 
 std::string ReadAll(const std::filesystem::path& file) {
-  return MessageOf([&] {
-    PcapReader reader(file);
-    while (reader.Next()) {
-    }
-  });
+  return MessageOf([&] { (void)PacketsInCapture(file); });
+}
+
+/// The same of these bytes, without the name of the file.
+std::string SaidOf(const std::string& bytes) {
+  const WrittenFile file("a.pcap", bytes);
+  return MessageBehind(file.path().string() + ": ", [&] { (void)PacketsInCapture(file.path()); });
 }
 
 TEST(Pcap, ReadsBackWhatItWrote) {
@@ -123,15 +124,7 @@ TEST(PcapWriter, WritesTheHeadersThatDecodersSkip) {
 
 /// Writes a capture of IPv6 with datagrams of these payloads.
 void WriteIpv6(const std::filesystem::path& file, const std::vector<std::string>& payloads) {
-  Datagrams datagrams;
-  for (const std::string& payload : payloads) {
-    datagrams.items.push_back(
-        {.offset = datagrams.bytes.size(), .size = static_cast<std::uint32_t>(payload.size())});
-    datagrams.bytes.insert(datagrams.bytes.end(), payload.begin(), payload.end());
-  }
-  PcapWriter writer(file, 2368, 8308, /*is_ipv6=*/true);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
+  WriteDatagrams(file, DatagramsWith(payloads), 2368, 8308, /*is_ipv6=*/true);
 }
 
 // Made by hand after RFC 8200 (3; 8.1) and RFC 768: the sum of fe80::6276:88ff:fe00:0, ff02::1, 11,
@@ -163,7 +156,7 @@ TEST(PcapWriter, WritesPacketsOfIpv6WithTheirChecksum) {
 }
 
 TEST(PcapWriter, WritesIpv6ThatTsharkFindsSound) {
-  if (std::system("command -v tshark >/dev/null") != 0) GTEST_SKIP() << "tshark is missing";
+  if (!HasTshark()) GTEST_SKIP() << "tshark is missing";
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
   WriteIpv6(file, {"abc", "\x06\x5F", std::string(1206, 'v'), std::string(24'832, 'o')});
@@ -358,9 +351,7 @@ TEST(PcapReader, SaysThatIpv6IsNotCapturedWhole) {
     std::string cut = sound.substr(0, 24 + 16 + kept);
     cut[24 + 8] = static_cast<char>(kept);
     if (kept > 20) cut[24 + 16 + 20] = protocol;
-    WriteFileWhole(file, cut);
-    const std::string text = ReadAll(file);
-    return text == "no error" ? text : text.substr(file.string().size() + 2);
+    return SaidOf(cut);
   };
   for (const std::size_t kept : {20U, 50U, 60U, 64U}) {
     EXPECT_EQ(said(kept, 17),
@@ -374,34 +365,29 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
   const auto file = directory.path() / "a.pcap";
   WriteExample(file);
   const std::string sound = ReadFileWhole(file);
-  const auto said = [&](const std::string& bytes) {
-    WriteFileWhole(file, bytes);
-    std::string text = ReadAll(file);
-    EXPECT_TRUE(text == "no error" || text.starts_with(file.string() + ": ")) << text;
-    return text == "no error" ? text : text.substr(file.string().size() + 2);
-  };
-  EXPECT_EQ(said(""), "truncated dump file; tried to read 4 file header bytes, only got 0");
-  EXPECT_EQ(said("this is no capture, far from it"), "unknown file format");
-  EXPECT_EQ(said(sound.substr(0, 20)),
+
+  EXPECT_EQ(SaidOf(""), "truncated dump file; tried to read 4 file header bytes, only got 0");
+  EXPECT_EQ(SaidOf("this is no capture, far from it"), "unknown file format");
+  EXPECT_EQ(SaidOf(sound.substr(0, 20)),
             "truncated dump file; tried to read 24 file header bytes, only got 16");
   std::string other_link = sound;
   other_link[20] = 105;
   EXPECT_EQ(
-      said(other_link),
+      SaidOf(other_link),
       "must be a capture of Ethernet, of Linux's \"any\" (SLL, SLL2), of a loopback device or "
       "of IP (got IEEE802_11)");
   std::string cut = sound;
   cut[24 + 12 + 1] = 9;  // 2528 bytes on the wire.
-  EXPECT_EQ(said(cut), "no error") << "the datagram is there in full";
+  EXPECT_EQ(SaidOf(cut), "no error") << "the datagram is there in full";
   // The capture kept 100 bytes of a frame.
   std::string snapped = sound.substr(0, 24 + 16 + 100);
   snapped[24 + 8] = 100;
   snapped[24 + 9] = 0;
-  EXPECT_EQ(said(snapped), "packet 0: must be captured whole (got 100 of 1248 bytes)");
+  EXPECT_EQ(SaidOf(snapped), "packet 0: must be captured whole (got 100 of 1248 bytes)");
   std::string too_short = sound.substr(0, 24 + 16 + 20);
   too_short[24 + 8] = 20;
   too_short[24 + 9] = 0;
-  EXPECT_EQ(said(too_short), "packet 0: must be captured whole (got 20 of 1248 bytes)");
+  EXPECT_EQ(SaidOf(too_short), "packet 0: must be captured whole (got 20 of 1248 bytes)");
   // A frame of another protocol may be cut anywhere.
   const std::size_t ethernet = 24 + 16;
   for (const auto& [place, value] : {std::pair<std::size_t, char>{ethernet + 14 + 9, 6},
@@ -409,16 +395,16 @@ TEST(PcapReader, SaysWhereAFileIsDamaged) {
                                      {ethernet + 13, 0x06}}) {
     std::string other = snapped + sound.substr(24);
     other[place] = value;
-    EXPECT_EQ(said(other), "no error") << place;
+    EXPECT_EQ(SaidOf(other), "no error") << place;
   }
   std::string huge = sound;
   huge[24 + 11] = 0x7F;
-  EXPECT_THAT(said(huge), testing::StartsWith("packet 0: invalid packet capture length"));
+  EXPECT_THAT(SaidOf(huge), testing::StartsWith("packet 0: invalid packet capture length"));
   // pcapng counts in 64 bits; the fuzzer found this time of 4.6e12 s.
-  EXPECT_EQ(
-      said(ReadFileWhole(RAILCAST_SOURCE_DIR "/tests/fuzz/corpus/velodyne/capture_ng_in_far_future")
-               .substr(1)),
-      "packet 0: must be captured before the year 2262 (got 4611686018427 s since 1970)");
+  EXPECT_EQ(SaidOf(ReadFileWhole(RAILCAST_SOURCE_DIR
+                                 "/tests/fuzz/corpus/velodyne/capture_ng_in_far_future")
+                       .substr(1)),
+            "packet 0: must be captured before the year 2262 (got 4611686018427 s since 1970)");
   EXPECT_EQ(ReadAll("/no/such/place/a.pcap"), "/no/such/place/a.pcap: no such file or directory");
 }
 

@@ -3,36 +3,24 @@
 
 #include <cmath>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/recording/capture_recording.h"
 #include "core/extras/packets/recording/capture_sensor.h"
 #include "core/extras/packets/spinning/spinning_encoder.h"
 #include "core/extras/packets/spinning/spinning_model.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
+#include "tests/support/faults.h"
 #include "tests/support/hesai_bag.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
 namespace {
-
-void WriteDatagrams(const std::filesystem::path& file, const Datagrams& datagrams) {
-  PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
-}
-
-void AddDatagram(const std::string& payload, Datagrams& datagrams) {
-  datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                             .size = static_cast<std::uint16_t>(payload.size()),
-                             .port = DatagramPort::kData});
-  datagrams.bytes.insert(datagrams.bytes.end(), payload.begin(), payload.end());
-}
 
 class CapturedFormat : public testing::TestWithParam<const char*> {};
 
@@ -249,16 +237,13 @@ TEST(CaptureRecording, OfARealVls128HasThreeWholeTurns) {
 std::string MessageOfCapture(const std::vector<std::string>& payloads) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
-  Datagrams datagrams;
-  for (const std::string& payload : payloads) AddDatagram(payload, datagrams);
-  WriteDatagrams(file, datagrams);
-  const std::string message = MessageOf([&] { (void)OpenRecording(file); });
-  const std::string expected =
+  WriteDatagrams(file, DatagramsWith(payloads));
+  return MessageBehind(
       file.string() +
-      ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32, "
-      "QT128, Pandar128E4X, Pandar128E4X in standard mode, Pandar40P, QT64, XT16, XT32M or AT128 ";
-  EXPECT_EQ(message.substr(0, expected.size()), expected);
-  return message.substr(expected.size());
+          ": must be a capture of VLP-16, HDL-32E, VLP-32C, VLS-128, Pandar64, XT32, "
+          "QT128, Pandar128E4X, Pandar128E4X in standard mode, Pandar40P, QT64, XT16, XT32M or "
+          "AT128 ",
+      [&] { (void)OpenRecording(file); });
 }
 
 std::string VelodynePacketOf(std::uint8_t model, bool is_hdl64e = false) {

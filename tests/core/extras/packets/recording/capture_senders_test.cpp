@@ -14,6 +14,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -21,13 +22,8 @@ namespace {
 
 std::vector<std::string> PacketsOf(const char* format, std::uint32_t first_frame = 0) {
   const MadeScan scan(ReadSensor(format));
-  const Datagrams datagrams =
-      EncodeAll(format, scan, {scan.MakeFrame(first_frame), scan.MakeFrame(first_frame + 1)});
-  std::vector<std::string> packets;
-  for (const auto& packet : DataPackets(datagrams)) {
-    packets.emplace_back(packet.begin(), packet.end());
-  }
-  return packets;
+  return DataTexts(
+      EncodeAll(format, scan, {scan.MakeFrame(first_frame), scan.MakeFrame(first_frame + 1)}));
 }
 
 /// What a sensor sends, and from where.

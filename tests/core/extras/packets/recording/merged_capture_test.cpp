@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <string>
-#include <vector>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
-#include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/write_file.h"
-#include "core/scenario/sensors.h"
 #include "railcast/io/recording.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -45,14 +42,6 @@ Datagrams Merged(const Datagrams& datagrams, std::size_t most = kMostMerged) {
   return merged;
 }
 
-std::filesystem::path WriteMadeCapture(const std::filesystem::path& file,
-                                       const Datagrams& datagrams) {
-  PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
-  return file;
-}
-
 class MergedCapture : public testing::TestWithParam<const char*> {};
 
 TEST_P(MergedCapture, GivesTheFramesOfTheUnmergedOne) {
@@ -64,8 +53,8 @@ TEST_P(MergedCapture, GivesTheFramesOfTheUnmergedOne) {
   const Datagrams merged = Merged(datagrams);
   ASSERT_LT(merged.items.size(), datagrams.items.size() / 10);
   const TemporaryDirectory directory;
-  const auto whole = ReadAll(WriteMadeCapture(directory.path() / "whole.pcap", datagrams));
-  const auto cut = ReadAll(WriteMadeCapture(directory.path() / "merged.pcap", merged));
+  const auto whole = ReadAll(WriteDatagrams(directory.path() / "whole.pcap", datagrams));
+  const auto cut = ReadAll(WriteDatagrams(directory.path() / "merged.pcap", merged));
   ASSERT_EQ(cut.size(), whole.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_TRUE(FrameBytes(cut[i].frame) == FrameBytes(whole[i].frame)) << i;
@@ -85,11 +74,7 @@ INSTANTIATE_TEST_SUITE_P(CaptureRecording,
 Datagrams PandarPackets(std::size_t count) {
   Datagrams datagrams;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::vector<char> packet = NumberedPacket(i);
-    datagrams.items.push_back({.offset = datagrams.bytes.size(),
-                               .size = static_cast<std::uint16_t>(packet.size()),
-                               .port = DatagramPort::kData});
-    datagrams.bytes.insert(datagrams.bytes.end(), packet.begin(), packet.end());
+    AddDatagram(NumberedPacket(i), datagrams);
   }
   return datagrams;
 }
@@ -97,7 +82,7 @@ Datagrams PandarPackets(std::size_t count) {
 TEST(CaptureRecording, OfAMergedPandar64GivesEveryTurn) {
   const TemporaryDirectory directory;
   const Datagrams datagrams = PandarPackets(100);
-  const auto frames = ReadAll(WriteMadeCapture(directory.path() / "a.pcap", Merged(datagrams)));
+  const auto frames = ReadAll(WriteDatagrams(directory.path() / "a.pcap", Merged(datagrams)));
   // Each made packet begins at the azimuth of the one before it and is therefore a turn of its own,
   // of six cycles.
   ASSERT_EQ(frames.size(), 100U);
@@ -110,7 +95,7 @@ TEST(CaptureRecording, LeavesOutAMergedDatagramThatEndsWithinAPacket) {
   Datagrams datagrams = Merged(PandarPackets(100));
   const std::size_t num_merged = datagrams.items[1].size / 1198U;
   datagrams.items[1].size = 3 * 1198 + 500;
-  const auto recording = OpenRecording(WriteMadeCapture(file, datagrams));
+  const auto recording = OpenRecording(WriteDatagrams(file, datagrams));
   EXPECT_EQ(ReadAll(*recording).size(), 100U - num_merged);
   const auto remarks = recording->info().remarks->List();
   const auto refused = std::ranges::find(remarks, RemarkKind::kPacketsRefused, &Remark::kind);
@@ -124,7 +109,7 @@ TEST(CaptureRecording, LeavesOutAMergedDatagramThatEndsWithinAPacket) {
 TEST(CaptureRecording, RefusesAMergedDatagramThatTheCaptureCut) {
   const TemporaryDirectory directory;
   const auto file = directory.path() / "a.pcap";
-  WriteMadeCapture(file, Merged(PandarPackets(100)));
+  WriteDatagrams(file, Merged(PandarPackets(100)));
   // Cut the first packet as "tcpdump -s 1500" would.
   std::string bytes = ReadFileWhole(file);
   constexpr std::size_t kFileHeader = 24;

@@ -14,6 +14,7 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/frame_bytes.h"
+#include "tests/support/made_datagrams.h"
 #include "tests/support/sensor_file.h"
 
 namespace railcast {
@@ -27,12 +28,7 @@ std::vector<std::string> Turns(std::uint32_t num,
   const MadeScan scan(ReadSensor(sensor.empty() ? std::string(SensorOf(format)) : sensor));
   std::vector<Frame> frames;
   for (std::uint32_t i = 0; i < num; ++i) frames.push_back(scan.MakeFrame(i));
-  std::vector<std::string> payloads;
-  const Datagrams datagrams = EncodeAll(format, scan, frames);
-  for (const auto& packet : DataPackets(datagrams)) {
-    payloads.emplace_back(packet.begin(), packet.end());
-  }
-  return payloads;
+  return DataTexts(EncodeAll(format, scan, frames));
 }
 
 std::vector<std::string> TwoTurns(const char* format = "vlp16") {

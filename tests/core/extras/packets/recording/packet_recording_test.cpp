@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/io/recording/source_choice.h"
 #include "core/io/write_file.h"
 #include "tests/core/extras/packets/hesai/made_packet.h"
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
 #include "tests/support/hesai_bag.h"
+#include "tests/support/made_datagrams.h"
 
 namespace railcast {
 namespace {
@@ -105,18 +106,11 @@ std::filesystem::path WriteHosts(const std::filesystem::path& file,
                                  const std::vector<MadeDatagram>& made) {
   Datagrams datagrams;
   for (std::size_t i = 0; i < made.size(); ++i) {
-    const auto payload = PayloadOf(made[i], static_cast<std::uint32_t>(10 * i));
-    datagrams.items.push_back(
-        {.offset = datagrams.bytes.size(),
-         .size = static_cast<std::uint32_t>(payload.size()),
-         .port = made[i].num_packets == 0 ? DatagramPort::kPosition : DatagramPort::kData,
-         .due_ns = static_cast<std::int64_t>(i) * 1'000'000});
-    datagrams.bytes.insert(datagrams.bytes.end(), payload.begin(), payload.end());
+    AddDatagram(PayloadOf(made[i], static_cast<std::uint32_t>(10 * i)), datagrams,
+                made[i].num_packets == 0 ? DatagramPort::kPosition : DatagramPort::kData,
+                static_cast<std::int64_t>(i) * 1'000'000);
   }
-  PcapWriter writer(file, 2368, 8308);
-  writer.Write(datagrams, datagrams.items);
-  writer.Finish();
-  std::string bytes = ReadFileWhole(file);
+  std::string bytes = ReadFileWhole(WriteDatagrams(file, datagrams));
   constexpr std::size_t kRecordHeader = 16;
   constexpr std::size_t kHeaders = 42;            // Of Ethernet, IP and UDP.
   constexpr std::size_t kLastOfSource = 14 + 15;  // In these.

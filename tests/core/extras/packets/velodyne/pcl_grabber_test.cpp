@@ -11,15 +11,14 @@
 #include <mutex>
 #include <thread>
 
-#include "core/extras/packets/pcap/pcap_writer.h"
 #include "core/extras/packets/spinning/spinning_model.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
 #include "core/io/net/udp.h"
 #include "core/io/write_file.h"
-#include "core/scenario/sensors.h"
 #include "tests/core/extras/packets/velodyne/made_scan.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/support/analytic_meshes.h"
+#include "tests/support/captures.h"
 #include "tests/support/scan_once.h"
 #include "tests/support/sensor_file.h"
 #include "tests/support/simple_world.h"
@@ -223,9 +222,7 @@ class PclGrabber : public testing::TestWithParam<const char*> {
   void ExpectFromCapture(const std::vector<Frame>& frames) const {
     const Datagrams datagrams = EncodeAll(format(), scan_, frames);
     const auto file = directory_.path() / "a.pcap";
-    PcapWriter writer(file, kVelodyneDataPort, kVelodynePositionPort);
-    writer.Write(datagrams, datagrams.items);
-    writer.Finish();
+    WriteDatagrams(file, datagrams);
     const auto grabber = GrabberOfFile(format(), CalibrationFile(), file.string());
     Sweeps sweeps(*grabber);
     grabber->start();

@@ -14,6 +14,7 @@
 #include "core/extras/packets/spinning/spinning_decoder.h"
 #include "core/scenario/sensors.h"
 #include "railcast/transform.h"
+#include "tests/support/pcl_reads.h"
 
 namespace railcast {
 namespace {
@@ -157,8 +158,8 @@ TEST(RealCapture, DecodesVlp16InDualModeAsNebulaDoes) {
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const SpinningModel& model = *FindSpinningModel("vlp16");
   const auto turns = DecodeCapture(file, model);
-  pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp16_dual_decoded.pcd").string(), theirs), 0);
+  const auto theirs =
+      PclReads<pcl::PointCloud<pcl::PointXYZ>>(VelodyneCapture("vlp16_dual_decoded.pcd"));
   ASSERT_EQ(theirs.size(), 14'831U);
   // The capture holds four turns and the first firings of a fifth; the published cloud is the
   // fourth.
@@ -175,8 +176,8 @@ TEST(RealCapture, DecodesVlp32cAsNebulaDoes) {
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const SpinningModel& model = *FindSpinningModel("vlp32c");
   const auto turns = DecodeCapture(file, model);
-  pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vlp32c_single_decoded.pcd").string(), theirs), 0);
+  const auto theirs =
+      PclReads<pcl::PointCloud<pcl::PointXYZ>>(VelodyneCapture("vlp32c_single_decoded.pcd"));
   ASSERT_EQ(theirs.size(), 26'216U);
   // The sensor scanned from 270 to 91 deg; the published cloud is the first such sector, in which
   // the azimuth passes 0. It ends with a packet, of which four blocks are of the next sector.
@@ -223,8 +224,8 @@ TEST(RealCapture, DecodesVls128AsNebulaDoes) {
   if (!exists(file)) GTEST_SKIP() << file << " is not there";
   const SpinningModel& model = ModelNamed("VLS-128");
   const auto turns = DecodeCapture(file, model);
-  pcl::PointCloud<pcl::PointXYZ> theirs;
-  ASSERT_EQ(pcl::io::loadPCDFile(VelodyneCapture("vls128_single_decoded.pcd").string(), theirs), 0);
+  const auto theirs =
+      PclReads<pcl::PointCloud<pcl::PointXYZ>>(VelodyneCapture("vls128_single_decoded.pcd"));
   ASSERT_EQ(theirs.size(), 208'680U);
   ASSERT_EQ(turns.size(), 5U);
   const Comparison comparison = Compare(theirs, turns[1].points, model);

@@ -9,7 +9,6 @@
 
 #include "core/base/input_file.h"
 #include "core/base/units.h"
-#include "core/extras/packets/pcap/pcap_reader.h"
 #include "core/extras/ros/bag/bag.h"
 #include "core/extras/ros/messages/cdr.h"
 #include "core/extras/ros/messages/geometry_messages.h"
@@ -23,6 +22,7 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/captures.h"
 
 namespace railcast {
 namespace {
@@ -296,10 +296,9 @@ std::filesystem::path PackedAs(MadeBag& bag,
 }
 
 std::vector<std::vector<std::uint8_t>> PacketsOfCapture(const std::filesystem::path& file) {
-  PcapReader reader(file);
   std::vector<std::vector<std::uint8_t>> packets;
-  while (const auto datagram = reader.Next()) {
-    packets.emplace_back(datagram->payload.begin(), datagram->payload.end());
+  for (const auto& packet : PacketsInCapture(file)) {
+    packets.emplace_back(packet.begin(), packet.end());
   }
   return packets;
 }

@@ -23,26 +23,12 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
+#include "tests/support/clouds.h"
 
 namespace railcast {
 namespace {
 
-/// The remarks of a cloud: "points-beyond 2".
-std::vector<std::string> RemarkNames(const std::vector<Remark>& remarks) {
-  std::vector<std::string> names;
-  for (const Remark& remark : remarks) {
-    names.push_back(std::string(remark.type().name) + " " + std::to_string(remark.number));
-  }
-  return names;
-}
 using TextList = std::vector<std::string>;
-
-std::vector<float> FieldValues(const Cloud& cloud, const char* name) {
-  std::vector<float> values;
-  VisitField(cloud, *cloud.Find(name),
-             [&](std::size_t, auto value) { values.push_back(static_cast<float>(value)); });
-  return values;
-}
 
 const std::vector<std::array<float, 3>> kFourPoints = {
     {1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {7.0F, 8.0F, 9.0F}, {10.0F, 11.0F, 12.0F}};
@@ -53,17 +39,17 @@ TEST(ForeignBag, TakesRowsByTheirDataWhateverTheStepOfRowsIs) {
     message.height = message.width = 2;
     message.row_step = row_step;
     const Cloud cloud = MakeCloud(message);
-    EXPECT_EQ(FieldValues(cloud, "x"), (std::vector<float>{1.0F, 4.0F, 7.0F, 10.0F})) << row_step;
-    EXPECT_EQ(RemarkNames(cloud.remarks), TextList());
+    EXPECT_EQ(FieldNumbers(cloud, "x"), (std::vector<double>{1.0, 4.0, 7.0, 10.0})) << row_step;
+    EXPECT_EQ(RemarkTexts(cloud.remarks), TextList());
   }
 }
 
 TEST(ForeignBag, TellsOfPointsBeyondThoseThatTheMessageStates) {
   ros::PointCloud2 message = CloudOf(kFourPoints, 0);
   message.width = 3;
-  EXPECT_EQ(RemarkNames(MakeCloud(message).remarks), TextList{"points-beyond 1"});
+  EXPECT_EQ(RemarkTexts(MakeCloud(message).remarks), TextList{"points-beyond 1"});
   message.data.push_back(7);
-  EXPECT_EQ(RemarkNames(MakeCloud(message).remarks),
+  EXPECT_EQ(RemarkTexts(MakeCloud(message).remarks),
             (TextList{"points-beyond 1", "surplus-bytes 1"}));
   // The second point of each of two rows.
   message = CloudOf(kFourPoints, 0);
@@ -71,14 +57,14 @@ TEST(ForeignBag, TellsOfPointsBeyondThoseThatTheMessageStates) {
   message.width = 1;
   message.row_step = 34;
   const Cloud rows = MakeCloud(message);
-  EXPECT_EQ(FieldValues(rows, "x"), (std::vector<float>{1.0F, 7.0F}));
-  EXPECT_EQ(RemarkNames(rows.remarks), TextList{"points-beyond 2"});
+  EXPECT_EQ(FieldNumbers(rows, "x"), (std::vector<double>{1.0, 7.0}));
+  EXPECT_EQ(RemarkTexts(rows.remarks), TextList{"points-beyond 2"});
 }
 
 TEST(ForeignBag, TakesZerosForPadding) {
   ros::PointCloud2 message = CloudOf(kFourPoints, 0);
   message.data.resize(message.data.size() + 100);
-  EXPECT_EQ(RemarkNames(MakeCloud(message).remarks), TextList());
+  EXPECT_EQ(RemarkTexts(MakeCloud(message).remarks), TextList());
 }
 
 ros::PointCloud2 NoCloudAt(std::int64_t stamp_ns) {
@@ -103,9 +89,9 @@ TEST(ForeignBag, TellsTheByteOrderByTheValues) {
     ros::PointCloud2 message = CloudOf(kFourPoints, 0, is_bigendian);
     message.is_bigendian = !is_bigendian;
     const Cloud cloud = MakeCloud(message);
-    EXPECT_EQ(FieldValues(cloud, "y"), (std::vector<float>{2.0F, 5.0F, 8.0F, 11.0F}));
-    EXPECT_EQ(FieldValues(cloud, "ring"), (std::vector<float>{0.0F, 1.0F, 2.0F, 3.0F}));
-    EXPECT_EQ(RemarkNames(cloud.remarks), TextList{"byte-order-guessed 1"});
+    EXPECT_EQ(FieldNumbers(cloud, "y"), (std::vector<double>{2.0, 5.0, 8.0, 11.0}));
+    EXPECT_EQ(FieldNumbers(cloud, "ring"), (std::vector<double>{0.0, 1.0, 2.0, 3.0}));
+    EXPECT_EQ(RemarkTexts(cloud.remarks), TextList{"byte-order-guessed 1"});
   }
 }
 
@@ -132,7 +118,7 @@ TEST(ForeignBag, TakesTimesFarFromTheStampAsDifferences) {
     // float32 rounds 2.4 s to 0.24 us.
     EXPECT_NEAR(frames[i].frame.duration_ns, 75e6, 500.0);
   }
-  EXPECT_EQ(RemarkNames(recording->info().remarks->List()), TextList{"times-relative 2"});
+  EXPECT_EQ(RemarkTexts(recording->info().remarks->List()), TextList{"times-relative 2"});
 }
 
 // As Velodyne's driver does without timestamp_first_packet.
@@ -147,7 +133,7 @@ TEST(ForeignBag, TakesTimesBeforeAStampAtTheEndOfTheTurn) {
   bag.Add("/points", 0, message);
   const auto recording = OpenRecording(bag.Closed());
   EXPECT_NEAR(static_cast<double>(ReadAll(*recording).at(0).frame.stamp_ns), 6.924e9, 10.0);
-  EXPECT_EQ(RemarkNames(recording->info().remarks->List()), TextList());
+  EXPECT_EQ(RemarkTexts(recording->info().remarks->List()), TextList());
 }
 
 /// Writes a bag of one message of this type in a folder, and returns its database.
@@ -232,14 +218,14 @@ TEST(ForeignBag, TakesTheTimesOfLivoxFromItsTimeBase) {
   EXPECT_EQ(frames[0].frame.stamp_ns, kSecond_ns);
   EXPECT_EQ(frames[1].frame.stamp_ns, 3 * kSecond_ns);
   EXPECT_EQ(frames[2].frame.stamp_ns, 5 * kSecond_ns);
-  EXPECT_EQ(RemarkNames(recording->info().remarks->List()), TextList{"times-relative 1"});
+  EXPECT_EQ(RemarkTexts(recording->info().remarks->List()), TextList{"times-relative 1"});
 }
 
 TEST(ForeignBag, TellsOfPointsBeyondThoseThatLivoxStates) {
   ros::LivoxCloud message = LivoxCloudAt(0, 0, 0);
   std::int64_t first_ns = 0;
   message.point_num = 2;
-  EXPECT_EQ(RemarkNames(MakeCloud(message, first_ns).remarks), TextList{"points-beyond 1"});
+  EXPECT_EQ(RemarkTexts(MakeCloud(message, first_ns).remarks), TextList{"points-beyond 1"});
   message.point_num = 4;
   EXPECT_EQ(MessageOf([&] { (void)MakeCloud(message, first_ns); }),
             "point_num: must be at most the number of points, 3 (got 4)");
@@ -257,7 +243,7 @@ TEST(ForeignBag, TellsThatItsEndIsCutOff) {
   const auto recording = OpenRecording(file);
   EXPECT_EQ(ReadAll(*recording).size(), 2U);
   const auto remarks = recording->info().remarks->List();
-  ASSERT_EQ(RemarkNames(remarks), TextList{"recording-cut 1"});
+  ASSERT_EQ(RemarkTexts(remarks), TextList{"recording-cut 1"});
   EXPECT_TRUE(remarks[0].place.starts_with(file.string() + ": record at ")) << remarks[0].place;
 }
 
@@ -270,7 +256,7 @@ TEST(ForeignBag, TellsWhatIsWrongBehindItsData) {
     WriteFileWhole(file, bytes);
     const auto recording = OpenRecording(file);
     EXPECT_EQ(ReadAll(*recording).size(), 1U);
-    return RemarkNames(recording->info().remarks->List());
+    return RemarkTexts(recording->info().remarks->List());
   };
   EXPECT_EQ(told(whole), TextList{});
   EXPECT_EQ(told(whole + "junk"), TextList{"surplus-bytes 4"});
@@ -301,7 +287,7 @@ TEST(ForeignBag, TellsOfFilesThatItsMetadataDoNotName) {
   std::filesystem::copy_file(file, file.parent_path() / "bag_1.db3");
   const auto recording = OpenRecording(file.parent_path());
   EXPECT_EQ(ReadAll(*recording).size(), 1U);
-  EXPECT_EQ(RemarkNames(recording->info().remarks->List()), TextList{"files-left-out 1"});
+  EXPECT_EQ(RemarkTexts(recording->info().remarks->List()), TextList{"files-left-out 1"});
 }
 
 TEST(ForeignBag, TellsThatItsRecorderWasInterrupted) {
@@ -316,7 +302,7 @@ TEST(ForeignBag, TellsThatItsRecorderWasInterrupted) {
   }
   const auto recording = OpenRecording(copy);
   EXPECT_EQ(ReadAll(*recording).size(), 1U);
-  EXPECT_EQ(RemarkNames(recording->info().remarks->List()), TextList{"recording-cut 1"});
+  EXPECT_EQ(RemarkTexts(recording->info().remarks->List()), TextList{"recording-cut 1"});
 }
 
 }  // namespace
