@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/io/sensor_turn.h"
+#include "core/extras/packets/spinning/sensor_turn.h"
 
 namespace railcast {
 

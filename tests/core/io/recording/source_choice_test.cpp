@@ -69,7 +69,8 @@ TEST(WithChoice, NamesTheColumnsOfKittisFilesAndFolders) {
 
 TEST(RecordingExtras, SayWhatThisBuildLacks) {
   EXPECT_EQ(MessageOf([] { (void)NeedExtra(RecordingExtras().verify_trace, "a.osi", "osi"); }),
-            "a.osi: needs the extra osi, which is not installed (Debian package railcast-osi; to build it, "
+            "a.osi: needs the extra osi, which is not installed (Debian package railcast-osi; to "
+            "build it, "
             "-D RAILCAST_BUILD_OSI=ON)");
 }
 

@@ -126,7 +126,8 @@ TEST(CheckStreamDatagram, SurvivesWhatever) {
   EXPECT_LT(num_taken, 15'000);
 }
 
-// Returns the datagram that docs/results/stream_datagram.md spells out in lines of "offset hex bytes meaning".
+// Returns the datagram that docs/results/stream_datagram.md spells out in lines of "offset hex
+// bytes meaning".
 std::string DatagramOfThePage() {
   const std::string page = ReadFileWhole(RAILCAST_SOURCE_DIR "/docs/results/stream_datagram.md");
   const std::size_t begin = page.find("```text\n") + 8;

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/extras/osi/sensor_view.h"
 #include "core/extras/osi/trace_file.h"
+#include "generator/extras/osi/sensor_view.h"
 #include "tests/generator/extras/osi/true_messages.h"
 
 namespace railcast::osi {
