@@ -8,7 +8,7 @@
 #include "core/detect/base/wind_velocity.h"
 #include "core/detect/clutter/added_echo.h"
 #include "core/detect/clutter/cover.h"
-#include "core/detect/kernels/fog_echo.h"
+#include "core/detect/kernels/fog_field.h"
 #include "railcast/outcome.h"
 
 namespace railcast {

@@ -20,7 +20,7 @@ namespace railcast {
 /// within a distance grows with its square, where they are spread evenly over the ground: the
 /// power's distribution follows.
 ///
-/// They come after effect `saturation`, which therefore acts on them here: saturation.h.
+/// They come after effect `saturation`, which therefore acts on them here: detection.h.
 ///
 /// Validity: sparse interference. Other lidars are not part of the scene, so that their false
 /// echoes neither come in bursts nor from a direction. Immutable; thread-safe.

@@ -6,10 +6,8 @@
 #include "core/base/text.h"
 #include "core/detect/base/weather_optics.h"
 #include "core/detect/detector/effect_table.h"
-#include "core/detect/kernels/rain_dropout.h"
-#include "core/detect/kernels/sensor_dropout.h"
-#include "core/detect/kernels/snow_clutter.h"
-#include "core/detect/kernels/threshold.h"
+#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/published.h"
 
 namespace railcast {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/detect/clutter/cover.h"
 #include "core/detect/clutter/interference.h"
 #include "core/detect/detector/effect_table.h"
-#include "core/detect/kernels/saturation.h"
+#include "core/detect/kernels/detection.h"
 
 namespace railcast {
 namespace {

@@ -2,21 +2,12 @@
 // The function below must be the only one with external linkage, or the linker could replace one
 // copy's code by that of another instruction set.
 #include "core/detect/kernels/kernels.h"
-#include "core/detect/kernels/cover_loss.h"
 #include "core/detect/kernels/detection.h"
-#include "core/detect/kernels/extinction.h"
 #include "core/detect/kernels/fog_echo.h"
-#include "core/detect/kernels/incidence.h"
 #include "core/detect/kernels/measurement.h"
-#include "core/detect/kernels/pointing.h"
-#include "core/detect/kernels/rain_dropout.h"
-#include "core/detect/kernels/range_walk.h"
-#include "core/detect/kernels/saturation.h"
-#include "core/detect/kernels/sensor_dropout.h"
-#include "core/detect/kernels/snow_clutter.h"
-#include "core/detect/kernels/sub_ray_aim.h"
+#include "core/detect/kernels/published.h"
+#include "core/detect/kernels/rays.h"
 #include "core/detect/kernels/surface_response.h"
-#include "core/detect/kernels/threshold.h"
 #include "core/detect/kernels/waveform.h"
 
 namespace railcast::RAILCAST_ISA {

@@ -1,5 +1,5 @@
 // Compares the formulas for a Gaussian beam on an oblique surface with sums over many rays.
-#include "core/detect/kernels/incidence.h"
+#include "core/detect/kernels/rays.h"
 
 #include <gtest/gtest.h>
 

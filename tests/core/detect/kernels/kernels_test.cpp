@@ -13,12 +13,8 @@
 #include "core/detect/kernels/detection.h"
 #include "core/detect/kernels/fog_echo.h"
 #include "core/detect/kernels/measurement.h"
-#include "core/detect/kernels/rain_dropout.h"
-#include "core/detect/kernels/saturation.h"
-#include "core/detect/kernels/sensor_dropout.h"
-#include "core/detect/kernels/snow_clutter.h"
+#include "core/detect/kernels/published.h"
 #include "core/detect/kernels/surface_response.h"
-#include "core/detect/kernels/threshold.h"
 #include "railcast/outcome.h"
 #include "tests/support/recorded_bytes.h"
 

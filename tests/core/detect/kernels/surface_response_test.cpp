@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/base/units.h"
-#include "core/detect/kernels/extinction.h"
+#include "core/detect/kernels/detection.h"
 
 namespace railcast {
 namespace {

@@ -1,13 +1,23 @@
 // See vector_math.h for why this header has no `#pragma once`.
-#ifndef RAILCAST_DETECT_SNOW_CLUTTER_H_
-#define RAILCAST_DETECT_SNOW_CLUTTER_H_
+#ifndef RAILCAST_DETECT_PUBLISHED_H_
+#define RAILCAST_DETECT_PUBLISHED_H_
 
 #include "core/detect/base/detect_tile.h"
 #include "core/detect/base/lane_random.h"
-#include "core/detect/kernels/threshold.h"
+#include "core/detect/base/vector_math.h"
 #include "railcast/outcome.h"
 
 namespace railcast {
+
+struct ThresholdParameters {
+  float inverse_threshold_m2{};  ///< reference_range^2 / reference_threshold
+  float fog_density_per_m{};
+};
+
+struct RainParameters {
+  std::uint64_t seed{};
+  float dropout_per_m{};  ///< k * RR^e
+};
 
 struct SnowParameters {
   std::uint64_t seed{};
@@ -23,6 +33,53 @@ struct SnowParameters {
 }  // namespace railcast
 
 namespace railcast::RAILCAST_ISA {
+
+/// Effect `threshold`: decides whether the echo of the surface is strong enough.
+///
+///   intensity = reflectivity * cos(incidence)
+///   received  = intensity * exp(-fog_density * R)              (one way, as published)
+///   threshold = reference_threshold * (R / reference_range)^2
+///   power_ratio = received / threshold;  below_threshold where it is < 1
+///
+/// Source: the published plausibility model (Vir2Rail, module 4). The physical loss is
+/// exp(-2 alpha R); to get it, set the fog density to twice the extinction coefficient. R is the
+/// true range in metres.
+inline void ApplyThreshold(DetectTile& tile, const ThresholdParameters& parameters) {
+  const float scale = parameters.inverse_threshold_m2;
+  const float fog_per_m = parameters.fog_density_per_m;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float range_m = tile.true_range_m[i];
+    const float intensity = tile.reflectivity[i] * tile.cos_incidence[i];
+    const float received = intensity * Exp(-fog_per_m * range_m);
+    const float ratio = received * scale / (range_m * range_m);
+    const bool lost =
+        tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) && !(ratio >= 1.0F);
+    tile.intensity[i] = intensity;
+    tile.power_ratio[i] = ratio;
+    tile.outcome[i] = lost ? static_cast<std::uint32_t>(Outcome::kBelowThreshold) : tile.outcome[i];
+  }
+}
+
+/// Effect `rain`: echoes are lost on the way, the more the longer the path and the higher the rain
+/// rate.
+///
+///   P(lost) = 1 - exp(-k * RR^e * R),  k = rain_dropout_per_m, e = rain_dropout_exponent
+///
+/// with RR the rain rate in mm/h and R the true range in m. The publication describes the effect
+/// only in words. The formula is that of a path through independent drops. The defaults
+/// k = 3.65e-4 /m and e = 0.63 give the extinction of Marshall-Palmer rain (docs/physics.md 4.1),
+/// so that the dropout probability equals the share of light that is lost one way.
+inline void ApplyRainDropout(DetectTile& tile, const RainParameters& parameters) {
+  const LaneKey key{parameters.seed, RandomUse::kRain, tile.frame};
+  const float rate_per_m = parameters.dropout_per_m;
+  for (std::size_t i = 0; i < tile.num_rays; ++i) {
+    const float survival = Exp(-rate_per_m * tile.true_range_m[i]);
+    const float u = LaneUnit(LaneWords(key, tile.firing[i], 0).a);
+    const bool lost =
+        tile.outcome[i] == static_cast<std::uint32_t>(Outcome::kReturned) && u >= survival;
+    tile.outcome[i] = lost ? static_cast<std::uint32_t>(Outcome::kRainAbsorbed) : tile.outcome[i];
+  }
+}
 
 /// Effect `snow`: flakes near the sensor send echoes in empty beams or instead of a surface.
 ///
@@ -62,4 +119,4 @@ inline void ApplySnowClutter(DetectTile& tile, const SnowParameters& parameters)
 
 }  // namespace railcast::RAILCAST_ISA
 
-#endif  // RAILCAST_DETECT_SNOW_CLUTTER_H_
+#endif  // RAILCAST_DETECT_PUBLISHED_H_
