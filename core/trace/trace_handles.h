@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -12,11 +15,43 @@
 
 #include "core/base/error.h"
 #include "core/base/out_of_memory.h"
-#include "core/trace/beam_tree_build.h"
+#include "core/trace/beam_tree.h"
 #include "core/trace/embree.h"
 #include "core/trace/trace_scene.h"
 
 namespace railcast {
+
+/// A tree of beam_tree.h with its memory.
+class BeamTree {
+ public:
+  BeamTree() = default;
+  [[nodiscard]] TreePointer root() const { return root_; }
+  [[nodiscard]] const Eigen::AlignedBox3f& bounds() const { return bounds_; }
+
+ private:
+  struct Release {
+    void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+  };
+  friend class BeamTreeBuilder;
+  std::unique_ptr<std::remove_pointer_t<RTCBVH>, Release> memory_;
+  TreePointer root_{};
+  Eigen::AlignedBox3f bounds_;
+};
+
+/// A triangle of a model.
+struct BeamTriangle {
+  Eigen::Vector3f corners[3];
+  std::uint32_t part{};
+};
+
+// Both builders must be called within BuildWithEmbree(), which reports their errors.
+
+/// Builds a model's tree, with leaves of up to kLeafWidth triangles.
+[[nodiscard]] BeamTree BuildModelTree(RTCDevice device, const std::vector<BeamTriangle>& triangles);
+
+/// Builds a scene's tree, whose leaves are the indices of the boxes. Empty boxes are left out.
+[[nodiscard]] BeamTree BuildSceneTree(RTCDevice device,
+                                      const std::vector<Eigen::AlignedBox3f>& boxes);
 
 /// Throws if the calling thread's last use of Embree failed. Embree does not throw but records the
 /// first error of each thread. If it were not queried, a scene that did not fit into memory would
@@ -142,5 +177,45 @@ void BuildScene(RTCDevice device,
     rtcCommitScene(scene);
   });
 }
+
+/// The figures of a scene as one geometry of Embree. Each pose is made when a ray first needs it.
+class PosedFigures {
+ public:
+  /// A piece of a figure in one of its poses.
+  struct PlacedPiece {
+    Eigen::Matrix<float, 3, 4> window_from_piece;
+    Eigen::Vector3f center_m;  ///< Of the sphere around it, in the window.
+  };
+
+  explicit PosedFigures(TraceFigures figures);
+  PosedFigures(const PosedFigures&) = delete;
+  PosedFigures& operator=(const PosedFigures&) = delete;
+
+  [[nodiscard]] const std::vector<TraceFigure>& figures() const { return figures_.figures; }
+  /// The pieces of a figure in the pose of a step. Thread-safe.
+  [[nodiscard]] const std::vector<PlacedPiece>& PoseAt(std::size_t figure,
+                                                       std::uint32_t step) const;
+
+  /// Attaches the figures to a scene of Embree as its geometry 0. They must outlive it.
+  ///
+  /// A hit names the figure as its instance. Its geometry is the surface, counted from the figure's
+  /// first one, and its normal stands in the window's axes.
+  void AttachTo(RTCDevice device, RTCScene scene) const;
+
+ private:
+  struct Pose {
+    std::once_flag once;
+    std::vector<PlacedPiece> pieces;
+  };
+
+  static void ReportBox(const RTCBoundsFunctionArguments* args);
+  static void IntersectRays(const RTCIntersectFunctionNArguments* args);
+  /// Returns whether the ray hits a piece nearer than before, and puts the hit into it.
+  bool Intersect(std::size_t figure, RayQueryContext& context, RTCRayHit& ray) const;
+
+  TraceFigures figures_;
+  std::vector<std::size_t> first_poses_;  ///< By figure, index into `poses_`.
+  mutable std::vector<Pose> poses_;
+};
 
 }  // namespace railcast

@@ -12,7 +12,6 @@
 #include "core/detect/base/effect_parameters.h"
 #include "core/detect/clutter/bright_echo.h"
 #include "core/detect/clutter/clutter.h"
-#include "core/detect/clutter/interference.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/detect/kernels/kernels.h"
 #include "railcast/effects.h"

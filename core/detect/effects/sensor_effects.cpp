@@ -4,8 +4,8 @@
 
 #include "core/base/text.h"
 #include "core/detect/base/beam_optics.h"
+#include "core/detect/clutter/clutter.h"
 #include "core/detect/clutter/cover.h"
-#include "core/detect/clutter/interference.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/detect/kernels/detection.h"
 

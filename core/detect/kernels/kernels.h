@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/detect/base/detect_tile.h"
-#include "core/detect/base/echo_wave.h"
 #include "core/detect/base/effect_parameters.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/detect/base/echo_wave.h"
+#include "core/detect/base/effect_parameters.h"
 #include "core/detect/base/vector_math.h"
 
 namespace railcast::RAILCAST_ISA {
