@@ -1,4 +1,4 @@
-#include "core/trace/beam_tree_build.h"
+#include "core/trace/trace_handles.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "core/trace/posed_figures.h"
+#include "core/trace/trace_handles.h"
 
 #include <tbb/task_arena.h>
 
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/trace/trace_handles.h"
 
 namespace railcast {
 namespace {

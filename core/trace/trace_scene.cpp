@@ -14,7 +14,6 @@
 #include "core/base/error.h"
 #include "core/trace/beam_kernels.h"
 #include "core/trace/embree.h"
-#include "core/trace/posed_figures.h"
 #include "core/trace/trace_handles.h"
 #include "railcast/lidar.h"
 
