@@ -1,4 +1,4 @@
-#include "core/mesh/edge_collapse.h"
+#include "core/mesh/simplify.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/System/omstream.hh>

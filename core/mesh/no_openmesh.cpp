@@ -1,5 +1,5 @@
 #include "core/base/error.h"
-#include "core/mesh/edge_collapse.h"
+#include "core/mesh/simplify.h"
 
 namespace railcast {
 
