@@ -10,7 +10,7 @@
 #include "core/base/input_file.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/scan/at128_correction.h"
+#include "core/scan/at128.h"
 #include "core/scan/firing.h"
 
 namespace railcast {

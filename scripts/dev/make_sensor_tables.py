@@ -234,7 +234,7 @@ QT128 = [
 
 
 def at128_correction():
-    """A correction file without the deviations of a unit, as core/scan/at128_correction.cpp reads it: lasers 0.2 deg apart
+    """A correction file without the deviations of a unit, as core/scan/at128.cpp reads it: lasers 0.2 deg apart
     that look 2.4 and 0.65 deg to either side in turn, 16 and 16 (tier4/nebula, PandarAT128.csv), fields 120 deg apart,
     and no shifts."""
     steps_per_deg = 25600 // 2

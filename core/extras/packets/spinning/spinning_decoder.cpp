@@ -8,7 +8,7 @@
 #include "core/extras/packets/spinning/scan_fit.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/scan/at128_correction.h"
+#include "core/scan/at128.h"
 
 namespace railcast {
 namespace {

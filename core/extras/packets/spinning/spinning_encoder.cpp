@@ -15,7 +15,7 @@
 #include "core/extras/packets/spinning/scan_fit.h"
 #include "core/extras/packets/spinning/spinning_packet.h"
 #include "core/extras/packets/velodyne/velodyne_packet.h"
-#include "core/scan/at128_sweep.h"
+#include "core/scan/at128.h"
 #include "core/scan/spinning_pattern.h"
 #include "core/scenario/json_rules.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/sensor_tables.h"
-#include "core/scan/at128_sweep.h"
+#include "core/scan/at128.h"
 #include "core/scan/spinning_pattern.h"
 
 namespace railcast {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scan/at128_correction.h"
+#include "core/scan/at128.h"
 #include "railcast/lidar.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "core/scan/at128_sweep.h"
+#include "core/scan/at128.h"
 
 #include <gtest/gtest.h>
 
