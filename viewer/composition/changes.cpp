@@ -1,4 +1,4 @@
-#include "viewer/composition/changes.h"
+#include "viewer/composition/compose.h"
 
 #include <tbb/parallel_sort.h>
 

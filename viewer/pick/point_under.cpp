@@ -3,7 +3,7 @@
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
 
-#include "viewer/pick/point_at.h"
+#include "viewer/pick/picks.h"
 
 namespace railcast {
 namespace {

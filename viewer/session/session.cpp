@@ -7,7 +7,6 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "viewer/composition/changes.h"
 #include "viewer/composition/coloring.h"
 #include "viewer/composition/compose.h"
 #include "viewer/composition/status_text.h"

@@ -1,4 +1,4 @@
-#include "viewer/composition/changes.h"
+#include "viewer/composition/compose.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -11,7 +11,6 @@
 #include "tests/core/io/recording/read_all.h"
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/made_run.h"
-#include "viewer/frames/recorded_frames.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {

@@ -1,4 +1,4 @@
-#include "viewer/frames/recorded_frames.h"
+#include "viewer/frames/frames.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

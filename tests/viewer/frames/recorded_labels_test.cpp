@@ -9,7 +9,7 @@
 #include "tests/core/io/message_of.h"
 #include "tests/core/io/recording/made_sequence.h"
 #include "tests/core/io/temporary_directory.h"
-#include "viewer/frames/recorded_frames.h"
+#include "viewer/frames/frames.h"
 
 namespace railcast {
 namespace {

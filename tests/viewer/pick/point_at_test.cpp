@@ -1,4 +1,4 @@
-#include "viewer/pick/point_at.h"
+#include "viewer/pick/picks.h"
 
 #include <gtest/gtest.h>
 

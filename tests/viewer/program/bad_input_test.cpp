@@ -13,7 +13,7 @@
 #include "tests/viewer/program/recorded_run.h"
 #include "tests/viewer/program/view_program.h"
 #include "viewer/draw/stage.h"
-#include "viewer/frames/recorded_frames.h"
+#include "viewer/frames/frames.h"
 #include "viewer/session/session.h"
 
 namespace railcast {

@@ -14,7 +14,7 @@
 #include "tests/viewer/program/recorded_run.h"
 #include "tests/viewer/program/view_program.h"
 #include "viewer/color/palette.h"
-#include "viewer/composition/changes.h"
+#include "viewer/composition/compose.h"
 
 namespace railcast {
 namespace {
