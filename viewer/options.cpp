@@ -9,7 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/program/command_line.h"
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 namespace {

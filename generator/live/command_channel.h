@@ -15,11 +15,33 @@
 #include "core/io/net/udp.h"
 #include "core/io/run/run_folder.h"
 #include "core/scenario/command.h"
-#include "generator/live/command_source.h"
 #include "generator/live/live_run.h"
 #include "generator/run/frame_maker.h"
+#include "railcast/io/stream.h"
 
 namespace railcast {
+
+/// A command that a peer asks for.
+struct CommandRequest {
+  Endpoint from;
+  CommandTag tag;
+  Command command;
+};
+
+/// Where a live run gets its commands from.
+class CommandSource {
+ public:
+  virtual ~CommandSource() = default;
+
+  /// Returns the next request, waiting up to `timeout_ms` for it where the source can wait; 0 does
+  /// not wait.
+  [[nodiscard]] virtual std::optional<CommandRequest> Next(int timeout_ms) = 0;
+
+  /// Answers that a command took effect, and at which simulation time.
+  virtual void Acknowledge(const CommandRequest& request, std::int64_t time_ns) = 0;
+  /// Answers why a command was refused.
+  virtual void Refuse(const CommandRequest& request, const std::vector<std::string>& faults) = 0;
+};
 
 /// Receives commands on a UDP port, one JSON object per line, and answers each with a line.
 ///

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "viewer/color/palette.h"
-#include "viewer/frames/field_values.h"
 #include "viewer/frames/shown_frame.h"
 
 namespace railcast {

@@ -19,7 +19,7 @@
 #include "railcast/scenario.h"
 #include "viewer/color/palette.h"
 #include "viewer/composition/coloring.h"
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 #include "viewer/overlays/overlays.h"
 
 namespace railcast {

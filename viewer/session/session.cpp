@@ -10,7 +10,7 @@
 #include "viewer/composition/coloring.h"
 #include "viewer/composition/compose.h"
 #include "viewer/composition/status_text.h"
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 namespace {

@@ -1,4 +1,4 @@
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

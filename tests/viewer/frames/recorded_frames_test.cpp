@@ -13,7 +13,7 @@
 #include "tests/core/io/temporary_directory.h"
 #include "tests/viewer/frames/made_capture.h"
 #include "tests/viewer/made_run.h"
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 namespace {

@@ -7,7 +7,7 @@
 #include "tests/core/io/example_frame.h"
 #include "tests/core/io/message_of.h"
 #include "tests/viewer/session/held_frames.h"
-#include "viewer/frames/field_values.h"
+#include "viewer/frames/shown_frame.h"
 
 namespace railcast {
 namespace {
