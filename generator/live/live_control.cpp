@@ -1,7 +1,7 @@
 #include "generator/live/live_control.h"
 
-#include <nlohmann/json.hpp>
 #include <systemd/sd-daemon.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -184,10 +184,10 @@ void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t 
   if (StatesTimeOfDay(options)) streams.SetClocks(UtcNow_ns(), lead_ns);
 }
 
-RunSurroundings::RunSurroundings(LiveStreams& streams,
-                                 CommandLoop* commands,
-                                 const StreamOptions& options,
-                                 LiveHealth& health)
+LiveControl::LiveControl(LiveStreams& streams,
+                         CommandLoop* commands,
+                         const StreamOptions& options,
+                         LiveHealth& health)
     : streams_(streams),
       commands_(commands),
       options_(options),
@@ -195,18 +195,18 @@ RunSurroundings::RunSurroundings(LiveStreams& streams,
       is_offline_(IsOffline(options)),
       lag_(options.drops_late) {}
 
-LiveHooks RunSurroundings::Hooks() {
+LiveHooks LiveControl::Hooks() {
   return {.is_stopped = [this] { return IsStopped(); },
           .begin_frames = [this](std::int64_t stamp_ns) { return BeginFrames(stamp_ns); },
           .end_frames = [this](const RunState& state) { EndFrames(state); }};
 }
 
-void RunSurroundings::Begin() {
+void LiveControl::Begin() {
   health_.Begin();
   manager_.SayReady();
 }
 
-void RunSurroundings::End() {
+void LiveControl::End() {
   health_.End();
   manager_.SayStopping();
   SayCaptureFaults();
@@ -214,14 +214,14 @@ void RunSurroundings::End() {
 }
 
 // A run without receivers serves only its capture, so it ends when the capture fails.
-bool RunSurroundings::IsStopped() {
+bool LiveControl::IsStopped() {
   // Asked while the run waits, too: it goes on.
   health_.Beat();
   manager_.SayAlive();
   return StopRequested() || (is_offline_ && !streams_.CaptureFaults().empty());
 }
 
-NextFrames RunSurroundings::BeginFrames(std::int64_t stamp_ns) {
+NextFrames LiveControl::BeginFrames(std::int64_t stamp_ns) {
   if (commands_ == nullptr) return NextFrames::kMake;
   const NextFrames next = commands_->BeginFrames(stamp_ns, [this] { return IsStopped(); });
   if (next != NextFrames::kReset) return next;
@@ -231,7 +231,7 @@ NextFrames RunSurroundings::BeginFrames(std::int64_t stamp_ns) {
   return next;
 }
 
-void RunSurroundings::EndFrames(const RunState& state) {
+void LiveControl::EndFrames(const RunState& state) {
   if (commands_ != nullptr) commands_->EndFrames(state.stamp_ns);
   SayCaptureFaults();
   if (const auto lag = lag_.After(state)) line_.Say(*lag);
@@ -242,7 +242,7 @@ void RunSurroundings::EndFrames(const RunState& state) {
   manager_.SayAlive();
 }
 
-void RunSurroundings::SayCaptureFaults() {
+void LiveControl::SayCaptureFaults() {
   const std::vector<std::string> faults = streams_.CaptureFaults();
   for (; num_faults_said_ < faults.size(); ++num_faults_said_) {
     line_.Say(faults[num_faults_said_]);

@@ -91,13 +91,13 @@ class ServiceManager {
 void SetClocks(LiveStreams& streams, const StreamOptions& options, std::int64_t lead_ns);
 
 /// Connects a run with its commands, the user and those who watch over it, and shows its progress.
-class RunSurroundings {
+class LiveControl {
  public:
   /// @param commands Null where none are heard.
-  RunSurroundings(LiveStreams& streams,
-                  CommandLoop* commands,
-                  const StreamOptions& options,
-                  LiveHealth& health);
+  LiveControl(LiveStreams& streams,
+              CommandLoop* commands,
+              const StreamOptions& options,
+              LiveHealth& health);
 
   [[nodiscard]] LiveHooks Hooks();
   /// Says that the first frame can be made.

@@ -12,7 +12,7 @@
 #include "core/io/net/http_server.h"
 #include "core/io/net/udp.h"
 #include "core/program/options.h"
-#include "generator/live/command_source.h"
+#include "generator/live/command_channel.h"
 #include "generator/live/live_run.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/scenario.h"

@@ -12,8 +12,8 @@
 
 #include "core/io/datagrams.h"
 #include "core/io/net/udp.h"
+#include "generator/live/live_clock.h"
 #include "generator/live/live_run.h"
-#include "generator/live/stamp_clock.h"
 #include "generator/run/frame_maker.h"
 #include "railcast/camera.h"
 #include "railcast/frame.h"

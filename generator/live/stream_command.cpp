@@ -16,14 +16,12 @@
 #include "core/trace/trace_program.h"
 #include "generator/commands.h"
 #include "generator/live/command_channel.h"
+#include "generator/live/live_clock.h"
+#include "generator/live/live_control.h"
 #include "generator/live/live_extras.h"
-#include "generator/live/live_health.h"
 #include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
 #include "generator/live/live_summary.h"
-#include "generator/live/run_surroundings.h"
-#include "generator/live/stamp_clock.h"
-#include "generator/live/stream_options.h"
 #include "generator/run/run_options.h"
 #include "railcast/scenario.h"
 
@@ -278,11 +276,11 @@ int ReportRun(const LiveResult& result, const LiveStreams& streams, const Stream
 LiveResult RunBy(const StreamOptions& options,
                  const LiveRunSpec& spec,
                  LiveStreams& streams,
-                 RunSurroundings& surroundings) {
+                 LiveControl& control) {
   MonotonicClock monotonic;
   JumpingClock jumping;
   LiveClock& clock = IsOffline(options) ? static_cast<LiveClock&>(jumping) : monotonic;
-  return RunLive(spec, streams.Sensors(), surroundings.Hooks(), clock);
+  return RunLive(spec, streams.Sensors(), control.Hooks(), clock);
 }
 
 int RunStream(const StreamOptions& options) {
@@ -315,13 +313,13 @@ int RunStream(const StreamOptions& options) {
   streams.WarmUp(StopRequested);
   std::cout << ShownLines(Describe(plan, topics_plan, scenario)) << std::flush;
 
-  RunSurroundings surroundings(streams, commands ? &*commands : nullptr, options, health);
+  LiveControl control(streams, commands ? &*commands : nullptr, options, health);
   SetClocks(streams, options, spec.lead_ns);
-  surroundings.Begin();
-  const LiveResult result = RunBy(options, spec, streams, surroundings);
+  control.Begin();
+  const LiveResult result = RunBy(options, spec, streams, control);
   if (commands) commands->End(result.fault.value_or("the run has ended"));
   streams.Finish();
-  surroundings.End();
+  control.End();
   ReportCommands(channel.get(), topics.get());
   return ReportRun(result, streams, options);
 }

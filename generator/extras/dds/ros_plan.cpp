@@ -14,8 +14,8 @@
 #include "generator/extras/dds/ros_options.h"
 #include "generator/extras/dds/ros_output.h"
 #include "generator/live/live_extras.h"
+#include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
-#include "generator/live/stream_options.h"
 
 namespace railcast {
 namespace {

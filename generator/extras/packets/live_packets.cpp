@@ -18,8 +18,8 @@
 #include "core/program/command_line.h"
 #include "core/scenario/sensors.h"
 #include "generator/live/live_extras.h"
+#include "generator/live/live_options.h"
 #include "generator/live/live_streams.h"
-#include "generator/live/stream_options.h"
 
 namespace railcast {
 namespace {

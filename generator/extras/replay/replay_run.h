@@ -6,7 +6,7 @@
 #include <string>
 
 #include "generator/extras/replay/replay_feed.h"
-#include "generator/live/command_source.h"
+#include "generator/live/command_channel.h"
 #include "generator/live/live_clock.h"
 #include "generator/live/live_run.h"
 

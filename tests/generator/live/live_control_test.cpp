@@ -1,4 +1,4 @@
-#include "generator/live/live_health.h"
+#include "generator/live/live_control.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
