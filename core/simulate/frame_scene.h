@@ -11,6 +11,7 @@
 
 #include "core/simulate/frame_motion.h"
 #include "core/simulate/frame_poses.h"
+#include "core/simulate/scene_store.h"
 #include "core/simulate/window.h"
 #include "core/trace/trace_scene.h"
 #include "railcast/ray_caster.h"
@@ -178,14 +179,13 @@ class FrameScenes {
   [[nodiscard]] std::vector<Eigen::Affine3d> PiecesAt(std::size_t object,
                                                       std::int64_t time_ns,
                                                       const Window& window) const;
-  /// Into how many equal parts a frame is divided, between which an object moves linearly, if its
-  /// poses may be so far apart.
+  /// Number of equal parts of a frame in which an object moves linearly, at this step of its poses.
   [[nodiscard]] std::int64_t NumPoseIntervals(std::int64_t pose_step_ns) const;
   /// The same at the object's own step; 0 if it does not move.
   [[nodiscard]] std::int64_t NumOwnIntervals(std::size_t object) const;
   [[nodiscard]] FrameMotion MotionOf(const FrameScene& scene, const Window& window) const;
   [[nodiscard]] SwayedThings Swayed(std::int64_t stamp_ns, const Window& window) const;
-  /// Of what sways, where scenes have their motion: after those of all else.
+  /// Index of the first surface that sways, behind all others; nothing if scenes have no `motion`.
   [[nodiscard]] std::optional<std::uint32_t> FirstOwnSurface(const Window& window) const {
     if (!has_motion_) return std::nullopt;
     return static_cast<std::uint32_t>(window.surfaces.size() + more_surfaces_.size());
