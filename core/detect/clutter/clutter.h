@@ -88,7 +88,7 @@ class Clutter {
 /// within a distance grows with its square, where they are spread evenly over the ground: the
 /// power's distribution follows.
 ///
-/// They come after effect `saturation`, which therefore acts on them here: detection.h.
+/// They come after effect `saturation`, which therefore acts on them here: echo_power.h.
 ///
 /// Validity: sparse interference. Other lidars are not part of the scene, so that their false
 /// echoes neither come in bursts nor from a direction. Immutable; thread-safe.

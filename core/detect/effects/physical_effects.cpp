@@ -11,7 +11,7 @@
 #include "core/detect/clutter/fog_profile.h"
 #include "core/detect/detector/effect_table.h"
 #include "core/detect/effects/spray.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 #include "core/detect/kernels/surface_response.h"
 
 namespace railcast {

@@ -6,7 +6,7 @@
 #include "core/base/text.h"
 #include "core/detect/base/weather_optics.h"
 #include "core/detect/detector/effect_table.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 #include "core/detect/kernels/published.h"
 
 namespace railcast {

@@ -7,7 +7,7 @@
 #include "core/detect/clutter/clutter.h"
 #include "core/detect/clutter/cover.h"
 #include "core/detect/detector/effect_table.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 
 namespace railcast {
 namespace {

@@ -2,7 +2,7 @@
 // The function below must be the only one with external linkage, or the linker could replace one
 // copy's code by that of another instruction set.
 #include "core/detect/kernels/kernels.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 #include "core/detect/kernels/fog_echo.h"
 #include "core/detect/kernels/measurement.h"
 #include "core/detect/kernels/published.h"

@@ -89,7 +89,7 @@ inline constexpr auto kEnumNames<NoiseShape> = std::to_array<EnumName<NoiseShape
     {{NoiseShape::kIsotropic, "isotropic"}, {NoiseShape::kBeam, "beam"}});
 
 /// The parameters of the published plausibility model. The formulas stand in the headers of the
-/// effects (core/detect/kernels/published.h, detection.h, measurement.h).
+/// effects (core/detect/kernels/published.h, echo_power.h, measurement.h).
 struct PlausibilitySpec {
   /// Least detectable reflectivity x cos(incidence) x fog transmission at reference_range_m. The
   /// threshold grows with the square of the range.

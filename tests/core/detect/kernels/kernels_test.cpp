@@ -10,7 +10,7 @@
 
 #include "core/base/random.h"
 #include "core/detect/clutter/fog_profile.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 #include "core/detect/kernels/fog_echo.h"
 #include "core/detect/kernels/measurement.h"
 #include "core/detect/kernels/published.h"

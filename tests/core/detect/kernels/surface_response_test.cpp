@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/base/units.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 
 namespace railcast {
 namespace {

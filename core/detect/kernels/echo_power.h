@@ -1,6 +1,6 @@
 // See vector_math.h for why this header has no `#pragma once`.
-#ifndef RAILCAST_DETECT_DETECTION_H_
-#define RAILCAST_DETECT_DETECTION_H_
+#ifndef RAILCAST_DETECT_ECHO_POWER_H_
+#define RAILCAST_DETECT_ECHO_POWER_H_
 
 #include <cmath>
 
@@ -181,4 +181,4 @@ inline void ApplySensorDropout(DetectTile& tile, const SensorDropoutParameters& 
 
 }  // namespace railcast::RAILCAST_ISA
 
-#endif  // RAILCAST_DETECT_DETECTION_H_
+#endif  // RAILCAST_DETECT_ECHO_POWER_H_
