@@ -9,7 +9,7 @@
 
 #include "core/io/recording/source_choice.h"
 #include "core/program/options.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 #include "viewer/draw/cameras.h"
 #include "viewer/draw/look.h"
 

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "tests/bench/bench_reporter.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 #include "viewer/draw/stage.h"
 #include "viewer/frames/shown_frame.h"
 

@@ -8,7 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "viewer/composition/coloring.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 #include "viewer/composition/status_text.h"
 #include "viewer/frames/shown_frame.h"
 

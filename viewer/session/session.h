@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 #include "viewer/composition/composition.h"
 #include "viewer/frames/frames.h"
 

@@ -1,4 +1,4 @@
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

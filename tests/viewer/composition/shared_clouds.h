@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/viewer/pick/shown_cloud.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 
 namespace railcast {
 

@@ -14,7 +14,7 @@
 #include "tests/viewer/program/recorded_run.h"
 #include "tests/viewer/program/view_program.h"
 #include "viewer/color/palette.h"
-#include "viewer/composition/compose.h"
+#include "viewer/composition/composer.h"
 
 namespace railcast {
 namespace {
