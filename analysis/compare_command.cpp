@@ -75,9 +75,9 @@ int RunPairs(const CompareOptions& options, const std::string& command_line) {
                      "; see --pair (got none)");
   }
   Report report = MakeCompareReport(comparison, pairs, a->info(), b->info(), command_line);
-  const ToldApart told = TellApart(patches);
+  const Separability told = SeparabilityOf(patches);
   report.headlines.push_back({"Told apart, AUC", "", told.area});
-  report.sections.push_back(MakeToldApartSection(patches, told));
+  report.sections.push_back(MakeSeparabilitySection(patches, told));
   AddProvenance({a->info(), b->info()}, ProgramVersion(), report);
   EmitReport(report, options.output, "compare");
   return kExitSuccess;

@@ -8,7 +8,7 @@
 #include "analysis/compare/ablation.h"
 #include "analysis/compare/cloud_figures.h"
 #include "analysis/compare/comparison.h"
-#include "analysis/compare/told_apart.h"
+#include "analysis/compare/separability.h"
 #include "analysis/report/report.h"
 #include "railcast/io/recording.h"
 
@@ -21,8 +21,8 @@ namespace railcast {
                                        const RecordingInfo& b,
                                        const std::string& command);
 
-/// Defined in told_apart_report.cpp.
-[[nodiscard]] Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told);
+/// Defined in separability_report.cpp.
+[[nodiscard]] Section MakeSeparabilitySection(const PatchPairs& patches, const Separability& told);
 
 /// Defined in ablation_report.cpp.
 /// @param facts Describe the scenario.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/compare/cloud_figures.h"
-#include "analysis/compare/told_apart.h"
+#include "analysis/compare/separability.h"
 #include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "railcast/io/recording.h"

@@ -1,4 +1,4 @@
-#include "analysis/compare/told_apart.h"
+#include "analysis/compare/separability.h"
 
 #include <Eigen/Core>
 #include <algorithm>

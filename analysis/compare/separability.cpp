@@ -1,4 +1,4 @@
-#include "analysis/compare/told_apart.h"
+#include "analysis/compare/separability.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -81,9 +81,9 @@ std::vector<std::size_t> FeaturesOfBoth(const PatchPairs& patches) {
   return features;
 }
 
-ToldApart::Feature DescribedFeature(const PatchPairs& patches,
-                                    std::size_t index,
-                                    const Estimate& lost) {
+Separability::Feature DescribedFeature(const PatchPairs& patches,
+                                       std::size_t index,
+                                       const Estimate& lost) {
   std::vector<double> a = ValuesOfFeature(patches, &PairOfPatches::a, index);
   std::vector<double> b = ValuesOfFeature(patches, &PairOfPatches::b, index);
   return {index, lost, AreaUnderCurve(a, b), Median(a), Median(b)};
@@ -109,9 +109,9 @@ std::uint64_t PatchPairs::num_b() const {
   return CountPatches(pairs_, &Pair::b);
 }
 
-ToldApart TellApart(const PatchPairs& patches) {
-  ToldApart told;
-  if (std::min(patches.num_a(), patches.num_b()) < ToldApart::kMinPatches) return told;
+Separability SeparabilityOf(const PatchPairs& patches) {
+  Separability told;
+  if (std::min(patches.num_a(), patches.num_b()) < Separability::kMinPatches) return told;
   const std::vector<std::size_t> features = FeaturesOfBoth(patches);
   const TwoSamples samples = SamplesOf(patches, features);
   const TwoSampleTest test(samples);
@@ -124,7 +124,7 @@ ToldApart TellApart(const PatchPairs& patches) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     told.features.push_back(DescribedFeature(patches, features[i], test.importances()[i]));
   }
-  std::ranges::stable_sort(told.features, std::greater(), [](const ToldApart::Feature& feature) {
+  std::ranges::stable_sort(told.features, std::greater(), [](const Separability::Feature& feature) {
     return feature.lost_area.value;
   });
   std::vector<std::size_t> shape;

@@ -79,7 +79,7 @@ class PatchPairs {
 
 /// How well patches of B can be told from patches of A. All are "not enough" below kMinPatches of
 /// A or of B, or kMinSamples pairs.
-struct ToldApart {
+struct Separability {
   static constexpr std::uint64_t kMinPatches = 100;
 
   /// Area under the curve: the probability that a patch of B looks more like B than one of A does.
@@ -102,6 +102,6 @@ struct ToldApart {
   [[nodiscard]] bool is_enough() const { return area.is_enough(); }
 };
 
-[[nodiscard]] ToldApart TellApart(const PatchPairs& patches);
+[[nodiscard]] Separability SeparabilityOf(const PatchPairs& patches);
 
 }  // namespace railcast

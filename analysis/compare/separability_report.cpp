@@ -11,7 +11,7 @@ std::string PatchCounts(const PatchPairs& patches) {
                  " of B in ", CountText(patches.pairs().size()), " pairs of frames"});
 }
 
-Table TellingTable(const ToldApart& told) {
+Table TellingTable(const Separability& told) {
   Table table = {"telling_features",
                  "What tells them apart",
                  "Importance: area lost when the feature is shuffled among the patches; of "
@@ -21,7 +21,7 @@ Table TellingTable(const ToldApart& told) {
                            "median_a: Median of A; median_b: Median of B"),
                  {},
                  true};
-  for (const ToldApart::Feature& feature : told.features) {
+  for (const Separability::Feature& feature : told.features) {
     const PatchFeature& described = kPatchFeatures.at(feature.index);
     table.rows.push_back({WithUnit(std::string(described.title), std::string(described.unit)),
                           feature.lost_area, feature.own_area, feature.median_a.value,
@@ -30,7 +30,7 @@ Table TellingTable(const ToldApart& told) {
   return table;
 }
 
-Table RangesTable(const ToldApart& told) {
+Table RangesTable(const Separability& told) {
   Table table = {"told_by_range", "Told apart by range",
                  "The same classifier's scores, of the patches in each range.",
                  ColumnsOf("range [m]: Range; auc: AUC")};
@@ -40,7 +40,7 @@ Table RangesTable(const ToldApart& told) {
   return table;
 }
 
-std::string VerdictText(const ToldApart& told) {
+std::string VerdictText(const Separability& told) {
   if (told.area.low > 0.5) return "B's patches can be told from A's.";
   if (told.area.high < 0.5) {
     return "B's patches look more like A's than A's own do: what differs in some frames differs "
@@ -51,12 +51,12 @@ std::string VerdictText(const ToldApart& told) {
 
 }  // namespace
 
-Section MakeToldApartSection(const PatchPairs& patches, const ToldApart& told) {
+Section MakeSeparabilitySection(const PatchPairs& patches, const Separability& told) {
   Section section{"told_apart", "Whether the clouds can be told apart"};
   if (!told.is_enough()) {
     section.paragraphs = {
         Joined({"Not enough to tell: it takes ", std::to_string(kMinSamples),
-                " pairs of frames with ", std::to_string(ToldApart::kMinPatches),
+                " pairs of frames with ", std::to_string(Separability::kMinPatches),
                 " patches of each recording, some in every tenth of the pairs (got ",
                 PatchCounts(patches), "). A patch is a cube of 2 m with 20 points at least."})};
     return section;

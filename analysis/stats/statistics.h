@@ -15,7 +15,7 @@
 #include "analysis/estimate/estimate.h"
 #include "analysis/stats/difficulty.h"
 #include "analysis/stats/holes.h"
-#include "analysis/stats/noise.h"
+#include "analysis/stats/range_noise.h"
 #include "analysis/stats/sums.h"
 #include "core/io/cloud/track_fields.h"
 #include "railcast/outcome.h"

@@ -1,4 +1,4 @@
-#include "analysis/stats/noise.h"
+#include "analysis/stats/range_noise.h"
 
 #include <cmath>
 #include <limits>

@@ -11,8 +11,8 @@
 
 #include "analysis/stats/column_finder.h"
 #include "analysis/stats/holes.h"
-#include "analysis/stats/noise.h"
 #include "analysis/stats/plane_patches.h"
+#include "analysis/stats/range_noise.h"
 #include "core/io/recording/firing_truth.h"
 
 namespace railcast {

@@ -12,7 +12,7 @@
 #include "analysis/estimate/streams.h"
 #include "analysis/report/report.h"
 #include "analysis/stats/holes.h"
-#include "analysis/stats/noise.h"
+#include "analysis/stats/range_noise.h"
 #include "core/io/recording/scan_table.h"
 #include "railcast/frame.h"
 #include "railcast/io/recording.h"

@@ -1,4 +1,4 @@
-#include "analysis/compare/told_apart.h"
+#include "analysis/compare/separability.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -135,7 +135,7 @@ PatchPairs MadePairs(int num, double sigma_b_m, float intensity_b = 0.5F) {
 }
 
 TEST(ToldApart, HoldsAHalfForTwoDrawsOfOneScene) {
-  const ToldApart told = TellApart(MadePairs(20, 0.02));
+  const Separability told = SeparabilityOf(MadePairs(20, 0.02));
   EXPECT_LT(told.area.low, 0.5);
   EXPECT_GT(told.area.high, 0.5);
   EXPECT_NEAR(told.balanced_accuracy.value, 0.5, 0.1);
@@ -143,11 +143,11 @@ TEST(ToldApart, HoldsAHalfForTwoDrawsOfOneScene) {
 }
 
 TEST(ToldApart, TellsTwiceTheNoiseByItsRoughness) {
-  const ToldApart told = TellApart(MadePairs(10, 0.04));
+  const Separability told = SeparabilityOf(MadePairs(10, 0.04));
   EXPECT_GT(told.area.value, 0.99);
   EXPECT_GT(told.balanced_accuracy.value, 0.95);
   EXPECT_GT(told.shape_area.value, 0.99);
-  for (const ToldApart::Feature& feature : told.features) {
+  for (const Separability::Feature& feature : told.features) {
     if (feature.index != FeatureNamed("roughness_m")) continue;
     EXPECT_EQ(feature.own_area, 1.0);
     EXPECT_NEAR(feature.median_b.value / feature.median_a.value, 2.0, 0.05);
@@ -155,7 +155,7 @@ TEST(ToldApart, TellsTwiceTheNoiseByItsRoughness) {
 }
 
 TEST(ToldApart, TellsIntensitiesButNotByTheShape) {
-  const ToldApart told = TellApart(MadePairs(20, 0.02, 0.6F));
+  const Separability told = SeparabilityOf(MadePairs(20, 0.02, 0.6F));
   EXPECT_GT(told.area.value, 0.99);
   EXPECT_LT(told.shape_area.low, 0.5);
   EXPECT_GT(told.shape_area.high, 0.5);
@@ -170,7 +170,7 @@ TEST(ToldApart, LeavesOutFeaturesThatOneCloudLacks) {
     bare.fields.erase("intensity");
     pairs.Add({PatchesOf(NoisyFrame(0.02, 0.5F, i)), PatchesOf(bare)});
   }
-  const ToldApart told = TellApart(pairs);
+  const Separability told = SeparabilityOf(pairs);
   EXPECT_TRUE(told.is_enough());
   EXPECT_FALSE(told.shape_area.is_enough());
   EXPECT_EQ(told.features.size(), 9U);
@@ -179,7 +179,7 @@ TEST(ToldApart, LeavesOutFeaturesThatOneCloudLacks) {
 
 TEST(ToldApart, SaysWhatIsMissing) {
   const PatchPairs pairs = MadePairs(9, 0.02);
-  const Section section = MakeToldApartSection(pairs, TellApart(pairs));
+  const Section section = MakeSeparabilitySection(pairs, SeparabilityOf(pairs));
   EXPECT_THAT(
       section.paragraphs,
       ElementsAre("Not enough to tell: it takes 10 pairs of frames with 100 patches of each "
