@@ -103,7 +103,7 @@ struct GnssSample {
   double longitude_deg = std::numeric_limits<double>::quiet_NaN();
   double latitude_deg = std::numeric_limits<double>::quiet_NaN();
   Vector3 velocity_mps = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  /// Standard deviations of the errors of this sample, of x, of y and of z.
+  /// Standard deviations of the errors of this sample's position along x, y and z.
   Vector3 position_sigma_m = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   double velocity_sigma_mps = std::numeric_limits<double>::quiet_NaN();
   Vector3 true_position_m = Vector3::Zero();

@@ -80,7 +80,7 @@ class PartEntries {
     std::string why_label;
   };
 
-  /// What the entries say of a part. That of its group goes before that of its material.
+  /// What the entries say of a part. One for its group has precedence over one for its material.
   [[nodiscard]] Choice Of(const NamedMesh& part) const {
     Choice choice;
     for (const std::string* name : {&part.group, &part.material}) {

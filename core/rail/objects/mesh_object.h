@@ -67,8 +67,8 @@ struct MeshObject {
 ///   "/parts/0/material" and "/parts/0/label".
 [[nodiscard]] MeshObject MakeMeshObject(const ObjectSpec& spec, const MeshTables& tables);
 
-/// As MakeMeshObject() for each of several files instead of that of `spec`, whose `parts` may name
-/// those of any of them.
+/// Does MakeMeshObject() for each of `files` in place of the spec's own. Entries of `spec.parts`
+/// may name parts of any of these files.
 [[nodiscard]] std::vector<MeshObject> MakeMeshObjects(const ObjectSpec& spec,
                                                       std::span<const std::string> files,
                                                       const MeshTables& tables);

@@ -143,7 +143,7 @@ void AppendRecord(const Record& record, Bytes& out) {
   std::memcpy(out.data() + start + 1, &size, sizeof size);
 }
 
-/// Reads the content of a record. What it has of bytes refers to `content`.
+/// Reads the content of a record, whose members of type ByteSpan refer to `content`.
 /// @throws InputError "field: rule (got value)" if the content is too short.
 template <typename Record>
 [[nodiscard]] Record ReadRecord(ByteSpan content) {

@@ -167,7 +167,7 @@ void FillElectrified(RailMap& map) {
 }
 
 bool HasContactLine(const RailMap& map, const TrackLine& track) {
-  // Of what the map says, and of what is usual.
+  // Lengths first by what the map says, then by what is usual where it says nothing.
   std::array<double, 2> with_m{};
   std::array<double, 2> without_m{};
   for (std::size_t i = 0; i < track.ways.size(); ++i) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/detect/base/weather_optics.h"
-#include "core/detect/clutter/interference.h"
 #include "tests/core/detect/facing_beams.h"
 
 namespace railcast {

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "core/detect/base/beam_optics.h"
-#include "core/detect/kernels/detection.h"
+#include "core/detect/kernels/echo_power.h"
 #include "core/detect/kernels/measurement.h"
-#include "core/detect/kernels/saturation.h"
 #include "tests/core/detect/facing_beams.h"
 
 namespace railcast {
